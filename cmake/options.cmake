@@ -1,0 +1,32 @@
+# Switches that the presets set, gathered in one interface target that every part of the project links.
+option(LV_NATIVE "Use every instruction of this processor (the program then runs on this kind only)" ON)
+option(LV_WERROR "Warnings are errors" OFF)
+option(LV_CHECKS "Keep the development checks (LV_ASSERT) at release speed" OFF)
+set(LV_SANITIZE "" CACHE STRING "Sanitizers, e.g. address,undefined")
+option(LV_COVERAGE "Instrument for gcov" OFF)
+
+add_library(lv_options INTERFACE)
+target_compile_options(lv_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wno-psabi
+  # false alarms from GCC 12's own AVX-512 headers
+  -Wno-uninitialized $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>
+  -fno-math-errno -fno-trapping-math)  # sqrt needs no errno; NaN keeps its meaning
+if(LV_NATIVE)
+  target_compile_options(lv_options INTERFACE -march=native)
+endif()
+if(LV_WERROR)
+  target_compile_options(lv_options INTERFACE -Werror)
+endif()
+if(LV_CHECKS)
+  target_compile_options(lv_options INTERFACE -UNDEBUG)
+endif()
+if(LV_SANITIZE)
+  target_compile_options(lv_options INTERFACE -fsanitize=${LV_SANITIZE} -fno-omit-frame-pointer)
+  target_link_options(lv_options INTERFACE -fsanitize=${LV_SANITIZE})
+endif()
+if(LV_COVERAGE)
+  target_compile_options(lv_options INTERFACE --coverage)
+  target_link_options(lv_options INTERFACE --coverage)
+endif()
+set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
+set(CMAKE_CXX_FLAGS_DEBUG "-O1 -g")

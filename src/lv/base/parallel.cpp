@@ -1,0 +1,116 @@
+#include "lv/base/parallel.hpp"
+
+#include "lv/base/check.hpp"
+
+#include <mpi.h>
+
+#include <algorithm>
+
+namespace lv::parallel {
+namespace {
+
+double reduce(double value, MPI_Op op) {
+  double result = 0.0;
+  MPI_Allreduce(&value, &result, 1, MPI_DOUBLE, op, MPI_COMM_WORLD);
+  return result;
+}
+
+/// Every rank's count on every rank, and where its piece begins in rank order.
+struct Layout {
+  std::vector<int> counts;
+  std::vector<int> begins;
+  int total = 0;
+};
+
+Layout layout_of(std::size_t count) {
+  Layout layout;
+  layout.counts.resize(size());
+  const int mine = static_cast<int>(count);
+  MPI_Allgather(&mine, 1, MPI_INT, layout.counts.data(), 1, MPI_INT, MPI_COMM_WORLD);
+  for (const int n : layout.counts) {
+    layout.begins.push_back(layout.total);
+    layout.total += n;
+  }
+  return layout;
+}
+
+}  // namespace
+
+Session::Session(int* argc, char*** argv) {
+  MPI_Init(argc, argv);
+}
+Session::~Session() {
+  MPI_Finalize();
+}
+
+int rank() {
+  int value = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &value);
+  return value;
+}
+
+int size() {
+  int value = 1;
+  MPI_Comm_size(MPI_COMM_WORLD, &value);
+  return value;
+}
+
+void barrier() {
+  MPI_Barrier(MPI_COMM_WORLD);
+}
+
+double sum(double value) {
+  return reduce(value, MPI_SUM);
+}
+double max(double value) {
+  return reduce(value, MPI_MAX);
+}
+double min(double value) {
+  return reduce(value, MPI_MIN);
+}
+bool any(bool value) {
+  return reduce(value ? 1.0 : 0.0, MPI_MAX) > 0.0;
+}
+
+void sum(std::span<double> values) {
+  if (size() > 1)
+    MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_SUM,
+                  MPI_COMM_WORLD);
+}
+
+void broadcast(std::span<double> values) {
+  MPI_Bcast(values.data(), static_cast<int>(values.size()), MPI_DOUBLE, 0, MPI_COMM_WORLD);
+}
+
+void broadcast(std::string& text) {
+  int length = static_cast<int>(text.size());
+  MPI_Bcast(&length, 1, MPI_INT, 0, MPI_COMM_WORLD);
+  text.resize(length);
+  MPI_Bcast(text.data(), length, MPI_CHAR, 0, MPI_COMM_WORLD);
+}
+
+std::vector<double> gather(std::span<const double> piece) {
+  const Layout layout = layout_of(piece.size());
+  std::vector<double> all(is_root() ? layout.total : 0);
+  MPI_Gatherv(piece.data(), static_cast<int>(piece.size()), MPI_DOUBLE, all.data(),
+              layout.counts.data(), layout.begins.data(), MPI_DOUBLE, 0, MPI_COMM_WORLD);
+  return all;
+}
+
+std::vector<double> scatter(std::span<const double> all, std::size_t count) {
+  const Layout layout = layout_of(count);
+  LV_CHECK(!is_root() || static_cast<int>(all.size()) == layout.total);
+  std::vector<double> piece(count);
+  MPI_Scatterv(all.data(), layout.counts.data(), layout.begins.data(), MPI_DOUBLE, piece.data(),
+               static_cast<int>(count), MPI_DOUBLE, 0, MPI_COMM_WORLD);
+  return piece;
+}
+
+Range share(int n, int rank, int ranks) {
+  const auto cut = [&](int r) {
+    return static_cast<int>(static_cast<std::int64_t>(n) * r / ranks);
+  };
+  return {cut(rank), cut(rank + 1)};
+}
+
+}  // namespace lv::parallel

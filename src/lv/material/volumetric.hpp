@@ -1,0 +1,30 @@
+#pragma once
+
+#include "lv/base/tensor.hpp"
+
+namespace lv::material {
+
+/// The penalty that reinforces incompressibility in Lagrangian form (2.20):
+///
+///   U(F) = beta_s (ln J)^2                                               [kPa]
+///   P(F) = dU/dF = beta_s log(I3) F^{-T},  I3 = det C = J^2              [kPa]
+struct Volumetric {
+  double beta_s = 100.0;  ///< [kPa]; the paper: 1.0e6 dyn/cm^2
+
+  template <class T>
+  [[nodiscard]] T energy(const Tensor<T>& F) const {
+    using std::log;
+    const T log_J = log(determinant(F));
+    return beta_s * log_J * log_J;
+  }
+
+  template <class T>
+  [[nodiscard]] Tensor<T> stress(const Tensor<T>& F) const {
+    using std::log;
+    const Tensor<T> cof = cofactor(F);
+    const T J = F.col(0).dot(cof.col(0));
+    return (2.0 * beta_s * log(J) / J) * cof;
+  }
+};
+
+}  // namespace lv::material

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "lv/base/tensor.hpp"
+
+namespace lv::mesh {
+
+/// Directions of the wall at one point, orthonormal: circumferential, longitudinal, radial.
+struct WallAxes {
+  Vec3 circumferential;  ///< anticlockwise seen from the base
+  Vec3 longitudinal;     ///< towards the base, in the wall
+  Vec3 radial;           ///< out of the cavity
+};
+
+/// The axes from the gradient of the transmural coordinate. The longitudinal direction is the
+/// model's z axis projected on the wall; where the two are parallel (the apex itself) any direction
+/// serves.
+[[nodiscard]] WallAxes wall_axes(const Vec3& transmural_gradient);
+
+/// Rule-based fibres (section 2.2; Potse et al., IEEE Trans. Biomed. Eng. 53:2425, 2006). Angles in
+/// radians.
+///
+/// The helix angle grows linearly through the wall from `helix_endo` to `helix_epi`. It is the
+/// paper's angle: from -60 degrees at the endocardium to +60 at the epicardium, positive when the
+/// fibre, followed anticlockwise as seen from the base, goes down towards the apex. So -60 at the
+/// endocardium is a right-handed helix there, as in every human heart, and the apex turns
+/// anticlockwise as seen from the apex in systole. LDRB tools use the opposite sign.
+///
+///   f0 = cos(helix) c - sin(helix) l
+///   s0 = the part normal to f0 of  cos(sheet) r + sin(sheet) l,  normalised;   n0 = f0 x s0
+struct FibreRule {
+  double helix_endo = -1.0471975511965976;  ///< -60 degrees
+  double helix_epi = 1.0471975511965976;    ///< +60 degrees
+  double sheet_endo = -0.7853981633974483;  ///< -45 degrees
+  double sheet_epi = 0.7853981633974483;    ///< +45 degrees
+};
+
+/// The fibre frame at transmural position t: columns f0, s0, n0.
+[[nodiscard]] Mat3 fibre_frame(const FibreRule& rule, const WallAxes& axes, double t);
+
+/// The helix angle of a direction in the paper's sign, in (-pi/2, pi/2].
+[[nodiscard]] double helix_angle(const Vec3& f0, const WallAxes& axes);
+
+}  // namespace lv::mesh

@@ -1,0 +1,58 @@
+#pragma once
+
+#include "lv/base/tensor.hpp"
+
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace lv::mesh {
+
+/// Eight-node hexahedra or four-node tetrahedra, nodes in VTK's order (a hexahedron's first four
+/// nodes see the last four on their left-hand side going round; both have positive volume).
+enum class CellKind { hexahedron, tetrahedron };
+
+[[nodiscard]] constexpr int nodes_per_cell(CellKind kind) {
+  return kind == CellKind::hexahedron ? 8 : 4;
+}
+
+/// Faces of cells on one side of the wall, with normals that point out of the wall: four nodes each
+/// on hexahedra, three on tetrahedra.
+struct Surface {
+  int nodes_per_face = 4;
+  std::vector<int> nodes;  ///< face after face
+
+  [[nodiscard]] int size() const { return static_cast<int>(nodes.size()) / nodes_per_face; }
+  [[nodiscard]] std::span<const int> face(int f) const {
+    return {nodes.data() + static_cast<std::ptrdiff_t>(f) * nodes_per_face,
+            static_cast<std::size_t>(nodes_per_face)};
+  }
+};
+
+/// The wall of the left ventricle at early diastole in the model frame: z along the long axis, the
+/// base in the plane z = 0, the apex at negative z [mm].
+struct Mesh {
+  CellKind kind = CellKind::hexahedron;
+  std::vector<Vec3> nodes;
+  std::vector<int> cells;  ///< nodes of cell after cell
+  Surface endo, epi, base;
+  std::vector<double> transmural;  ///< per node: 0 on the endocardium, 1 on the epicardium
+  std::vector<double> infarct;     ///< per node: M(X) of (2.11), 0 in healthy muscle
+
+  [[nodiscard]] int cell_count() const {
+    return static_cast<int>(cells.size()) / nodes_per_cell(kind);
+  }
+  [[nodiscard]] std::span<const int> cell(int c) const {
+    const int n = nodes_per_cell(kind);
+    return {cells.data() + static_cast<std::ptrdiff_t>(c) * n, static_cast<std::size_t>(n)};
+  }
+};
+
+/// The nodes of a surface, each once, in ascending order.
+[[nodiscard]] std::vector<int> surface_nodes(const Surface& surface);
+
+/// The edge of `surface` as directed pairs of nodes: sides that belong to one face only.
+[[nodiscard]] std::vector<std::array<int, 2>> boundary_edges(const Surface& surface);
+
+}  // namespace lv::mesh

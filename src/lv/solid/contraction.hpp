@@ -1,0 +1,63 @@
+#pragma once
+
+#include "lv/material/niederer_hunter_smith.hpp"
+#include "lv/solid/rate_filter.hpp"
+
+#include <span>
+#include <vector>
+
+namespace lv::solid {
+
+/// The contractile state of the wall, kept at its nodes; between them the tension is interpolated
+/// by the finite elements.
+///
+/// The fibre stretch of a node is the mean over the elements around it, lambda_a = int phi_a lambda
+/// dX / int phi_a dX. Stretch and tension so pass through transposed operators, and the stiffness
+/// dT/dlambda of the fading memory (some 25 MPa) stays symmetric. The stretch rate that enters the
+/// fading memory is smoothed by a RateFilter. What the filter takes away, r - r~, meets a viscous
+/// tension 0.3 rho h^2/dt (r - r~) instead: the fading memory also damps, and without any damping
+/// short waves grow by the delayed rise of tension after a stretch (A.4)-(A.5). Both vanish with
+/// the step and in a steady state.
+///
+/// Every rank knows and advances all nodes.
+class Contraction {
+ public:
+  /// `nodes` and `volumes`: node positions in the undeformed wall and the volume around each;
+  /// `density` of the muscle [kg/mm^3]; `shortest_wave` h, the grid's spacing [mm].
+  Contraction(const material::NiedererHunterSmith& law, std::span<const Vec3> nodes,
+              std::span<const double> volumes, double density, double shortest_wave);
+
+  /// Brings every node to its steady state at this calcium [uM] and a stretch of 1.
+  void relax(double Ca);
+
+  /// Advances by dt [s] to the given nodal stretches, calcium going from Ca_before to Ca_after.
+  void advance(std::span<const double> stretch, double Ca_before, double Ca_after, double dt);
+
+  /// Speed of the fastest fibre wave, sqrt((1+a) sum A_i max T_0 / rho) [mm/s].
+  [[nodiscard]] double wave_speed() const;
+
+  /// Tension per node, with the damping of short waves, which is zero in a steady state [kPa].
+  [[nodiscard]] std::span<const double> tension() const { return tension_; }
+
+  /// The state as numbers, seven per node, and back: for checkpoints.
+  [[nodiscard]] std::vector<double> state() const;
+  void set_state(std::span<const double> numbers);
+
+ private:
+  void damp_what_is_smoothed_away(double dt);
+  void publish_tension();
+
+  material::NiedererHunterSmith law_;
+  double density_;
+  double shortest_wave_;
+  RateFilter filter_;
+  double filter_width_ = 0.0;  ///< changes in steps: a lattice that moves with every breath of T_0
+                               ///< would make noise [mm]
+  std::vector<material::Sarcomere<Pack>> sarcomeres_;  ///< pack_size nodes each
+  std::vector<double> tension_;
+  std::vector<double> isometric_tension_;
+  std::vector<double> stretch_rate_;
+  std::vector<double> damping_;
+};
+
+}  // namespace lv::solid

@@ -1,0 +1,456 @@
+#include "lv/solid/wall.hpp"
+
+#include "lv/base/check.hpp"
+#include "lv/base/parallel.hpp"
+#include "lv/solid/element.hpp"
+
+#include <Eigen/LU>
+#include <fmt/format.h>
+
+#include <limits>
+
+namespace lv::solid {
+namespace {
+
+/// Geometry and directions of the undeformed wall at one quadrature point.
+struct ReferencePoint {
+  Mat3 dX_dxi;
+  Vec3 X;
+  double t;  ///< transmural coordinate
+  double M;  ///< infarct
+  mesh::WallAxes axes;
+};
+
+template <class Rule>
+ReferencePoint reference_point(const mesh::Mesh& mesh, int cell, const Rule& rule, int q) {
+  ReferencePoint point{Mat3::Zero(), Vec3::Zero(), 0.0, 0.0, {}};
+  Vec3 dt_dxi = Vec3::Zero();
+  const auto nodes = mesh.cell(cell);
+  for (std::size_t a = 0; a < nodes.size(); ++a) {
+    const int node = nodes[a];
+    const Vec3 gradient(rule.gradient[q][a].data());
+    point.dX_dxi += mesh.nodes[node] * gradient.transpose();
+    point.X += rule.value[q][a] * mesh.nodes[node];
+    point.t += rule.value[q][a] * mesh.transmural[node];
+    point.M += rule.value[q][a] * mesh.infarct[node];
+    dt_dxi += mesh.transmural[node] * gradient;
+  }
+  point.axes = mesh::wall_axes(point.dX_dxi.inverse().transpose() * dt_dxi);
+  return point;
+}
+
+double lane(const Pack& pack, int i) {
+  return pack.get(i);
+}
+
+template <class From>
+Tensor<double> lane(const From& tensor, int i) {
+  Mat3 result;
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 3; ++c)
+      result(r, c) = tensor(r, c).get(i);
+  return result;
+}
+
+void set_lane(Pack& pack, int i, double value) {
+  alignas(Pack) std::array<double, pack_size> values;
+  pack.store_aligned(values.data());
+  values[i] = value;
+  pack = Pack::load_aligned(values.data());
+}
+
+}  // namespace
+
+/// What Wall does, for elements of any kind.
+class Wall::Elements {
+ public:
+  virtual ~Elements() = default;
+  virtual void add_volumes(std::span<double> integrals) const = 0;
+  virtual void add_stretch(std::span<const Vec3> positions, std::span<double> integrals) const = 0;
+  virtual void add_elastic_forces(std::span<const Vec3> positions, std::span<const double> tension,
+                                  std::span<Vec3> forces) const = 0;
+  [[nodiscard]] virtual VolumeRange volume_range() const = 0;
+  [[nodiscard]] virtual std::vector<PointSample> sample(std::span<const Vec3> positions,
+                                                        std::span<const double> tension) const = 0;
+};
+
+namespace {
+
+/// Elements of kind E, pack_size of them side by side in every group; the last group repeats its
+/// last element with weight zero.
+template <class E>
+class PackedElements final : public Wall::Elements {
+ public:
+  PackedElements(const mesh::Mesh& mesh, const mesh::FibreRule& fibres,
+                 const WallMaterial& material);
+
+  void add_volumes(std::span<double> integrals) const override;
+  void add_stretch(std::span<const Vec3> positions, std::span<double> integrals) const override;
+  void add_elastic_forces(std::span<const Vec3> positions, std::span<const double> tension,
+                          std::span<Vec3> forces) const override;
+  [[nodiscard]] VolumeRange volume_range() const override;
+  [[nodiscard]] std::vector<PointSample> sample(std::span<const Vec3> positions,
+                                                std::span<const double> tension) const override;
+
+ private:
+  static constexpr auto rule = E::full_quadrature();
+  static constexpr auto centre_rule = E::centre_quadrature();
+
+  /// F' = (sum_a x_a (x) d phi_a/d xi) K with K = (d xi/dX) [f0 s0 n0]: F with its second index in
+  /// the fibre frame.
+  struct Point {
+    Tensor<Pack> K;
+    Pack volume;   ///< reference volume of the point
+    Pack infarct;  ///< M
+  };
+  struct Group {
+    std::array<std::array<int, pack_size>, E::nodes> nodes;
+    std::array<Point, E::points> points;
+    Point centre;
+  };
+  using Nodal = std::array<Vector<Pack>, E::nodes>;
+  using NodalScalar = std::array<Pack, E::nodes>;
+  using Gradients = std::array<std::array<double, 3>, E::nodes>;
+
+  [[nodiscard]] int cell_of(int group, int i) const {
+    return std::min(cells_.begin + group * pack_size + i, cells_.end - 1);
+  }
+  template <class Rule>
+  void set_point(Point& point, int i, int cell, const Rule& quadrature, int q, double weight);
+  [[nodiscard]] static Nodal gather(const Group& group, std::span<const Vec3> positions);
+  [[nodiscard]] static NodalScalar gather(const Group& group, std::span<const double> values);
+  static void scatter(const Group& group, const Nodal& nodal, std::span<Vec3> forces);
+  static void scatter(const Group& group, const NodalScalar& nodal, std::span<double> values);
+  [[nodiscard]] static Tensor<Pack> deformation_gradient(const Nodal& x, const Gradients& gradient,
+                                                         const Tensor<Pack>& K);
+  static void subtract_force(const Tensor<Pack>& P, const Point& point, const Gradients& gradient,
+                             Nodal& force);
+  template <class Law>
+  void add_forces(const Law& law, std::span<const Vec3> positions, std::span<const double> tension,
+                  std::span<Vec3> forces) const;
+  template <class Law>
+  void point_forces(const Law& law, const Group& group, const Nodal& x, const NodalScalar& tension,
+                    Nodal& force) const;
+  void volumetric_forces(const Group& group, const Nodal& x, Nodal& force) const;
+  [[nodiscard]] static Pack at_point(const NodalScalar& nodal, int q);
+  [[nodiscard]] PointSample sample_point(int group, int q, int i, const Tensor<Pack>& F,
+                                         double tension) const;
+
+  const mesh::Mesh& mesh_;
+  mesh::FibreRule fibres_;
+  WallMaterial material_;
+  parallel::Range cells_;
+  std::vector<Group> groups_;
+  mutable Pack min_J_ = Pack(1.0);
+  mutable Pack max_J_ = Pack(1.0);
+};
+
+template <class E>
+PackedElements<E>::PackedElements(const mesh::Mesh& mesh, const mesh::FibreRule& fibres,
+                                  const WallMaterial& material)
+    : mesh_(mesh),
+      fibres_(fibres),
+      material_(material),
+      cells_(parallel::share(mesh.cell_count(), parallel::rank(), parallel::size())) {
+  groups_.resize((cells_.size() + pack_size - 1) / pack_size);
+  for (int g = 0; g < static_cast<int>(groups_.size()); ++g) {
+    for (int i = 0; i < pack_size; ++i) {
+      const int cell = cell_of(g, i);
+      const bool padding = cells_.begin + g * pack_size + i >= cells_.end;
+      for (int a = 0; a < E::nodes; ++a)
+        groups_[g].nodes[a][i] = mesh.cell(cell)[a];
+      for (int q = 0; q < E::points; ++q)
+        set_point(groups_[g].points[q], i, cell, rule, q, padding ? 0.0 : rule.weight[q]);
+      set_point(groups_[g].centre, i, cell, centre_rule, 0, padding ? 0.0 : centre_rule.weight[0]);
+    }
+  }
+}
+
+template <class E>
+template <class Rule>
+void PackedElements<E>::set_point(Point& point, int i, int cell, const Rule& quadrature, int q,
+                                  double weight) {
+  const ReferencePoint X = reference_point(mesh_, cell, quadrature, q);
+  const double det = X.dX_dxi.determinant();
+  if (!(det > 0.0))
+    throw InputError(
+        fmt::format("element {} of the wall mesh", cell),
+        fmt::format(
+            "is inverted or collapsed (Jacobian {:.3g} mm^3 at ({:.1f}, {:.1f}, {:.1f}) mm)", det,
+            X.X.x(), X.X.y(), X.X.z()),
+        "Repair the mesh, or change the edge length");
+  const Mat3 K = X.dX_dxi.inverse() * mesh::fibre_frame(fibres_, X.axes, X.t);
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 3; ++c)
+      set_lane(point.K(r, c), i, K(r, c));
+  set_lane(point.volume, i, weight * det);
+  set_lane(point.infarct, i, X.M);
+}
+
+template <class E>
+typename PackedElements<E>::Nodal PackedElements<E>::gather(const Group& group,
+                                                            std::span<const Vec3> positions) {
+  Nodal x;
+  alignas(Pack) std::array<std::array<double, pack_size>, 3> lanes;
+  for (int a = 0; a < E::nodes; ++a) {
+    for (int i = 0; i < pack_size; ++i) {
+      const Vec3& p = positions[group.nodes[a][i]];
+      for (int d = 0; d < 3; ++d)
+        lanes[d][i] = p[d];
+    }
+    for (int d = 0; d < 3; ++d)
+      x[a][d] = Pack::load_aligned(lanes[d].data());
+  }
+  return x;
+}
+
+template <class E>
+typename PackedElements<E>::NodalScalar PackedElements<E>::gather(const Group& group,
+                                                                  std::span<const double> values) {
+  NodalScalar nodal;
+  alignas(Pack) std::array<double, pack_size> lanes;
+  for (int a = 0; a < E::nodes; ++a) {
+    for (int i = 0; i < pack_size; ++i)
+      lanes[i] = values[group.nodes[a][i]];
+    nodal[a] = Pack::load_aligned(lanes.data());
+  }
+  return nodal;
+}
+
+template <class E>
+void PackedElements<E>::scatter(const Group& group, const NodalScalar& nodal,
+                                std::span<double> values) {
+  alignas(Pack) std::array<double, pack_size> lanes;
+  for (int a = 0; a < E::nodes; ++a) {
+    nodal[a].store_aligned(lanes.data());
+    for (int i = 0; i < pack_size; ++i)
+      values[group.nodes[a][i]] += lanes[i];
+  }
+}
+
+template <class E>
+void PackedElements<E>::scatter(const Group& group, const Nodal& nodal, std::span<Vec3> forces) {
+  alignas(Pack) std::array<std::array<double, pack_size>, 3> lanes;
+  for (int a = 0; a < E::nodes; ++a) {
+    for (int d = 0; d < 3; ++d)
+      nodal[a][d].store_aligned(lanes[d].data());
+    for (int i = 0; i < pack_size; ++i)
+      forces[group.nodes[a][i]] += Vec3(lanes[0][i], lanes[1][i], lanes[2][i]);
+  }
+}
+
+template <class E>
+Tensor<Pack> PackedElements<E>::deformation_gradient(const Nodal& x, const Gradients& gradient,
+                                                     const Tensor<Pack>& K) {
+  Tensor<Pack> dx_dxi;
+  for (int d = 0; d < 3; ++d) {
+    for (int m = 0; m < 3; ++m) {
+      Pack sum = x[0][d] * gradient[0][m];
+      for (int a = 1; a < E::nodes; ++a)
+        sum = xsimd::fma(x[a][d], Pack(gradient[a][m]), sum);
+      dx_dxi(d, m) = sum;
+    }
+  }
+  return dx_dxi * K;
+}
+
+/// F_a -= P : grad phi_a dX at one point.
+template <class E>
+void PackedElements<E>::subtract_force(const Tensor<Pack>& P, const Point& point,
+                                       const Gradients& gradient, Nodal& force) {
+  const Tensor<Pack> G = (P * point.K.transpose()) * point.volume;
+  for (int a = 0; a < E::nodes; ++a)
+    for (int d = 0; d < 3; ++d)
+      for (int m = 0; m < 3; ++m)
+        force[a][d] = xsimd::fnma(G(d, m), Pack(gradient[a][m]), force[a][d]);
+}
+
+template <class E>
+void PackedElements<E>::add_volumes(std::span<double> integrals) const {
+  for (const Group& group : groups_) {
+    NodalScalar volume;
+    volume.fill(Pack(0.0));
+    for (int q = 0; q < E::points; ++q)
+      for (int a = 0; a < E::nodes; ++a)
+        volume[a] += rule.value[q][a] * group.points[q].volume;
+    scatter(group, volume, integrals);
+  }
+}
+
+template <class E>
+void PackedElements<E>::add_stretch(std::span<const Vec3> positions,
+                                    std::span<double> integrals) const {
+  for (const Group& group : groups_) {
+    const Nodal x = gather(group, positions);
+    NodalScalar nodal;
+    nodal.fill(Pack(0.0));
+    for (int q = 0; q < E::points; ++q) {
+      const Tensor<Pack> F = deformation_gradient(x, rule.gradient[q], group.points[q].K);
+      const Pack stretch = xsimd::sqrt(F.col(0).squaredNorm()) * group.points[q].volume;
+      for (int a = 0; a < E::nodes; ++a)
+        nodal[a] = xsimd::fma(Pack(rule.value[q][a]), stretch, nodal[a]);
+    }
+    scatter(group, nodal, integrals);
+  }
+}
+
+template <class E>
+void PackedElements<E>::add_elastic_forces(std::span<const Vec3> positions,
+                                           std::span<const double> tension,
+                                           std::span<Vec3> forces) const {
+  min_J_ = Pack(std::numeric_limits<double>::max());
+  max_J_ = Pack(std::numeric_limits<double>::lowest());
+  std::visit([&](const auto& law) { add_forces(law, positions, tension, forces); },
+             material_.passive);
+}
+
+template <class E>
+template <class Law>
+void PackedElements<E>::add_forces(const Law& law, std::span<const Vec3> positions,
+                                   std::span<const double> tension, std::span<Vec3> forces) const {
+  for (const Group& group : groups_) {
+    const Nodal x = gather(group, positions);
+    Nodal force;
+    force.fill(Vector<Pack>(Pack(0.0), Pack(0.0), Pack(0.0)));
+    point_forces(law, group, x, gather(group, tension), force);
+    if (material_.volumetric_points == VolumetricPoints::one)
+      volumetric_forces(group, x, force);
+    scatter(group, force, forces);
+  }
+}
+
+template <class E>
+Pack PackedElements<E>::at_point(const NodalScalar& nodal, int q) {
+  Pack sum = nodal[0] * rule.value[q][0];
+  for (int a = 1; a < E::nodes; ++a)
+    sum = xsimd::fma(nodal[a], Pack(rule.value[q][a]), sum);
+  return sum;
+}
+
+/// Passive and active stress at the quadrature points, scaled by the infarct (2.13), (2.23)-(2.24).
+template <class E>
+template <class Law>
+void PackedElements<E>::point_forces(const Law& law, const Group& group, const Nodal& x,
+                                     const NodalScalar& tension, Nodal& force) const {
+  const bool volumetric_here = material_.volumetric_points == VolumetricPoints::full;
+  for (int q = 0; q < E::points; ++q) {
+    const Point& point = group.points[q];
+    const Tensor<Pack> F = deformation_gradient(x, rule.gradient[q], point.K);
+    const Pack J = determinant(F);
+    min_J_ = xsimd::min(min_J_, J);
+    max_J_ = xsimd::max(max_J_, J);
+    Tensor<Pack> P = law.stress(F) * material_.infarct.passive(point.infarct);
+    const Pack T = at_point(tension, q) * material_.infarct.active(point.infarct);
+    P.col(0) += material::active_stress_column(F, J, T);
+    if (volumetric_here)
+      P += material_.volumetric.stress(F);
+    subtract_force(P, point, rule.gradient[q], force);
+  }
+}
+
+/// The volumetric penalty at the element's centre.
+template <class E>
+void PackedElements<E>::volumetric_forces(const Group& group, const Nodal& x, Nodal& force) const {
+  const Tensor<Pack> F = deformation_gradient(x, centre_rule.gradient[0], group.centre.K);
+  subtract_force(material_.volumetric.stress(F), group.centre, centre_rule.gradient[0], force);
+}
+
+template <class E>
+VolumeRange PackedElements<E>::volume_range() const {
+  double lowest = lane(min_J_, 0);
+  double highest = lane(max_J_, 0);
+  for (int i = 1; i < pack_size; ++i) {
+    lowest = std::min(lowest, lane(min_J_, i));
+    highest = std::max(highest, lane(max_J_, i));
+  }
+  return {parallel::min(lowest), parallel::max(highest)};
+}
+
+template <class E>
+PointSample PackedElements<E>::sample_point(int group, int q, int i, const Tensor<Pack>& F,
+                                            double tension) const {
+  const Point& point = groups_[group].points[q];
+  const ReferencePoint X = reference_point(mesh_, cell_of(group, i), rule, q);
+  const Mat3 F_fibre = lane(F, i);
+  PointSample s;
+  s.cell = cell_of(group, i);
+  s.volume = lane(point.volume, i);
+  s.reference = X.X;
+  s.transmural = X.t;
+  s.infarct = X.M;
+  s.axes = X.axes;
+  s.fibre_frame = mesh::fibre_frame(fibres_, X.axes, X.t);
+  s.F = F_fibre * s.fibre_frame.transpose();
+  s.tension = tension * material_.infarct.active(X.M);
+  const double J = determinant(F_fibre);
+  const Mat3 P =
+      std::visit([&](const auto& law) { return law.stress(F_fibre); }, material_.passive) *
+          material_.infarct.passive(X.M) +
+      material_.volumetric.stress(F_fibre);
+  s.cauchy_passive = P * F_fibre.transpose() / J;
+  s.cauchy_active = s.tension * F_fibre.col(0) * F_fibre.col(0).transpose();
+  return s;
+}
+
+template <class E>
+std::vector<PointSample> PackedElements<E>::sample(std::span<const Vec3> positions,
+                                                   std::span<const double> tension) const {
+  std::vector<PointSample> samples;
+  samples.reserve(static_cast<std::size_t>(cells_.size()) * E::points);
+  for (int g = 0; g < static_cast<int>(groups_.size()); ++g) {
+    const Nodal x = gather(groups_[g], positions);
+    const NodalScalar nodal_tension = gather(groups_[g], tension);
+    for (int i = 0; i < pack_size && cells_.begin + g * pack_size + i < cells_.end; ++i) {
+      for (int q = 0; q < E::points; ++q) {
+        const Tensor<Pack> F = deformation_gradient(x, rule.gradient[q], groups_[g].points[q].K);
+        samples.push_back(sample_point(g, q, i, F, lane(at_point(nodal_tension, q), i)));
+        samples.back().position = Vec3::Zero();
+        for (int a = 0; a < E::nodes; ++a)
+          samples.back().position += rule.value[q][a] * positions[groups_[g].nodes[a][i]];
+      }
+    }
+  }
+  return samples;
+}
+
+std::unique_ptr<Wall::Elements> make_elements(const mesh::Mesh& mesh, const mesh::FibreRule& fibres,
+                                              const WallMaterial& material) {
+  if (mesh.kind == mesh::CellKind::hexahedron)
+    return std::make_unique<PackedElements<Hex8>>(mesh, fibres, material);
+  return std::make_unique<PackedElements<Tet4>>(mesh, fibres, material);
+}
+
+}  // namespace
+
+Wall::Wall(const mesh::Mesh& mesh, const mesh::FibreRule& fibres, const WallMaterial& material)
+    : elements_(make_elements(mesh, fibres, material)), nodal_volumes_(mesh.nodes.size(), 0.0) {
+  elements_->add_volumes(nodal_volumes_);
+  parallel::sum(nodal_volumes_);
+}
+Wall::~Wall() = default;
+Wall::Wall(Wall&&) noexcept = default;
+Wall& Wall::operator=(Wall&&) noexcept = default;
+
+void Wall::nodal_stretch(std::span<const Vec3> positions, std::span<double> stretch) const {
+  std::fill(stretch.begin(), stretch.end(), 0.0);
+  elements_->add_stretch(positions, stretch);
+  parallel::sum(stretch);
+  for (std::size_t a = 0; a < stretch.size(); ++a)
+    stretch[a] /= nodal_volumes_[a];
+}
+
+void Wall::add_elastic_forces(std::span<const Vec3> positions, std::span<const double> tension,
+                              std::span<Vec3> forces) const {
+  elements_->add_elastic_forces(positions, tension, forces);
+}
+
+VolumeRange Wall::volume_range() const {
+  return elements_->volume_range();
+}
+
+std::vector<PointSample> Wall::sample(std::span<const Vec3> positions,
+                                      std::span<const double> tension) const {
+  return elements_->sample(positions, tension);
+}
+
+}  // namespace lv::solid

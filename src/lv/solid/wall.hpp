@@ -1,0 +1,85 @@
+#pragma once
+
+#include "lv/material/law.hpp"
+#include "lv/material/volumetric.hpp"
+#include "lv/mesh/fibres.hpp"
+#include "lv/mesh/mesh.hpp"
+
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace lv::solid {
+
+/// Where the volumetric penalty (2.20) is integrated: at the points of the rest of the energy, or
+/// at one point per element (mean dilatation), which does not lock.
+enum class VolumetricPoints { full, one };
+
+/// What the wall is made of.
+struct WallMaterial {
+  material::Passive passive = material::HolzapfelOgden{};
+  material::Volumetric volumetric;
+  VolumetricPoints volumetric_points = VolumetricPoints::one;
+  material::InfarctScaling infarct;
+};
+
+/// Smallest and largest J over the quadrature points of all ranks.
+struct VolumeRange {
+  double min_J = 1.0;
+  double max_J = 1.0;
+};
+
+/// Deformation and stress at one quadrature point, with tensors in the model frame.
+struct PointSample {
+  int cell = 0;
+  double volume = 0.0;       ///< reference volume of the point [mm^3]
+  Vec3 reference, position;  ///< [mm]
+  double transmural = 0.0;
+  double infarct = 0.0;  ///< M
+  Mat3 F = Mat3::Identity();
+  Mat3 fibre_frame = Mat3::Identity();  ///< columns f0, s0, n0
+  mesh::WallAxes axes;   ///< circumferential, longitudinal, radial directions of the reference wall
+  double tension = 0.0;  ///< T_MI [kPa]
+  Mat3 cauchy_passive = Mat3::Zero();  ///< of (2.18) and the volumetric penalty (2.20), without the
+                                       ///< fluid's pressure [kPa]
+  Mat3 cauchy_active = Mat3::Zero();   ///< [kPa]
+};
+
+/// The wall as finite elements: the total-Lagrangian weak form (2.10) of all stresses. Every rank
+/// knows all node positions and treats its share of the elements, several at once in the lanes of a
+/// Pack.
+class Wall {
+ public:
+  /// The mesh must outlive the wall. Throws InputError for an element that is inverted or
+  /// collapsed, naming it.
+  Wall(const mesh::Mesh& mesh, const mesh::FibreRule& fibres, const WallMaterial& material);
+  ~Wall();
+  Wall(Wall&&) noexcept;
+  Wall& operator=(Wall&&) noexcept;
+
+  /// Fibre stretch per node, int phi_a lambda dX / int phi_a dX; complete on every rank.
+  void nodal_stretch(std::span<const Vec3> positions, std::span<double> stretch) const;
+
+  /// Adds the nodal forces of this rank's elements, F_a = -int P : grad phi_a dX [mN], to `forces`.
+  /// `tension` is the active tension per node [kPa], before the infarct's factor.
+  void add_elastic_forces(std::span<const Vec3> positions, std::span<const double> tension,
+                          std::span<Vec3> forces) const;
+
+  /// Smallest and largest J of the last add_elastic_forces, over all ranks.
+  [[nodiscard]] VolumeRange volume_range() const;
+
+  /// Reference volume that belongs to each node, int phi_a dX [mm^3].
+  [[nodiscard]] std::span<const double> nodal_volumes() const { return nodal_volumes_; }
+
+  /// Every quadrature point of this rank's elements.
+  [[nodiscard]] std::vector<PointSample> sample(std::span<const Vec3> positions,
+                                                std::span<const double> tension) const;
+
+  class Elements;  // the elements of one kind, in wall.cpp
+
+ private:
+  std::unique_ptr<Elements> elements_;
+  std::vector<double> nodal_volumes_;
+};
+
+}  // namespace lv::solid
