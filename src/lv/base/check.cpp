@@ -4,7 +4,7 @@
 
 namespace lv {
 
-InputError::InputError(std::string where, std::string what, std::string what_to_do)
+InputError::InputError(std::string where, const std::string& what, const std::string& what_to_do)
     : std::runtime_error(where + ": " + what + (what_to_do.empty() ? "" : ". " + what_to_do)),
       where_(std::move(where)) {}
 

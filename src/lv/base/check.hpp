@@ -9,7 +9,7 @@ namespace lv {
 /// to do about it.
 class InputError : public std::runtime_error {
  public:
-  InputError(std::string where, std::string what, std::string what_to_do);
+  InputError(std::string where, const std::string& what, const std::string& what_to_do);
 
   [[nodiscard]] const std::string& where() const { return where_; }
 

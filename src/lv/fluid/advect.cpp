@@ -95,6 +95,15 @@ class FluxSweep {
   std::vector<double> x_, y_low_, y_high_, z_low_, z_high_;
 };
 
+/// f = now N + before N_before, and N_before = N.
+void extrapolate_row(const double* __restrict N, int count, const Extrapolation& weights,
+                     double* __restrict N_before, double* __restrict f) {
+  for (int i = 0; i < count; ++i) {
+    f[i] = weights.now * N[i] + weights.before * N_before[i];
+    N_before[i] = N[i];
+  }
+}
+
 }  // namespace
 
 void convection_force(const FaceField& velocity, const Grid& grid, double density,
@@ -102,8 +111,7 @@ void convection_force(const FaceField& velocity, const Grid& grid, double densit
   std::array<FluxSweep, 3> sweeps{FluxSweep(velocity, 0), FluxSweep(velocity, 1),
                                   FluxSweep(velocity, 2)};
   std::vector<double> N(grid.cells[0] + 1);
-  const double now = -density * weights.now;
-  const double before = -density * weights.before;
+  const Extrapolation scaled{-density * weights.now, -density * weights.before};
   // plane by plane over all components, so that the velocity comes from memory once
   for (int k = 0; k < velocity.component[2].nz(); ++k) {
     for (int c = 0; c < 3; ++c) {
@@ -113,12 +121,8 @@ void convection_force(const FaceField& velocity, const Grid& grid, double densit
       sweeps[c].start_plane(k);
       for (int j = 0; j < u.ny(); ++j) {
         sweeps[c].divergence(j, k, grid.spacing, N.data());
-        double* __restrict N_before = previous.component[c].row(j, k);
-        double* __restrict f = force.component[c].row(j, k);
-        for (int i = 0; i < u.nx(); ++i) {
-          f[i] = now * N[i] + before * N_before[i];
-          N_before[i] = N[i];
-        }
+        extrapolate_row(N.data(), u.nx(), scaled, previous.component[c].row(j, k),
+                        force.component[c].row(j, k));
       }
     }
   }

@@ -16,9 +16,9 @@ int round_up(int n) {
 
 /// Where ghost point -1-l (lower side) or n+l (upper side) is mirrored, and with which sign.
 struct Mirror {
-  int lower(int l) const { return on_faces ? 1 + l : l; }
-  int upper(int l) const { return on_faces ? n - 2 - l : n - 1 - l; }
-  double sign() const { return on_faces ? 1.0 : -1.0; }
+  [[nodiscard]] int lower(int l) const { return on_faces ? 1 + l : l; }
+  [[nodiscard]] int upper(int l) const { return on_faces ? n - 2 - l : n - 1 - l; }
+  [[nodiscard]] double sign() const { return on_faces ? 1.0 : -1.0; }
   int n;
   bool on_faces;
 };

@@ -34,7 +34,7 @@ struct LineTransform::Plans {
     return memory;
   }
 
-  fftw_plan make(int length, int lines, int direction) const {
+  [[nodiscard]] fftw_plan make(int length, int lines, int direction) const {
     return fftw_plan_many_dft(1, &length, lines, reinterpret_cast<fftw_complex*>(in), nullptr,
                               lines, 1, reinterpret_cast<fftw_complex*>(out), nullptr, lines, 1,
                               direction, FFTW_ESTIMATE);
@@ -57,13 +57,16 @@ std::vector<Complex> twiddles(int n) {
   return w;
 }
 
-/// a b, without the recovery of infinities that the operator must do and that keeps it from the SIMD units.
+/// a b, without the recovery of infinities that the operator must do and that keeps it from the
+/// SIMD units.
 Complex product(const Complex& a, const Complex& b) {
   return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
 }
 
 /// i a.
-Complex turned(const Complex& a) { return {-a.imag(), a.real()}; }
+Complex turned(const Complex& a) {
+  return {-a.imag(), a.real()};
+}
 
 Complex* complex(double* row) {
   return reinterpret_cast<Complex*>(row);

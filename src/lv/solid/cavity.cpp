@@ -16,7 +16,8 @@ Cavity::Cavity(const mesh::Mesh& mesh) : endo_(mesh.endo), edge_(mesh::boundary_
 
 /// The divergence theorem over the faces. A bilinear face counts as the mean of its two ways to be
 /// cut into triangles, which is exact for it.
-double Cavity::volume(std::span<const Vec3> x) const {
+double Cavity::volume(std::span<const Vec3> positions) const {
+  const auto x = positions;
   double six_V = 0.0;
   for (int f = 0; f < endo_.size(); ++f) {
     const auto n = endo_.face(f);
