@@ -5,6 +5,7 @@
 #include <mpi.h>
 
 #include <algorithm>
+#include <exception>
 
 namespace lv::parallel {
 namespace {

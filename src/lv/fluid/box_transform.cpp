@@ -174,7 +174,8 @@ void ComponentTransform::to_points(const std::vector<double>& modes, Component& 
 }
 
 BoxTransform::BoxTransform(const Grid& grid, const Slab& slab)
-    : transform_{ComponentTransform(grid, slab, 0), ComponentTransform(grid, slab, 1),
+    : grid_(grid),
+      transform_{ComponentTransform(grid, slab, 0), ComponentTransform(grid, slab, 1),
                  ComponentTransform(grid, slab, 2)} {}
 
 void BoxTransform::to_modes(const FaceField& points, ModeField& modes) {
@@ -190,6 +191,47 @@ void BoxTransform::to_points(const ModeField& modes, FaceField& points) {
 ModeField BoxTransform::zero_modes() const {
   return {std::vector<double>(layout(0).size()), std::vector<double>(layout(1).size()),
           std::vector<double>(layout(2).size())};
+}
+
+namespace {
+
+/// Calls row(all, piece) with the offsets of each row of y modes in the order of the whole box (z,
+/// x, y) and in the concatenation of the ranks' pieces.
+template <class Row>
+void for_mode_rows(const Grid& grid, int c, const Row& row) {
+  std::size_t piece = 0;
+  for (int rank = 0; rank < parallel::size(); ++rank) {
+    const ModeLayout l(grid, c, rank, parallel::size());
+    const int x_begin = l.first_x - (c == 0 ? 0 : 1);
+    for (int z = 0; z < l.count_z; ++z) {
+      for (int x = 0; x < l.count_x; ++x, piece += l.count_y) {
+        const std::size_t row_of_box =
+            static_cast<std::size_t>(z) * grid.points(c, 0) + x_begin + x;
+        row(row_of_box * l.count_y, piece);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<double> BoxTransform::gather(const ModeField& modes, int c) const {
+  const std::vector<double> pieces = parallel::gather(modes[c]);
+  std::vector<double> all(pieces.size());
+  if (parallel::is_root())
+    for_mode_rows(grid_, c, [&](std::size_t in_box, std::size_t in_pieces) {
+      std::copy_n(pieces.data() + in_pieces, layout(c).count_y, all.data() + in_box);
+    });
+  return all;
+}
+
+void BoxTransform::scatter(std::span<const double> all, int c, ModeField& modes) const {
+  std::vector<double> pieces(all.size());
+  if (parallel::is_root())
+    for_mode_rows(grid_, c, [&](std::size_t in_box, std::size_t in_pieces) {
+      std::copy_n(all.data() + in_box, layout(c).count_y, pieces.data() + in_pieces);
+    });
+  modes[c] = parallel::scatter(pieces, layout(c).size());
 }
 
 }  // namespace lv::fluid

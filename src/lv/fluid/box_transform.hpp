@@ -4,7 +4,7 @@
 #include "lv/fluid/line_transform.hpp"
 
 #include <array>
-#include <memory>
+#include <span>
 #include <vector>
 
 namespace lv::fluid {
@@ -76,9 +76,18 @@ class BoxTransform {
   void to_points(const ModeField& modes, FaceField& points);
 
   [[nodiscard]] ModeField zero_modes() const;
+
+  /// All modes of the box on the root, in an order that does not depend on the number of ranks;
+  /// empty elsewhere.
+  [[nodiscard]] std::vector<double> gather(const ModeField& modes, int c) const;
+
+  /// The reverse of `gather`: this rank's modes of component c from the root's.
+  void scatter(std::span<const double> all, int c, ModeField& modes) const;
+
   [[nodiscard]] const ModeLayout& layout(int c) const { return transform_[c].layout(); }
 
  private:
+  Grid grid_;
   std::array<ComponentTransform, 3> transform_;
 };
 

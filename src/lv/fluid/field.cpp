@@ -3,6 +3,7 @@
 #include <mpi.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace lv::fluid {
 namespace {
@@ -113,6 +114,48 @@ void fill_ghosts(FaceField& velocity, const Slab& slab) {
     fill_y(u, d == 1);
     fill_z(u, d == 2, slab);
   }
+}
+
+void fill_ghosts(Component& pressure, const Slab& slab) {
+  fill_x(pressure, false);
+  fill_y(pressure, false);
+  fill_z(pressure, false, slab);
+}
+
+std::vector<double> gather(const Component& component) {
+  std::vector<double> mine;
+  mine.reserve(static_cast<std::size_t>(component.nx()) * component.ny() * component.nz());
+  for (int k = 0; k < component.nz(); ++k)
+    for (int j = 0; j < component.ny(); ++j)
+      mine.insert(mine.end(), component.row(j, k), component.row(j, k) + component.nx());
+  return parallel::gather(mine);
+}
+
+void scatter(std::span<const double> values, Component& component) {
+  const std::size_t count =
+      static_cast<std::size_t>(component.nx()) * component.ny() * component.nz();
+  const std::vector<double> mine = parallel::scatter(values, count);
+  const double* next = mine.data();
+  for (int k = 0; k < component.nz(); ++k)
+    for (int j = 0; j < component.ny(); ++j, next += component.nx())
+      std::copy_n(next, component.nx(), component.row(j, k));
+}
+
+Motion motion(const FaceField& velocity, const Grid& grid, double density) {
+  double squares = 0.0;
+  double largest = 0.0;
+  for (const Component& u : velocity.component) {
+    for (int k = 0; k < u.nz(); ++k) {
+      for (int j = 0; j < u.ny(); ++j) {
+        const double* row = u.row(j, k);
+        for (int i = 0; i < u.nx(); ++i) {
+          squares += row[i] * row[i];
+          largest = std::max(largest, std::abs(row[i]));
+        }
+      }
+    }
+  }
+  return {0.5 * density * grid.cell_volume() * parallel::sum(squares), parallel::max(largest)};
 }
 
 }  // namespace lv::fluid

@@ -60,4 +60,20 @@ struct FaceField {
 /// tangential velocity, hence for an incompressible fluid u_t odd and u_n even about the side).
 void fill_ghosts(FaceField& velocity, const Slab& slab);
 
+/// The same for a cell-centred pressure, zero on the sides.
+void fill_ghosts(Component& pressure, const Slab& slab);
+
+/// The values of a component over the whole box on the root, x fastest; empty on other ranks.
+[[nodiscard]] std::vector<double> gather(const Component& component);
+
+/// The reverse of `gather`: each rank takes the planes of its slab from the root's values.
+void scatter(std::span<const double> values, Component& component);
+
+/// Kinetic energy rho/2 int u^2 dx [mN mm] and largest speed component [mm/s] over all ranks.
+struct Motion {
+  double kinetic_energy = 0.0;
+  double largest_velocity = 0.0;
+};
+[[nodiscard]] Motion motion(const FaceField& velocity, const Grid& grid, double density);
+
 }  // namespace lv::fluid

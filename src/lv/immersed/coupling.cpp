@@ -1,6 +1,7 @@
 #include "lv/immersed/coupling.hpp"
 
 #include "lv/base/parallel.hpp"
+#include "lv/immersed/quadrature_coupling.hpp"
 
 namespace lv::immersed {
 namespace {
@@ -33,9 +34,11 @@ class NodalCoupling final : public Coupling {
 std::unique_ptr<Coupling> make_coupling(const CouplingParameters& parameters,
                                         const mesh::Mesh& mesh, const fluid::Grid& grid,
                                         const fluid::Slab& slab) {
-  static_cast<void>(mesh);
   const Transfer transfer(grid, slab, parameters.kernel);
-  return std::make_unique<NodalCoupling>(transfer);
+  if (parameters.kind == CouplingKind::nodal)
+    return std::make_unique<NodalCoupling>(transfer);
+  return std::make_unique<QuadratureCoupling>(mesh, transfer, grid.spacing.minCoeff(),
+                                              parameters.points_per_cell);
 }
 
 }  // namespace lv::immersed

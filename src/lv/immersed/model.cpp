@@ -1,6 +1,10 @@
 #include "lv/immersed/model.hpp"
 
+#include "lv/base/check.hpp"
 #include "lv/base/parallel.hpp"
+
+#include <algorithm>
+#include <cmath>
 
 namespace lv::immersed {
 
@@ -14,59 +18,150 @@ Model::Model(const mesh::Mesh& mesh, const mesh::FibreRule& fibres,
                    parameters.grid.spacing.minCoeff()),
       base_(mesh, parameters.basal_stiffness),
       cavity_(mesh),
-      endo_(mesh.endo),
+      mesh_(mesh),
+      transfer_(parameters.grid, slab_, parameters.coupling.kernel),
       coupling_(make_coupling(parameters.coupling, mesh, parameters.grid, slab_)),
       transform_(parameters.grid, slab_),
       stokes_(parameters.grid, transform_, parameters.blood),
+      state_{mesh.nodes, std::vector<Vec3>(mesh.nodes.size(), Vec3::Zero()), contraction_.state(),
+             transform_.zero_modes(), fluid::FaceField(parameters.grid, slab_)},
       stretch_(mesh.nodes.size()),
-      positions_(mesh.nodes),
-      node_velocities_(mesh.nodes.size(), Vec3::Zero()),
       node_forces_(mesh.nodes.size()),
       midpoints_(mesh.nodes.size()),
+      velocity_change_(mesh.nodes.size(), Vec3::Zero()),
       velocity_(parameters.grid, slab_),
-      convection_(parameters.grid, slab_),
       force_(parameters.grid, slab_),
-      velocity_modes_(transform_.zero_modes()),
-      force_modes_(transform_.zero_modes()) {}
+      force_modes_(transform_.zero_modes()) {
+  if (!inside_box(state_.positions))
+    throw InputError("box",
+                     "the wall does not fit in the box with three cells to spare on every side",
+                     "Enlarge box.size in the case file");
+}
 
-void Model::step(const Loads& loads, double dt) {
-  if (dt_ > 0.0) {
-    wall_.nodal_stretch(positions_, stretch_);
-    contraction_.advance(stretch_, calcium_, loads.calcium, dt_);
+void Model::relax(double calcium) {
+  contraction_.relax(calcium);
+  state_.calcium = calcium;
+}
+
+StepReport Model::step(const Loads& loads, double dt) {
+  if (state_.dt > 0.0) {
+    wall_.nodal_stretch(state_.positions, stretch_);
+    contraction_.advance(stretch_, state_.calcium, loads.calcium, state_.dt);
   }
   nodal_forces(loads);
   move_blood(loads, dt);
-  move_wall(dt);
-  dt_before_ = dt_;
-  dt_ = dt;
-  calcium_ = loads.calcium;
+  StepReport report = move_wall(dt);
+  report.J = wall_.volume_range();
+  state_.dt_before = state_.dt;
+  state_.dt = dt;
+  state_.calcium = loads.calcium;
+  return report;
 }
 
 void Model::nodal_forces(const Loads& loads) {
   std::fill(node_forces_.begin(), node_forces_.end(), Vec3::Zero());
-  wall_.add_elastic_forces(positions_, contraction_.tension(), node_forces_);
-  solid::add_pressure_forces(endo_, loads.pressure, positions_, node_forces_);
-  base_.add_forces(positions_, node_forces_);
+  wall_.add_elastic_forces(state_.positions, contraction_.tension(), node_forces_);
+  solid::add_pressure_forces(mesh_.endo, loads.pressure, state_.positions, node_forces_);
+  base_.add_forces(state_.positions, node_forces_);
   parallel::sum({node_forces_.data()->data(), 3 * node_forces_.size()});
 }
 
 void Model::move_blood(const Loads& loads, double dt) {
-  const double r = dt_ + dt_before_ > 0.0 ? dt_ / (dt_ + dt_before_) : 0.0;
+  const double elapsed = state_.dt + state_.dt_before;
+  const double r = elapsed > 0.0 ? state_.dt / elapsed : 0.0;
   fluid::convection_force(velocity_, parameters_.grid, parameters_.blood.density, {1.0 + r, -r},
-                          convection_, force_);
-  coupling_->spread(positions_, node_forces_, force_);
+                          state_.convection, force_);
+  coupling_->spread(state_.positions, node_forces_, force_);
   transform_.to_modes(force_, force_modes_);
-  stokes_.advance(velocity_modes_, force_modes_, 0.5 * (dt_ + dt), loads.drag);
-  transform_.to_points(velocity_modes_, velocity_);
+  stokes_.advance(state_.velocity_modes, force_modes_, 0.5 * (state_.dt + dt), loads.drag);
+  transform_.to_points(state_.velocity_modes, velocity_);
   fluid::fill_ghosts(velocity_, slab_);
 }
 
-void Model::move_wall(double dt) {
-  for (std::size_t a = 0; a < positions_.size(); ++a)
-    midpoints_[a] = positions_[a] + 0.5 * dt * node_velocities_[a];
-  coupling_->interpolate(velocity_, midpoints_, node_velocities_);
-  for (std::size_t a = 0; a < positions_.size(); ++a)
-    positions_[a] += dt * node_velocities_[a];
+StepReport Model::move_wall(double dt) {
+  auto& x = state_.positions;
+  auto& U = state_.node_velocities;
+  for (std::size_t a = 0; a < x.size(); ++a)
+    midpoints_[a] = x[a] + 0.5 * dt * U[a];
+  StepReport report;
+  report.inside_box = inside_box(midpoints_);
+  if (!report.inside_box)
+    return report;
+  const std::vector<Vec3> U_before = U;
+  coupling_->interpolate(velocity_, midpoints_, U);
+
+  double product = 0.0;
+  double squares = 0.0;
+  double squares_before = 0.0;
+  double largest = 0.0;
+  for (std::size_t a = 0; a < x.size(); ++a) {
+    x[a] += dt * U[a];
+    const Vec3 change = U[a] - U_before[a];
+    product += change.dot(velocity_change_[a]);
+    squares += change.squaredNorm();
+    squares_before += velocity_change_[a].squaredNorm();
+    velocity_change_[a] = change;
+    largest = std::max(largest, U[a].squaredNorm());
+  }
+  report.largest_node_speed = std::sqrt(largest);
+  report.velocity_change = std::sqrt(squares / static_cast<double>(x.size()));
+  if (squares > 0.0 && squares_before > 0.0)
+    report.smoothness = product / std::sqrt(squares * squares_before);
+  report.inside_box = inside_box(x);
+  return report;
+}
+
+bool Model::inside_box(std::span<const Vec3> positions) const {
+  return std::all_of(positions.begin(), positions.end(),
+                     [&](const Vec3& x) { return transfer_.inside(x); });
+}
+
+void Model::restore(const ModelState& state) {
+  state_ = state;
+  contraction_.set_state(state.contraction);
+  std::fill(velocity_change_.begin(), velocity_change_.end(), Vec3::Zero());
+  transform_.to_points(state_.velocity_modes, velocity_);
+  fluid::fill_ghosts(velocity_, slab_);
+}
+
+const ModelState& Model::state() {
+  state_.contraction = contraction_.state();
+  return state_;
+}
+
+fluid::Component Model::pressure() const {
+  const fluid::Grid& grid = parameters_.grid;
+  fluid::ComponentTransform transform(grid, slab_, fluid::cell_centred);
+  fluid::Component p(grid.cells[0], grid.cells[1], slab_.planes.size());
+  transform.to_points(stokes_.pressure(force_modes_, transform.layout()), p);
+  fluid::fill_ghosts(p, slab_);
+  return p;
+}
+
+std::vector<double> Model::wall_pressure(const fluid::Component& pressure) const {
+  std::vector<double> values(mesh_.cell_count(), 0.0);
+  for (int c = 0; c < mesh_.cell_count(); ++c) {
+    const auto cell = mesh_.cell(c);
+    Vec3 centre = Vec3::Zero();
+    for (const int a : cell)
+      centre += state_.positions[a] / static_cast<double>(cell.size());
+    if (transfer_.owns(centre))
+      values[c] = transfer_.interpolate(pressure, centre);
+  }
+  parallel::sum(values);
+  return values;
+}
+
+double Model::mean_tension() const {
+  const auto tension = contraction_.tension();
+  const auto volume = wall_.nodal_volumes();
+  double sum = 0.0;
+  double total = 0.0;
+  for (std::size_t a = 0; a < tension.size(); ++a) {
+    sum += volume[a] * tension[a];
+    total += volume[a];
+  }
+  return sum / total;
 }
 
 }  // namespace lv::immersed

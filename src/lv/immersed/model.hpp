@@ -27,6 +27,28 @@ struct ModelParameters {
   double basal_stiffness = 100.0;  ///< kappa of BasalPenalty [kPa/mm]
 };
 
+/// Everything that one rank's part of a Model carries from step to step.
+struct ModelState {
+  std::vector<Vec3> positions, node_velocities;
+  std::vector<double> contraction;
+  fluid::ModeField velocity_modes;
+  fluid::FaceField convection;
+  double dt = 0.0;         ///< of the last step [s]
+  double dt_before = 0.0;  ///< of the one before [s]
+  double calcium = 0.0;    ///< at the last step [uM]
+};
+
+/// What a step says about itself; the same on all ranks.
+struct StepReport {
+  bool inside_box = true;           ///< false also when a position is not a number
+  double largest_node_speed = 0.0;  ///< [mm/s]
+  /// Correlation of the nodes' last two velocity changes: near 1 for a motion that the steps
+  /// resolve, near -1 for one that flips from step to step.
+  double smoothness = 1.0;
+  double velocity_change = 0.0;  ///< rms of the last change of the nodes' velocities [mm/s]
+  solid::VolumeRange J;          ///< at the start of the step
+};
+
 /// The wall immersed in blood (2.1)-(2.4), advanced by a staggered leapfrog: positions at whole
 /// steps, velocities at half steps. Second order in time:
 ///
@@ -36,26 +58,47 @@ struct ModelParameters {
 ///   x^{n+1}     = x^n + dt U,  U = u^{n+1/2} interpolated at x^n + dt/2 U^{n-1/2}              (2.4)
 class Model {
  public:
+  /// The mesh must outlive the model. Throws InputError when the wall does not fit in the box, or
+  /// an element is inverted.
   Model(const mesh::Mesh& mesh, const mesh::FibreRule& fibres, const solid::WallMaterial& material,
         const material::NiedererHunterSmith& active, const ModelParameters& parameters);
 
   /// Advances by dt [s] from the present time, at which `loads` act.
-  void step(const Loads& loads, double dt);
+  StepReport step(const Loads& loads, double dt);
 
-  [[nodiscard]] std::span<const Vec3> positions() const { return positions_; }
-  [[nodiscard]] std::span<const Vec3> node_velocities() const { return node_velocities_; }
-  [[nodiscard]] double cavity_volume() const { return cavity_.volume(positions_); }
-  [[nodiscard]] solid::Contraction& contraction() { return contraction_; }
+  /// The model as it is now, and back to an earlier state.
+  [[nodiscard]] const ModelState& state();
+  void restore(const ModelState& state);
+
+  /// Pressure of blood and wall at cell centres at the start of the last step, one Component per
+  /// slab [kPa].
+  [[nodiscard]] fluid::Component pressure() const;
+
+  /// That pressure at the centre of every element, complete on every rank [kPa].
+  [[nodiscard]] std::vector<double> wall_pressure(const fluid::Component& pressure) const;
+
+  /// Brings the muscle to its resting state at this calcium [uM].
+  void relax(double calcium);
+
+  [[nodiscard]] std::span<const Vec3> positions() const { return state_.positions; }
+  [[nodiscard]] std::span<const Vec3> node_velocities() const { return state_.node_velocities; }
+  [[nodiscard]] double cavity_volume() const {
+    return cavity_.volume(state_.positions);
+  }                                           ///< [mm^3]
+  [[nodiscard]] double mean_tension() const;  ///< over the wall, weighted by reference volume [kPa]
+  [[nodiscard]] const solid::BasalPenalty& base() const { return base_; }
   [[nodiscard]] const solid::Contraction& contraction() const { return contraction_; }
   [[nodiscard]] const solid::Wall& wall() const { return wall_; }
   [[nodiscard]] const fluid::FaceField& velocity() const { return velocity_; }
+  [[nodiscard]] const fluid::BoxTransform& transform() const { return transform_; }
   [[nodiscard]] const fluid::Grid& grid() const { return parameters_.grid; }
   [[nodiscard]] const fluid::Slab& slab() const { return slab_; }
 
  private:
   void nodal_forces(const Loads& loads);
   void move_blood(const Loads& loads, double dt);
-  void move_wall(double dt);
+  StepReport move_wall(double dt);
+  [[nodiscard]] bool inside_box(std::span<const Vec3> positions) const;
 
   ModelParameters parameters_;
   fluid::Slab slab_;
@@ -63,18 +106,17 @@ class Model {
   solid::Contraction contraction_;
   solid::BasalPenalty base_;
   solid::Cavity cavity_;
-  mesh::Surface endo_;
+  const mesh::Mesh& mesh_;
+  Transfer transfer_;
   std::unique_ptr<Coupling> coupling_;
   fluid::BoxTransform transform_;
   fluid::Stokes stokes_;
 
+  ModelState state_;
   std::vector<double> stretch_;
-  std::vector<Vec3> positions_, node_velocities_, node_forces_, midpoints_;
-  fluid::FaceField velocity_, convection_, force_;
-  fluid::ModeField velocity_modes_, force_modes_;
-  double dt_ = 0.0;         ///< of the last step [s]
-  double dt_before_ = 0.0;  ///< of the one before
-  double calcium_ = 0.0;    ///< at the last step
+  std::vector<Vec3> node_forces_, midpoints_, velocity_change_;
+  fluid::FaceField velocity_, force_;
+  fluid::ModeField force_modes_;
 };
 
 }  // namespace lv::immersed

@@ -19,13 +19,16 @@ class Transfer {
   /// must be filled.
   [[nodiscard]] Vec3 interpolate(const fluid::FaceField& velocity, const Vec3& X) const;
 
+  /// A cell-centred field at X, trilinear. X must lie in this slab; ghosts must be filled.
+  [[nodiscard]] double interpolate(const fluid::Component& field, const Vec3& X) const;
+
   /// Whether X lies between the lower and upper side of this slab.
   [[nodiscard]] bool owns(const Vec3& X) const;
 
   /// Whether spreading from any point between these heights reaches this slab.
   [[nodiscard]] bool reaches(double z_min, double z_max) const;
 
-  /// Whether X lies far enough from the sides of the box for its kernel to fit in.
+  /// Whether X lies far enough from the sides of the box for its kernel to fit in. False for NaN.
   [[nodiscard]] bool inside(const Vec3& X) const;
 
  private:

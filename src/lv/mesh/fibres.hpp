@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lv/base/tensor.hpp"
+#include "lv/base/units.hpp"
 
 namespace lv::mesh {
 

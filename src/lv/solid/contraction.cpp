@@ -94,15 +94,16 @@ void Contraction::publish_tension() {
 
 std::vector<double> Contraction::state() const {
   std::vector<double> numbers;
-  numbers.reserve(tension_.size() * numbers_per_node);
+  numbers.reserve(tension_.size() * numbers_per_node + 1);
   for (std::size_t a = 0; a < tension_.size(); ++a)
     for (const Pack* field : fields(sarcomeres_[a / pack_size]))
       numbers.push_back(field->get(a % pack_size));
+  numbers.push_back(filter_width_);
   return numbers;
 }
 
 void Contraction::set_state(std::span<const double> numbers) {
-  LV_CHECK(numbers.size() == tension_.size() * numbers_per_node);
+  LV_CHECK(numbers.size() == tension_.size() * numbers_per_node + 1);
   for (std::size_t g = 0; g < sarcomeres_.size(); ++g) {
     const auto to = fields(sarcomeres_[g]);
     for (std::size_t f = 0; f < numbers_per_node; ++f) {
@@ -112,6 +113,8 @@ void Contraction::set_state(std::span<const double> numbers) {
       *to[f] = Pack::load_aligned(lanes.data());
     }
   }
+  filter_width_ = numbers.back();
+  std::fill(damping_.begin(), damping_.end(), 0.0);
   publish_tension();
 }
 

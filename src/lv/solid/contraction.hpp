@@ -39,7 +39,7 @@ class Contraction {
   /// Tension per node, with the damping of short waves, which is zero in a steady state [kPa].
   [[nodiscard]] std::span<const double> tension() const { return tension_; }
 
-  /// The state as numbers, seven per node, and back: for checkpoints.
+  /// The state as numbers, seven per node and the filter's width, and back: for checkpoints.
   [[nodiscard]] std::vector<double> state() const;
   void set_state(std::span<const double> numbers);
 

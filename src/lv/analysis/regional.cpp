@@ -1,0 +1,162 @@
+#include "lv/analysis/regional.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace lv::analysis {
+namespace {
+
+/// One column per quantity, computed element by element.
+class Columns {
+ public:
+  explicit Columns(std::size_t cells) : cells_(cells) {}
+
+  template <class Value>
+  void add(const std::string& name, const std::string& unit, const Value& value) {
+    CellQuantity q{name, unit, std::vector<double>(cells_)};
+    for (std::size_t c = 0; c < cells_; ++c)
+      q.values[c] = value(c);
+    columns.push_back(std::move(q));
+  }
+
+  std::vector<CellQuantity> columns;
+
+ private:
+  std::size_t cells_;
+};
+
+template <class Selected>
+Region select(const std::string& scheme, const std::string& name, std::size_t cells,
+              const Selected& selected) {
+  Region region{scheme, name, {}};
+  for (std::size_t c = 0; c < cells; ++c)
+    if (selected(c))
+      region.cells.push_back(static_cast<int>(c));
+  return region;
+}
+
+void add_zones(const std::vector<CellFields>& cells, std::vector<Region>& list) {
+  constexpr double edge = 1e-9;
+  const auto M = [&](std::size_t c) { return cells[c].infarct; };
+  const std::size_t n = cells.size();
+  if (std::none_of(cells.begin(), cells.end(),
+                   [](const CellFields& c) { return c.infarct > edge; }))
+    return;
+  list.push_back(select("zone", "infarct", n, [&](auto c) { return M(c) >= 1.0 - edge; }));
+  list.push_back(
+      select("zone", "border", n, [&](auto c) { return M(c) > edge && M(c) < 1.0 - edge; }));
+  list.push_back(select("zone", "remote", n, [&](auto c) { return M(c) <= edge; }));
+}
+
+}  // namespace
+
+std::vector<CellQuantity> quantities(const std::vector<CellFields>& now,
+                                     const std::vector<CellFields>& then) {
+  std::vector<Strain> strains;
+  for (std::size_t c = 0; c < now.size(); ++c)
+    strains.push_back(then.empty() ? strain(now[c]) : strain(now[c], then[c]));
+  Columns q(now.size());
+  q.add("active_tension", "kPa", [&](auto c) { return now[c].tension; });
+  q.add("fibre_stress", "kPa", [&](auto c) { return now[c].along_fibre(now[c].cauchy_total()); });
+  q.add("fibre_stress_passive", "kPa",
+        [&](auto c) { return now[c].along_fibre(now[c].cauchy_passive); });
+  q.add("fibre_stress_active", "kPa",
+        [&](auto c) { return now[c].along_fibre(now[c].cauchy_active); });
+  q.add("fibre_stretch", "1", [&](auto c) { return now[c].fibre_stretch; });
+  q.add("fibre_strain", "1", [&](auto c) { return strains[c].fibre; });
+  q.add("circumferential_strain", "1", [&](auto c) { return strains[c].circumferential; });
+  q.add("radial_strain", "1", [&](auto c) { return strains[c].radial; });
+  q.add("longitudinal_strain", "1", [&](auto c) { return strains[c].longitudinal; });
+  q.add("circumferential_radial_strain", "1",
+        [&](auto c) { return strains[c].circumferential_radial; });
+  q.add("circumferential_longitudinal_strain", "1",
+        [&](auto c) { return strains[c].circumferential_longitudinal; });
+  q.add("radial_longitudinal_strain", "1", [&](auto c) { return strains[c].radial_longitudinal; });
+  q.add("thickening", "1", [&](auto c) { return strains[c].thickening; });
+  q.add("J", "1", [&](auto c) { return now[c].J; });
+  q.add("pressure", "kPa", [&](auto c) { return now[c].pressure; });
+  return std::move(q.columns);
+}
+
+std::vector<Region> region_list(const mesh::Regions& regions,
+                                const std::vector<CellFields>& cells) {
+  const std::size_t n = cells.size();
+  const auto& slice = regions.slice;
+  std::vector<Region> list;
+  list.push_back(select("whole", "wall", n, [](auto) { return true; }));
+  list.push_back(select("third", "basal", n, [&](auto c) { return slice[c] <= 2; }));
+  list.push_back(
+      select("third", "middle", n, [&](auto c) { return slice[c] >= 3 && slice[c] <= 5; }));
+  list.push_back(select("third", "apical", n, [&](auto c) { return slice[c] >= 6; }));
+  for (int s = 1; s <= mesh::slice_count; ++s)
+    list.push_back(select("slice", std::to_string(s), n, [&](auto c) { return slice[c] == s; }));
+  for (int s = 1; s <= mesh::slice_count; ++s)
+    for (int k = 1; k <= mesh::sectors_of_slice(s); ++k)
+      list.push_back(select("sector", fmt::format("{} {}", s, mesh::sector_name(s, k)), n,
+                            [&](auto c) { return slice[c] == s && regions.sector[c] == k; }));
+  for (int a = 1; a <= 17; ++a)
+    list.push_back(select("aha17", fmt::format("{} {}", a, mesh::aha_name(a)), n,
+                          [&](auto c) { return regions.aha[c] == a; }));
+  add_zones(cells, list);
+  return list;
+}
+
+Statistics statistics(const std::vector<double>& values, const std::vector<CellFields>& cells,
+                      const std::vector<int>& members) {
+  constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+  if (members.empty())
+    return {missing, missing, missing, missing, missing};
+  std::vector<int> sorted = members;
+  std::sort(sorted.begin(), sorted.end(), [&](int a, int b) { return values[a] < values[b]; });
+  double volume = 0.0;
+  double sum = 0.0;
+  for (const int c : sorted) {
+    volume += cells[c].volume;
+    sum += cells[c].volume * values[c];
+  }
+  const double mean = sum / volume;
+  double squares = 0.0;
+  for (const int c : sorted)
+    squares += cells[c].volume * (values[c] - mean) * (values[c] - mean);
+  const auto percentile = [&](double fraction) {
+    double below = 0.0;
+    for (const int c : sorted) {
+      below += cells[c].volume;
+      if (below >= fraction * volume)
+        return values[c];
+    }
+    return values[sorted.back()];
+  };
+  return {mean, std::sqrt(squares / volume), percentile(0.01), percentile(0.5), percentile(0.99)};
+}
+
+double rotation(const std::vector<CellFields>& now, const std::vector<CellFields>& then,
+                const std::vector<int>& members) {
+  double volume = 0.0;
+  Vec3 centre_now = Vec3::Zero();
+  Vec3 centre_then = Vec3::Zero();
+  for (const int c : members) {
+    volume += now[c].volume;
+    centre_now += now[c].volume * now[c].position;
+    centre_then += now[c].volume * then[c].position;
+  }
+  if (members.empty())
+    return std::numeric_limits<double>::quiet_NaN();
+  centre_now /= volume;
+  centre_then /= volume;
+  double cross = 0.0;
+  double dot = 0.0;
+  for (const int c : members) {
+    const Vec3 x = now[c].position - centre_now;
+    const Vec3 X = then[c].position - centre_then;
+    cross += now[c].volume * (X.x() * x.y() - X.y() * x.x());
+    dot += now[c].volume * (X.x() * x.x() + X.y() * x.y());
+  }
+  return -std::atan2(cross, dot);  // seen from the apex, the other way round than from the base
+}
+
+}  // namespace lv::analysis

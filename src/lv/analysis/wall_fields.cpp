@@ -1,0 +1,124 @@
+#include "lv/analysis/wall_fields.hpp"
+
+#include "lv/base/parallel.hpp"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+namespace lv::analysis {
+namespace {
+
+/// Calls f for every number of the fields, in a fixed order.
+template <class Fields, class F>
+void for_numbers(Fields& c, const F& f) {
+  const auto all = [&](auto& matrix) {
+    for (Eigen::Index i = 0; i < matrix.size(); ++i)
+      f(matrix.data()[i]);
+  };
+  f(c.volume);
+  all(c.reference);
+  all(c.position);
+  f(c.transmural);
+  f(c.infarct);
+  f(c.J);
+  f(c.fibre_stretch);
+  f(c.tension);
+  all(c.F);
+  all(c.fibre_frame);
+  all(c.axes.circumferential);
+  all(c.axes.longitudinal);
+  all(c.axes.radial);
+  all(c.cauchy_passive);
+  all(c.cauchy_active);
+}
+
+void add(CellFields& cell, const solid::PointSample& p) {
+  const double w = p.volume;
+  cell.volume += w;
+  cell.reference += w * p.reference;
+  cell.position += w * p.position;
+  cell.transmural += w * p.transmural;
+  cell.infarct += w * p.infarct;
+  cell.J += w * p.F.determinant();
+  cell.fibre_stretch += w * (p.F * p.fibre_frame.col(0)).norm();
+  cell.tension += w * p.tension;
+  cell.F += w * p.F;
+  cell.fibre_frame += w * p.fibre_frame;
+  cell.axes.circumferential += w * p.axes.circumferential;
+  cell.axes.longitudinal += w * p.axes.longitudinal;
+  cell.axes.radial += w * p.axes.radial;
+  cell.cauchy_passive += w * p.cauchy_passive;
+  cell.cauchy_active += w * p.cauchy_active;
+}
+
+/// Sums to means; averaged directions are made orthonormal again.
+void finish(CellFields& cell) {
+  const double volume = cell.volume;
+  for_numbers(cell, [&](double& number) { number /= volume; });
+  cell.volume = volume;
+  Vec3 f = cell.fibre_frame.col(0).normalized();
+  Vec3 s = cell.fibre_frame.col(1);
+  s = (s - s.dot(f) * f).normalized();
+  cell.fibre_frame << f, s, f.cross(s);
+  cell.axes = mesh::wall_axes(cell.axes.radial);
+}
+
+CellFields zero_fields() {
+  CellFields cell;
+  for_numbers(cell, [](double& number) { number = 0.0; });
+  for (Vec3* axis : {&cell.axes.circumferential, &cell.axes.longitudinal, &cell.axes.radial})
+    axis->setZero();
+  return cell;
+}
+
+Strain strain_in(const Mat3& F, const Vec3& f, const mesh::WallAxes& axes) {
+  const Mat3 E = 0.5 * (F.transpose() * F - Mat3::Identity());
+  const auto& [c, l, r] = axes;
+  return {
+      f.dot(E * f), c.dot(E * c), r.dot(E * r), l.dot(E * l),
+      c.dot(E * r), c.dot(E * l), r.dot(E * l), 1.0 / (F.inverse().transpose() * r).norm() - 1.0};
+}
+
+}  // namespace
+
+std::vector<CellFields> cell_fields(const solid::Wall& wall, const heartbeat::Snapshot& snapshot) {
+  std::vector<double> numbers;
+  CellFields cell = zero_fields();
+  int present = -1;
+  const auto flush = [&] {
+    if (present < 0)
+      return;
+    finish(cell);
+    for_numbers(cell, [&](double& number) { numbers.push_back(number); });
+  };
+  for (const solid::PointSample& p : wall.sample(snapshot.positions, snapshot.tension)) {
+    if (p.cell != present) {
+      flush();
+      cell = zero_fields();
+      present = p.cell;
+    }
+    add(cell, p);
+  }
+  flush();
+
+  const std::vector<double> all = parallel::gather(numbers);
+  std::vector<CellFields> cells(parallel::is_root() ? snapshot.wall_pressure.size() : 0);
+  const double* next = all.data();
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    for_numbers(cells[c], [&](double& number) { number = *next++; });
+    cells[c].pressure = snapshot.wall_pressure[c];
+  }
+  return cells;
+}
+
+Strain strain(const CellFields& now) {
+  return strain_in(now.F, now.fibre_frame.col(0), now.axes);
+}
+
+Strain strain(const CellFields& now, const CellFields& then) {
+  const Mat3 inverse = then.F.inverse();
+  const Vec3 f = (then.F * then.fibre_frame.col(0)).normalized();
+  return strain_in(now.F * inverse, f, mesh::wall_axes(inverse.transpose() * then.axes.radial));
+}
+
+}  // namespace lv::analysis

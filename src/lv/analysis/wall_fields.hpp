@@ -1,0 +1,60 @@
+#pragma once
+
+#include "lv/heartbeat/beat.hpp"
+#include "lv/solid/wall.hpp"
+
+#include <vector>
+
+namespace lv::analysis {
+
+/// Means over the quadrature points of one element, at one time; tensors in the model frame.
+struct CellFields {
+  double volume = 0.0;            ///< of the undeformed element [mm^3]
+  Vec3 reference = Vec3::Zero();  ///< centre, undeformed [mm]
+  Vec3 position = Vec3::Zero();   ///< centre, deformed [mm]
+  double transmural = 0.0;
+  double infarct = 0.0;  ///< M
+  double J = 1.0;        ///< deformed over undeformed volume of the element
+  double fibre_stretch = 1.0;
+  double tension = 0.0;   ///< T [kPa]
+  double pressure = 0.0;  ///< of the fluid, p of (2.6) [kPa]
+  Mat3 F = Mat3::Identity();
+  Mat3 fibre_frame = Mat3::Identity();  ///< columns f0, s0, n0
+  mesh::WallAxes axes;                  ///< of the undeformed wall
+  Mat3 cauchy_passive = Mat3::Zero();   ///< sigma of (2.19)-(2.20), without -p [kPa]
+  Mat3 cauchy_active = Mat3::Zero();    ///< (2.22) [kPa]
+
+  /// sigma = sigma^p + sigma^a - p (2.6), without the small viscous part [kPa].
+  [[nodiscard]] Mat3 cauchy_total() const {
+    return cauchy_passive + cauchy_active - pressure * Mat3::Identity();
+  }
+
+  /// Component of a Cauchy stress along the deformed fibre, f.sigma f with f = F f0/|F f0| [kPa].
+  [[nodiscard]] double along_fibre(const Mat3& cauchy) const {
+    const Vec3 f = (F * fibre_frame.col(0)).normalized();
+    return f.dot(cauchy * f);
+  }
+};
+
+/// All elements of a snapshot on the root, in the mesh's order; empty on other ranks. Collective.
+[[nodiscard]] std::vector<CellFields> cell_fields(const solid::Wall& wall,
+                                                  const heartbeat::Snapshot& snapshot);
+
+/// Green-Lagrange strain of an element between two states, E = (F^T F - 1)/2 with F = F_now
+/// F_then^-1, in the wall's own directions at the earlier state.
+struct Strain {
+  double fibre = 0.0;
+  double circumferential = 0.0, radial = 0.0, longitudinal = 0.0;
+  double circumferential_radial = 0.0, circumferential_longitudinal = 0.0,
+         radial_longitudinal = 0.0;
+  double thickening = 0.0;  ///< stretch of the wall's thickness minus 1
+};
+
+/// Strain from the undeformed wall (early diastole).
+[[nodiscard]] Strain strain(const CellFields& now);
+
+/// Strain from an earlier state: the paper's systolic strain is from end-diastole. The directions
+/// follow the rule of mesh::wall_axes on the wall as it was then.
+[[nodiscard]] Strain strain(const CellFields& now, const CellFields& then);
+
+}  // namespace lv::analysis

@@ -1,0 +1,58 @@
+#include "lv/base/log.hpp"
+
+#include "lv/base/parallel.hpp"
+
+#include <spdlog/sinks/basic_file_sink.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <cmath>
+
+namespace lv::log {
+namespace {
+
+/// Made at the first line; ranks other than the root have no sinks.
+spdlog::logger& logger() {
+  static spdlog::logger instance = [] {
+    spdlog::logger made("ventricle");
+    if (parallel::is_root())
+      made.sinks().push_back(std::make_shared<spdlog::sinks::stdout_color_sink_mt>());
+    made.set_pattern("[%H:%M:%S] %^%l%$ %v");
+    made.flush_on(spdlog::level::info);
+    return made;
+  }();
+  return instance;
+}
+
+}  // namespace
+
+void to_file(const std::filesystem::path& file) {
+  if (!parallel::is_root())
+    return;
+  auto sink = std::make_shared<spdlog::sinks::basic_file_sink_mt>(file.string());
+  sink->set_pattern("[%Y-%m-%d %H:%M:%S] %l %v");
+  logger().sinks().push_back(std::move(sink));
+}
+
+void silence() {
+  if (!logger().sinks().empty())
+    logger().sinks().front()->set_level(spdlog::level::off);
+}
+
+void info(const std::string& line) {
+  logger().info(line);
+}
+void warn(const std::string& line) {
+  logger().warn(line);
+}
+
+std::string duration(double seconds) {
+  const auto s = static_cast<int>(std::lround(seconds));
+  if (s < 60)
+    return fmt::format("{} s", s);
+  if (s < 3600)
+    return fmt::format("{} min {} s", s / 60, s % 60);
+  return fmt::format("{} h {} min", s / 3600, s % 3600 / 60);
+}
+
+}  // namespace lv::log

@@ -1,0 +1,61 @@
+#include "lv/base/table.hpp"
+
+#include "lv/base/check.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+#include <utility>
+
+namespace lv {
+namespace {
+
+std::string line_of(const std::vector<std::string>& fields) {
+  return fmt::format("{}\n", fmt::join(fields, ","));
+}
+
+}  // namespace
+
+Table::Table(std::vector<std::string> columns) : columns_(std::move(columns)) {}
+
+void Table::add_row(std::vector<std::string> fields) {
+  LV_CHECK(fields.size() == columns_.size());
+  rows_.push_back(std::move(fields));
+}
+
+void Table::write_csv(const std::filesystem::path& file) const {
+  std::string text = line_of(columns_);
+  for (const auto& row : rows_)
+    text += line_of(row);
+  write_file(file, text);
+}
+
+std::string Table::number(double value, int digits) {
+  return std::isnan(value) ? "" : fmt::format("{:.{}g}", value, digits);
+}
+
+void write_file(const std::filesystem::path& file, const std::string& text) {
+  const std::filesystem::path unfinished = file.string() + ".part";
+  std::ofstream out(unfinished, std::ios::binary | std::ios::trunc);
+  out << text;
+  out.close();
+  if (!out)
+    throw RunError(fmt::format("{} cannot be written: {}", file.string(), std::strerror(errno)),
+                   "Check the folder's permissions and the space left on the disk");
+  std::filesystem::rename(unfinished, file);
+}
+
+std::string read_file(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in || std::filesystem::is_directory(file))
+    throw InputError(file.string(), "cannot be read", "Check the path and its permissions");
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+}  // namespace lv

@@ -1,0 +1,240 @@
+#include "lv/base/units.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <stdexcept>
+
+namespace lv::units {
+namespace {
+
+constexpr Dimension none{};
+constexpr Dimension length{1, 0, 0, 0, 0};
+constexpr Dimension mass{0, 1, 0, 0, 0};
+constexpr Dimension duration{0, 0, 1, 0, 0};
+constexpr Dimension concentration{0, 0, 0, 1, 0};
+constexpr Dimension angle{0, 0, 0, 0, 1};
+constexpr Dimension volume{3, 0, 0, 0, 0};
+constexpr Dimension force{1, 1, -2, 0, 0};
+constexpr Dimension pressure{-1, 1, -2, 0, 0};
+constexpr Dimension viscosity{-1, 1, -1, 0, 0};
+
+const std::map<std::string, Unit, std::less<>>& table() {
+  static const std::map<std::string, Unit, std::less<>> units{{"m", {1e3, length}},
+                                                              {"cm", {10.0, length}},
+                                                              {"mm", {1.0, length}},
+                                                              {"um", {1e-3, length}},
+                                                              {"kg", {1.0, mass}},
+                                                              {"g", {1e-3, mass}},
+                                                              {"mg", {1e-6, mass}},
+                                                              {"s", {1.0, duration}},
+                                                              {"ms", {1e-3, duration}},
+                                                              {"min", {60.0, duration}},
+                                                              {"l", {1e6, volume}},
+                                                              {"ml", {1e3, volume}},
+                                                              {"N", {1e3, force}},
+                                                              {"mN", {1.0, force}},
+                                                              {"dyn", {1e-2, force}},
+                                                              {"Pa", {1e-3, pressure}},
+                                                              {"kPa", {1.0, pressure}},
+                                                              {"MPa", {1e3, pressure}},
+                                                              {"bar", {100.0, pressure}},
+                                                              {"mmHg", {mmHg, pressure}},
+                                                              {"P", {1e-4, viscosity}},
+                                                              {"cP", {1e-6, viscosity}},
+                                                              {"uM", {1.0, concentration}},
+                                                              {"mM", {1e3, concentration}},
+                                                              {"nM", {1e-3, concentration}},
+                                                              {"rad", {1.0, angle}},
+                                                              {"deg", {degree, angle}},
+                                                              {"Hz", {1.0, {0, 0, -1, 0, 0}}},
+                                                              {"%", {0.01, none}}};
+  return units;
+}
+
+Unit raised(Unit unit, int power) {
+  unit.factor = std::pow(unit.factor, power);
+  for (int& exponent : unit.dimension)
+    exponent *= power;
+  return unit;
+}
+
+Unit product(Unit a, const Unit& b) {
+  a.factor *= b.factor;
+  for (std::size_t i = 0; i < a.dimension.size(); ++i)
+    a.dimension[i] += b.dimension[i];
+  return a;
+}
+
+/// Recursive descent over  product := factor (('*' | '/' | ' ') factor)*,
+/// factor := name ['^' whole] | '1' | '(' product ')'.
+class UnitParser {
+ public:
+  explicit UnitParser(std::string_view text) : text_(text) {}
+
+  Unit parse() {
+    const Unit unit = parse_product();
+    if (at_ != text_.size())
+      fail();
+    return unit;
+  }
+
+ private:
+  [[noreturn]] void fail() const {
+    throw std::invalid_argument(fmt::format("'{}' is not a unit", text_));
+  }
+  void skip_spaces() {
+    while (at_ < text_.size() && text_[at_] == ' ')
+      ++at_;
+  }
+  [[nodiscard]] bool ahead(char c) const { return at_ < text_.size() && text_[at_] == c; }
+
+  Unit parse_product() {
+    Unit result = parse_factor();
+    for (skip_spaces(); at_ < text_.size() && !ahead(')'); skip_spaces()) {
+      const bool divide = ahead('/');
+      if (divide || ahead('*'))
+        ++at_;
+      result = product(result, raised(parse_factor(), divide ? -1 : 1));
+    }
+    return result;
+  }
+
+  Unit parse_factor() {
+    skip_spaces();
+    if (ahead('(')) {
+      ++at_;
+      const Unit inside = parse_product();
+      if (!ahead(')'))
+        fail();
+      ++at_;
+      return inside;
+    }
+    if (ahead('1')) {
+      ++at_;
+      return {};
+    }
+    return parse_named();
+  }
+
+  Unit parse_named() {
+    const std::size_t begin = at_;
+    while (at_ < text_.size() &&
+           (std::isalpha(static_cast<unsigned char>(text_[at_])) != 0 || ahead('%')))
+      ++at_;
+    const std::string_view name = text_.substr(begin, at_ - begin);
+    if (name.empty())
+      fail();
+    const auto found = table().find(name);
+    if (found == table().end()) {
+      std::vector<std::string> known;
+      for (const auto& entry : table())
+        known.push_back(entry.first);
+      throw std::invalid_argument(
+          fmt::format("'{}' is not a unit (did you mean '{}'?)", name, nearest(name, known)));
+    }
+    if (!ahead('^'))
+      return found->second;
+    ++at_;
+    char* end = nullptr;
+    const std::string rest(text_.substr(at_));
+    const auto power = static_cast<int>(std::strtol(rest.c_str(), &end, 10));
+    if (end == rest.c_str())
+      fail();
+    at_ += static_cast<std::size_t>(end - rest.c_str());
+    return raised(found->second, power);
+  }
+
+  std::string_view text_;
+  std::size_t at_ = 0;
+};
+
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos)
+    return {};
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+int edit_distance(std::string_view a, std::string_view b) {
+  std::vector<int> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j)
+    row[j] = static_cast<int>(j);
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    int diagonal = row[0];
+    row[0] = static_cast<int>(i);
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const int substitute = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({substitute, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row[b.size()];
+}
+
+}  // namespace
+
+Unit parse_unit(std::string_view text) {
+  text = trimmed(text);
+  return text.empty() ? Unit{} : UnitParser(text).parse();
+}
+
+Quantity parse_quantity(std::string_view text) {
+  const std::string whole(trimmed(text));
+  char* end = nullptr;
+  const double number = std::strtod(whole.c_str(), &end);
+  if (end == whole.c_str())
+    throw std::invalid_argument(fmt::format("'{}' does not begin with a number", text));
+  if (!std::isfinite(number))
+    throw std::invalid_argument(fmt::format("'{}' is not a finite number", text));
+  const std::string_view unit_text = trimmed(std::string_view(whole).substr(end - whole.c_str()));
+  const Unit unit = parse_unit(unit_text);
+  return {number * unit.factor, unit, !unit_text.empty()};
+}
+
+std::string format(double value, std::string_view unit) {
+  const double number = value / parse_unit(unit).factor;
+  // the shortest text that gives the number back to 12 digits: hides the rounding of the conversion
+  std::string text = fmt::format("{:.12g}", number);
+  for (int digits = 1; digits < 12; ++digits) {
+    const std::string shorter = fmt::format("{:.{}g}", number, digits);
+    if (std::abs(std::strtod(shorter.c_str(), nullptr) - number) <= 1e-12 * std::abs(number)) {
+      text = shorter;
+      break;
+    }
+  }
+  return unit.empty() ? text : fmt::format("{} {}", text, unit);
+}
+
+std::string kind_of(const Unit& unit) {
+  static const std::map<Dimension, std::string> kinds{{none, "pure number"},
+                                                      {length, "length"},
+                                                      {mass, "mass"},
+                                                      {duration, "time"},
+                                                      {concentration, "concentration"},
+                                                      {angle, "angle"},
+                                                      {volume, "volume"},
+                                                      {force, "force"},
+                                                      {pressure, "pressure"},
+                                                      {viscosity, "viscosity"},
+                                                      {{1, 0, -1, 0, 0}, "velocity"},
+                                                      {{-3, 1, 0, 0, 0}, "density"},
+                                                      {{0, 0, -1, 0, 0}, "rate"},
+                                                      {{0, 0, -1, -1, 0}, "binding rate"},
+                                                      {{-2, 1, -2, 0, 0}, "stiffness per area"},
+                                                      {{2, 0, 0, 0, 0}, "area"}};
+  const auto found = kinds.find(unit.dimension);
+  return found == kinds.end() ? "quantity of another kind" : found->second;
+}
+
+std::string nearest(std::string_view word, const std::vector<std::string>& known) {
+  const auto best = std::min_element(known.begin(), known.end(), [&](const auto& a, const auto& b) {
+    return edit_distance(word, a) < edit_distance(word, b);
+  });
+  return best == known.end() ? "" : *best;
+}
+
+}  // namespace lv::units

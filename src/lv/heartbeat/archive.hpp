@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace lv::heartbeat {
+
+/// Named arrays of numbers in one file. Written whole under a temporary name, flushed to the disk
+/// and renamed; a checksum tells a damaged file from a good one.
+class Archive {
+ public:
+  void set(const std::string& name, std::vector<double> values);
+
+  /// Throws RunError naming the array when it is absent.
+  [[nodiscard]] const std::vector<double>& get(const std::string& name) const;
+  [[nodiscard]] double number(const std::string& name) const;
+  [[nodiscard]] bool has(const std::string& name) const { return arrays_.count(name) > 0; }
+
+  /// Throws RunError when the file cannot be written (the previous one stays).
+  void write(const std::filesystem::path& file) const;
+
+  /// Throws RunError when the file cannot be read, is cut short or damaged.
+  [[nodiscard]] static Archive read(const std::filesystem::path& file);
+
+ private:
+  std::map<std::string, std::vector<double>> arrays_;
+};
+
+}  // namespace lv::heartbeat

@@ -1,0 +1,407 @@
+#include "lv/heartbeat/immersed_beat.hpp"
+
+#include "lv/base/check.hpp"
+#include "lv/base/interrupt.hpp"
+#include "lv/base/log.hpp"
+#include "lv/base/parallel.hpp"
+#include "lv/base/units.hpp"
+
+#include <chrono>
+#include <cmath>
+
+namespace lv::heartbeat {
+namespace {
+
+using units::mmHg;
+
+double wall_clock() {
+  const auto now = std::chrono::steady_clock::now().time_since_epoch();
+  // one clock for all ranks: they must agree on what to do next
+  std::array<double, 1> seconds{std::chrono::duration<double>(now).count()};
+  parallel::broadcast(seconds);
+  return seconds[0];
+}
+
+/// Does things at regular wall-clock intervals.
+class Timer {
+ public:
+  explicit Timer(double interval) : interval_(interval), last_(wall_clock()) {}
+
+  [[nodiscard]] bool due(double now) {
+    if (now - last_ < interval_)
+      return false;
+    last_ = now;
+    return true;
+  }
+
+ private:
+  double interval_;
+  double last_;
+};
+
+class ImmersedRun {
+ public:
+  ImmersedRun(const BeatSetup& setup, std::filesystem::path folder, const Observers& observers)
+      : setup_(setup),
+        folder_(std::move(folder)),
+        observers_(observers),
+        model_(setup.mesh, setup.fibres, setup.material, setup.active, setup.model),
+        checkpoint_timer_(setup.output.checkpoint_interval) {}
+
+  Beat run() {
+    if (!resume())
+      start();
+    keep();
+    while (!finished_) {
+      advance();
+      observe();
+      end_phase_when_steady();
+      housekeeping();
+    }
+    if (observers_.curves)
+      observers_.curves(run_);
+    return std::move(run_.beat);
+  }
+
+ private:
+  void start() {
+    model_.relax(setup_.protocol.calcium.Ca_0);
+    run_.steady = criterion(setup_.protocol, Phase::filling);
+    record_curve();
+  }
+
+  bool resume();
+  void save();
+  void keep();
+  void advance();
+  void take_back(const std::string& why);
+  [[nodiscard]] double step_size() const;
+  [[nodiscard]] std::string what_is_wrong(const immersed::StepReport& report);
+  void observe();
+  void record_curve();
+  void write_frame();
+  [[nodiscard]] Snapshot snapshot(const fluid::Component& pressure) const;
+  void watch_least_volume();
+  void end_phase_when_steady();
+  void end_filling(bool steady);
+  void end_contraction(bool steady);
+  [[nodiscard]] double time_in_phase() const { return run_.time - run_.phase_start; }
+  [[nodiscard]] immersed::Loads loads_now() const {
+    return loads(setup_.protocol, run_.phase, time_in_phase());
+  }
+  void housekeeping();
+  void report_progress(double now);
+  [[nodiscard]] double time_left() const;
+
+  const BeatSetup& setup_;
+  std::filesystem::path folder_;
+  const Observers& observers_;
+  immersed::Model model_;
+  RunState run_;
+  immersed::StepReport last_;
+  bool finished_ = false;
+  int flips_ = 0;  ///< steps in a row in which the velocity changed its direction of change
+  double volume_before_ = 0.0;
+
+  std::optional<immersed::ModelState> kept_model_;  ///< to go back to when a step fails
+  RunState kept_run_;
+
+  Timer checkpoint_timer_;
+  Timer progress_timer_{5.0};
+  double reported_time_ = 0.0;  ///< simulated and wall-clock time of the last progress line
+  double reported_clock_ = wall_clock();
+  int reported_steps_ = 0;
+};
+
+bool ImmersedRun::resume() {
+  const std::filesystem::path file = folder_ / checkpoint_name;
+  if (!parallel::any(parallel::is_root() && std::filesystem::exists(file)))
+    return false;
+  const Archive archive = Archive::read(file);
+  run_ = load_run_state(archive, setup_.protocol);
+  immersed::ModelState state = model_.state();
+  const auto& positions = archive.get("positions");
+  const auto& velocities = archive.get("node_velocities");
+  LV_CHECK(positions.size() == 3 * state.positions.size());
+  for (std::size_t a = 0; a < state.positions.size(); ++a) {
+    state.positions[a] = Vec3(positions.data() + 3 * a);
+    state.node_velocities[a] = Vec3(velocities.data() + 3 * a);
+  }
+  state.contraction = archive.get("contraction");
+  for (int c = 0; c < 3; ++c) {
+    model_.transform().scatter(archive.get("modes." + std::to_string(c)), c, state.velocity_modes);
+    fluid::scatter(archive.get("convection." + std::to_string(c)), state.convection.component[c]);
+  }
+  const auto& steps = archive.get("steps");
+  state.dt = steps.at(0);
+  state.dt_before = steps.at(1);
+  state.calcium = steps.at(2);
+  model_.restore(state);
+  log::info("resumed from the checkpoint at {:.4f} s of {}", run_.time, name(run_.phase));
+  return true;
+}
+
+void ImmersedRun::save() {
+  const immersed::ModelState& state = model_.state();
+  Archive archive;
+  store(run_, archive);
+  const auto flat = [](const std::vector<Vec3>& v) {
+    return std::vector<double>(v.front().data(), v.front().data() + 3 * v.size());
+  };
+  archive.set("positions", flat(state.positions));
+  archive.set("node_velocities", flat(state.node_velocities));
+  archive.set("contraction", state.contraction);
+  for (int c = 0; c < 3; ++c) {
+    archive.set("modes." + std::to_string(c), model_.transform().gather(state.velocity_modes, c));
+    archive.set("convection." + std::to_string(c), fluid::gather(state.convection.component[c]));
+  }
+  archive.set("steps", {state.dt, state.dt_before, state.calcium});
+  if (parallel::is_root())
+    archive.write(folder_ / checkpoint_name);
+  parallel::barrier();
+}
+
+/// Remembers the present as a place to go back to.
+void ImmersedRun::keep() {
+  kept_model_ = model_.state();
+  kept_run_ = run_;
+}
+
+/// The longest step divided by two as often as past failures and the Courant number ask. Powers of
+/// two, so that the step changes rarely.
+double ImmersedRun::step_size() const {
+  const StepControl& control = setup_.control;
+  const double h = setup_.model.grid.spacing.minCoeff();
+  const double courant = run_.largest_velocity * control.longest / (control.courant * h);
+  const int for_courant = courant > 1.0 ? static_cast<int>(std::ceil(std::log2(courant))) : 0;
+  return std::ldexp(control.longest, -std::max(run_.halvings, for_courant));
+}
+
+std::string ImmersedRun::what_is_wrong(const immersed::StepReport& report) {
+  if (!report.inside_box)
+    return "the wall left the box";
+  if (report.J.min_J <= 0.0)
+    return fmt::format("an element turned inside out (J = {:.3g})", report.J.min_J);
+  if (report.largest_node_speed > setup_.control.velocity_limit)
+    return fmt::format("the wall moved at {:.3g} m/s", 1e-3 * report.largest_node_speed);
+  if (run_.largest_velocity > setup_.control.velocity_limit)
+    return fmt::format("the blood moved at {:.3g} m/s", 1e-3 * run_.largest_velocity);
+  constexpr double visible = 5.0;  // [mm/s]
+  constexpr int patience = 20;     // steps
+  flips_ = report.smoothness < -0.5 && report.velocity_change > visible ? flips_ + 1 : 0;
+  return flips_ >= patience ? "the wall's velocity flips from step to step" : "";
+}
+
+void ImmersedRun::advance() {
+  const double dt = step_size();
+  volume_before_ = model_.cavity_volume();
+  last_ = model_.step(loads_now(), dt);
+  run_.time += dt;
+  ++run_.beat.steps;
+  if (run_.beat.steps % 10 == 0)
+    run_.largest_velocity =
+        fluid::motion(model_.velocity(), setup_.model.grid, setup_.model.blood.density)
+            .largest_velocity;
+
+  const std::string trouble = what_is_wrong(last_);
+  if (!trouble.empty()) {
+    take_back(trouble);
+    return;
+  }
+  if (run_.halvings > 0 && ++run_.good_steps >= run_.patience) {
+    --run_.halvings;
+    run_.good_steps = 0;
+    log::info("the step may grow again, to {:.3g} s", step_size());
+  }
+  constexpr int keep_every = 200;  // steps
+  if (run_.beat.steps % keep_every == 0)
+    keep();
+}
+
+void ImmersedRun::take_back(const std::string& why) {
+  const double failed_at = run_.time;
+  const int halvings = run_.halvings + 1;
+  const int patience = 2 * run_.patience;
+  const int retries = run_.beat.retries + 1;
+  model_.restore(*kept_model_);
+  run_ = kept_run_;
+  run_.halvings = halvings;
+  run_.patience = patience;
+  run_.good_steps = 0;
+  run_.beat.retries = retries;
+  flips_ = 0;
+  if (halvings > setup_.control.halvings) {
+    run_.halvings = 0;  // whoever resumes begins with the step of the case file
+    save();
+    throw RunError(
+        fmt::format("The run became unstable at {:.4f} s of {}: {}, even with steps of {:.2g} s",
+                    failed_at, name(run_.phase), why,
+                    std::ldexp(setup_.control.longest, -setup_.control.halvings)),
+        "Look at the last frame: a wall that folds needs a finer mesh or lower pressures; "
+        "otherwise lower "
+        "time.longest_step in the case file. The checkpoint holds the last good state");
+  }
+  log::warn("at {:.4f} s {}; back to {:.4f} s with steps of {:.3g} s", failed_at, why, run_.time,
+            step_size());
+}
+
+Snapshot ImmersedRun::snapshot(const fluid::Component& pressure) const {
+  const auto x = model_.positions();
+  const auto tension = model_.contraction().tension();
+  return {run_.time,
+          run_.phase,
+          loads_now().pressure,
+          model_.cavity_volume(),
+          {x.begin(), x.end()},
+          {tension.begin(), tension.end()},
+          model_.wall_pressure(pressure)};
+}
+
+void ImmersedRun::observe() {
+  run_.steady.record(run_.time, model_.cavity_volume());
+  if (setup_.protocol.calcium.mode == material::Calcium::Mode::transient &&
+      run_.phase == Phase::contraction)
+    watch_least_volume();
+  if (run_.time >= run_.next_curve)
+    record_curve();
+  if (run_.time >= run_.next_frame)
+    write_frame();
+}
+
+void ImmersedRun::record_curve() {
+  const auto motion =
+      fluid::motion(model_.velocity(), setup_.model.grid, setup_.model.blood.density);
+  const immersed::Loads now = loads_now();
+  run_.beat.curves.push_back({run_.time, run_.phase, now.pressure, model_.cavity_volume(),
+                              now.calcium, model_.mean_tension(), motion.kinetic_energy,
+                              motion.largest_velocity, last_.J.min_J, last_.J.max_J, step_size()});
+  run_.next_curve = run_.time + setup_.output.curve_interval;
+}
+
+void ImmersedRun::write_frame() {
+  run_.next_frame = run_.time + setup_.output.frame_interval;
+  if (!observers_.frame)
+    return;
+  const fluid::Component pressure = model_.pressure();
+  const int number = run_.frames++;
+  run_.frame_times.push_back(run_.time);
+  run_.frame_phases.push_back(run_.phase);
+  observers_.frame({number, snapshot(pressure), run_, model_, pressure});
+}
+
+/// End-systole of a calcium transient is the smallest volume: noticed at the first step that fills
+/// again.
+void ImmersedRun::watch_least_volume() {
+  const bool falling = model_.cavity_volume() < volume_before_;
+  if (run_.volume_was_falling && !falling &&
+      (run_.least.positions.empty() || volume_before_ < run_.least.volume))
+    run_.least = snapshot(model_.pressure());
+  run_.volume_was_falling = falling;
+}
+
+void ImmersedRun::end_phase_when_steady() {
+  const Protocol& p = setup_.protocol;
+  if (run_.phase == Phase::filling) {
+    const bool steady = loads_are_final(p, run_.phase, time_in_phase()) && run_.steady.reached();
+    if (steady || time_in_phase() >= p.filling_longest)
+      end_filling(steady);
+    return;
+  }
+  if (p.calcium.mode == material::Calcium::Mode::transient) {
+    constexpr double refilled = 1.02;  // of the smallest volume
+    const bool over =
+        !run_.least.positions.empty() && model_.cavity_volume() > refilled * run_.least.volume;
+    if (over || time_in_phase() >= p.contraction_longest)
+      end_contraction(over);
+    return;
+  }
+  const bool steady = loads_are_final(p, run_.phase, time_in_phase()) && run_.steady.reached();
+  if (steady || time_in_phase() >= p.contraction_longest)
+    end_contraction(steady);
+}
+
+void ImmersedRun::end_filling(bool steady) {
+  record_curve();
+  run_.beat.end_diastole = snapshot(model_.pressure());
+  run_.beat.filling_was_steady = steady;
+  if (!steady)
+    log::warn("filling did not settle within {} s: the volume still varies by {:.2g}% per {} s",
+              setup_.protocol.filling_longest, 100.0 * run_.steady.variation(),
+              setup_.protocol.filling_window);
+  log::info("end-diastole at {:.4f} s: {:.2f} ml at {:.1f} mmHg", run_.time,
+            1e-3 * model_.cavity_volume(), loads_now().pressure / mmHg);
+  write_frame();
+  run_.phase = Phase::contraction;
+  run_.phase_start = run_.time;
+  run_.steady = criterion(setup_.protocol, Phase::contraction);
+  keep();
+}
+
+void ImmersedRun::end_contraction(bool steady) {
+  record_curve();
+  Beat& beat = run_.beat;
+  beat.end_systole = run_.least.positions.empty() ? snapshot(model_.pressure()) : run_.least;
+  beat.contraction_was_steady = steady;
+  if (!steady)
+    log::warn("contraction did not reach its end criterion within {} s",
+              setup_.protocol.contraction_longest);
+  log::info("end-systole at {:.4f} s: {:.2f} ml at {:.1f} mmHg", beat.end_systole.time,
+            1e-3 * beat.end_systole.volume, beat.end_systole.pressure / mmHg);
+  write_frame();
+  finished_ = true;
+}
+
+void ImmersedRun::housekeeping() {
+  if (parallel::any(interrupt::requested())) {
+    save();
+    if (observers_.curves)
+      observers_.curves(run_);
+    throw Interrupted(fmt::format("stopped at {:.4f} s of {}; run the same command again to go on",
+                                  run_.time, name(run_.phase)));
+  }
+  constexpr int look_every = 10;  // steps
+  if (run_.beat.steps % look_every != 0)
+    return;
+  const double now = wall_clock();
+  if (checkpoint_timer_.due(now))
+    save();
+  if (progress_timer_.due(now)) {
+    report_progress(now);
+    if (observers_.curves)
+      observers_.curves(run_);
+  }
+}
+
+/// Simulated time that the run will probably still take: the ramps and about two windows of
+/// settling.
+double ImmersedRun::time_left() const {
+  const Protocol& p = setup_.protocol;
+  const double filling = p.filling_ramp + 2.0 * p.filling_window;
+  const double contraction = p.contraction_ramp + 3.0 * p.contraction_window;
+  const double here = run_.phase == Phase::filling ? filling : contraction;
+  const double now = std::max(here - time_in_phase(), 0.02);
+  return run_.phase == Phase::filling ? now + contraction : now;
+}
+
+void ImmersedRun::report_progress(double now) {
+  const double speed = (run_.time - reported_time_) / (now - reported_clock_);
+  const double rate = (run_.beat.steps - reported_steps_) / (now - reported_clock_);
+  log::info(
+      "{} {:.3f} s  {:.1f} mmHg  {:.1f} ml  T {:.1f} kPa  J {:.2f}-{:.2f}  {:.1f} steps/s, about "
+      "{} left",
+      name(run_.phase), run_.time, loads_now().pressure / mmHg, 1e-3 * model_.cavity_volume(),
+      model_.mean_tension(), last_.J.min_J, last_.J.max_J, rate,
+      log::duration(time_left() / speed));
+  reported_time_ = run_.time;
+  reported_clock_ = now;
+  reported_steps_ = run_.beat.steps;
+}
+
+}  // namespace
+
+Beat run_immersed_beat(const BeatSetup& setup, const std::filesystem::path& folder,
+                       const Observers& observers) {
+  return ImmersedRun(setup, folder, observers).run();
+}
+
+}  // namespace lv::heartbeat

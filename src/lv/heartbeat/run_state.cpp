@@ -1,0 +1,127 @@
+#include "lv/heartbeat/run_state.hpp"
+
+#include <cstring>
+
+namespace lv::heartbeat {
+namespace {
+
+std::vector<double> flat(const std::vector<Vec3>& vectors) {
+  std::vector<double> numbers;
+  numbers.reserve(3 * vectors.size());
+  for (const Vec3& v : vectors)
+    numbers.insert(numbers.end(), v.data(), v.data() + 3);
+  return numbers;
+}
+
+std::vector<Vec3> vectors(const std::vector<double>& numbers) {
+  std::vector<Vec3> result(numbers.size() / 3);
+  for (std::size_t a = 0; a < result.size(); ++a)
+    result[a] = Vec3(numbers[3 * a], numbers[3 * a + 1], numbers[3 * a + 2]);
+  return result;
+}
+
+double number(Phase phase) {
+  return phase == Phase::filling ? 0.0 : 1.0;
+}
+Phase phase_of(double number) {
+  return number == 0.0 ? Phase::filling : Phase::contraction;
+}
+
+}  // namespace
+
+void store(const Snapshot& s, const std::string& name, Archive& archive) {
+  archive.set(name + ".numbers", {s.time, number(s.phase), s.pressure, s.volume});
+  archive.set(name + ".positions", flat(s.positions));
+  archive.set(name + ".tension", s.tension);
+  archive.set(name + ".wall_pressure", s.wall_pressure);
+}
+
+Snapshot load_snapshot(const Archive& archive, const std::string& name) {
+  const auto& n = archive.get(name + ".numbers");
+  return {n.at(0),
+          phase_of(n.at(1)),
+          n.at(2),
+          n.at(3),
+          vectors(archive.get(name + ".positions")),
+          archive.get(name + ".tension"),
+          archive.get(name + ".wall_pressure")};
+}
+
+void store(const std::vector<CurveRow>& curves, Archive& archive) {
+  std::vector<double> numbers;
+  for (const CurveRow& r : curves)
+    for (const double value :
+         {r.time, number(r.phase), r.pressure, r.volume, r.calcium, r.mean_tension,
+          r.kinetic_energy, r.largest_velocity, r.min_J, r.max_J, r.step})
+      numbers.push_back(value);
+  archive.set("curves", std::move(numbers));
+}
+
+std::vector<CurveRow> load_curves(const Archive& archive) {
+  constexpr std::size_t width = 11;
+  const auto& numbers = archive.get("curves");
+  std::vector<CurveRow> curves(numbers.size() / width);
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    const double* n = numbers.data() + width * i;
+    curves[i] = {n[0], phase_of(n[1]), n[2], n[3], n[4], n[5], n[6], n[7], n[8], n[9], n[10]};
+  }
+  return curves;
+}
+
+void store(const RunState& run, Archive& archive) {
+  archive.set("run", {run.time, number(run.phase), run.phase_start, run.next_frame, run.next_curve,
+                      static_cast<double>(run.frames), run.largest_velocity,
+                      static_cast<double>(run.halvings), static_cast<double>(run.good_steps),
+                      static_cast<double>(run.patience), run.volume_was_falling ? 1.0 : 0.0,
+                      run.beat.filling_was_steady ? 1.0 : 0.0, static_cast<double>(run.beat.steps),
+                      static_cast<double>(run.beat.retries)});
+  archive.set("frame_times", run.frame_times);
+  std::vector<double> phases;
+  for (const Phase phase : run.frame_phases)
+    phases.push_back(number(phase));
+  archive.set("frame_phases", std::move(phases));
+  std::vector<double> samples;
+  for (const auto& [time, volume] : run.steady.samples())
+    samples.insert(samples.end(), {time, volume});
+  archive.set("steady", std::move(samples));
+  store(run.least, "least", archive);
+  store(run.beat.curves, archive);
+  store(run.beat.end_diastole, "end_diastole", archive);
+}
+
+RunState load_run_state(const Archive& archive, const Protocol& protocol) {
+  const auto& n = archive.get("run");
+  RunState run;
+  run.time = n.at(0);
+  run.phase = phase_of(n.at(1));
+  run.phase_start = n.at(2);
+  run.next_frame = n.at(3);
+  run.next_curve = n.at(4);
+  run.frames = static_cast<int>(n.at(5));
+  run.largest_velocity = n.at(6);
+  run.halvings = static_cast<int>(n.at(7));
+  run.good_steps = static_cast<int>(n.at(8));
+  run.patience = static_cast<int>(n.at(9));
+  run.volume_was_falling = n.at(10) != 0.0;
+  run.beat.filling_was_steady = n.at(11) != 0.0;
+  run.beat.steps = static_cast<int>(n.at(12));
+  run.beat.retries = static_cast<int>(n.at(13));
+  run.frame_times = archive.get("frame_times");
+  for (const double phase : archive.get("frame_phases"))
+    run.frame_phases.push_back(phase_of(phase));
+  run.steady = criterion(protocol, run.phase);
+  const auto& samples = archive.get("steady");
+  for (std::size_t i = 0; i + 1 < samples.size(); i += 2)
+    run.steady.record(samples[i], samples[i + 1]);
+  run.least = load_snapshot(archive, "least");
+  run.beat.curves = load_curves(archive);
+  run.beat.end_diastole = load_snapshot(archive, "end_diastole");
+  return run;
+}
+
+SteadyVolume criterion(const Protocol& p, Phase phase) {
+  return phase == Phase::filling ? SteadyVolume(p.filling_window, p.filling_tolerance)
+                                 : SteadyVolume(p.contraction_window, p.contraction_tolerance);
+}
+
+}  // namespace lv::heartbeat

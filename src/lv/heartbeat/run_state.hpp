@@ -1,0 +1,46 @@
+#pragma once
+
+#include "lv/heartbeat/archive.hpp"
+#include "lv/heartbeat/beat.hpp"
+
+#include <optional>
+
+namespace lv::heartbeat {
+
+/// Everything that a run carries besides the model itself; the same on all ranks.
+struct RunState {
+  double time = 0.0;
+  Phase phase = Phase::filling;
+  double phase_start = 0.0;
+  double next_frame = 0.0;
+  double next_curve = 0.0;
+  int frames = 0;  ///< written so far
+  std::vector<double> frame_times;
+  std::vector<Phase> frame_phases;
+  double largest_velocity = 0.0;  ///< of the blood when last looked at [mm/s]
+  int halvings = 0;               ///< of the longest step, in force
+  int good_steps = 0;             ///< since the last halving
+  int patience = 500;  ///< good steps before a halving is undone; doubles with every failure
+  SteadyVolume steady{0.0, 0.0};
+  bool volume_was_falling = false;  ///< in the last step (transient calcium)
+  Snapshot least;  ///< at the smallest volume of the contraction so far (transient calcium)
+  Beat beat;
+};
+
+/// Adds a snapshot's arrays to an archive, and takes them out again.
+void store(const Snapshot& snapshot, const std::string& name, Archive& archive);
+[[nodiscard]] Snapshot load_snapshot(const Archive& archive, const std::string& name);
+
+/// Adds curves to an archive, and takes them out again.
+void store(const std::vector<CurveRow>& curves, Archive& archive);
+[[nodiscard]] std::vector<CurveRow> load_curves(const Archive& archive);
+
+/// Adds the run's state (without the model's) to an archive, and takes it out again; the steadiness
+/// criterion of the phase is made anew from `protocol` and fed the recorded volumes.
+void store(const RunState& run, Archive& archive);
+[[nodiscard]] RunState load_run_state(const Archive& archive, const Protocol& protocol);
+
+/// The steadiness criterion of a phase.
+[[nodiscard]] SteadyVolume criterion(const Protocol& protocol, Phase phase);
+
+}  // namespace lv::heartbeat

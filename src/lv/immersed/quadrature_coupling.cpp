@@ -1,0 +1,206 @@
+#include "lv/immersed/quadrature_coupling.hpp"
+
+#include "lv/base/check.hpp"
+#include "lv/base/parallel.hpp"
+#include "lv/solid/element.hpp"
+
+#include <Eigen/LU>
+#include <boost/math/special_functions/legendre.hpp>
+
+namespace lv::immersed {
+namespace {
+
+/// Abscissae and weights of the n-point Gauss rule on [0, 1].
+std::vector<std::array<double, 2>> gauss_rule(int n) {
+  std::vector<std::array<double, 2>> points;
+  const auto add = [&](double x) {
+    const double slope = boost::math::legendre_p_prime(n, x);
+    points.push_back({0.5 * (1.0 + x), 1.0 / ((1.0 - x * x) * slope * slope)});
+  };
+  for (const double x : boost::math::legendre_p_zeros<double>(n)) {
+    add(x);
+    if (x != 0.0)
+      add(-x);
+  }
+  return points;
+}
+
+/// Edges of the reference element along each of its three axes, as pairs of nodes.
+constexpr std::array<std::array<std::array<int, 2>, 4>, 3> hex_edges{
+    {{{{0, 1}, {3, 2}, {4, 5}, {7, 6}}},
+     {{{0, 3}, {1, 2}, {4, 7}, {5, 6}}},
+     {{{0, 4}, {1, 5}, {2, 6}, {3, 7}}}}};
+constexpr std::array<std::array<int, 2>, 6> tet_edges{
+    {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+
+}  // namespace
+
+QuadratureCoupling::QuadratureCoupling(const mesh::Mesh& mesh, const Transfer& transfer,
+                                       double spacing, double points_per_cell)
+    : mesh_(mesh),
+      transfer_(transfer),
+      spacing_(spacing),
+      points_per_cell_(points_per_cell),
+      mass_(static_cast<Eigen::Index>(mesh.nodes.size()),
+            static_cast<Eigen::Index>(mesh.nodes.size())) {
+  assemble_mass();
+  solver_.setTolerance(1e-12);  // so that spreading and interpolation are adjoint to rounding
+  solver_.compute(mass_);
+}
+
+void QuadratureCoupling::assemble_mass() {
+  const Rule& exact = rule({2, 2, 2});
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int c = 0; c < mesh_.cell_count(); ++c) {
+    const auto cell = mesh_.cell(c);
+    for (const ReferencePoint& point : exact) {
+      Mat3 dX_dxi = Mat3::Zero();
+      for (std::size_t a = 0; a < cell.size(); ++a)
+        dX_dxi += mesh_.nodes[cell[a]] * Vec3(point.gradient[a].data()).transpose();
+      const double volume = point.weight * dX_dxi.determinant();
+      for (std::size_t a = 0; a < cell.size(); ++a)
+        for (std::size_t b = 0; b < cell.size(); ++b)
+          entries.emplace_back(cell[a], cell[b], volume * point.phi[a] * point.phi[b]);
+    }
+  }
+  mass_.setFromTriplets(entries.begin(), entries.end());
+}
+
+std::array<int, 3> QuadratureCoupling::points_along(std::span<const int> cell,
+                                                    std::span<const Vec3> positions) const {
+  const auto needed = [&](double length) {
+    return std::max(1, static_cast<int>(std::ceil(points_per_cell_ * length / spacing_)));
+  };
+  const auto length = [&](const std::array<int, 2>& edge) {
+    return (positions[cell[edge[1]]] - positions[cell[edge[0]]]).norm();
+  };
+  double longest = 0.0;
+  if (mesh_.kind == mesh::CellKind::tetrahedron) {
+    for (const auto& edge : tet_edges)
+      longest = std::max(longest, length(edge));
+    return {needed(longest), needed(longest), needed(longest)};
+  }
+  std::array<int, 3> points{};
+  for (int d = 0; d < 3; ++d) {
+    longest = 0.0;
+    for (const auto& edge : hex_edges[d])
+      longest = std::max(longest, length(edge));
+    points[d] = needed(longest);
+  }
+  return points;
+}
+
+const QuadratureCoupling::Rule& QuadratureCoupling::rule(const std::array<int, 3>& points) const {
+  const auto found = rules_.find(points);
+  return found != rules_.end() ? found->second
+                               : rules_.emplace(points, make_rule(points)).first->second;
+}
+
+/// Products of Gauss rules; on tetrahedra collapsed onto the simplex, (r, s(1-r), t(1-r)(1-s)).
+QuadratureCoupling::Rule QuadratureCoupling::make_rule(const std::array<int, 3>& points) const {
+  Rule rule;
+  for (const auto& [r, wr] : gauss_rule(points[0])) {
+    for (const auto& [s, ws] : gauss_rule(points[1])) {
+      for (const auto& [t, wt] : gauss_rule(points[2])) {
+        ReferencePoint point{};
+        if (mesh_.kind == mesh::CellKind::hexahedron) {
+          const std::array<double, 3> xi{2 * r - 1, 2 * s - 1, 2 * t - 1};
+          point.weight = 8.0 * wr * ws * wt;
+          for (int a = 0; a < 8; ++a) {
+            point.phi[a] = solid::Hex8::value(a, xi);
+            point.gradient[a] = solid::Hex8::gradient(a, xi);
+          }
+        } else {
+          const std::array<double, 3> xi{r, s * (1 - r), t * (1 - r) * (1 - s)};
+          point.weight = wr * ws * wt * (1 - r) * (1 - r) * (1 - s);
+          for (int a = 0; a < 4; ++a) {
+            point.phi[a] = solid::Tet4::value(a, xi);
+            point.gradient[a] = solid::Tet4::gradient(a, xi);
+          }
+        }
+        rule.push_back(point);
+      }
+    }
+  }
+  return rule;
+}
+
+/// Calls visit(cell's nodes, phi, w, x) for every quadrature point of elements that reach this
+/// slab.
+template <class Visit>
+void QuadratureCoupling::for_points(std::span<const Vec3> positions, const Visit& visit) const {
+  for (int c = 0; c < mesh_.cell_count(); ++c) {
+    const auto cell = mesh_.cell(c);
+    double z_min = positions[cell[0]].z();
+    double z_max = z_min;
+    for (const int a : cell) {
+      z_min = std::min(z_min, positions[a].z());
+      z_max = std::max(z_max, positions[a].z());
+    }
+    if (!transfer_.reaches(z_min, z_max))
+      continue;
+    for (const ReferencePoint& point : rule(points_along(cell, positions))) {
+      Mat3 dX_dxi = Mat3::Zero();
+      Vec3 x = Vec3::Zero();
+      for (std::size_t a = 0; a < cell.size(); ++a) {
+        dX_dxi += mesh_.nodes[cell[a]] * Vec3(point.gradient[a].data()).transpose();
+        x += point.phi[a] * positions[cell[a]];
+      }
+      visit(cell, point.phi, point.weight * dX_dxi.determinant(), x);
+    }
+  }
+}
+
+/// Solves M U = loads, one component at a time.
+std::vector<Vec3> QuadratureCoupling::project(std::span<const Vec3> loads) const {
+  std::vector<Vec3> values(loads.size());
+  Eigen::VectorXd right(static_cast<Eigen::Index>(loads.size()));
+  for (int d = 0; d < 3; ++d) {
+    for (std::size_t a = 0; a < loads.size(); ++a)
+      right[static_cast<Eigen::Index>(a)] = loads[a][d];
+    const Eigen::VectorXd solution = solver_.solve(right);
+    for (std::size_t a = 0; a < loads.size(); ++a)
+      values[a][d] = solution[static_cast<Eigen::Index>(a)];
+  }
+  return values;
+}
+
+void QuadratureCoupling::spread(std::span<const Vec3> positions, std::span<const Vec3> forces,
+                                fluid::FaceField& force) const {
+  const std::vector<Vec3> density = project(forces);
+  for_points(positions, [&](std::span<const int> cell, const std::array<double, 8>& phi, double w,
+                            const Vec3& x) {
+    Vec3 F = Vec3::Zero();
+    for (std::size_t a = 0; a < cell.size(); ++a)
+      F += phi[a] * density[cell[a]];
+    transfer_.spread(x, w * F, force);
+  });
+}
+
+void QuadratureCoupling::interpolate(const fluid::FaceField& velocity,
+                                     std::span<const Vec3> positions,
+                                     std::span<Vec3> velocities) const {
+  std::fill(velocities.begin(), velocities.end(), Vec3::Zero());
+  for_points(positions, [&](std::span<const int> cell, const std::array<double, 8>& phi, double w,
+                            const Vec3& x) {
+    if (!transfer_.owns(x))
+      return;
+    const Vec3 U = w * transfer_.interpolate(velocity, x);
+    for (std::size_t a = 0; a < cell.size(); ++a)
+      velocities[cell[a]] += phi[a] * U;
+  });
+  parallel::sum({velocities.data()->data(), 3 * velocities.size()});
+  const std::vector<Vec3> projected = project(velocities);
+  std::copy(projected.begin(), projected.end(), velocities.begin());
+}
+
+std::size_t QuadratureCoupling::point_count(std::span<const Vec3> positions) const {
+  std::size_t count = 0;
+  for (int c = 0; c < mesh_.cell_count(); ++c) {
+    const auto points = points_along(mesh_.cell(c), positions);
+    count += static_cast<std::size_t>(points[0]) * points[1] * points[2];
+  }
+  return count;
+}
+
+}  // namespace lv::immersed

@@ -1,0 +1,42 @@
+#include "lv/job/case.hpp"
+
+namespace lv::job {
+
+solid::WallMaterial wall_material(const Case& c) {
+  solid::WallMaterial material;
+  switch (c.passive.law) {
+    case PassiveLaw::holzapfel_ogden:
+      material.passive = c.passive.holzapfel_ogden.with_anisotropy_scaled(c.passive.C_a);
+      break;
+    case PassiveLaw::guccione:
+      material.passive = c.passive.guccione;
+      break;
+    case PassiveLaw::neo_hookean:
+      material.passive = c.passive.neo_hookean;
+      break;
+  }
+  material.volumetric = c.volumetric;
+  material.volumetric_points = c.volumetric_points;
+  material.infarct = c.infarct;
+  return material;
+}
+
+immersed::ModelParameters model_parameters(const Case& c, const mesh::Mesh& mesh) {
+  Vec3 lower = mesh.nodes.front();
+  Vec3 upper = lower;
+  for (const Vec3& x : mesh.nodes) {
+    lower = lower.cwiseMin(x);
+    upper = upper.cwiseMax(x);
+  }
+  immersed::ModelParameters p;
+  const Vec3 size(c.box.size[0], c.box.size[1], c.box.size[2]);
+  p.grid.cells = c.box.cells;
+  p.grid.spacing = size.cwiseQuotient(Vec3(c.box.cells[0], c.box.cells[1], c.box.cells[2]));
+  p.grid.lower = 0.5 * (lower + upper) - 0.5 * size;
+  p.blood = c.blood;
+  p.coupling = c.coupling;
+  p.basal_stiffness = c.basal_stiffness;
+  return p;
+}
+
+}  // namespace lv::job

@@ -1,0 +1,71 @@
+#pragma once
+
+#include "lv/geometry/ellipsoid.hpp"
+#include "lv/heartbeat/parameters.hpp"
+#include "lv/immersed/model.hpp"
+#include "lv/mesh/regions.hpp"
+#include "lv/mesh/wall_mesh.hpp"
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+namespace lv::job {
+
+/// Where the ventricle's shape comes from.
+enum class AnatomySource { ellipsoid, contours, mesh };
+
+/// Which passive law the wall follows.
+enum class PassiveLaw { holzapfel_ogden, guccione, neo_hookean };
+
+struct Anatomy {
+  AnatomySource source = AnatomySource::ellipsoid;
+  geometry::Ellipsoid ellipsoid;
+};
+
+struct Passive {
+  PassiveLaw law = PassiveLaw::holzapfel_ogden;
+  material::HolzapfelOgden holzapfel_ogden;
+  double C_a = 1.0;  ///< factor of a_f, a_s, a_fs (2.25)
+  material::Guccione guccione;
+  material::NeoHookean neo_hookean;
+};
+
+/// The box Omega around the ventricle.
+struct Box {
+  std::array<double, 3> size{150.0, 150.0, 200.0};  ///< [mm]
+  std::array<int, 3> cells{96, 96, 128};
+};
+
+/// All that a case file says, checked once and constant from then on. Member initialisers are the
+/// defaults; names, units, ranges and meanings are in parameters.cpp.
+struct Case {
+  std::string name = "ventricle";
+  Anatomy anatomy;
+  mesh::WallMeshParameters mesh;
+  mesh::FibreRule fibres;
+  mesh::RegionParameters regions;
+  Passive passive;
+  material::Volumetric volumetric;
+  solid::VolumetricPoints volumetric_points = solid::VolumetricPoints::one;
+  material::NiedererHunterSmith active;
+  material::InfarctScaling infarct;
+  fluid::Blood blood;
+  Box box;
+  immersed::CouplingParameters coupling;
+  double basal_stiffness = 100.0;  ///< [kPa/mm]
+  heartbeat::Protocol protocol;
+  heartbeat::StepControl time;
+  heartbeat::OutputSchedule output;
+
+  std::filesystem::path file;  ///< the case file
+  std::map<std::string, std::string>
+      origin;  ///< parameter -> "file:line" where the case file sets it
+};
+
+[[nodiscard]] solid::WallMaterial wall_material(const Case& c);
+
+/// The engine's parameters, with the box placed around the middle of the wall.
+[[nodiscard]] immersed::ModelParameters model_parameters(const Case& c, const mesh::Mesh& mesh);
+
+}  // namespace lv::job

@@ -1,0 +1,514 @@
+#include "lv/job/parameters.hpp"
+
+#include "lv/base/units.hpp"
+
+#include <fmt/format.h>
+
+#include <limits>
+#include <optional>
+
+namespace lv::job {
+namespace {
+
+using units::format;
+
+/// Allowed values of a number, in the parameter's own unit.
+struct Range {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  bool low_included = true;
+  bool high_included = true;
+
+  [[nodiscard]] bool contains(double x) const {
+    return (low_included ? x >= low : x > low) && (high_included ? x <= high : x < high);
+  }
+  [[nodiscard]] std::string words(const std::string& unit) const {
+    const std::string tail = unit.empty() ? "" : " " + unit;
+    const bool bounded_below = std::isfinite(low);
+    const bool bounded_above = std::isfinite(high);
+    if (bounded_below && bounded_above)
+      return fmt::format("{} {:g}{} and {} {:g}{}", low_included ? "at least" : "above", low, tail,
+                         high_included ? "at most" : "below", high, tail);
+    if (bounded_below)
+      return fmt::format("{} {:g}{}", low_included ? "at least" : "above", low,
+                         low == 0.0 ? "" : tail);
+    if (bounded_above)
+      return fmt::format("{} {:g}{}", high_included ? "at most" : "below", high, tail);
+    return "any";
+  }
+};
+
+constexpr Range any{};
+constexpr Range positive{.low = 0.0, .low_included = false};
+constexpr Range not_negative{.low = 0.0};
+constexpr Range between(double low, double high) {
+  return {.low = low, .high = high};
+}
+
+double number_of(const toml::node& node) {
+  const auto value = node.value<double>();
+  if (!value || node.is_boolean() || node.is_string())
+    throw std::invalid_argument("is not a number");
+  if (!std::isfinite(*value))
+    throw std::invalid_argument("is not a finite number");
+  return *value;
+}
+
+void check_range(double in_unit, const Range& range, const std::string& unit) {
+  if (!range.contains(in_unit))
+    throw std::invalid_argument(fmt::format("is {:g}{}{}; it must be {}", in_unit,
+                                            unit.empty() ? "" : " ", unit, range.words(unit)));
+}
+
+/// A number with a unit of the same dimension as `unit`, as inner units. `shown` is an example for
+/// messages.
+double quantity_of(const toml::node& node, const std::string& unit, const std::string& shown) {
+  const units::Unit expected = units::parse_unit(unit);
+  const std::string kind = units::kind_of(expected);
+  if (!node.is_string()) {
+    number_of(node);
+    throw std::invalid_argument(fmt::format("has no unit; write a {} such as \"{}\"", kind, shown));
+  }
+  const units::Quantity quantity = units::parse_quantity(*node.value<std::string>());
+  if (!quantity.has_unit)
+    throw std::invalid_argument(fmt::format("has no unit; write a {} such as \"{}\"", kind, shown));
+  if (quantity.unit.dimension != expected.dimension)
+    throw std::invalid_argument(fmt::format("is a {}; it must be a {} such as \"{}\"",
+                                            units::kind_of(quantity.unit), kind, shown));
+  return quantity.value;
+}
+
+const toml::array& triple_of(const toml::node& node) {
+  const toml::array* array = node.as_array();
+  if (array == nullptr || array->size() != 3)
+    throw std::invalid_argument("must be a list of three values, [x, y, z]");
+  return *array;
+}
+
+/// Collects the declarations.
+class Declarations {
+ public:
+  std::vector<Parameter> list;
+  Stage stage = Stage::beat;
+  std::string table;
+
+  template <class Member>
+  void quantity(const std::string& key, const Member& member, const std::string& unit,
+                const Range& range, const std::string& help, const std::string& equation = "") {
+    const auto get = [=](const Case& c) { return format(member(const_cast<Case&>(c)), unit); };
+    const std::string shown = get(Case{});
+    add(
+        key, "quantity", unit, range.words(unit), help, equation,
+        [=](const Case& c) { return fmt::format("\"{}\"", get(c)); },
+        [=](Case& c, const toml::node& node) {
+          const double value = quantity_of(node, unit, shown);
+          check_range(value / units::parse_unit(unit).factor, range, unit);
+          member(c) = value;
+        });
+  }
+
+  template <class Member>
+  void number(const std::string& key, const Member& member, const Range& range,
+              const std::string& help, const std::string& equation = "") {
+    add(
+        key, "number", "", range.words(""), help, equation,
+        [=](const Case& c) { return format(member(const_cast<Case&>(c)), ""); },
+        [=](Case& c, const toml::node& node) {
+          const double value = number_of(node);
+          check_range(value, range, "");
+          member(c) = value;
+        });
+  }
+
+  template <class Member>
+  void whole(const std::string& key, const Member& member, const Range& range,
+             const std::string& help, const std::string& equation = "") {
+    add(
+        key, "whole number", "", range.words(""), help, equation,
+        [=](const Case& c) { return std::to_string(member(const_cast<Case&>(c))); },
+        [=](Case& c, const toml::node& node) {
+          if (!node.is_integer())
+            throw std::invalid_argument("is not a whole number");
+          check_range(number_of(node), range, "");
+          member(c) = static_cast<int>(*node.value<std::int64_t>());
+        });
+  }
+
+  template <class Member>
+  void flag(const std::string& key, const Member& member, const std::string& help) {
+    add(
+        key, "true or false", "", "true or false", help, "",
+        [=](const Case& c) { return member(const_cast<Case&>(c)) ? "true" : "false"; },
+        [=](Case& c, const toml::node& node) {
+          if (!node.is_boolean())
+            throw std::invalid_argument("must be true or false (without quotation marks)");
+          member(c) = *node.value<bool>();
+        });
+  }
+
+  template <class Member>
+  void text(const std::string& key, const Member& member, const std::string& help) {
+    add(
+        key, "text", "", "any", help, "",
+        [=](const Case& c) { return fmt::format("\"{}\"", member(const_cast<Case&>(c))); },
+        [=](Case& c, const toml::node& node) {
+          if (!node.is_string())
+            throw std::invalid_argument("must be text in quotation marks");
+          member(c) = *node.value<std::string>();
+        });
+  }
+
+  /// One of several words; word i stands for the enumerator with value i.
+  template <class Member>
+  void choice(const std::string& key, const Member& member, const std::vector<std::string>& words,
+              const std::string& help, const std::string& equation = "") {
+    using Enum = std::decay_t<decltype(member(std::declval<Case&>()))>;
+    const std::string rule = fmt::format("one of {}", fmt::join(words, ", "));
+    add(
+        key, "choice", "", rule, help, equation,
+        [=](const Case& c) {
+          return fmt::format("\"{}\"",
+                             words.at(static_cast<std::size_t>(member(const_cast<Case&>(c)))));
+        },
+        [=](Case& c, const toml::node& node) {
+          const auto word = node.value<std::string>();
+          if (!word)
+            throw std::invalid_argument(fmt::format("must be {}", rule));
+          const auto found = std::find(words.begin(), words.end(), *word);
+          if (found == words.end())
+            throw std::invalid_argument(
+                fmt::format("is \"{}\"; it must be {} (did you mean \"{}\"?)", *word, rule,
+                            units::nearest(*word, words)));
+          member(c) = static_cast<Enum>(found - words.begin());
+        });
+  }
+
+  template <class Member>
+  void quantity_triple(const std::string& key, const Member& member, const std::string& unit,
+                       const Range& range, const std::string& help,
+                       const std::string& equation = "") {
+    add(
+        key, "three quantities", unit, range.words(unit), help, equation,
+        [=](const Case& c) {
+          const auto& v = member(const_cast<Case&>(c));
+          return fmt::format("[\"{}\", \"{}\", \"{}\"]", format(v[0], unit), format(v[1], unit),
+                             format(v[2], unit));
+        },
+        [=](Case& c, const toml::node& node) {
+          const toml::array& values = triple_of(node);
+          for (std::size_t d = 0; d < 3; ++d) {
+            const double value = quantity_of(values[d], unit, "1 " + unit);
+            check_range(value / units::parse_unit(unit).factor, range, unit);
+            member(c)[d] = value;
+          }
+        });
+  }
+
+  template <class Member>
+  void whole_triple(const std::string& key, const Member& member, const Range& range,
+                    const std::string& help, const std::string& equation = "") {
+    add(
+        key, "three whole numbers", "", range.words(""), help, equation,
+        [=](const Case& c) {
+          return fmt::format("[{}]", fmt::join(member(const_cast<Case&>(c)), ", "));
+        },
+        [=](Case& c, const toml::node& node) {
+          const toml::array& values = triple_of(node);
+          for (std::size_t d = 0; d < 3; ++d) {
+            if (!values[d].is_integer())
+              throw std::invalid_argument("must hold whole numbers");
+            check_range(number_of(values[d]), range, "");
+            member(c)[d] = static_cast<int>(*values[d].value<std::int64_t>());
+          }
+        });
+  }
+
+ private:
+  void add(const std::string& key, const std::string& type, const std::string& unit,
+           const std::string& rule, const std::string& help, const std::string& equation,
+           std::function<std::string(const Case&)> get,
+           std::function<void(Case&, const toml::node&)> set) {
+    const std::string name = table.empty() ? key : table + "." + key;
+    list.push_back({name, type, unit, rule, help, equation, stage, std::move(get), std::move(set)});
+  }
+};
+
+// A parameter's place in the case, as a function that returns a reference to the member.
+#define LV_AT(member)     \
+  [](Case & c) -> auto& { \
+    return c.member;      \
+  }
+
+void declare_anatomy(Declarations& d) {
+  d.stage = Stage::anatomy;
+  d.table = "";
+  d.text("name", LV_AT(name), "name of the subject or case, for reports");
+  d.table = "anatomy";
+  d.choice("source", LV_AT(anatomy.source), {"ellipsoid", "contours", "mesh"},
+           "where the shape of the wall at early diastole comes from", "2.2");
+  d.table = "anatomy.ellipsoid";
+  const Range size = between(1.0, 200.0);
+  d.quantity("endo_radius", LV_AT(anatomy.ellipsoid.endo_radius), "mm", size,
+             "semi-axis of the endocardium across the long axis");
+  d.quantity("endo_length", LV_AT(anatomy.ellipsoid.endo_length), "mm", size,
+             "semi-axis of the endocardium along the long axis");
+  d.quantity("epi_radius", LV_AT(anatomy.ellipsoid.epi_radius), "mm", size,
+             "semi-axis of the epicardium across the long axis");
+  d.quantity("epi_length", LV_AT(anatomy.ellipsoid.epi_length), "mm", size,
+             "semi-axis of the epicardium along the long axis");
+  d.quantity("base_height", LV_AT(anatomy.ellipsoid.base_height), "mm", between(-100.0, 200.0),
+             "height of the basal plane above the widest section");
+}
+
+void declare_mesh(Declarations& d) {
+  d.stage = Stage::mesh;
+  d.table = "mesh";
+  d.quantity("edge_length", LV_AT(mesh.edge_length), "mm", between(0.2, 10.0),
+             "target length of element edges; below the box's mesh width for nodal coupling",
+             "2.5");
+  d.whole("layers", LV_AT(mesh.layers), between(0, 40),
+          "elements through the wall; 0: as edge_length asks");
+  d.table = "fibres";
+  const Range angle = between(-90.0, 90.0);
+  d.quantity("helix_endo", LV_AT(fibres.helix_endo), "deg", angle,
+             "helix angle at the endocardium; negative is a right-handed helix (the paper's sign)",
+             "2.2");
+  d.quantity("helix_epi", LV_AT(fibres.helix_epi), "deg", angle, "helix angle at the epicardium",
+             "2.2");
+  d.quantity("sheet_endo", LV_AT(fibres.sheet_endo), "deg", angle, "sheet angle at the endocardium",
+             "2.2");
+  d.quantity("sheet_epi", LV_AT(fibres.sheet_epi), "deg", angle, "sheet angle at the epicardium",
+             "2.2");
+  d.table = "regions";
+  d.quantity("septum_angle", LV_AT(regions.septum_angle), "deg", between(-360.0, 360.0),
+             "direction of the middle of the septum about the long axis, from the model's x axis "
+             "towards y",
+             "Fig. 3");
+  d.quantity("slice_spacing", LV_AT(regions.slice_spacing), "mm", between(0.0, 50.0),
+             "spacing of the seven slice planes from the base on; 0: the wall's length / 6.5",
+             "Fig. 3");
+}
+
+void declare_passive(Declarations& d) {
+  d.table = "passive";
+  d.choice("law", LV_AT(passive.law), {"holzapfel_ogden", "guccione", "neo_hookean"},
+           "passive law of the muscle", "2.14");
+  d.number("C_a", LV_AT(passive.C_a), positive, "factor of a_f, a_s and a_fs", "2.25");
+  d.table = "passive.holzapfel_ogden";
+  d.quantity("a", LV_AT(passive.holzapfel_ogden.a), "kPa", positive, "isotropic stiffness", "2.14");
+  d.number("b", LV_AT(passive.holzapfel_ogden.b), positive, "isotropic exponent", "2.14");
+  d.quantity("a_f", LV_AT(passive.holzapfel_ogden.a_f), "kPa", not_negative, "fibre stiffness",
+             "2.14");
+  d.number("b_f", LV_AT(passive.holzapfel_ogden.b_f), positive, "fibre exponent", "2.14");
+  d.quantity("a_s", LV_AT(passive.holzapfel_ogden.a_s), "kPa", not_negative, "sheet stiffness",
+             "2.14");
+  d.number("b_s", LV_AT(passive.holzapfel_ogden.b_s), positive, "sheet exponent", "2.14");
+  d.quantity("a_fs", LV_AT(passive.holzapfel_ogden.a_fs), "kPa", not_negative,
+             "fibre-sheet shear stiffness", "2.14");
+  d.number("b_fs", LV_AT(passive.holzapfel_ogden.b_fs), positive, "fibre-sheet shear exponent",
+           "2.14");
+  d.table = "passive.guccione";
+  d.quantity("C", LV_AT(passive.guccione.C), "kPa", positive, "overall stiffness");
+  d.number("b_f", LV_AT(passive.guccione.b_f), not_negative, "exponent along the fibre");
+  d.number("b_t", LV_AT(passive.guccione.b_t), not_negative, "exponent across the fibre");
+  d.number("b_fs", LV_AT(passive.guccione.b_fs), not_negative,
+           "exponent of fibre-cross-fibre shear");
+  d.table = "passive.neo_hookean";
+  d.quantity("mu", LV_AT(passive.neo_hookean.mu), "kPa", positive, "shear modulus");
+  d.table = "volumetric";
+  d.quantity("beta_s", LV_AT(volumetric.beta_s), "kPa", not_negative,
+             "penalty that reinforces incompressibility; the paper: 100 kPa", "2.20");
+  d.choice("points", LV_AT(volumetric_points), {"full", "one"},
+           "where the penalty is integrated: at all points of an element, or at one (mean "
+           "dilatation, does not lock)",
+           "2.20");
+  d.table = "infarct";
+  d.number("stiffening", LV_AT(infarct.stiffening), not_negative,
+           "an infarct of extent M is (1 + stiffening M) times as stiff", "2.23");
+}
+
+void declare_active(Declarations& d) {
+  d.table = "active";
+  d.number("T_scale", LV_AT(active.T_scale), not_negative,
+           "strength of contraction, T_ref = T_scale x T_ref_unscaled", "A");
+  d.quantity("T_ref_unscaled", LV_AT(active.T_ref_unscaled), "kPa", positive,
+             "tension at full activation and resting length for T_scale = 1", "A");
+  d.number("a", LV_AT(active.a), not_negative, "curvature of the force-velocity relation", "A.10");
+  for (int i = 0; i < 3; ++i) {
+    d.number(
+        fmt::format("A_{}", i + 1), [i](Case & c) -> auto& { return c.active.A[i]; }, any,
+        "weight of a fading memory", "A.11");
+    d.quantity(
+        fmt::format("alpha_{}", i + 1), [i](Case & c) -> auto& { return c.active.alpha[i]; }, "1/s",
+        positive, "rate of a fading memory", "A.11");
+  }
+  d.quantity("alpha_0", LV_AT(active.alpha_0), "1/s", positive, "rate of activation of actin sites",
+             "A.4");
+  d.quantity("alpha_r1", LV_AT(active.alpha_r1), "1/s", positive, "slow rate of relaxation", "A.4");
+  d.quantity("alpha_r2", LV_AT(active.alpha_r2), "1/s", positive, "fast rate of relaxation", "A.4");
+  d.number("beta_0", LV_AT(active.beta_0), any, "dependence of the isometric tension on stretch",
+           "A.6");
+  d.number("beta_1", LV_AT(active.beta_1), any, "dependence of the calcium sensitivity on stretch",
+           "A.5");
+  d.quantity("Ca_50ref", LV_AT(active.Ca_50ref), "uM", positive,
+             "calcium at half activation at resting length", "A.5");
+  d.quantity("Ca_trpn_max", LV_AT(active.Ca_trpn_max), "uM", positive, "binding sites on troponin",
+             "A.2");
+  d.number("gamma", LV_AT(active.gamma), positive, "how much tension slows unbinding", "A.3");
+  d.quantity("k_on", LV_AT(active.k_on), "1/(uM s)", positive, "rate of binding", "A.2");
+  d.quantity("k_off_ref", LV_AT(active.k_off_ref), "1/s", positive,
+             "rate of unbinding without tension", "A.3");
+  d.number("K_z", LV_AT(active.K_z), positive, "half point of fast relaxation", "A.4");
+  d.number("z_p", LV_AT(active.z_p), positive, "point of linearisation of fast relaxation", "A.8");
+  d.number("stretch_min", LV_AT(active.stretch_min), between(0.1, 1.0),
+           "guard: smallest stretch that (A.5)-(A.7) are given", "A.5");
+  d.number("stretch_max", LV_AT(active.stretch_max), between(1.0, 1.24),
+           "guard: largest stretch that (A.5)-(A.7) are given", "A.5");
+  d.number("unbinding_min", LV_AT(active.unbinding_min), between(0.0, 1.0),
+           "guard: least value of the bracket in (A.3)", "A.3");
+  d.table = "calcium";
+  d.choice("mode", LV_AT(protocol.calcium.mode), {"hold", "transient"},
+           "calcium stays at its peak until the ventricle is steady, or decays as (A.1) says",
+           "A.1");
+  d.quantity("Ca_0", LV_AT(protocol.calcium.Ca_0), "uM", not_negative, "resting calcium", "A.1");
+  d.quantity("Ca_max", LV_AT(protocol.calcium.Ca_max), "uM", positive, "peak calcium", "A.1");
+  d.quantity("tau", LV_AT(protocol.calcium.tau), "s", positive, "time to the peak", "A.1");
+}
+
+void declare_engine(Declarations& d) {
+  d.table = "blood";
+  d.quantity("density", LV_AT(blood.density), "g/ml", positive, "density of blood and muscle",
+             "2.1");
+  d.quantity("viscosity", LV_AT(blood.viscosity), "cP", not_negative,
+             "viscosity of blood and muscle; the paper prints 0.04 cP, a slip for 0.04 P", "2.1");
+  d.table = "box";
+  d.quantity_triple("size", LV_AT(box.size), "mm", between(10.0, 1000.0),
+                    "size of the box around the ventricle", "2.5");
+  d.whole_triple("cells", LV_AT(box.cells), between(8, 2048), "cells of the box along x, y and z",
+                 "2.5");
+  d.table = "coupling";
+  d.choice("kind", LV_AT(coupling.kind), {"nodal", "quadrature"},
+           "forces and velocities pass between wall and grid at the nodes, or at Gauss points made "
+           "anew every step (the "
+           "paper's scheme, several times slower)",
+           "2.9");
+  d.choice("kernel", LV_AT(coupling.kernel), {"peskin4", "composite_bspline"},
+           "regularised delta function: the paper's 4-point kernel, or B-splines that keep the "
+           "wall's velocity divergence-free",
+           "2.5");
+  d.number("points_per_cell", LV_AT(coupling.points_per_cell), between(0.5, 8.0),
+           "Gauss points per mesh width (quadrature coupling)", "2.5");
+  d.table = "base";
+  d.quantity("stiffness", LV_AT(basal_stiffness), "kPa/mm", positive,
+             "springs per area that hold the basal plane along the axis and around it", "2.4");
+}
+
+void declare_protocol(Declarations& d) {
+  d.table = "protocol";
+  const Range pressure = between(-50.0, 500.0);
+  const Range seconds{.low = 0.0, .high = 100.0, .low_included = false};
+  d.quantity("ed_pressure", LV_AT(protocol.ed_pressure), "mmHg", pressure, "end-diastolic pressure",
+             "2.4");
+  d.quantity("es_pressure", LV_AT(protocol.es_pressure), "mmHg", pressure, "end-systolic pressure",
+             "2.4");
+  d.quantity("filling_ramp", LV_AT(protocol.filling_ramp), "s", seconds,
+             "time in which the pressure rises to ed_pressure");
+  d.number("filling_tolerance", LV_AT(protocol.filling_tolerance), between(1e-6, 0.5),
+           "filling ends when the volume has varied by less than this fraction of itself over "
+           "filling_window");
+  d.quantity("filling_window", LV_AT(protocol.filling_window), "s", seconds,
+             "see filling_tolerance");
+  d.quantity("filling_longest", LV_AT(protocol.filling_longest), "s", seconds,
+             "filling ends after this time at the latest, with a warning");
+  d.quantity("filling_drag", LV_AT(protocol.filling_drag), "1/s", not_negative,
+             "uniform resistance to the velocity once the pressure is constant; stops the ringing, "
+             "moves no equilibrium");
+  d.quantity("contraction_ramp", LV_AT(protocol.contraction_ramp), "s", seconds,
+             "time in which the pressure rises from ed_pressure to es_pressure");
+  d.number("contraction_tolerance", LV_AT(protocol.contraction_tolerance), between(1e-6, 0.5),
+           "with calcium held, contraction ends when the volume has varied by less than this "
+           "fraction over contraction_window");
+  d.quantity("contraction_window", LV_AT(protocol.contraction_window), "s", seconds,
+             "see contraction_tolerance");
+  d.quantity("contraction_longest", LV_AT(protocol.contraction_longest), "s", seconds,
+             "contraction ends after this time at the latest, with a warning");
+  d.quantity("contraction_drag", LV_AT(protocol.contraction_drag), "1/s", not_negative,
+             "like filling_drag, once pressure and calcium are constant");
+  d.table = "time";
+  d.quantity("longest_step", LV_AT(time.longest), "s",
+             {.low = 0.0, .high = 0.01, .low_included = false},
+             "the time step, unless stability asks for less", "2.5");
+  d.number("courant", LV_AT(time.courant), between(0.01, 1.0),
+           "largest blood velocity x step / mesh width");
+  d.quantity("velocity_limit", LV_AT(time.velocity_limit), "m/s", positive,
+             "a step that makes the wall or the blood faster than this is taken back and repeated "
+             "smaller");
+  d.whole("halvings", LV_AT(time.halvings), between(0, 12),
+          "how often the step may be halved before the run gives up");
+}
+
+void declare_output(Declarations& d) {
+  d.table = "output";
+  const Range seconds{.low = 0.0, .low_included = false};
+  d.quantity("frame_interval", LV_AT(output.frame_interval), "s", seconds,
+             "simulated time between fields of wall and blood");
+  d.quantity("curve_interval", LV_AT(output.curve_interval), "s", seconds,
+             "simulated time between rows of the curves");
+  d.quantity("checkpoint_interval", LV_AT(output.checkpoint_interval), "s", seconds,
+             "wall-clock time between checkpoints");
+  d.flag("blood", LV_AT(output.blood), "whether frames contain velocity and pressure of the blood");
+}
+
+#undef LV_AT
+
+std::vector<Parameter> declare_all() {
+  Declarations d;
+  declare_anatomy(d);
+  declare_mesh(d);
+  d.stage = Stage::beat;
+  declare_passive(d);
+  declare_active(d);
+  declare_engine(d);
+  declare_protocol(d);
+  declare_output(d);
+  return std::move(d.list);
+}
+
+}  // namespace
+
+const std::vector<Parameter>& parameters() {
+  static const std::vector<Parameter> all = declare_all();
+  return all;
+}
+
+const std::vector<Section>& sections() {
+  static const std::vector<Section> all{
+      {"", "The case"},
+      {"anatomy", "Shape of the wall at early diastole, taken as free of stress"},
+      {"anatomy.ellipsoid",
+       "Truncated ellipsoids (source = \"ellipsoid\"); the default is the idealised healthy "
+       "ventricle"},
+      {"mesh", "Hexahedral mesh of the wall"},
+      {"fibres", "Rule-based fibre and sheet directions"},
+      {"regions",
+       "Division of the wall for tables: the paper's seven slices and the AHA's 17 segments"},
+      {"passive", "Passive muscle"},
+      {"passive.holzapfel_ogden",
+       "Holzapfel-Ogden law; the defaults are the paper's healthy subject"},
+      {"passive.guccione", "Guccione law (law = \"guccione\")"},
+      {"passive.neo_hookean", "Neo-Hookean law (law = \"neo_hookean\")"},
+      {"volumetric", "Incompressibility in Lagrangian form"},
+      {"infarct", "What an infarct does to the muscle; its extent M comes with the mesh"},
+      {"active", "Active tension of Niederer, Hunter and Smith"},
+      {"calcium", "Intracellular calcium, the same everywhere"},
+      {"blood", "Blood and muscle share density and viscosity"},
+      {"box", "The box of blood around the ventricle and its grid"},
+      {"coupling", "How the wall's finite elements meet the grid"},
+      {"base", "How the basal plane is held"},
+      {"protocol", "Pressures, timings and the ends of the phases"},
+      {"time", "Time steps"},
+      {"output", "What is kept, and how often"}};
+  return all;
+}
+
+}  // namespace lv::job

@@ -1,0 +1,221 @@
+#include "lv/job/read_case.hpp"
+
+#include "lv/base/check.hpp"
+#include "lv/base/table.hpp"
+#include "lv/base/units.hpp"
+#include "lv/job/parameters.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace lv::job {
+namespace {
+
+/// Walks a parsed file and sets what it finds, gathering mistakes.
+class CaseReader {
+ public:
+  explicit CaseReader(const std::filesystem::path& file) : file_(file) { case_.file = file; }
+
+  Case read(const toml::table& root) {
+    walk(root, "");
+    check_together();
+    if (!mistakes_.empty())
+      throw InputError(mistakes_.front().first, all_mistakes(), "");
+    return std::move(case_);
+  }
+
+ private:
+  [[nodiscard]] std::string place(const toml::node& node) const {
+    return fmt::format("{}:{}", file_.string(), node.source().begin.line);
+  }
+
+  void walk(const toml::table& table, const std::string& prefix) {
+    for (const auto& [key, node] : table) {
+      const std::string name =
+          prefix.empty() ? std::string(key.str()) : prefix + "." + std::string(key.str());
+      const auto line = fmt::format("{}:{}", file_.string(), key.source().begin.line);
+      if (const auto* parameter = find(name))
+        set(*parameter, node, line);
+      else if (node.is_table() && is_section(name))
+        walk(*node.as_table(), name);
+      else
+        mistakes_.emplace_back(line, unknown(name, node.is_table()));
+    }
+  }
+
+  static const Parameter* find(const std::string& name) {
+    const auto& all = parameters();
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const auto& p) { return p.name == name; });
+    return found == all.end() ? nullptr : &*found;
+  }
+
+  static bool is_section(const std::string& name) {
+    const auto& all = sections();
+    return std::any_of(all.begin(), all.end(), [&](const auto& s) { return s.name == name; });
+  }
+
+  static std::string unknown(const std::string& name, bool table) {
+    std::vector<std::string> known;
+    for (const Parameter& p : parameters())
+      known.push_back(p.name);
+    for (const Section& s : sections())
+      if (table && !s.name.empty())
+        known.push_back(s.name);
+    return fmt::format("{} is not a {}; did you mean {}? (`ventricle parameters` lists them all)",
+                       name, table ? "table" : "parameter", units::nearest(name, known));
+  }
+
+  void set(const Parameter& parameter, const toml::node& node, const std::string& line) {
+    try {
+      parameter.set(case_, node);
+      case_.origin[parameter.name] = line;
+    } catch (const std::invalid_argument& mistake) {
+      mistakes_.emplace_back(line, fmt::format("{} {}", parameter.name, mistake.what()));
+    }
+  }
+
+  /// Rules that concern several parameters.
+  void check_together() {
+    const geometry::Ellipsoid& e = case_.anatomy.ellipsoid;
+    rule(e.epi_radius > e.endo_radius, "anatomy.ellipsoid.epi_radius",
+         "must be larger than endo_radius");
+    rule(e.epi_length > e.endo_length, "anatomy.ellipsoid.epi_length",
+         "must be larger than endo_length");
+    rule(e.base_height < e.endo_length, "anatomy.ellipsoid.base_height",
+         "must be smaller than endo_length");
+    const heartbeat::Protocol& p = case_.protocol;
+    rule(p.filling_longest >= p.filling_ramp + p.filling_window, "protocol.filling_longest",
+         "must leave time for filling_ramp and filling_window");
+    rule(p.contraction_longest >= p.contraction_ramp + p.contraction_window,
+         "protocol.contraction_longest",
+         "must leave time for contraction_ramp and contraction_window");
+    rule(p.calcium.Ca_max > p.calcium.Ca_0, "calcium.Ca_max", "must be larger than Ca_0");
+  }
+
+  void rule(bool holds, const std::string& name, const std::string& what) {
+    if (holds)
+      return;
+    const auto set_at = case_.origin.find(name);
+    mistakes_.emplace_back(set_at == case_.origin.end() ? file_.string() : set_at->second,
+                           fmt::format("{} {}", name, what));
+  }
+
+  [[nodiscard]] std::string all_mistakes() const {
+    std::string text = mistakes_.front().second;
+    for (std::size_t i = 1; i < mistakes_.size(); ++i)
+      text += fmt::format("\n{}: {}", mistakes_[i].first, mistakes_[i].second);
+    return text;
+  }
+
+  std::filesystem::path file_;
+  Case case_;
+  std::vector<std::pair<std::string, std::string>> mistakes_;  ///< place and what is wrong there
+};
+
+std::string table_of(const std::string& name) {
+  const auto dot = name.rfind('.');
+  return dot == std::string::npos ? "" : name.substr(0, dot);
+}
+
+std::string key_of(const std::string& name) {
+  const auto dot = name.rfind('.');
+  return dot == std::string::npos ? name : name.substr(dot + 1);
+}
+
+std::string where_in_paper(const Parameter& p) {
+  return p.equation.empty() ? "" : fmt::format(" ({})", p.equation);
+}
+
+}  // namespace
+
+Case parse_case(const std::string& text, const std::filesystem::path& file) {
+  toml::table root;
+  try {
+    root = toml::parse(text, file.string());
+  } catch (const toml::parse_error& error) {
+    throw InputError(fmt::format("{}:{}", file.string(), error.source().begin.line),
+                     std::string(error.description()),
+                     "Texts and quantities stand in quotation marks: key = \"8 mmHg\"");
+  }
+  return CaseReader(file).read(root);
+}
+
+Case read_case(const std::filesystem::path& file) {
+  return parse_case(read_file(file), file);
+}
+
+std::string starter_case(const std::string& name) {
+  static const std::vector<std::string> shown{"anatomy.source",
+                                              "anatomy.ellipsoid.endo_radius",
+                                              "anatomy.ellipsoid.endo_length",
+                                              "anatomy.ellipsoid.epi_radius",
+                                              "anatomy.ellipsoid.epi_length",
+                                              "anatomy.ellipsoid.base_height",
+                                              "mesh.edge_length",
+                                              "passive.holzapfel_ogden.a",
+                                              "passive.holzapfel_ogden.b",
+                                              "passive.holzapfel_ogden.a_f",
+                                              "passive.holzapfel_ogden.b_f",
+                                              "passive.holzapfel_ogden.a_s",
+                                              "passive.holzapfel_ogden.b_s",
+                                              "passive.holzapfel_ogden.a_fs",
+                                              "passive.holzapfel_ogden.b_fs",
+                                              "active.T_scale",
+                                              "calcium.mode",
+                                              "box.size",
+                                              "box.cells",
+                                              "protocol.ed_pressure",
+                                              "protocol.es_pressure",
+                                              "time.longest_step",
+                                              "output.frame_interval"};
+  Case defaults;
+  defaults.name = name;
+  std::string text =
+      "# A case of ventricle. Every quantity carries its unit. What is not set here has its "
+      "default;\n"
+      "# `ventricle parameters` lists all parameters with unit, range, default and meaning.\n\n";
+  text += fmt::format("name = \"{}\"\n", name);
+  std::string table;
+  for (const Parameter& p : parameters()) {
+    if (std::find(shown.begin(), shown.end(), p.name) == shown.end())
+      continue;
+    if (table_of(p.name) != table) {
+      table = table_of(p.name);
+      for (const Section& s : sections())
+        if (s.name == table)
+          text += fmt::format("\n# {}\n[{}]\n", s.help, table);
+    }
+    text += fmt::format("{} = {}  # {}; {}\n", key_of(p.name), p.get(defaults), p.help, p.rule);
+  }
+  return text;
+}
+
+std::string manual(bool markdown) {
+  const Case defaults;
+  std::string text =
+      markdown
+          ? "# Parameters\n\nPrinted by `ventricle parameters --markdown`. Any unit of the same "
+            "dimension may be written. The last column names the paper's equation or section.\n"
+          : "";
+  for (const Section& s : sections()) {
+    const std::string title = s.name.empty() ? "top level" : fmt::format("[{}]", s.name);
+    text += markdown ? fmt::format(
+                           "\n## {}\n\n{}.\n\n| parameter | default | allowed | meaning | paper "
+                           "|\n|---|---|---|---|---|\n",
+                           title, s.help)
+                     : fmt::format("\n{}  {}\n", title, s.help);
+    for (const Parameter& p : parameters()) {
+      if (table_of(p.name) != s.name)
+        continue;
+      text += markdown ? fmt::format("| `{}` | `{}` | {} | {} | {} |\n", key_of(p.name),
+                                     p.get(defaults), p.rule, p.help, p.equation)
+                       : fmt::format("  {} = {}\n      {}{}; {}\n", key_of(p.name), p.get(defaults),
+                                     p.help, where_in_paper(p), p.rule);
+    }
+  }
+  return text;
+}
+
+}  // namespace lv::job

@@ -1,0 +1,181 @@
+#include "lv/job/run.hpp"
+
+#include "lv/base/check.hpp"
+#include "lv/base/interrupt.hpp"
+#include "lv/base/log.hpp"
+#include "lv/base/parallel.hpp"
+#include "lv/base/table.hpp"
+#include "lv/base/units.hpp"
+#include "lv/job/parameters.hpp"
+#include "lv/job/stages.hpp"
+#include "lv/job/workspace.hpp"
+#include "lv/solid/cavity.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <chrono>
+
+namespace lv::job {
+namespace {
+
+const std::array<std::string, 4> stage_names{"anatomy", "mesh", "beat", "results"};
+
+/// Runs something on the root alone; when it throws, all ranks throw.
+template <class Work>
+void on_root(const Work& work) {
+  std::exception_ptr failure;
+  if (parallel::is_root()) {
+    try {
+      work();
+    } catch (...) {
+      failure = std::current_exception();
+    }
+  }
+  if (!parallel::any(failure != nullptr))
+    return;
+  if (failure)
+    std::rethrow_exception(failure);
+  throw RunError("the root rank failed", "");
+}
+
+bool root_says(bool value) {
+  return parallel::any(parallel::is_root() && value);
+}
+
+/// Parameters of one stage, with the program's version.
+Ingredients own_ingredients(const Case& c, Stage stage) {
+  Ingredients ingredients{{"program version", version()}};
+  for (const Parameter& p : parameters())
+    if (p.stage == stage)
+      ingredients[p.name] = p.get(c);
+  return ingredients;
+}
+
+/// The stages in their order, each with what it depends on.
+class Pipeline {
+ public:
+  Pipeline(const Case& c, const RunOptions& options)
+      : case_(c),
+        options_(options),
+        work_(options.work.empty() ? c.file.parent_path() / (c.file.stem().string() + ".work")
+                                   : options.work),
+        last_(last_stage()) {}
+
+  void run() {
+    std::optional<WorkLock> lock;
+    on_root([&] { lock.emplace(work_); });
+    log::to_file(work_ / "log.txt");
+    log::info("{}: ventricle {} on {} rank{}, results in {}", case_.name, version(),
+              parallel::size(), parallel::size() == 1 ? "" : "s", work_.string());
+    std::string upstream;
+    for (std::size_t s = 0; s <= last_; ++s) {
+      Ingredients ingredients = own_ingredients(case_, static_cast<Stage>(s));
+      if (s > 0)
+        ingredients["result of " + stage_names[s - 1]] = upstream;
+      upstream = fingerprint(ingredients);
+      run_stage(s, std::move(ingredients));
+    }
+  }
+
+ private:
+  [[nodiscard]] std::size_t last_stage() const {
+    if (!options_.until)
+      return stage_names.size() - 1;
+    const auto found = std::find(stage_names.begin(), stage_names.end(), *options_.until);
+    if (found == stage_names.end())
+      throw InputError(
+          "--until " + *options_.until, "is not a stage",
+          fmt::format("The stages are {}; did you mean {}?", fmt::join(stage_names, ", "),
+                      units::nearest(*options_.until, {stage_names.begin(), stage_names.end()})));
+    return static_cast<std::size_t>(found - stage_names.begin());
+  }
+
+  [[nodiscard]] std::filesystem::path folder(std::size_t stage) const {
+    return work_ / fmt::format("{:02d}_{}", stage + 1, stage_names[stage]);
+  }
+
+  void run_stage(std::size_t s, Ingredients ingredients) {
+    const StageFolder stage(work_, folder(s).filename().string(), std::move(ingredients));
+    if (root_says(stage.up_to_date())) {
+      if (options_.explain)
+        log::info("{} is up to date: nothing it depends on has changed", stage_names[s]);
+      show(s);
+      return;
+    }
+    if (options_.explain)
+      log::info("{} runs, because {}", stage_names[s], stage.reason());
+    else
+      log::info("{} ...", stage_names[s]);
+    on_root([&] { static_cast<void>(stage.begin()); });
+    make(s, stage.unfinished());
+    on_root([&] { stage.finish(); });
+    show(s);
+  }
+
+  void make(std::size_t s, const std::filesystem::path& part) {
+    switch (static_cast<Stage>(s)) {
+      case Stage::anatomy:
+        on_root([&] { write_anatomy(case_, make_anatomy(case_), part); });
+        break;
+      case Stage::mesh:
+        on_root([&] { write_mesh_result(make_mesh(case_, make_anatomy(case_)), case_, part); });
+        break;
+      case Stage::beat:
+        run_beat(part);
+        break;
+      case Stage::results:
+        text_ = make_results(case_, read_mesh_result(folder(1)), read_beat(folder(2)), part);
+        on_root([&] { write_file(part / "summary.txt", text_); });
+        break;
+    }
+  }
+
+  void run_beat(const std::filesystem::path& part) {
+    const auto start = std::chrono::steady_clock::now();
+    const heartbeat::Beat beat = make_beat(case_, read_mesh_result(folder(1)), part);
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+    on_root([&] {
+      write_beat(beat, elapsed.count(), part);
+      std::filesystem::remove(part / heartbeat::checkpoint_name);
+    });
+    log::info("beat: {} steps in {}", beat.steps, log::duration(elapsed.count()));
+  }
+
+  /// After the last stage, its numbers.
+  void show(std::size_t s) const {
+    if (static_cast<Stage>(s) == Stage::results && parallel::is_root())
+      fmt::print("\n{}\nresults in {}\n", read_file(folder(3) / "summary.txt"), folder(3).string());
+  }
+
+  const Case& case_;
+  RunOptions options_;
+  std::filesystem::path work_;
+  std::size_t last_;
+  std::string text_;
+};
+
+}  // namespace
+
+void run(const Case& c, const RunOptions& options) {
+  interrupt::install();
+  Pipeline(c, options).run();
+}
+
+std::string validate(const Case& c) {
+  const MeshResult result = make_mesh(c, make_anatomy(c));
+  const mesh::Mesh& m = result.mesh;
+  const immersed::ModelParameters p = model_parameters(c, m);
+  const solid::Wall wall(m, c.fibres, wall_material(c));
+  return fmt::format(
+      "{}: valid\n  cavity {:.2f} ml at early diastole\n  {} elements, {} nodes\n"
+      "  grid {} x {} x {}, mesh width {:.3f} mm\n",
+      c.file.string(), 1e-3 * solid::Cavity(m).volume(m.nodes), m.cell_count(), m.nodes.size(),
+      p.grid.cells[0], p.grid.cells[1], p.grid.cells[2], p.grid.spacing.minCoeff());
+}
+
+std::string version() {
+  return LV_VERSION;
+}
+
+}  // namespace lv::job

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "lv/job/case.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace lv::job {
+
+struct RunOptions {
+  std::filesystem::path work;        ///< work folder; empty: the case file's name with .work
+  std::optional<std::string> until;  ///< last stage to run: anatomy, mesh, beat or results
+  bool explain = false;              ///< say why each stage runs or does not
+};
+
+/// Runs all stages of a case, skipping those whose inputs, parameters and program version are
+/// unchanged:
+///
+///   anatomy   the surfaces of the wall                    01_anatomy/
+///   mesh      elements, fibres, regions, quality          02_mesh/
+///   beat      filling and contraction                     03_beat/
+///   results   tables, summary, pictures                   04_results/
+///
+/// Collective: every rank calls it.
+void run(const Case& c, const RunOptions& options);
+
+/// Builds anatomy and mesh in memory and says what a run would compute. Throws InputError for a
+/// case that cannot run.
+[[nodiscard]] std::string validate(const Case& c);
+
+/// The program's version.
+[[nodiscard]] std::string version();
+
+}  // namespace lv::job

@@ -1,0 +1,46 @@
+#pragma once
+
+#include "lv/mesh/mesh.hpp"
+
+#include <string>
+#include <vector>
+
+namespace lv::mesh {
+
+struct RegionParameters {
+  double septum_angle =
+      0.0;  ///< direction of the middle of the septum about the long axis, from x towards y [rad]
+  double slice_spacing = 0.0;  ///< between the seven slice planes [mm]; 0: the wall's length / 6.5,
+                               ///< the seventh at the apex
+};
+
+/// The paper's division (section 2.2, Fig. 3): seven short-axis planes from the base on, five with
+/// six sectors and two with four; every point belongs to the plane nearest to it. And the 17
+/// segments of the American Heart Association: basal, middle and apical thirds of the cavity's
+/// length, and the apex beyond the cavity.
+///
+/// Sectors are named for a heart with the septum at `septum_angle` and the anterior wall 90 degrees
+/// further, anticlockwise seen from the base.
+struct Regions {
+  std::vector<int> slice;   ///< per cell: 1 (base) to 7 (apex)
+  std::vector<int> sector;  ///< per cell: 1-6 ant antsept infsept inf inflat antlat; in slices 6,
+                            ///< 7: 1-4 ant sept inf lat
+  std::vector<int> aha;     ///< per cell: 1 to 17
+};
+
+inline constexpr int slice_count = 7;
+
+/// Sectors in a slice, 1 to 7.
+[[nodiscard]] constexpr int sectors_of_slice(int slice) {
+  return slice <= 5 ? 6 : 4;
+}
+
+[[nodiscard]] Regions divide(const Mesh& mesh, const RegionParameters& parameters);
+
+/// "ant", "antsept", ... of a sector of a slice.
+[[nodiscard]] std::string sector_name(int slice, int sector);
+
+/// "basal anterior", ... of an AHA segment.
+[[nodiscard]] std::string aha_name(int segment);
+
+}  // namespace lv::mesh

@@ -1,0 +1,153 @@
+#include "lv/report/summary.hpp"
+
+#include "lv/base/units.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace lv::report {
+namespace {
+
+using analysis::Results;
+using analysis::Shape;
+using analysis::Statistics;
+using Json = nlohmann::ordered_json;
+using units::degree;
+using units::mmHg;
+
+/// A number rounded to seven digits; null when it is missing.
+Json number(double value) {
+  if (std::isnan(value))
+    return nullptr;
+  return std::stod(fmt::format("{:.7g}", value));
+}
+
+Json shape_json(const Shape& s) {
+  return {{"time_s", number(s.time)},
+          {"pressure_mmHg", number(s.pressure / mmHg)},
+          {"cavity_volume_ml", number(1e-3 * s.cavity_volume)},
+          {"wall_volume_ml", number(1e-3 * s.wall_volume)},
+          {"apex_endo_z_mm", number(s.apex_endo_z)},
+          {"apex_epi_z_mm", number(s.apex_epi_z)},
+          {"base_endo_radius_mm", number(s.base_endo_radius)},
+          {"base_axial_shift_mm", number(s.base_axial_shift)}};
+}
+
+Json statistics_json(const Statistics& s, const std::string& unit) {
+  return {{"mean", number(s.mean)}, {"sd", number(s.sd)},   {"p1", number(s.p1)},
+          {"p50", number(s.p50)},   {"p99", number(s.p99)}, {"unit", unit}};
+}
+
+Json whole_wall(const Results& results, const std::string& state) {
+  Json json;
+  for (const auto& r : results.regional)
+    if (r.state == state && r.scheme == "whole")
+      json[r.quantity] = statistics_json(r.statistics, r.unit);
+  return json;
+}
+
+Json pairs(const std::vector<std::pair<std::string, std::string>>& list) {
+  Json json = Json::object();
+  for (const auto& [name, value] : list)
+    json[name] = value;
+  return json;
+}
+
+}  // namespace
+
+std::vector<Observation> observations(const Results& r) {
+  const double apex = r.rotation.back().from_end_diastole / degree;
+  const double shortening = 100.0 * r.fibre_shortening;
+  const double shift = std::max(r.end_diastole.base_axial_shift, r.end_systole.base_axial_shift);
+  const auto off_mean = [](const Statistics& J) { return 100.0 * (J.mean - 1.0); };
+  const auto off_percentiles = [](const Statistics& J) {
+    return 100.0 * std::max(std::abs(J.p1 - 1.0), std::abs(J.p99 - 1.0));
+  };
+  const double mean_J = std::abs(off_mean(r.J_end_diastole)) > std::abs(off_mean(r.J_end_systole))
+                            ? off_mean(r.J_end_diastole)
+                            : off_mean(r.J_end_systole);
+  const double tail_J =
+      std::max(off_percentiles(r.J_end_diastole), off_percentiles(r.J_end_systole));
+  return {
+      {"apex_rotation", apex, "deg", "positive: anticlockwise seen from the apex", apex > 0.0},
+      {"wall_thickening", 100.0 * r.thickening, "%", "positive", r.thickening > 0.0},
+      {"fibre_shortening", shortening, "%", "10 to 25", shortening >= 10.0 && shortening <= 25.0},
+      {"base_axial_shift", shift, "mm", "at most 0.5", shift <= 0.5},
+      {"wall_volume_mean", mean_J, "%", "mean J within 0.5 of 1", std::abs(mean_J) <= 0.5},
+      {"wall_volume_tails", tail_J, "%", "1st and 99th percentile of J within 5 of 1",
+       tail_J <= 5.0},
+  };
+}
+
+std::string summary_json(const RunFacts& facts, const heartbeat::Beat& beat, const Results& r) {
+  Json json;
+  json["case"] = facts.case_name;
+  json["program"] = {{"name", "ventricle"}, {"version", facts.version}, {"engine", facts.engine}};
+  json["resolution"] = {{"grid", facts.grid},      {"mesh_width_mm", number(facts.mesh_width)},
+                        {"nodes", facts.nodes},    {"elements", facts.cells},
+                        {"ranks", facts.ranks},    {"steps", beat.steps},
+                        {"retries", beat.retries}, {"wall_clock_s", number(facts.wall_clock)}};
+  json["early_diastole"] = shape_json(r.early_diastole);
+  json["end_diastole"] = shape_json(r.end_diastole);
+  json["end_systole"] = shape_json(r.end_systole);
+  json["edv_ml"] = number(1e-3 * r.end_diastole.cavity_volume);
+  json["esv_ml"] = number(1e-3 * r.end_systole.cavity_volume);
+  json["ejection_fraction_percent"] = number(100.0 * r.ejection_fraction());
+  json["filling_was_steady"] = beat.filling_was_steady;
+  json["contraction_was_steady"] = beat.contraction_was_steady;
+  json["strain"] =
+      "Green-Lagrange; at end-systole relative to end-diastole, at end-diastole relative to early "
+      "diastole";
+  json["whole_wall"] = {{"end_diastole", whole_wall(r, "end_diastole")},
+                        {"end_systole", whole_wall(r, "end_systole")}};
+  json["fibre_shortening_percent"] = number(100.0 * r.fibre_shortening);
+  for (const auto& slice : r.rotation)
+    json["rotation"].push_back(
+        {{"slice", slice.slice},
+         {"end_diastole_to_end_systole_deg", number(slice.from_end_diastole / degree)},
+         {"early_diastole_to_end_systole_deg", number(slice.from_early_diastole / degree)}});
+  for (const Observation& o : observations(r))
+    json["observations"].push_back({{"name", o.name},
+                                    {"value", number(o.value)},
+                                    {"unit", o.unit},
+                                    {"rule", o.rule},
+                                    {"holds", o.holds}});
+  json["warnings"] = facts.warnings;
+  json["parameters"] = pairs(facts.parameters);
+  json["set_in_case_file"] = pairs(facts.origins);
+  return json.dump(2) + "\n";
+}
+
+std::string summary_text(const RunFacts& facts, const heartbeat::Beat& beat, const Results& r) {
+  std::string text =
+      fmt::format("{}: {} elements, {} nodes, grid {}, {} steps in {:.0f} s on {} rank{}\n\n",
+                  facts.case_name, facts.cells, facts.nodes, facts.grid, beat.steps,
+                  facts.wall_clock, facts.ranks, facts.ranks == 1 ? "" : "s");
+  text += fmt::format("  {:<34}{:>14}{:>14}{:>14}\n", "", "early diast.", "end-diastole",
+                      "end-systole");
+  const auto row = [&](const char* what, double a, double b, double c) {
+    text += fmt::format("  {:<34}{:>14.2f}{:>14.2f}{:>14.2f}\n", what, a, b, c);
+  };
+  const Shape& e = r.early_diastole;
+  const Shape& d = r.end_diastole;
+  const Shape& s = r.end_systole;
+  row("endocardial pressure (mmHg)", 0.0, d.pressure / mmHg, s.pressure / mmHg);
+  row("cavity volume (ml)", 1e-3 * e.cavity_volume, 1e-3 * d.cavity_volume, 1e-3 * s.cavity_volume);
+  row("wall volume (ml)", 1e-3 * e.wall_volume, 1e-3 * d.wall_volume, 1e-3 * s.wall_volume);
+  row("endocardial apex z (mm)", e.apex_endo_z, d.apex_endo_z, s.apex_endo_z);
+  text += fmt::format("\n  ejection fraction {:.1f}%\n\n", 100.0 * r.ejection_fraction());
+  text += fmt::format("  {:<34}{:>18}\n", "at end-systole, whole wall", "mean +- sd");
+  for (const auto& v : r.regional)
+    if (v.state == "end_systole" && v.scheme == "whole")
+      text += fmt::format("  {:<34}{:>9.3f} +- {:.3f}{}\n", v.quantity, v.statistics.mean,
+                          v.statistics.sd, v.unit == "1" ? "" : " " + v.unit);
+  text += "\n";
+  for (const Observation& o : observations(r))
+    text += fmt::format("  {:<22}{:>9.2f} {:<4} {:<44} {}\n", o.name, o.value, o.unit, o.rule,
+                        o.holds ? "yes" : "NO");
+  return text;
+}
+
+}  // namespace lv::report

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "lv/analysis/results.hpp"
+
+#include <string>
+#include <vector>
+
+namespace lv::report {
+
+/// What stands at the head of a summary besides the results.
+struct RunFacts {
+  std::string case_name;
+  std::string version;
+  std::string engine;
+  int ranks = 1;
+  int nodes = 0;
+  int cells = 0;
+  std::string grid;                                             ///< "96 x 96 x 128"
+  double mesh_width = 0.0;                                      ///< of the grid [mm]
+  double wall_clock = 0.0;                                      ///< of the beat [s]
+  std::vector<std::pair<std::string, std::string>> parameters;  ///< name and value, all of them
+  std::vector<std::pair<std::string, std::string>>
+      origins;  ///< of those that a case file sets: file:line
+  std::vector<std::string> warnings;
+};
+
+/// A statement about a beat that a healthy ventricle fulfils, with the number behind it.
+struct Observation {
+  std::string name;
+  double value;
+  std::string unit;
+  std::string rule;
+  bool holds;
+};
+
+/// The apex turns anticlockwise seen from the apex, the wall thickens, fibres shorten by 10-25% on
+/// average, the base stays in its plane, and the wall keeps its volume.
+[[nodiscard]] std::vector<Observation> observations(const analysis::Results& results);
+
+/// summary.json as text.
+[[nodiscard]] std::string summary_json(const RunFacts& facts, const heartbeat::Beat& beat,
+                                       const analysis::Results& results);
+
+/// The same for a terminal: the numbers one looks at first.
+[[nodiscard]] std::string summary_text(const RunFacts& facts, const heartbeat::Beat& beat,
+                                       const analysis::Results& results);
+
+}  // namespace lv::report

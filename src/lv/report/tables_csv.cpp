@@ -1,0 +1,46 @@
+#include "lv/report/tables_csv.hpp"
+
+#include "lv/base/units.hpp"
+
+namespace lv::report {
+namespace {
+
+using units::degree;
+using units::mmHg;
+
+const auto number = [](double value) { return Table::number(value); };
+
+}  // namespace
+
+Table curves_table(const std::vector<heartbeat::CurveRow>& curves) {
+  Table table({"time_s", "phase", "pressure_mmHg", "cavity_volume_ml", "calcium_uM",
+               "mean_active_tension_kPa", "kinetic_energy_mJ", "largest_velocity_m_per_s", "min_J",
+               "max_J", "step_s"});
+  for (const heartbeat::CurveRow& r : curves)
+    table.add_row({number(r.time), heartbeat::name(r.phase), number(r.pressure / mmHg),
+                   number(1e-3 * r.volume), number(r.calcium), number(r.mean_tension),
+                   number(1e-3 * r.kinetic_energy), number(1e-3 * r.largest_velocity),
+                   number(r.min_J), number(r.max_J), number(r.step)});
+  return table;
+}
+
+Table regions_table(const analysis::Results& results) {
+  Table table({"state", "scheme", "region", "quantity", "unit", "volume_ml", "mean", "sd", "p1",
+               "p50", "p99"});
+  for (const analysis::RegionalValue& r : results.regional)
+    table.add_row({r.state, r.scheme, r.region, r.quantity, r.unit, number(1e-3 * r.volume),
+                   number(r.statistics.mean), number(r.statistics.sd), number(r.statistics.p1),
+                   number(r.statistics.p50), number(r.statistics.p99)});
+  return table;
+}
+
+Table rotation_table(const analysis::Results& results) {
+  Table table({"slice", "end_diastole_to_end_systole_deg", "early_diastole_to_end_systole_deg",
+               "early_to_end_diastole_deg"});
+  for (const analysis::SliceRotation& r : results.rotation)
+    table.add_row({std::to_string(r.slice), number(r.from_end_diastole / degree),
+                   number(r.from_early_diastole / degree), number(r.filling / degree)});
+  return table;
+}
+
+}  // namespace lv::report
