@@ -1,22 +1,32 @@
 #include "lv/base/check.hpp"
+#include "lv/base/launch.hpp"
 #include "lv/base/parallel.hpp"
 #include "lv/base/table.hpp"
 #include "lv/heartbeat/immersed_beat.hpp"
 #include "lv/job/read_case.hpp"
 #include "lv/job/run.hpp"
+#include "lv/verify/run.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <mpi.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <thread>
 
 namespace {
+
+// exit codes; 0: done
+constexpr int wrong_input = 1;    // or a failed verification
+constexpr int no_way_on = 2;      // a run that could not go on
+constexpr int defect = 3;         // of the program
+constexpr int interrupted = 130;  // with a checkpoint
 
 /// What the command line asks for.
 struct Command {
@@ -26,32 +36,15 @@ struct Command {
   lv::job::RunOptions run;
   int ranks = 0;
   bool markdown = false;
+  lv::job::BenchOptions bench;
+  bool list = false;
+  lv::verify::Options verify;
+  std::string solve_in;  ///< folder for the findings of one problem, see verify::solve_option
 };
 
 /// Cores that this process may use, at most eight.
 int default_ranks() {
   return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 8);
-}
-
-bool under_mpirun() {
-  return std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr;
-}
-
-/// Replaces this process by mpirun with as many copies of it.
-void start_ranks(int ranks, char** argv) {
-  setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 0);
-  setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 0);
-  // shared memory without ptrace rights, which containers withhold
-  setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 0);
-  const std::string self = std::filesystem::read_symlink("/proc/self/exe");
-  const std::string count = std::to_string(ranks);
-  std::vector<const char*> args{"mpirun", "-q",          "--oversubscribe",
-                                "-n",     count.c_str(), self.c_str()};
-  for (char** arg = argv + 1; *arg != nullptr; ++arg)
-    args.push_back(*arg);
-  args.push_back(nullptr);
-  execvp("mpirun", const_cast<char* const*>(args.data()));
-  throw lv::RunError("mpirun cannot be started", "Install openmpi-bin, or use --ranks 1");
 }
 
 void write_new_case(const std::string& file) {
@@ -61,23 +54,68 @@ void write_new_case(const std::string& file) {
   fmt::print("wrote {}; next: ventricle validate {}\n", file, file);
 }
 
+/// Starts this program again under mpirun if it is to run on several ranks.
+void start_ranks(const Command& command, const std::array<int, 3>& cells, int argc, char** argv) {
+  const int usual = std::min(default_ranks(), lv::job::most_ranks(cells));
+  const int ranks = command.ranks > 0 ? command.ranks : usual;
+  if (!lv::launch::under_mpirun() && ranks > 1)
+    lv::launch::replace(ranks, {argv + 1, argv + argc});
+}
+
+int bench(const Command& command, int argc, char** argv) {
+  const std::vector<int>& n = command.bench.cells;
+  start_ranks(command, {n.at(0), n.at(1), n.at(2)}, argc, argv);
+  const lv::parallel::Session session(&argc, &argv);
+  const std::string result = lv::job::bench(command.bench);
+  if (lv::parallel::is_root())
+    fmt::print("{}", result);
+  return 0;
+}
+
 int run_parallel(Command& command, int argc, char** argv) {
   const lv::job::Case c =
       lv::job::read_case(command.case_file);  // mistakes are told before ranks start
-  const int ranks = command.ranks > 0 ? command.ranks : default_ranks();
-  if (!under_mpirun() && ranks > 1)
-    start_ranks(ranks, argv);
+  start_ranks(command, c.box.cells, argc, argv);
   const lv::parallel::Session session(&argc, &argv);
   if (!command.until.empty())
     command.run.until = command.until;
-  lv::job::run(c, command.run);
+  try {
+    lv::job::run(c, command.run);
+  } catch (const lv::heartbeat::Interrupted& stop) {  // thrown on all ranks together
+    if (lv::parallel::is_root())
+      fmt::print(stderr, "ventricle: {}\n", stop.what());
+    return interrupted;
+  }
   return 0;
 }
 
 int validate(const Command& command, int argc, char** argv) {
+  if (lv::launch::under_mpirun())
+    throw lv::InputError("validate", "runs on one rank", "Run it without mpirun");
   const lv::parallel::Session session(&argc, &argv);
   fmt::print("{}", lv::job::validate(lv::job::read_case(command.case_file)));
   return 0;
+}
+
+int verify(const Command& command, int argc, char** argv) {
+  if (command.list) {
+    fmt::print("{}", lv::verify::list());
+    return 0;
+  }
+  if (command.solve_in.empty())
+    return lv::verify::run(command.verify) ? 0 : 1;
+  const lv::parallel::Session session(&argc, &argv);
+  lv::verify::solve(command.verify.names.at(0), command.solve_in);
+  return 0;
+}
+
+void add_verify(CLI::App& app, Command& command) {
+  auto* verify = app.add_subcommand("verify", "solve problems with known answers and compare");
+  verify->add_option("NAME", command.verify.names, "problems (default: all but the nightly ones)");
+  verify->add_flag("--list", command.list, "list the problems and what each proves");
+  verify->add_flag("--json", command.verify.json, "print one JSON object a line per quantity");
+  verify->add_flag("--nightly", command.verify.nightly, "the long problems too");
+  verify->add_option(lv::verify::solve_option, command.solve_in)->group("");
 }
 
 int dispatch(int argc, char** argv) {
@@ -100,16 +138,32 @@ int dispatch(int argc, char** argv) {
                   "work folder (default: the case file's name with .work)");
   run->add_option("--until", command.until, "last stage: anatomy, mesh, beat or results");
   run->add_flag("--explain", command.run.explain, "say why each stage runs or does not");
-  run->add_option("--ranks", command.ranks, "MPI ranks (default: the number of cores, at most 8)");
+  run->add_option("--ranks", command.ranks, "MPI ranks (default: the number of cores, at most 8)")
+      ->check(CLI::PositiveNumber);
+
+  add_verify(app, command);
 
   auto* list = app.add_subcommand("parameters",
                                   "list every parameter: default, range, meaning, paper equation");
   list->add_flag("--markdown", command.markdown, "as the manual page");
 
+  auto* time = app.add_subcommand("bench", "time the kernels of a step on this machine");
+  time->add_option("--cells", command.bench.cells, "cells of the box along x, y and z")
+      ->expected(3)
+      ->check(CLI::Range(8, 2048))
+      ->capture_default_str();
+  time->add_option("--edge", command.bench.edge_length, "target length of element edges [mm]")
+      ->check(CLI::Range(0.2, 10.0))
+      ->capture_default_str();
+  time->add_flag("--quadrature", command.bench.quadrature, "the paper's coupling instead of nodal");
+  time->add_option("--ranks", command.ranks, "MPI ranks (default: the number of cores, at most 8)")
+      ->check(CLI::PositiveNumber);
+  time->add_flag("--json", command.bench.json, "one JSON object instead of a table");
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error);
+    return app.exit(error) == 0 ? 0 : wrong_input;
   }
   if (*start)
     write_new_case(command.new_file);
@@ -117,44 +171,50 @@ int dispatch(int argc, char** argv) {
     return validate(command, argc, argv);
   if (*run)
     return run_parallel(command, argc, argv);
+  if (*time)
+    return bench(command, argc, argv);
+  if (app.got_subcommand("verify"))
+    return verify(command, argc, argv);
   if (*list)
     fmt::print("{}", lv::job::manual(command.markdown));
   return 0;
 }
 
-/// Reports a failure once, ends all ranks.
-int fail(const std::string& message, int code) {
+/// Reports a failure once, after some seconds if this is not the root, and ends all ranks.
+int fail(const std::string& message, int code, unsigned patience = 2) {
   int running = 0;
   int finished = 0;
   int rank = 0;
+  int size = 1;
   MPI_Initialized(&running);
   MPI_Finalized(&finished);
   const bool parallel = running != 0 && finished == 0;
-  if (parallel)
+  if (parallel) {
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    MPI_Comm_size(MPI_COMM_WORLD, &size);
+  }
+  std::signal(SIGTERM, SIG_DFL);  // from here on mpirun may end this rank
   if (rank != 0)
-    sleep(2);  // the root says it, unless the trouble is this rank's alone
+    sleep(patience);  // the root says it, unless the trouble is this rank's alone
   fmt::print(stderr, "ventricle: {}\n", message);
   std::fflush(nullptr);
   if (parallel)
-    MPI_Abort(MPI_COMM_WORLD, code);
+    size > 1 ? MPI_Abort(MPI_COMM_WORLD, code) : MPI_Finalize();
   return code;
 }
 
 }  // namespace
 
-/// Exit codes: 0 done, 1 wrong input or a failed verification, 2 a run that could not go on, 3 a
-/// defect of the program, 130 interrupted with a checkpoint.
 int main(int argc, char** argv) {
   try {
     return dispatch(argc, argv);
   } catch (const lv::InputError& error) {
-    return fail(error.what(), 1);
-  } catch (const lv::heartbeat::Interrupted& stop) {
-    return fail(stop.what(), 130);
+    return fail(error.what(), wrong_input);
+  } catch (const lv::FailedElsewhere& error) {
+    return fail(error.what(), defect, 30);  // the rank that failed ends this one before
   } catch (const lv::RunError& error) {
-    return fail(error.what(), 2);
+    return fail(error.what(), no_way_on);
   } catch (const std::exception& error) {
-    return fail(error.what(), 3);
+    return fail(error.what(), defect);
   }
 }

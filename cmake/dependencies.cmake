@@ -2,6 +2,10 @@
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(MPI REQUIRED IMPORTED_TARGET ompi)  # the C interface alone, without OpenMPI's retired C++ one
 pkg_check_modules(FFTW REQUIRED IMPORTED_TARGET fftw3)
+find_library(FFTW_MPI_LIBRARY fftw3_mpi REQUIRED)  # has no pkg-config file of its own
+add_library(fftw3_mpi UNKNOWN IMPORTED)
+set_target_properties(fftw3_mpi PROPERTIES IMPORTED_LOCATION ${FFTW_MPI_LIBRARY})
+pkg_check_modules(CAIRO REQUIRED IMPORTED_TARGET cairo)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_path(XSIMD_INCLUDE_DIR xsimd/xsimd.hpp REQUIRED)  # Debian's CMake target wants a library of xtl that does not exist
 add_library(xsimd_headers INTERFACE)
@@ -12,3 +16,10 @@ find_package(VTK 9.1 REQUIRED COMPONENTS CommonCore CommonDataModel IOXML IOLega
 
 # OpenMPI's retired C++ interface is neither used nor linked.
 target_compile_definitions(PkgConfig::MPI INTERFACE OMPI_SKIP_MPICXX)
+
+# Gmsh ships no CMake configuration.
+find_path(GMSH_INCLUDE_DIR gmsh.h REQUIRED)
+find_library(GMSH_LIBRARY gmsh REQUIRED)
+add_library(gmsh UNKNOWN IMPORTED)
+set_target_properties(gmsh PROPERTIES IMPORTED_LOCATION ${GMSH_LIBRARY} INTERFACE_INCLUDE_DIRECTORIES ${GMSH_INCLUDE_DIR})
+find_package(Boost 1.74 REQUIRED)  # headers alone: the R-tree

@@ -1,5 +1,6 @@
 #include "lv/analysis/wall_fields.hpp"
 
+#include "lv/analysis/wall_pressure.hpp"
 #include "lv/base/parallel.hpp"
 
 #include <Eigen/Geometry>
@@ -81,7 +82,8 @@ Strain strain_in(const Mat3& F, const Vec3& f, const mesh::WallAxes& axes) {
 
 }  // namespace
 
-std::vector<CellFields> cell_fields(const solid::Wall& wall, const heartbeat::Snapshot& snapshot) {
+std::vector<CellFields> cell_fields(const solid::Wall& wall, const heartbeat::Snapshot& snapshot,
+                                    std::span<const double> pressure) {
   std::vector<double> numbers;
   CellFields cell = zero_fields();
   int present = -1;
@@ -102,13 +104,37 @@ std::vector<CellFields> cell_fields(const solid::Wall& wall, const heartbeat::Sn
   flush();
 
   const std::vector<double> all = parallel::gather(numbers);
-  std::vector<CellFields> cells(parallel::is_root() ? snapshot.wall_pressure.size() : 0);
+  std::vector<CellFields> cells(parallel::is_root() ? pressure.size() : 0);
   const double* next = all.data();
   for (std::size_t c = 0; c < cells.size(); ++c) {
     for_numbers(cells[c], [&](double& number) { number = *next++; });
-    cells[c].pressure = snapshot.wall_pressure[c];
+    cells[c].pressure = pressure[c];
   }
   return cells;
+}
+
+namespace {
+
+solid::WallMaterial without_penalty(solid::WallMaterial material) {
+  material.volumetric.beta_s = 0.0;
+  return material;
+}
+
+}  // namespace
+
+FieldAnalysis::FieldAnalysis(const mesh::Mesh& mesh, const mesh::FibreRule& fibres,
+                             const solid::WallMaterial& material, double basal_stiffness)
+    : mesh_(mesh), wall_(mesh, fibres, without_penalty(material)), base_(mesh, basal_stiffness) {}
+
+std::vector<CellFields> FieldAnalysis::fields(const heartbeat::Snapshot& snapshot) const {
+  return cell_fields(wall_, snapshot, wall_pressure(mesh_, wall_, base_, snapshot));
+}
+
+std::vector<CellFields> FieldAnalysis::at_rest() const {
+  heartbeat::Snapshot s;
+  s.positions = mesh_.nodes;
+  s.tension.assign(mesh_.nodes.size(), 0.0);
+  return cell_fields(wall_, s, std::vector<double>(mesh_.cell_count(), 0.0));
 }
 
 Strain strain(const CellFields& now) {

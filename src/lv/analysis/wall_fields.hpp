@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lv/heartbeat/beat.hpp"
+#include "lv/solid/boundary.hpp"
 #include "lv/solid/wall.hpp"
 
 #include <vector>
@@ -17,11 +18,11 @@ struct CellFields {
   double J = 1.0;        ///< deformed over undeformed volume of the element
   double fibre_stretch = 1.0;
   double tension = 0.0;   ///< T [kPa]
-  double pressure = 0.0;  ///< of the fluid, p of (2.6) [kPa]
+  double pressure = 0.0;  ///< p of (2.6) [kPa]
   Mat3 F = Mat3::Identity();
   Mat3 fibre_frame = Mat3::Identity();  ///< columns f0, s0, n0
   mesh::WallAxes axes;                  ///< of the undeformed wall
-  Mat3 cauchy_passive = Mat3::Zero();   ///< sigma of (2.19)-(2.20), without -p [kPa]
+  Mat3 cauchy_passive = Mat3::Zero();   ///< sigma of (2.19), without -p [kPa]
   Mat3 cauchy_active = Mat3::Zero();    ///< (2.22) [kPa]
 
   /// sigma = sigma^p + sigma^a - p (2.6), without the small viscous part [kPa].
@@ -36,9 +37,30 @@ struct CellFields {
   }
 };
 
-/// All elements of a snapshot on the root, in the mesh's order; empty on other ranks. Collective.
+/// All elements of a snapshot on the root, in the mesh's order; empty on other ranks. `pressure` is
+/// p per element on the root. Collective.
 [[nodiscard]] std::vector<CellFields> cell_fields(const solid::Wall& wall,
-                                                  const heartbeat::Snapshot& snapshot);
+                                                  const heartbeat::Snapshot& snapshot,
+                                                  std::span<const double> pressure);
+
+/// Turns a wall's snapshots into fields, with the p that balances its forces (wall_pressure.hpp).
+/// All is collective; fields are on the root, empty on other ranks.
+class FieldAnalysis {
+ public:
+  /// The mesh must outlive the analysis.
+  FieldAnalysis(const mesh::Mesh& mesh, const mesh::FibreRule& fibres,
+                const solid::WallMaterial& material, double basal_stiffness);
+
+  [[nodiscard]] std::vector<CellFields> fields(const heartbeat::Snapshot& snapshot) const;
+
+  /// Of the undeformed wall.
+  [[nodiscard]] std::vector<CellFields> at_rest() const;
+
+ private:
+  const mesh::Mesh& mesh_;
+  solid::Wall wall_;  ///< without volumetric penalty: p stands for it
+  solid::BasalPenalty base_;
+};
 
 /// Green-Lagrange strain of an element between two states, E = (F^T F - 1)/2 with F = F_now
 /// F_then^-1, in the wall's own directions at the earlier state.

@@ -24,6 +24,12 @@ class RunError : public std::runtime_error {
   RunError(const std::string& what, const std::string& what_to_do);
 };
 
+/// The computation cannot go on because another rank failed, which says why.
+class FailedElsewhere : public std::runtime_error {
+ public:
+  FailedElsewhere() : std::runtime_error("another rank failed") {}
+};
+
 /// A mistake of the program itself.
 class LogicError : public std::logic_error {
  public:

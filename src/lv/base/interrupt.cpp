@@ -7,7 +7,12 @@ namespace {
 
 volatile std::sig_atomic_t asked = 0;
 
-void note(int /*signal*/) {
+/// The first signal asks; a second one ends the program at once.
+void note(int signal) {
+  if (asked != 0) {
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+  }
   asked = 1;
 }
 

@@ -3,7 +3,7 @@
 #include "lv/base/parallel.hpp"
 
 #include <spdlog/sinks/basic_file_sink.h>
-#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
 #include <cmath>
@@ -16,8 +16,8 @@ spdlog::logger& logger() {
   static spdlog::logger instance = [] {
     spdlog::logger made("ventricle");
     if (parallel::is_root())
-      made.sinks().push_back(std::make_shared<spdlog::sinks::stdout_color_sink_mt>());
-    made.set_pattern("[%H:%M:%S] %^%l%$ %v");
+      made.sinks().push_back(std::make_shared<spdlog::sinks::stdout_sink_mt>());
+    made.set_pattern("[%H:%M:%S] %l %v");
     made.flush_on(spdlog::level::info);
     return made;
   }();

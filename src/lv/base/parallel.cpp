@@ -41,7 +41,10 @@ Session::Session(int* argc, char*** argv) {
   MPI_Init(argc, argv);
 }
 Session::~Session() {
-  MPI_Finalize();
+  // a rank that fails alone must not wait here for the others: whoever reports the failure ends
+  // them
+  if (std::uncaught_exceptions() == 0)
+    MPI_Finalize();
 }
 
 int rank() {

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <fstream>
 #include <sstream>
+#include <system_error>
 #include <utility>
 
 namespace lv {
@@ -43,10 +44,13 @@ void write_file(const std::filesystem::path& file, const std::string& text) {
   std::ofstream out(unfinished, std::ios::binary | std::ios::trunc);
   out << text;
   out.close();
-  if (!out)
-    throw RunError(fmt::format("{} cannot be written: {}", file.string(), std::strerror(errno)),
+  std::error_code error;
+  if (out)
+    std::filesystem::rename(unfinished, file, error);
+  if (!out || error)
+    throw RunError(fmt::format("{} cannot be written: {}", file.string(),
+                               error ? error.message() : std::strerror(errno)),
                    "Check the folder's permissions and the space left on the disk");
-  std::filesystem::rename(unfinished, file);
 }
 
 std::string read_file(const std::filesystem::path& file) {

@@ -1,5 +1,7 @@
 #include "lv/base/units.hpp"
 
+#include "lv/base/nearest.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -133,8 +135,10 @@ class UnitParser {
       std::vector<std::string> known;
       for (const auto& entry : table())
         known.push_back(entry.first);
+      const std::string nearest = nearest_name(std::string(name), known);
       throw std::invalid_argument(
-          fmt::format("'{}' is not a unit (did you mean '{}'?)", name, nearest(name, known)));
+          fmt::format("'{}' is not a unit{}", name,
+                      nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest)));
     }
     if (!ahead('^'))
       return found->second;
@@ -157,22 +161,6 @@ std::string_view trimmed(std::string_view text) {
   if (first == std::string_view::npos)
     return {};
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
-
-int edit_distance(std::string_view a, std::string_view b) {
-  std::vector<int> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j)
-    row[j] = static_cast<int>(j);
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    int diagonal = row[0];
-    row[0] = static_cast<int>(i);
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const int substitute = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({substitute, row[j] + 1, row[j - 1] + 1});
-    }
-  }
-  return row[b.size()];
 }
 
 }  // namespace
@@ -199,12 +187,11 @@ std::string format(double value, std::string_view unit) {
   const double number = value / parse_unit(unit).factor;
   // the shortest text that gives the number back to 12 digits: hides the rounding of the conversion
   std::string text = fmt::format("{:.12g}", number);
-  for (int digits = 1; digits < 12; ++digits) {
-    const std::string shorter = fmt::format("{:.{}g}", number, digits);
-    if (std::abs(std::strtod(shorter.c_str(), nullptr) - number) <= 1e-12 * std::abs(number)) {
-      text = shorter;
-      break;
-    }
+  for (int digits = 11; digits > 0; --digits) {
+    const std::string other = fmt::format("{:.{}g}", number, digits);
+    const double error = std::abs(std::strtod(other.c_str(), nullptr) - number);
+    if (error <= 1e-12 * std::abs(number) && other.size() <= text.size())
+      text = other;
   }
   return unit.empty() ? text : fmt::format("{} {}", text, unit);
 }
@@ -228,13 +215,6 @@ std::string kind_of(const Unit& unit) {
                                                       {{2, 0, 0, 0, 0}, "area"}};
   const auto found = kinds.find(unit.dimension);
   return found == kinds.end() ? "quantity of another kind" : found->second;
-}
-
-std::string nearest(std::string_view word, const std::vector<std::string>& known) {
-  const auto best = std::min_element(known.begin(), known.end(), [&](const auto& a, const auto& b) {
-    return edit_distance(word, a) < edit_distance(word, b);
-  });
-  return best == known.end() ? "" : *best;
 }
 
 }  // namespace lv::units

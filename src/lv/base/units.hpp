@@ -41,7 +41,4 @@ struct Quantity {
 /// "pressure", "length", ... of a unit, for messages.
 [[nodiscard]] std::string kind_of(const Unit& unit);
 
-/// The word of `known` that is nearest to `word` by edit distance.
-[[nodiscard]] std::string nearest(std::string_view word, const std::vector<std::string>& known);
-
 }  // namespace lv::units

@@ -45,8 +45,6 @@ class ComponentTransform {
   [[nodiscard]] const ModeLayout& layout() const { return layout_; }
 
  private:
-  struct Exchange;
-
   [[nodiscard]] double* exchange_row(std::vector<double>& buffer, int k, int i) const;
   void planes_to_modes(const Component& points, std::vector<double>& buffer);
   void planes_to_points(std::vector<double>& buffer, Component& points);

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace lv::fluid {
 
 Vec3 Grid::upper() const {
@@ -16,13 +18,18 @@ Vec3 Grid::face(int c, int i, int j, int k) const {
   return lower + index.cwiseProduct(spacing);
 }
 
+int most_ranks(const std::array<int, 3>& cells) {
+  return std::max(1, std::min(cells[0], cells[2] / 2));
+}
+
 Slab slab_of(const Grid& grid, int rank, int ranks) {
-  const int thinnest = grid.cells[2] / ranks;
-  if (thinnest < 2)
+  const int most = most_ranks(grid.cells);
+  if (ranks > most)
     throw InputError(
         "--ranks " + std::to_string(ranks),
-        fmt::format("the box has {} cells along z, fewer than 2 per rank", grid.cells[2]),
-        fmt::format("Use at most {} ranks, or a finer grid", grid.cells[2] / 2));
+        fmt::format("the box has {} cells along x and {} along z; a rank needs 1 and 2",
+                    grid.cells[0], grid.cells[2]),
+        fmt::format("Use at most {} ranks, or a finer grid", most));
   return {parallel::share(grid.cells[2], rank, ranks), rank == 0, rank == ranks - 1};
 }
 

@@ -39,6 +39,9 @@ struct Slab {
 
 /// The slab of `rank` when the grid is shared by `ranks`.
 /// Throws InputError when a slab would be thinner than the two planes that its neighbours need.
+/// See slab_of.
+[[nodiscard]] int most_ranks(const std::array<int, 3>& cells);
+
 [[nodiscard]] Slab slab_of(const Grid& grid, int rank, int ranks);
 
 }  // namespace lv::fluid

@@ -115,10 +115,19 @@ void LineTransform::load_point(int j, const double* from, int count) {
   const double sign = sign_of_point(j);
   for (int c = 0; c < count; ++c)
     to[c] = sign * from[c];
+  clear_rest(to, count);
 }
 
 void LineTransform::load_mode(int m, const double* from, int count) {
-  std::copy_n(from, count, in(row_of_mode(m)));
+  double* to = in(row_of_mode(m));
+  std::copy_n(from, count, to);
+  clear_rest(to, count);
+}
+
+/// What the last transform left in unused columns would be transformed again and again, grow
+/// without bound and, through rounding, spoil the line that shares a complex number with it.
+void LineTransform::clear_rest(double* row, int count) const {
+  std::fill(row + count, row + columns_, 0.0);
 }
 
 void LineTransform::store_point(int j, double* to, int count, int stride) const {

@@ -35,7 +35,8 @@ class LineTransform {
   [[nodiscard]] int columns() const { return columns_; }
 
   /// Copies `count` <= columns() numbers, `stride` apart in memory, into or out of the tile: point
-  /// j or mode number m of each line, counted from 0 (so sine mode m is stored as m - 1).
+  /// j or mode number m of each line, counted from 0 (so sine mode m is stored as m - 1). Loading
+  /// sets the other columns to zero.
   void load_point(int j, const double* from, int count);
   void load_mode(int m, const double* from, int count);
   void store_point(int j, double* to, int count, int stride = 1) const;
@@ -51,6 +52,7 @@ class LineTransform {
   [[nodiscard]] int row_of_point(int j) const;
   [[nodiscard]] int row_of_mode(int m) const;
   [[nodiscard]] double sign_of_point(int j) const;
+  void clear_rest(double* row, int count) const;
   void sine_to_modes();
   void sine_to_points();
   void cosine();

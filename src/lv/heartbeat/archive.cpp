@@ -12,6 +12,7 @@
 #include <cstring>
 #include <fstream>
 #include <sstream>
+#include <system_error>
 
 namespace lv::heartbeat {
 namespace {
@@ -47,8 +48,15 @@ class Reader {
 };
 
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& why) {
-  throw RunError(fmt::format("{} {}", file.string(), why),
-                 "Delete it to start this stage again, or restore it from a copy");
+  throw RunError(
+      fmt::format("{} {}", file.string(), why),
+      fmt::format("Delete the folder {} to make it again, or restore the file from a copy",
+                  file.parent_path().string()));
+}
+
+[[noreturn]] void fail_to_write(const std::filesystem::path& file, int error) {
+  throw RunError(fmt::format("{} cannot be written: {}", file.string(), std::strerror(error)),
+                 "Check the folder's permissions and the space left on the disk");
 }
 
 /// Writes all bytes and waits until they are on the disk.
@@ -65,8 +73,7 @@ void write_durably(const std::filesystem::path& file, const std::string& bytes) 
   if (descriptor >= 0)
     ::close(descriptor);
   if (!good)
-    throw RunError(fmt::format("{} cannot be written: {}", file.string(), std::strerror(error)),
-                   "Check the folder's permissions and the space left on the disk");
+    fail_to_write(file, error);
 }
 
 }  // namespace
@@ -102,7 +109,10 @@ void Archive::write(const std::filesystem::path& file) const {
   whole += bytes;
   const std::filesystem::path unfinished = file.string() + ".part";
   write_durably(unfinished, whole);
-  std::filesystem::rename(unfinished, file);
+  std::error_code error;
+  std::filesystem::rename(unfinished, file, error);
+  if (error)
+    fail_to_write(file, error.value());
 }
 
 Archive Archive::read(const std::filesystem::path& file) {

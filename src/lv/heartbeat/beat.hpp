@@ -26,11 +26,10 @@ struct CurveRow {
 struct Snapshot {
   double time = 0.0;
   Phase phase = Phase::filling;
-  double pressure = 0.0;              ///< on the endocardium [kPa]
-  double volume = 0.0;                ///< [mm^3]
-  std::vector<Vec3> positions;        ///< of the nodes [mm]
-  std::vector<double> tension;        ///< per node [kPa]
-  std::vector<double> wall_pressure;  ///< of the fluid at the centre of each element [kPa]
+  double pressure = 0.0;        ///< on the endocardium [kPa]
+  double volume = 0.0;          ///< [mm^3]
+  std::vector<Vec3> positions;  ///< of the nodes [mm]
+  std::vector<double> tension;  ///< per node [kPa]
 };
 
 /// What a beat comes to, whichever engine ran it.
@@ -41,7 +40,8 @@ struct Beat {
   bool filling_was_steady = false;  ///< the criterion ended the phase, not its longest duration
   bool contraction_was_steady = false;
   int steps = 0;
-  int retries = 0;  ///< steps taken back and repeated smaller
+  int retries = 0;          ///< steps taken back and repeated smaller
+  double wall_clock = 0.0;  ///< of the computation, interruptions left out [s]
 };
 
 }  // namespace lv::heartbeat

@@ -51,15 +51,21 @@ class ImmersedRun {
   Beat run() {
     if (!resume())
       start();
+    begun_time_ = run_.time;
+    begun_steps_ = run_.beat.steps;
     keep();
     while (!finished_) {
-      advance();
-      observe();
-      end_phase_when_steady();
-      housekeeping();
+      if (advance()) {
+        observe();
+        end_phase_when_steady();
+        keep_sometimes();
+      }
+      if (!finished_)
+        housekeeping();
     }
     if (observers_.curves)
       observers_.curves(run_);
+    count_time();
     return std::move(run_.beat);
   }
 
@@ -72,15 +78,17 @@ class ImmersedRun {
 
   bool resume();
   void save();
+  void count_time();
   void keep();
-  void advance();
+  [[nodiscard]] bool advance();
+  void keep_sometimes();
   void take_back(const std::string& why);
   [[nodiscard]] double step_size() const;
   [[nodiscard]] std::string what_is_wrong(const immersed::StepReport& report);
   void observe();
   void record_curve();
   void write_frame();
-  [[nodiscard]] Snapshot snapshot(const fluid::Component& pressure) const;
+  [[nodiscard]] Snapshot snapshot() const;
   void watch_least_volume();
   void end_phase_when_steady();
   void end_filling(bool steady);
@@ -108,9 +116,10 @@ class ImmersedRun {
 
   Timer checkpoint_timer_;
   Timer progress_timer_{5.0};
-  double reported_time_ = 0.0;  ///< simulated and wall-clock time of the last progress line
-  double reported_clock_ = wall_clock();
-  int reported_steps_ = 0;
+  double counted_until_ = wall_clock();
+  double begun_time_ = 0.0;  ///< simulated and wall-clock time at which this process took over
+  double begun_clock_ = wall_clock();
+  int begun_steps_ = 0;
 };
 
 bool ImmersedRun::resume() {
@@ -141,7 +150,14 @@ bool ImmersedRun::resume() {
   return true;
 }
 
+void ImmersedRun::count_time() {
+  const double now = wall_clock();
+  run_.beat.wall_clock += now - counted_until_;
+  counted_until_ = now;
+}
+
 void ImmersedRun::save() {
+  count_time();
   const immersed::ModelState& state = model_.state();
   Archive archive;
   store(run_, archive);
@@ -179,7 +195,7 @@ double ImmersedRun::step_size() const {
 
 std::string ImmersedRun::what_is_wrong(const immersed::StepReport& report) {
   if (!report.inside_box)
-    return "the wall left the box";
+    return "the wall reached the side of the box";
   if (report.J.min_J <= 0.0)
     return fmt::format("an element turned inside out (J = {:.3g})", report.J.min_J);
   if (report.largest_node_speed > setup_.control.velocity_limit)
@@ -192,7 +208,8 @@ std::string ImmersedRun::what_is_wrong(const immersed::StepReport& report) {
   return flips_ >= patience ? "the wall's velocity flips from step to step" : "";
 }
 
-void ImmersedRun::advance() {
+/// One step. False when it failed and the run went back.
+bool ImmersedRun::advance() {
   const double dt = step_size();
   volume_before_ = model_.cavity_volume();
   last_ = model_.step(loads_now(), dt);
@@ -206,29 +223,37 @@ void ImmersedRun::advance() {
   const std::string trouble = what_is_wrong(last_);
   if (!trouble.empty()) {
     take_back(trouble);
-    return;
+    return false;
   }
   if (run_.halvings > 0 && ++run_.good_steps >= run_.patience) {
     --run_.halvings;
     run_.good_steps = 0;
     log::info("the step may grow again, to {:.3g} s", step_size());
   }
-  constexpr int keep_every = 200;  // steps
-  if (run_.beat.steps % keep_every == 0)
+  return true;
+}
+
+void ImmersedRun::keep_sometimes() {
+  constexpr int every = 200;  // steps
+  if (run_.beat.steps % every == 0)
     keep();
 }
 
 void ImmersedRun::take_back(const std::string& why) {
   const double failed_at = run_.time;
   const int halvings = run_.halvings + 1;
-  const int patience = 2 * run_.patience;
+  constexpr int longest_patience = 100'000;  // steps
+  const int patience = std::min(2 * run_.patience, longest_patience);
   const int retries = run_.beat.retries + 1;
+  count_time();
+  const double spent = run_.beat.wall_clock;
   model_.restore(*kept_model_);
   run_ = kept_run_;
   run_.halvings = halvings;
   run_.patience = patience;
   run_.good_steps = 0;
   run_.beat.retries = retries;
+  run_.beat.wall_clock = spent;
   flips_ = 0;
   if (halvings > setup_.control.halvings) {
     run_.halvings = 0;  // whoever resumes begins with the step of the case file
@@ -237,15 +262,15 @@ void ImmersedRun::take_back(const std::string& why) {
         fmt::format("The run became unstable at {:.4f} s of {}: {}, even with steps of {:.2g} s",
                     failed_at, name(run_.phase), why,
                     std::ldexp(setup_.control.longest, -setup_.control.halvings)),
-        "Look at the last frame: a wall that folds needs a finer mesh or lower pressures; "
-        "otherwise lower "
-        "time.longest_step in the case file. The checkpoint holds the last good state");
+        "Look at the last frame: a wall at the side of the box needs a larger box.size, one that "
+        "folds a finer mesh or lower pressures; otherwise lower time.longest_step in the case "
+        "file. The checkpoint holds the last good state");
   }
   log::warn("at {:.4f} s {}; back to {:.4f} s with steps of {:.3g} s", failed_at, why, run_.time,
             step_size());
 }
 
-Snapshot ImmersedRun::snapshot(const fluid::Component& pressure) const {
+Snapshot ImmersedRun::snapshot() const {
   const auto x = model_.positions();
   const auto tension = model_.contraction().tension();
   return {run_.time,
@@ -253,8 +278,7 @@ Snapshot ImmersedRun::snapshot(const fluid::Component& pressure) const {
           loads_now().pressure,
           model_.cavity_volume(),
           {x.begin(), x.end()},
-          {tension.begin(), tension.end()},
-          model_.wall_pressure(pressure)};
+          {tension.begin(), tension.end()}};
 }
 
 void ImmersedRun::observe() {
@@ -269,6 +293,8 @@ void ImmersedRun::observe() {
 }
 
 void ImmersedRun::record_curve() {
+  if (!run_.beat.curves.empty() && run_.beat.curves.back().time == run_.time)
+    return;
   const auto motion =
       fluid::motion(model_.velocity(), setup_.model.grid, setup_.model.blood.density);
   const immersed::Loads now = loads_now();
@@ -280,13 +306,13 @@ void ImmersedRun::record_curve() {
 
 void ImmersedRun::write_frame() {
   run_.next_frame = run_.time + setup_.output.frame_interval;
-  if (!observers_.frame)
+  const bool is_there = !run_.frame_times.empty() && run_.frame_times.back() == run_.time;
+  if (!observers_.frame || is_there)
     return;
   const fluid::Component pressure = model_.pressure();
   const int number = run_.frames++;
   run_.frame_times.push_back(run_.time);
-  run_.frame_phases.push_back(run_.phase);
-  observers_.frame({number, snapshot(pressure), run_, model_, pressure});
+  observers_.frame({number, snapshot(), run_, model_, pressure});
 }
 
 /// End-systole of a calcium transient is the smallest volume: noticed at the first step that fills
@@ -295,7 +321,7 @@ void ImmersedRun::watch_least_volume() {
   const bool falling = model_.cavity_volume() < volume_before_;
   if (run_.volume_was_falling && !falling &&
       (run_.least.positions.empty() || volume_before_ < run_.least.volume))
-    run_.least = snapshot(model_.pressure());
+    run_.least = snapshot();
   run_.volume_was_falling = falling;
 }
 
@@ -309,8 +335,9 @@ void ImmersedRun::end_phase_when_steady() {
   }
   if (p.calcium.mode == material::Calcium::Mode::transient) {
     constexpr double refilled = 1.02;  // of the smallest volume
-    const bool over =
-        !run_.least.positions.empty() && model_.cavity_volume() > refilled * run_.least.volume;
+    const bool over = loads_are_final(p, run_.phase, time_in_phase()) &&
+                      !run_.least.positions.empty() &&
+                      model_.cavity_volume() > refilled * run_.least.volume;
     if (over || time_in_phase() >= p.contraction_longest)
       end_contraction(over);
     return;
@@ -322,7 +349,7 @@ void ImmersedRun::end_phase_when_steady() {
 
 void ImmersedRun::end_filling(bool steady) {
   record_curve();
-  run_.beat.end_diastole = snapshot(model_.pressure());
+  run_.beat.end_diastole = snapshot();
   run_.beat.filling_was_steady = steady;
   if (!steady)
     log::warn("filling did not settle within {} s: the volume still varies by {:.2g}% per {} s",
@@ -340,7 +367,9 @@ void ImmersedRun::end_filling(bool steady) {
 void ImmersedRun::end_contraction(bool steady) {
   record_curve();
   Beat& beat = run_.beat;
-  beat.end_systole = run_.least.positions.empty() ? snapshot(model_.pressure()) : run_.least;
+  const bool passed_the_least =
+      !run_.least.positions.empty() && run_.least.volume < model_.cavity_volume();
+  beat.end_systole = passed_the_least ? run_.least : snapshot();
   beat.contraction_was_steady = steady;
   if (!steady)
     log::warn("contraction did not reach its end criterion within {} s",
@@ -384,17 +413,14 @@ double ImmersedRun::time_left() const {
 }
 
 void ImmersedRun::report_progress(double now) {
-  const double speed = (run_.time - reported_time_) / (now - reported_clock_);
-  const double rate = (run_.beat.steps - reported_steps_) / (now - reported_clock_);
+  const double speed = std::max(run_.time - begun_time_, 1e-9) / (now - begun_clock_);
+  const double rate = (run_.beat.steps - begun_steps_) / (now - begun_clock_);
   log::info(
       "{} {:.3f} s  {:.1f} mmHg  {:.1f} ml  T {:.1f} kPa  J {:.2f}-{:.2f}  {:.1f} steps/s, about "
       "{} left",
       name(run_.phase), run_.time, loads_now().pressure / mmHg, 1e-3 * model_.cavity_volume(),
       model_.mean_tension(), last_.J.min_J, last_.J.max_J, rate,
       log::duration(time_left() / speed));
-  reported_time_ = run_.time;
-  reported_clock_ = now;
-  reported_steps_ = run_.beat.steps;
 }
 
 }  // namespace

@@ -20,7 +20,8 @@ immersed::Loads loads(const Protocol& p, Phase phase, double time) {
     return {p.ed_pressure * smooth_step(time / p.filling_ramp), p.calcium.Ca_0,
             holds ? p.filling_drag : 0.0};
   return {p.ed_pressure + (p.es_pressure - p.ed_pressure) * smooth_step(time / p.contraction_ramp),
-          p.calcium.at(time), holds ? p.contraction_drag : 0.0};
+          p.calcium.at(time),
+          holds && p.calcium.mode == material::Calcium::Mode::hold ? p.contraction_drag : 0.0};
 }
 
 bool loads_are_final(const Protocol& p, Phase phase, double time) {

@@ -33,7 +33,6 @@ void store(const Snapshot& s, const std::string& name, Archive& archive) {
   archive.set(name + ".numbers", {s.time, number(s.phase), s.pressure, s.volume});
   archive.set(name + ".positions", flat(s.positions));
   archive.set(name + ".tension", s.tension);
-  archive.set(name + ".wall_pressure", s.wall_pressure);
 }
 
 Snapshot load_snapshot(const Archive& archive, const std::string& name) {
@@ -43,8 +42,7 @@ Snapshot load_snapshot(const Archive& archive, const std::string& name) {
           n.at(2),
           n.at(3),
           vectors(archive.get(name + ".positions")),
-          archive.get(name + ".tension"),
-          archive.get(name + ".wall_pressure")};
+          archive.get(name + ".tension")};
 }
 
 void store(const std::vector<CurveRow>& curves, Archive& archive) {
@@ -74,12 +72,8 @@ void store(const RunState& run, Archive& archive) {
                       static_cast<double>(run.halvings), static_cast<double>(run.good_steps),
                       static_cast<double>(run.patience), run.volume_was_falling ? 1.0 : 0.0,
                       run.beat.filling_was_steady ? 1.0 : 0.0, static_cast<double>(run.beat.steps),
-                      static_cast<double>(run.beat.retries)});
+                      static_cast<double>(run.beat.retries), run.beat.wall_clock});
   archive.set("frame_times", run.frame_times);
-  std::vector<double> phases;
-  for (const Phase phase : run.frame_phases)
-    phases.push_back(number(phase));
-  archive.set("frame_phases", std::move(phases));
   std::vector<double> samples;
   for (const auto& [time, volume] : run.steady.samples())
     samples.insert(samples.end(), {time, volume});
@@ -106,9 +100,8 @@ RunState load_run_state(const Archive& archive, const Protocol& protocol) {
   run.beat.filling_was_steady = n.at(11) != 0.0;
   run.beat.steps = static_cast<int>(n.at(12));
   run.beat.retries = static_cast<int>(n.at(13));
+  run.beat.wall_clock = n.at(14);
   run.frame_times = archive.get("frame_times");
-  for (const double phase : archive.get("frame_phases"))
-    run.frame_phases.push_back(phase_of(phase));
   run.steady = criterion(protocol, run.phase);
   const auto& samples = archive.get("steady");
   for (std::size_t i = 0; i + 1 < samples.size(); i += 2)

@@ -16,7 +16,6 @@ struct RunState {
   double next_curve = 0.0;
   int frames = 0;  ///< written so far
   std::vector<double> frame_times;
-  std::vector<Phase> frame_phases;
   double largest_velocity = 0.0;  ///< of the blood when last looked at [mm/s]
   int halvings = 0;               ///< of the longest step, in force
   int good_steps = 0;             ///< since the last halving

@@ -14,7 +14,8 @@ Model::Model(const mesh::Mesh& mesh, const mesh::FibreRule& fibres,
     : parameters_(parameters),
       slab_(fluid::slab_of(parameters.grid, parallel::rank(), parallel::size())),
       wall_(mesh, fibres, material),
-      contraction_(active, mesh.nodes, wall_.nodal_volumes(), parameters.blood.density,
+      strength_(solid::strength(mesh, material.infarct)),
+      contraction_(active, {mesh.nodes, wall_.nodal_volumes(), strength_}, parameters.blood.density,
                    parameters.grid.spacing.minCoeff()),
       base_(mesh, parameters.basal_stiffness),
       cavity_(mesh),
@@ -138,27 +139,13 @@ fluid::Component Model::pressure() const {
   return p;
 }
 
-std::vector<double> Model::wall_pressure(const fluid::Component& pressure) const {
-  std::vector<double> values(mesh_.cell_count(), 0.0);
-  for (int c = 0; c < mesh_.cell_count(); ++c) {
-    const auto cell = mesh_.cell(c);
-    Vec3 centre = Vec3::Zero();
-    for (const int a : cell)
-      centre += state_.positions[a] / static_cast<double>(cell.size());
-    if (transfer_.owns(centre))
-      values[c] = transfer_.interpolate(pressure, centre);
-  }
-  parallel::sum(values);
-  return values;
-}
-
 double Model::mean_tension() const {
   const auto tension = contraction_.tension();
   const auto volume = wall_.nodal_volumes();
   double sum = 0.0;
   double total = 0.0;
   for (std::size_t a = 0; a < tension.size(); ++a) {
-    sum += volume[a] * tension[a];
+    sum += volume[a] * strength_[a] * tension[a];
     total += volume[a];
   }
   return sum / total;

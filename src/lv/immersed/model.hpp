@@ -24,7 +24,7 @@ struct ModelParameters {
   fluid::Grid grid;
   fluid::Blood blood;
   CouplingParameters coupling;
-  double basal_stiffness = 100.0;  ///< kappa of BasalPenalty [kPa/mm]
+  double basal_stiffness = 300.0;  ///< kappa of BasalPenalty [kPa/mm]
 };
 
 /// Everything that one rank's part of a Model carries from step to step.
@@ -74,9 +74,6 @@ class Model {
   /// slab [kPa].
   [[nodiscard]] fluid::Component pressure() const;
 
-  /// That pressure at the centre of every element, complete on every rank [kPa].
-  [[nodiscard]] std::vector<double> wall_pressure(const fluid::Component& pressure) const;
-
   /// Brings the muscle to its resting state at this calcium [uM].
   void relax(double calcium);
 
@@ -84,9 +81,9 @@ class Model {
   [[nodiscard]] std::span<const Vec3> node_velocities() const { return state_.node_velocities; }
   [[nodiscard]] double cavity_volume() const {
     return cavity_.volume(state_.positions);
-  }                                           ///< [mm^3]
-  [[nodiscard]] double mean_tension() const;  ///< over the wall, weighted by reference volume [kPa]
-  [[nodiscard]] const solid::BasalPenalty& base() const { return base_; }
+  }  ///< [mm^3]
+  /// Over the wall, with the infarct's factor (2.24), weighted by reference volume [kPa].
+  [[nodiscard]] double mean_tension() const;
   [[nodiscard]] const solid::Contraction& contraction() const { return contraction_; }
   [[nodiscard]] const solid::Wall& wall() const { return wall_; }
   [[nodiscard]] const fluid::FaceField& velocity() const { return velocity_; }
@@ -103,6 +100,7 @@ class Model {
   ModelParameters parameters_;
   fluid::Slab slab_;
   solid::Wall wall_;
+  std::vector<double> strength_;  ///< of contraction, per node
   solid::Contraction contraction_;
   solid::BasalPenalty base_;
   solid::Cavity cavity_;

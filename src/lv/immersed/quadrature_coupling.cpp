@@ -49,7 +49,7 @@ QuadratureCoupling::QuadratureCoupling(const mesh::Mesh& mesh, const Transfer& t
 }
 
 void QuadratureCoupling::assemble_mass() {
-  const Rule& exact = rule({2, 2, 2});
+  const Rule& exact = rule({3, 3, 3});  // phi phi det has degree four in a coordinate
   std::vector<Eigen::Triplet<double>> entries;
   for (int c = 0; c < mesh_.cell_count(); ++c) {
     const auto cell = mesh_.cell(c);
@@ -69,7 +69,8 @@ void QuadratureCoupling::assemble_mass() {
 std::array<int, 3> QuadratureCoupling::points_along(std::span<const int> cell,
                                                     std::span<const Vec3> positions) const {
   const auto needed = [&](double length) {
-    return std::max(1, static_cast<int>(std::ceil(points_per_cell_ * length / spacing_)));
+    constexpr int fewest = 2;  // phi det has degree three: fewer points would lose force
+    return std::max(fewest, static_cast<int>(std::ceil(points_per_cell_ * length / spacing_)));
   };
   const auto length = [&](const std::array<int, 2>& edge) {
     return (positions[cell[edge[1]]] - positions[cell[edge[0]]]).norm();

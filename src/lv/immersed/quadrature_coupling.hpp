@@ -12,7 +12,7 @@ namespace lv::immersed {
 /// The paper's coupling (Griffith & Luo; section 2.5): the Lagrangian force density F of (2.10) and
 /// the velocity of the wall are finite-element functions, and the integrals with the delta function
 /// run over Gauss points that are made anew from the present size of each element, so that at least
-/// `points_per_cell` points fall on every mesh width:
+/// `points_per_cell` points fall on every mesh width, and two on every edge of an element:
 ///
 ///   M F = nodal forces,   f(x) = sum_q w_q F(X_q) delta_h(x - chi(X_q))                                    (2.9)
 ///   M U = sum_q w_q phi(X_q) sum_x u(x) delta_h(x - chi(X_q)) h^3                                          (2.4)

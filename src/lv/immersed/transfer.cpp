@@ -64,24 +64,6 @@ Vec3 Transfer::interpolate(const fluid::FaceField& velocity, const Vec3& X) cons
   return U;
 }
 
-double Transfer::interpolate(const fluid::Component& field, const Vec3& X) const {
-  const Vec3 s =
-      (X - grid_.lower).cwiseProduct(inverse_spacing_) - Vec3(0.5, 0.5, slab_.planes.begin + 0.5);
-  const int i = static_cast<int>(std::floor(s.x()));
-  const int j = static_cast<int>(std::floor(s.y()));
-  const int k = static_cast<int>(std::floor(s.z()));
-  const Vec3 w = s - Vec3(i, j, k);
-  double sum = 0.0;
-  for (int c = 0; c < 8; ++c) {
-    const int x = c & 1;
-    const int y = (c >> 1) & 1;
-    const int z = c >> 2;
-    sum += (x ? w[0] : 1 - w[0]) * (y ? w[1] : 1 - w[1]) * (z ? w[2] : 1 - w[2]) *
-           field.at(i + x, j + y, k + z);
-  }
-  return sum;
-}
-
 bool Transfer::owns(const Vec3& X) const {
   const double plane = (X.z() - grid_.lower.z()) * inverse_spacing_.z();
   return plane >= slab_.planes.begin && plane < slab_.planes.end;

@@ -19,9 +19,6 @@ class Transfer {
   /// must be filled.
   [[nodiscard]] Vec3 interpolate(const fluid::FaceField& velocity, const Vec3& X) const;
 
-  /// A cell-centred field at X, trilinear. X must lie in this slab; ghosts must be filled.
-  [[nodiscard]] double interpolate(const fluid::Component& field, const Vec3& X) const;
-
   /// Whether X lies between the lower and upper side of this slab.
   [[nodiscard]] bool owns(const Vec3& X) const;
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lv/geometry/ellipsoid.hpp"
+#include "lv/geometry/parameters.hpp"
 #include "lv/heartbeat/parameters.hpp"
 #include "lv/immersed/model.hpp"
 #include "lv/mesh/regions.hpp"
@@ -18,9 +19,23 @@ enum class AnatomySource { ellipsoid, contours, mesh };
 /// Which passive law the wall follows.
 enum class PassiveLaw { holzapfel_ogden, guccione, neo_hookean };
 
+/// Contours and how surfaces are fitted to them. File names as the case file gives them.
+struct ContourAnatomy {
+  std::string short_axis, long_axis, apex_endo, apex_epi;
+  geometry::SplineFitParameters fit;
+};
+
+/// A mesh made elsewhere.
+struct MeshAnatomy {
+  mesh::ImportParameters import;  ///< file name as the case file gives it
+  int refinements = 0;            ///< each cuts every element into eight
+};
+
 struct Anatomy {
   AnatomySource source = AnatomySource::ellipsoid;
   geometry::Ellipsoid ellipsoid;
+  ContourAnatomy contours;
+  MeshAnatomy mesh;
 };
 
 struct Passive {
@@ -47,13 +62,13 @@ struct Case {
   mesh::RegionParameters regions;
   Passive passive;
   material::Volumetric volumetric;
-  solid::VolumetricPoints volumetric_points = solid::VolumetricPoints::one;
+  solid::VolumetricPoints volumetric_points = solid::VolumetricPoints::mean;
   material::NiedererHunterSmith active;
   material::InfarctScaling infarct;
   fluid::Blood blood;
   Box box;
   immersed::CouplingParameters coupling;
-  double basal_stiffness = 100.0;  ///< [kPa/mm]
+  double basal_stiffness = immersed::ModelParameters{}.basal_stiffness;  ///< [kPa/mm]
   heartbeat::Protocol protocol;
   heartbeat::StepControl time;
   heartbeat::OutputSchedule output;

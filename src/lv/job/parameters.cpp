@@ -1,237 +1,11 @@
 #include "lv/job/parameters.hpp"
 
-#include "lv/base/units.hpp"
+#include "lv/job/declarations.hpp"
 
 #include <fmt/format.h>
 
-#include <limits>
-#include <optional>
-
 namespace lv::job {
 namespace {
-
-using units::format;
-
-/// Allowed values of a number, in the parameter's own unit.
-struct Range {
-  double low = -std::numeric_limits<double>::infinity();
-  double high = std::numeric_limits<double>::infinity();
-  bool low_included = true;
-  bool high_included = true;
-
-  [[nodiscard]] bool contains(double x) const {
-    return (low_included ? x >= low : x > low) && (high_included ? x <= high : x < high);
-  }
-  [[nodiscard]] std::string words(const std::string& unit) const {
-    const std::string tail = unit.empty() ? "" : " " + unit;
-    const bool bounded_below = std::isfinite(low);
-    const bool bounded_above = std::isfinite(high);
-    if (bounded_below && bounded_above)
-      return fmt::format("{} {:g}{} and {} {:g}{}", low_included ? "at least" : "above", low, tail,
-                         high_included ? "at most" : "below", high, tail);
-    if (bounded_below)
-      return fmt::format("{} {:g}{}", low_included ? "at least" : "above", low,
-                         low == 0.0 ? "" : tail);
-    if (bounded_above)
-      return fmt::format("{} {:g}{}", high_included ? "at most" : "below", high, tail);
-    return "any";
-  }
-};
-
-constexpr Range any{};
-constexpr Range positive{.low = 0.0, .low_included = false};
-constexpr Range not_negative{.low = 0.0};
-constexpr Range between(double low, double high) {
-  return {.low = low, .high = high};
-}
-
-double number_of(const toml::node& node) {
-  const auto value = node.value<double>();
-  if (!value || node.is_boolean() || node.is_string())
-    throw std::invalid_argument("is not a number");
-  if (!std::isfinite(*value))
-    throw std::invalid_argument("is not a finite number");
-  return *value;
-}
-
-void check_range(double in_unit, const Range& range, const std::string& unit) {
-  if (!range.contains(in_unit))
-    throw std::invalid_argument(fmt::format("is {:g}{}{}; it must be {}", in_unit,
-                                            unit.empty() ? "" : " ", unit, range.words(unit)));
-}
-
-/// A number with a unit of the same dimension as `unit`, as inner units. `shown` is an example for
-/// messages.
-double quantity_of(const toml::node& node, const std::string& unit, const std::string& shown) {
-  const units::Unit expected = units::parse_unit(unit);
-  const std::string kind = units::kind_of(expected);
-  if (!node.is_string()) {
-    number_of(node);
-    throw std::invalid_argument(fmt::format("has no unit; write a {} such as \"{}\"", kind, shown));
-  }
-  const units::Quantity quantity = units::parse_quantity(*node.value<std::string>());
-  if (!quantity.has_unit)
-    throw std::invalid_argument(fmt::format("has no unit; write a {} such as \"{}\"", kind, shown));
-  if (quantity.unit.dimension != expected.dimension)
-    throw std::invalid_argument(fmt::format("is a {}; it must be a {} such as \"{}\"",
-                                            units::kind_of(quantity.unit), kind, shown));
-  return quantity.value;
-}
-
-const toml::array& triple_of(const toml::node& node) {
-  const toml::array* array = node.as_array();
-  if (array == nullptr || array->size() != 3)
-    throw std::invalid_argument("must be a list of three values, [x, y, z]");
-  return *array;
-}
-
-/// Collects the declarations.
-class Declarations {
- public:
-  std::vector<Parameter> list;
-  Stage stage = Stage::beat;
-  std::string table;
-
-  template <class Member>
-  void quantity(const std::string& key, const Member& member, const std::string& unit,
-                const Range& range, const std::string& help, const std::string& equation = "") {
-    const auto get = [=](const Case& c) { return format(member(const_cast<Case&>(c)), unit); };
-    const std::string shown = get(Case{});
-    add(
-        key, "quantity", unit, range.words(unit), help, equation,
-        [=](const Case& c) { return fmt::format("\"{}\"", get(c)); },
-        [=](Case& c, const toml::node& node) {
-          const double value = quantity_of(node, unit, shown);
-          check_range(value / units::parse_unit(unit).factor, range, unit);
-          member(c) = value;
-        });
-  }
-
-  template <class Member>
-  void number(const std::string& key, const Member& member, const Range& range,
-              const std::string& help, const std::string& equation = "") {
-    add(
-        key, "number", "", range.words(""), help, equation,
-        [=](const Case& c) { return format(member(const_cast<Case&>(c)), ""); },
-        [=](Case& c, const toml::node& node) {
-          const double value = number_of(node);
-          check_range(value, range, "");
-          member(c) = value;
-        });
-  }
-
-  template <class Member>
-  void whole(const std::string& key, const Member& member, const Range& range,
-             const std::string& help, const std::string& equation = "") {
-    add(
-        key, "whole number", "", range.words(""), help, equation,
-        [=](const Case& c) { return std::to_string(member(const_cast<Case&>(c))); },
-        [=](Case& c, const toml::node& node) {
-          if (!node.is_integer())
-            throw std::invalid_argument("is not a whole number");
-          check_range(number_of(node), range, "");
-          member(c) = static_cast<int>(*node.value<std::int64_t>());
-        });
-  }
-
-  template <class Member>
-  void flag(const std::string& key, const Member& member, const std::string& help) {
-    add(
-        key, "true or false", "", "true or false", help, "",
-        [=](const Case& c) { return member(const_cast<Case&>(c)) ? "true" : "false"; },
-        [=](Case& c, const toml::node& node) {
-          if (!node.is_boolean())
-            throw std::invalid_argument("must be true or false (without quotation marks)");
-          member(c) = *node.value<bool>();
-        });
-  }
-
-  template <class Member>
-  void text(const std::string& key, const Member& member, const std::string& help) {
-    add(
-        key, "text", "", "any", help, "",
-        [=](const Case& c) { return fmt::format("\"{}\"", member(const_cast<Case&>(c))); },
-        [=](Case& c, const toml::node& node) {
-          if (!node.is_string())
-            throw std::invalid_argument("must be text in quotation marks");
-          member(c) = *node.value<std::string>();
-        });
-  }
-
-  /// One of several words; word i stands for the enumerator with value i.
-  template <class Member>
-  void choice(const std::string& key, const Member& member, const std::vector<std::string>& words,
-              const std::string& help, const std::string& equation = "") {
-    using Enum = std::decay_t<decltype(member(std::declval<Case&>()))>;
-    const std::string rule = fmt::format("one of {}", fmt::join(words, ", "));
-    add(
-        key, "choice", "", rule, help, equation,
-        [=](const Case& c) {
-          return fmt::format("\"{}\"",
-                             words.at(static_cast<std::size_t>(member(const_cast<Case&>(c)))));
-        },
-        [=](Case& c, const toml::node& node) {
-          const auto word = node.value<std::string>();
-          if (!word)
-            throw std::invalid_argument(fmt::format("must be {}", rule));
-          const auto found = std::find(words.begin(), words.end(), *word);
-          if (found == words.end())
-            throw std::invalid_argument(
-                fmt::format("is \"{}\"; it must be {} (did you mean \"{}\"?)", *word, rule,
-                            units::nearest(*word, words)));
-          member(c) = static_cast<Enum>(found - words.begin());
-        });
-  }
-
-  template <class Member>
-  void quantity_triple(const std::string& key, const Member& member, const std::string& unit,
-                       const Range& range, const std::string& help,
-                       const std::string& equation = "") {
-    add(
-        key, "three quantities", unit, range.words(unit), help, equation,
-        [=](const Case& c) {
-          const auto& v = member(const_cast<Case&>(c));
-          return fmt::format("[\"{}\", \"{}\", \"{}\"]", format(v[0], unit), format(v[1], unit),
-                             format(v[2], unit));
-        },
-        [=](Case& c, const toml::node& node) {
-          const toml::array& values = triple_of(node);
-          for (std::size_t d = 0; d < 3; ++d) {
-            const double value = quantity_of(values[d], unit, "1 " + unit);
-            check_range(value / units::parse_unit(unit).factor, range, unit);
-            member(c)[d] = value;
-          }
-        });
-  }
-
-  template <class Member>
-  void whole_triple(const std::string& key, const Member& member, const Range& range,
-                    const std::string& help, const std::string& equation = "") {
-    add(
-        key, "three whole numbers", "", range.words(""), help, equation,
-        [=](const Case& c) {
-          return fmt::format("[{}]", fmt::join(member(const_cast<Case&>(c)), ", "));
-        },
-        [=](Case& c, const toml::node& node) {
-          const toml::array& values = triple_of(node);
-          for (std::size_t d = 0; d < 3; ++d) {
-            if (!values[d].is_integer())
-              throw std::invalid_argument("must hold whole numbers");
-            check_range(number_of(values[d]), range, "");
-            member(c)[d] = static_cast<int>(*values[d].value<std::int64_t>());
-          }
-        });
-  }
-
- private:
-  void add(const std::string& key, const std::string& type, const std::string& unit,
-           const std::string& rule, const std::string& help, const std::string& equation,
-           std::function<std::string(const Case&)> get,
-           std::function<void(Case&, const toml::node&)> set) {
-    const std::string name = table.empty() ? key : table + "." + key;
-    list.push_back({name, type, unit, rule, help, equation, stage, std::move(get), std::move(set)});
-  }
-};
 
 // A parameter's place in the case, as a function that returns a reference to the member.
 #define LV_AT(member)     \
@@ -240,9 +14,10 @@ class Declarations {
   }
 
 void declare_anatomy(Declarations& d) {
-  d.stage = Stage::anatomy;
+  d.stage = Stage::results;
   d.table = "";
   d.text("name", LV_AT(name), "name of the subject or case, for reports");
+  d.stage = Stage::anatomy;
   d.table = "anatomy";
   d.choice("source", LV_AT(anatomy.source), {"ellipsoid", "contours", "mesh"},
            "where the shape of the wall at early diastole comes from", "2.2");
@@ -258,6 +33,66 @@ void declare_anatomy(Declarations& d) {
              "semi-axis of the epicardium along the long axis");
   d.quantity("base_height", LV_AT(anatomy.ellipsoid.base_height), "mm", between(-100.0, 200.0),
              "height of the basal plane above the widest section");
+}
+
+void declare_contours(Declarations& d) {
+  d.table = "anatomy.contours";
+  d.text("short_axis", LV_AT(anatomy.contours.short_axis),
+         "CSV of short-axis loops with columns slice, contour (endo or epi), point, x_mm, y_mm, "
+         "z_mm in scanner coordinates; names are relative to the case file");
+  d.text("long_axis", LV_AT(anatomy.contours.long_axis),
+         "CSV of open curves on long-axis images, same columns; may be left out");
+  d.text("apex_endo", LV_AT(anatomy.contours.apex_endo),
+         "CSV of points at the tip of the endocardium, same columns; may be left out");
+  d.text("apex_epi", LV_AT(anatomy.contours.apex_epi),
+         "CSV of points at the tip of the epicardium, same columns; may be left out");
+  d.choice("base_plane", LV_AT(anatomy.contours.fit.frame.base_plane), {"long_axis", "basal_slice"},
+           "the base plane through the centre of the most basal endocardial loop is normal to the "
+           "long axis, or the plane of that loop",
+           "2.2");
+  d.optional_point("septum_point", LV_AT(anatomy.contours.fit.frame.septum), "mm",
+                   "a point of the middle of the septum in scanner coordinates: the model's x "
+                   "direction, from which regions are counted");
+  d.whole("intervals_around", LV_AT(anatomy.contours.fit.around), between(6, 64),
+          "spline intervals about the long axis", "2.2");
+  d.whole("intervals_along", LV_AT(anatomy.contours.fit.along), between(4, 64),
+          "spline intervals from the apex to above the base", "2.2");
+  d.quantity("smoothing_length", LV_AT(anatomy.contours.fit.smoothing_length), "mm",
+             between(0.0, 50.0), "ripples of 2 pi times this wave length are halved; 0: none");
+  d.quantity("margin", LV_AT(anatomy.contours.fit.margin), "mm", between(0.0, 50.0),
+             "contour points up to this height above the base plane count");
+  d.flag("correct_shifts", LV_AT(anatomy.contours.fit.correct_shifts),
+         "move short-axis slices in their planes to agree with the long-axis contours (different "
+         "breath-holds)");
+  d.quantity("largest_shift", LV_AT(anatomy.contours.fit.largest_shift), "mm", between(0.0, 50.0),
+             "a slice that would have to move farther is an error");
+  d.quantity("thinnest_wall", LV_AT(anatomy.contours.fit.thinnest_wall), "mm", between(0.1, 20.0),
+             "a thinner wall is an error");
+}
+
+void declare_given_mesh(Declarations& d) {
+  d.table = "anatomy.mesh";
+  d.text(
+      "file", LV_AT(anatomy.mesh.import.file),
+      "mesh of hexahedra or tetrahedra: ABAQUS .inp, Gmsh .msh, .vtk or .vtu; names are relative "
+      "to the case file");
+  d.quantity("length_unit", LV_AT(anatomy.mesh.import.unit), "mm", positive,
+             "length of the file's unit");
+  d.choice("sides", LV_AT(anatomy.mesh.import.sides), {"tags", "geometry"},
+           "the sides of the wall are named by the file's tags, or found: the flat opening is the "
+           "base, the inner of the other two the endocardium");
+  d.text("endo", LV_AT(anatomy.mesh.import.endo), "tag of the endocardium");
+  d.text("epi", LV_AT(anatomy.mesh.import.epi), "tag of the epicardium");
+  d.text("base", LV_AT(anatomy.mesh.import.base), "tag of the base");
+  d.text("side_array", LV_AT(anatomy.mesh.import.side_array),
+         "VTK: cell array with the sides' numbers on surface cells; empty: the tags name point "
+         "arrays that are 1 on a side");
+  d.text("infarct_array", LV_AT(anatomy.mesh.import.infarct_array),
+         "VTK: point array of M(X); empty: infarct, if the file has it");
+  d.quantity("base_tolerance", LV_AT(anatomy.mesh.import.base_tolerance), "mm", between(0.0, 10.0),
+             "largest distance of the base's nodes from their plane");
+  d.whole("refinements", LV_AT(anatomy.mesh.refinements), between(0, 3),
+          "how often every element is cut into eight");
 }
 
 void declare_mesh(Declarations& d) {
@@ -318,9 +153,9 @@ void declare_passive(Declarations& d) {
   d.table = "volumetric";
   d.quantity("beta_s", LV_AT(volumetric.beta_s), "kPa", not_negative,
              "penalty that reinforces incompressibility; the paper: 100 kPa", "2.20");
-  d.choice("points", LV_AT(volumetric_points), {"full", "one"},
-           "where the penalty is integrated: at all points of an element, or at one (mean "
-           "dilatation, does not lock)",
+  d.choice("points", LV_AT(volumetric_points), {"full", "mean"},
+           "where the penalty is integrated: at all points of an element, or from mean dilatations "
+           "(of a hexahedron, around a node of tetrahedra), which do not lock",
            "2.20");
   d.table = "infarct";
   d.number("stiffening", LV_AT(infarct.stiffening), not_negative,
@@ -454,9 +289,10 @@ void declare_output(Declarations& d) {
              "simulated time between fields of wall and blood");
   d.quantity("curve_interval", LV_AT(output.curve_interval), "s", seconds,
              "simulated time between rows of the curves");
+  d.flag("blood", LV_AT(output.blood), "whether frames contain velocity and pressure of the blood");
+  d.stage = Stage::results;  // changes no beat
   d.quantity("checkpoint_interval", LV_AT(output.checkpoint_interval), "s", seconds,
              "wall-clock time between checkpoints");
-  d.flag("blood", LV_AT(output.blood), "whether frames contain velocity and pressure of the blood");
 }
 
 #undef LV_AT
@@ -464,6 +300,8 @@ void declare_output(Declarations& d) {
 std::vector<Parameter> declare_all() {
   Declarations d;
   declare_anatomy(d);
+  declare_contours(d);
+  declare_given_mesh(d);
   declare_mesh(d);
   d.stage = Stage::beat;
   declare_passive(d);
@@ -488,7 +326,10 @@ const std::vector<Section>& sections() {
       {"anatomy.ellipsoid",
        "Truncated ellipsoids (source = \"ellipsoid\"); the default is the idealised healthy "
        "ventricle"},
-      {"mesh", "Hexahedral mesh of the wall"},
+      {"anatomy.contours",
+       "Contours drawn on images (source = \"contours\"); B-spline surfaces are fitted to them"},
+      {"anatomy.mesh", "A mesh made elsewhere (source = \"mesh\")"},
+      {"mesh", "Hexahedral mesh of the wall (sources \"ellipsoid\" and \"contours\")"},
       {"fibres", "Rule-based fibre and sheet directions"},
       {"regions",
        "Division of the wall for tables: the paper's seven slices and the AHA's 17 segments"},

@@ -1,11 +1,12 @@
 #include "lv/job/read_case.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/nearest.hpp"
 #include "lv/base/table.hpp"
-#include "lv/base/units.hpp"
 #include "lv/job/parameters.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 
@@ -26,10 +27,6 @@ class CaseReader {
   }
 
  private:
-  [[nodiscard]] std::string place(const toml::node& node) const {
-    return fmt::format("{}:{}", file_.string(), node.source().begin.line);
-  }
-
   void walk(const toml::table& table, const std::string& prefix) {
     for (const auto& [key, node] : table) {
       const std::string name =
@@ -63,8 +60,10 @@ class CaseReader {
     for (const Section& s : sections())
       if (table && !s.name.empty())
         known.push_back(s.name);
-    return fmt::format("{} is not a {}; did you mean {}? (`ventricle parameters` lists them all)",
-                       name, table ? "table" : "parameter", units::nearest(name, known));
+    const std::string nearest = nearest_name(name, known);
+    return fmt::format("{} is not a {}{} (`ventricle parameters` lists them all)", name,
+                       table ? "table" : "parameter",
+                       nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest));
   }
 
   void set(const Parameter& parameter, const toml::node& node, const std::string& line) {
@@ -83,8 +82,12 @@ class CaseReader {
          "must be larger than endo_radius");
     rule(e.epi_length > e.endo_length, "anatomy.ellipsoid.epi_length",
          "must be larger than endo_length");
-    rule(e.base_height < e.endo_length, "anatomy.ellipsoid.base_height",
-         "must be smaller than endo_length");
+    rule(std::abs(e.base_height) < e.endo_length, "anatomy.ellipsoid.base_height",
+         "must be between -endo_length and endo_length");
+    rule(case_.passive.law == PassiveLaw::holzapfel_ogden || case_.origin.count("passive.C_a") == 0,
+         "passive.C_a", "scales the Holzapfel-Ogden law alone; passive.law is another");
+    const auto& A = case_.active.A;
+    rule(A[0] + A[1] + A[2] > 0.0, "active.A_1", "and A_2 and A_3 must have a positive sum");
     const heartbeat::Protocol& p = case_.protocol;
     rule(p.filling_longest >= p.filling_ramp + p.filling_window, "protocol.filling_longest",
          "must leave time for filling_ramp and filling_window");
@@ -176,7 +179,7 @@ std::string starter_case(const std::string& name) {
       "# A case of ventricle. Every quantity carries its unit. What is not set here has its "
       "default;\n"
       "# `ventricle parameters` lists all parameters with unit, range, default and meaning.\n\n";
-  text += fmt::format("name = \"{}\"\n", name);
+  text += fmt::format("name = {}\n", nlohmann::json(name).dump());  // JSON's escapes are TOML's
   std::string table;
   for (const Parameter& p : parameters()) {
     if (std::find(shown.begin(), shown.end(), p.name) == shown.end())

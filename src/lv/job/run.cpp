@@ -3,12 +3,14 @@
 #include "lv/base/check.hpp"
 #include "lv/base/interrupt.hpp"
 #include "lv/base/log.hpp"
+#include "lv/base/nearest.hpp"
 #include "lv/base/parallel.hpp"
 #include "lv/base/table.hpp"
-#include "lv/base/units.hpp"
+#include "lv/bench/bench.hpp"
 #include "lv/job/parameters.hpp"
 #include "lv/job/stages.hpp"
 #include "lv/job/workspace.hpp"
+#include "lv/mesh/quality.hpp"
 #include "lv/solid/cavity.hpp"
 
 #include <fmt/format.h>
@@ -36,7 +38,7 @@ void on_root(const Work& work) {
     return;
   if (failure)
     std::rethrow_exception(failure);
-  throw RunError("the root rank failed", "");
+  throw FailedElsewhere();
 }
 
 bool root_says(bool value) {
@@ -71,7 +73,9 @@ class Pipeline {
     std::string upstream;
     for (std::size_t s = 0; s <= last_; ++s) {
       Ingredients ingredients = own_ingredients(case_, static_cast<Stage>(s));
-      if (s > 0)
+      if (s == 0)
+        ingredients.merge(anatomy_files(case_));
+      else
         ingredients["result of " + stage_names[s - 1]] = upstream;
       upstream = fingerprint(ingredients);
       run_stage(s, std::move(ingredients));
@@ -83,11 +87,12 @@ class Pipeline {
     if (!options_.until)
       return stage_names.size() - 1;
     const auto found = std::find(stage_names.begin(), stage_names.end(), *options_.until);
-    if (found == stage_names.end())
-      throw InputError(
-          "--until " + *options_.until, "is not a stage",
-          fmt::format("The stages are {}; did you mean {}?", fmt::join(stage_names, ", "),
-                      units::nearest(*options_.until, {stage_names.begin(), stage_names.end()})));
+    if (found == stage_names.end()) {
+      const std::string nearest = nearest_name(*options_.until, stage_names);
+      throw InputError("--until " + *options_.until, "is not a stage",
+                       fmt::format("The stages are {}{}", fmt::join(stage_names, ", "),
+                                   nearest.empty() ? "" : "; did you mean " + nearest + "?"));
+    }
     return static_cast<std::size_t>(found - stage_names.begin());
   }
 
@@ -96,6 +101,8 @@ class Pipeline {
   }
 
   void run_stage(std::size_t s, Ingredients ingredients) {
+    if (parallel::any(interrupt::requested()))
+      throw heartbeat::Interrupted("stopped; run the same command again to go on");
     const StageFolder stage(work_, folder(s).filename().string(), std::move(ingredients));
     if (root_says(stage.up_to_date())) {
       if (options_.explain)
@@ -116,10 +123,11 @@ class Pipeline {
   void make(std::size_t s, const std::filesystem::path& part) {
     switch (static_cast<Stage>(s)) {
       case Stage::anatomy:
-        on_root([&] { write_anatomy(case_, make_anatomy(case_), part); });
+        on_root([&] { write_anatomy(make_anatomy(case_), part); });
         break;
       case Stage::mesh:
-        on_root([&] { write_mesh_result(make_mesh(case_, make_anatomy(case_)), case_, part); });
+        on_root([&] { write_mesh_result(make_mesh(case_, make_anatomy(case_)), part); });
+        show_mesh(read_mesh_result(part), case_, part);
         break;
       case Stage::beat:
         run_beat(part);
@@ -132,14 +140,14 @@ class Pipeline {
   }
 
   void run_beat(const std::filesystem::path& part) {
-    const auto start = std::chrono::steady_clock::now();
+    if (root_says(std::filesystem::exists(part / beat_name)))
+      return;  // finished, but the folder had not got its name yet
     const heartbeat::Beat beat = make_beat(case_, read_mesh_result(folder(1)), part);
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
     on_root([&] {
-      write_beat(beat, elapsed.count(), part);
+      write_beat(beat, part);
       std::filesystem::remove(part / heartbeat::checkpoint_name);
     });
-    log::info("beat: {} steps in {}", beat.steps, log::duration(elapsed.count()));
+    log::info("beat: {} steps in {}", beat.steps, log::duration(beat.wall_clock));
   }
 
   /// After the last stage, its numbers.
@@ -155,6 +163,18 @@ class Pipeline {
   std::string text_;
 };
 
+/// Seconds that a step takes, from a few steps of the model at rest.
+double trial_step(const Case& c, const mesh::Mesh& mesh, const immersed::ModelParameters& p) {
+  immersed::Model model(mesh, c.fibres, wall_material(c), c.active, p);
+  model.relax(c.protocol.calcium.Ca_0);
+  constexpr int steps = 3;
+  const auto start = std::chrono::steady_clock::now();
+  for (int i = 0; i < steps; ++i)
+    static_cast<void>(model.step({0.0, c.protocol.calcium.Ca_0, 0.0}, c.time.longest));
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  return elapsed.count() / steps;
+}
+
 }  // namespace
 
 void run(const Case& c, const RunOptions& options) {
@@ -163,15 +183,53 @@ void run(const Case& c, const RunOptions& options) {
 }
 
 std::string validate(const Case& c) {
-  const MeshResult result = make_mesh(c, make_anatomy(c));
+  const Shape shape = make_anatomy(c);
+  const MeshResult result = make_mesh(c, shape);
   const mesh::Mesh& m = result.mesh;
+  const mesh::Quality q = mesh::quality(m);
   const immersed::ModelParameters p = model_parameters(c, m);
-  const solid::Wall wall(m, c.fibres, wall_material(c));
-  return fmt::format(
-      "{}: valid\n  cavity {:.2f} ml at early diastole\n  {} elements, {} nodes\n"
-      "  grid {} x {} x {}, mesh width {:.3f} mm\n",
-      c.file.string(), 1e-3 * solid::Cavity(m).volume(m.nodes), m.cell_count(), m.nodes.size(),
-      p.grid.cells[0], p.grid.cells[1], p.grid.cells[2], p.grid.spacing.minCoeff());
+  std::string text = fmt::format(
+      "{}: valid\n"
+      "  early diastole: cavity {:.2f} ml, wall {:.2f} ml\n",
+      c.file.string(), 1e-3 * solid::Cavity(m).volume(m.nodes), 1e-3 * q.wall_volume);
+  if (shape.fit)
+    text += fmt::format("  contours: wall {:.1f} mm thick at the thinnest, {:.1f} mm at most\n",
+                        shape.fit->thinnest.value, shape.fit->thickest.value);
+  for (const std::string& note : shape.notes)
+    text += fmt::format("  note: {}\n", note);
+  text += fmt::format(
+      "  mesh: {} elements, {} nodes, edges {:.2f} mm in the mean; worst element {} at ({:.1f}, "
+      "{:.1f}, {:.1f}) mm with scaled Jacobian {:.2f}\n"
+      "  grid: {} x {} x {}, mesh width {:.3f} mm\n",
+      q.cells, q.nodes, q.edge_length.mean, q.worst_cell, q.worst_place.x(), q.worst_place.y(),
+      q.worst_place.z(), q.scaled_jacobian.min, p.grid.cells[0], p.grid.cells[1], p.grid.cells[2],
+      p.grid.spacing.minCoeff());
+  const double seconds = trial_step(c, m, p);
+  const double shortest = c.protocol.filling_ramp + c.protocol.filling_window +
+                          c.protocol.contraction_ramp + c.protocol.contraction_window;
+  const double longest = c.protocol.filling_longest + c.protocol.contraction_longest;
+  return text + fmt::format(
+                    "  cost: {:.3g} s a step on one rank; between {} and {} for the beat, less on "
+                    "more ranks\n",
+                    seconds, log::duration(shortest / c.time.longest * seconds),
+                    log::duration(longest / c.time.longest * seconds));
+}
+
+int most_ranks(const std::array<int, 3>& cells) {
+  return fluid::most_ranks(cells);
+}
+
+std::string bench(const BenchOptions& options) {
+  Case c;
+  c.file = "bench --cells, --edge";
+  std::copy(options.cells.begin(), options.cells.end(), c.box.cells.begin());
+  c.mesh.edge_length = options.edge_length;
+  if (options.quadrature)
+    c.coupling.kind = immersed::CouplingKind::quadrature;
+  const MeshResult result = make_mesh(c, make_anatomy(c));
+  const lv::bench::Bench measured =
+      lv::bench::measure(result.mesh, model_parameters(c, result.mesh), wall_material(c));
+  return options.json ? lv::bench::json(measured) : lv::bench::text(measured);
 }
 
 std::string version() {

@@ -29,6 +29,19 @@ void run(const Case& c, const RunOptions& options);
 /// case that cannot run.
 [[nodiscard]] std::string validate(const Case& c);
 
+/// The most ranks that a box of these cells can be shared by.
+[[nodiscard]] int most_ranks(const std::array<int, 3>& cells);
+
+/// Times the kernels of a step on the idealised ventricle (see lv/bench); collective. Text for a
+/// terminal, or one JSON object, on the root.
+struct BenchOptions {
+  std::vector<int> cells{96, 96, 128};
+  double edge_length = 1.4;  ///< [mm]
+  bool quadrature = false;   ///< the paper's coupling
+  bool json = false;
+};
+[[nodiscard]] std::string bench(const BenchOptions& options);
+
 /// The program's version.
 [[nodiscard]] std::string version();
 

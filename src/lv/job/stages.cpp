@@ -1,15 +1,20 @@
 #include "lv/job/stages.hpp"
 
-#include "lv/base/log.hpp"
+#include "lv/base/check.hpp"
 #include "lv/base/parallel.hpp"
+#include "lv/base/table.hpp"
 #include "lv/heartbeat/archive.hpp"
 #include "lv/job/parameters.hpp"
 #include "lv/job/run.hpp"
+#include "lv/mesh/quality.hpp"
 #include "lv/report/fields_vtk.hpp"
+#include "lv/report/heart_figures.hpp"
 #include "lv/report/summary.hpp"
 #include "lv/report/tables_csv.hpp"
 
 #include <fmt/format.h>
+
+#include <optional>
 
 namespace lv::job {
 namespace {
@@ -36,13 +41,8 @@ mesh::Surface load_surface(const Archive& archive, const std::string& name) {
   return {static_cast<int>(archive.number(name + ".nodes_per_face")), as_whole(archive.get(name))};
 }
 
-/// The undeformed wall as a snapshot.
-heartbeat::Snapshot at_rest(const mesh::Mesh& mesh) {
-  heartbeat::Snapshot s;
-  s.positions = mesh.nodes;
-  s.tension.assign(mesh.nodes.size(), 0.0);
-  s.wall_pressure.assign(mesh.cell_count(), 0.0);
-  return s;
+analysis::FieldAnalysis field_analysis(const Case& c, const mesh::Mesh& m) {
+  return {m, c.fibres, wall_material(c), c.basal_stiffness};
 }
 
 /// Velocity averaged to the cell centres, and pressure, of the whole box on the root.
@@ -67,23 +67,19 @@ report::BloodFields blood_fields(const heartbeat::Frame& frame) {
 class BeatWriter {
  public:
   BeatWriter(const Case& c, const MeshResult& mesh, std::filesystem::path folder)
-      : case_(c),
-        mesh_(mesh),
-        folder_(std::move(folder)),
-        wall_(mesh.mesh, c.fibres, wall_material(c)) {
+      : case_(c), mesh_(mesh), folder_(std::move(folder)), analysis_(field_analysis(c, mesh.mesh)) {
     if (parallel::is_root())
       std::filesystem::create_directories(folder_ / "fields");
   }
 
   void frame(const heartbeat::Frame& f) {
-    const auto cells = analysis::cell_fields(wall_, f.wall);
+    const auto cells = analysis_.fields(f.wall);
     const auto& ed = f.run.beat.end_diastole;
-    const bool ed_known = !ed.positions.empty();
-    if (ed_known && end_diastole_.empty())
-      end_diastole_ = analysis::cell_fields(wall_, ed);
+    if (!ed.positions.empty() && !end_diastole_)
+      end_diastole_ = analysis_.fields(ed);
     if (parallel::is_root())
       report::write_wall(folder_ / wall_file(f.number), mesh_.mesh, mesh_.regions, f.wall, cells,
-                         end_diastole_);
+                         end_diastole_.value_or(std::vector<analysis::CellFields>{}));
     if (case_.output.blood) {
       const auto blood = blood_fields(f);
       if (parallel::is_root())
@@ -119,8 +115,8 @@ class BeatWriter {
   const Case& case_;
   const MeshResult& mesh_;
   std::filesystem::path folder_;
-  solid::Wall wall_;
-  std::vector<analysis::CellFields> end_diastole_;
+  analysis::FieldAnalysis analysis_;
+  std::optional<std::vector<analysis::CellFields>> end_diastole_;  ///< once it is reached
 };
 
 report::RunFacts run_facts(const Case& c, const MeshResult& mesh, const BeatResult& beat) {
@@ -133,10 +129,12 @@ report::RunFacts run_facts(const Case& c, const MeshResult& mesh, const BeatResu
   facts.cells = mesh.mesh.cell_count();
   facts.grid = fmt::format("{} x {} x {}", c.box.cells[0], c.box.cells[1], c.box.cells[2]);
   facts.mesh_width = model_parameters(c, mesh.mesh).grid.spacing.minCoeff();
-  facts.wall_clock = beat.wall_clock;
+  facts.wall_clock = beat.beat.wall_clock;
   for (const Parameter& p : parameters())
     facts.parameters.emplace_back(p.name, p.get(c));
   facts.origins.assign(c.origin.begin(), c.origin.end());
+  if (const std::string note = septum_note(c); !note.empty())
+    facts.warnings.push_back(note);
   if (!beat.beat.filling_was_steady)
     facts.warnings.push_back(
         "filling ended at protocol.filling_longest before the volume was steady");
@@ -149,26 +147,72 @@ report::RunFacts run_facts(const Case& c, const MeshResult& mesh, const BeatResu
   return facts;
 }
 
+/// The line of the case file that sets a parameter, else the file.
+std::string place_of(const Case& c, const std::string& parameter) {
+  const auto set_at = c.origin.find(parameter);
+  return set_at == c.origin.end() ? c.file.string() : set_at->second;
+}
+
+/// The undeformed wall with the kernel's reach, three cells, must fit in the box.
+void check_box(const Case& c, const mesh::Mesh& m) {
+  const fluid::Grid grid = model_parameters(c, m).grid;
+  Vec3 lower = m.nodes.front();
+  Vec3 upper = lower;
+  for (const Vec3& x : m.nodes) {
+    lower = lower.cwiseMin(x);
+    upper = upper.cwiseMax(x);
+  }
+  const Vec3 wall = upper - lower;
+  const Vec3 room = grid.upper() - grid.lower - 6.0 * grid.spacing;
+  if ((wall.array() <= room.array()).all())
+    return;
+  throw InputError(place_of(c, "box.size"),
+                   fmt::format("the wall measures {:.1f} x {:.1f} x {:.1f} mm and does not fit in "
+                               "the box, which has room for {:.1f} x {:.1f} x {:.1f} mm with three "
+                               "cells to spare on every side",
+                               wall.x(), wall.y(), wall.z(), room.x(), room.y(), room.z()),
+                   "Enlarge box.size; a filling ventricle grows by half, and blood needs space");
+}
+
+/// Nodal coupling needs nodes denser than the grid, else blood passes between them.
+void check_spacing(const Case& c, const mesh::Mesh& m) {
+  const double edge = mesh::quality(m).edge_length.mean;
+  const double width = model_parameters(c, m).grid.spacing.minCoeff();
+  if (c.coupling.kind != immersed::CouplingKind::nodal || edge <= width)
+    return;
+  throw InputError(
+      place_of(c,
+               c.anatomy.source == AnatomySource::mesh ? "anatomy.mesh.file" : "mesh.edge_length"),
+      fmt::format("the mesh's edges are {:.2f} mm long in the mean, more than the box's mesh width "
+                  "of {:.2f} mm; nodal coupling would let blood pass between the nodes",
+                  edge, width),
+      fmt::format("{}, take fewer box.cells, or set coupling.kind = \"quadrature\"",
+                  c.anatomy.source == AnatomySource::mesh
+                      ? fmt::format("Set anatomy.mesh.refinements = {:.0f}",
+                                    std::ceil(std::log2(edge / width)) + c.anatomy.mesh.refinements)
+                      : fmt::format("Set mesh.edge_length = \"{:.2g} mm\" or less", 0.9 * width)));
+}
+
+void draw(const mesh::Mesh& mesh, const heartbeat::Beat& beat, const analysis::BeatFields& fields,
+          const analysis::Results& results, const std::filesystem::path& folder) {
+  report::write(report::states_figure(mesh, beat, fields), folder / "states.png");
+  report::write(report::stress_figure(mesh, beat, fields), folder / "stress.png");
+  report::write(report::curves_figure(beat), folder / "curves.png");
+  report::write(report::segments_figure(results), folder / "segments.png");
+}
+
 }  // namespace
-
-Shape make_anatomy(const Case& c) {
-  const geometry::Ellipsoid e = c.anatomy.ellipsoid;
-  return {[e](double u, double theta, double t) { return e.point(u, theta, t); }};
-}
-
-void write_anatomy(const Case& /*c*/, const Shape& shape, const std::filesystem::path& folder) {
-  report::write_surfaces(folder / "surfaces.vtu", shape.wall);
-}
 
 MeshResult make_mesh(const Case& c, const Shape& shape) {
   MeshResult result;
-  result.mesh = mesh::wall_mesh(shape.wall, c.mesh);
+  result.mesh = shape.given ? *shape.given : mesh::wall_mesh(shape.wall, c.mesh);
+  check_box(c, result.mesh);
+  check_spacing(c, result.mesh);
   result.regions = mesh::divide(result.mesh, c.regions);
   return result;
 }
 
-void write_mesh_result(const MeshResult& result, const Case& c,
-                       const std::filesystem::path& folder) {
+void write_mesh_result(const MeshResult& result, const std::filesystem::path& folder) {
   const mesh::Mesh& m = result.mesh;
   Archive archive;
   archive.set("kind", {m.kind == mesh::CellKind::hexahedron ? 0.0 : 1.0});
@@ -183,9 +227,17 @@ void write_mesh_result(const MeshResult& result, const Case& c,
   archive.set("sector", as_numbers(result.regions.sector));
   archive.set("aha", as_numbers(result.regions.aha));
   archive.write(folder / "mesh.bin");
-  const solid::Wall wall(m, c.fibres, wall_material(c));
-  report::write_mesh(folder / "mesh.vtu", m, result.regions,
-                     analysis::cell_fields(wall, at_rest(m)));
+}
+
+void show_mesh(const MeshResult& result, const Case& c, const std::filesystem::path& folder) {
+  const mesh::Mesh& m = result.mesh;
+  const auto undeformed = field_analysis(c, m).at_rest();
+  if (!parallel::is_root())
+    return;
+  report::write_mesh(folder / "mesh.vtu", m, result.regions, undeformed);
+  report::quality_table(mesh::quality(m)).write_csv(folder / "quality.csv");
+  report::write(report::mesh_figure(m), folder / "mesh.png");
+  report::write(report::fibre_figure(m, undeformed), folder / "fibres.png");
 }
 
 MeshResult read_mesh_result(const std::filesystem::path& folder) {
@@ -209,6 +261,8 @@ MeshResult read_mesh_result(const std::filesystem::path& folder) {
 
 heartbeat::Beat make_beat(const Case& c, const MeshResult& mesh,
                           const std::filesystem::path& folder) {
+  check_box(c, mesh.mesh);  // the grid may have changed since the mesh was made
+  check_spacing(c, mesh.mesh);
   BeatWriter writer(c, mesh, folder);
   const heartbeat::BeatSetup setup{
       mesh.mesh,  c.fibres, wall_material(c), c.active, model_parameters(c, mesh.mesh),
@@ -218,21 +272,20 @@ heartbeat::Beat make_beat(const Case& c, const MeshResult& mesh,
   return heartbeat::run_immersed_beat(setup, folder, observers);
 }
 
-void write_beat(const heartbeat::Beat& beat, double wall_clock,
-                const std::filesystem::path& folder) {
+void write_beat(const heartbeat::Beat& beat, const std::filesystem::path& folder) {
   Archive archive;
   heartbeat::store(beat.curves, archive);
   heartbeat::store(beat.end_diastole, "end_diastole", archive);
   heartbeat::store(beat.end_systole, "end_systole", archive);
   archive.set("facts",
               {beat.filling_was_steady ? 1.0 : 0.0, beat.contraction_was_steady ? 1.0 : 0.0,
-               static_cast<double>(beat.steps), static_cast<double>(beat.retries), wall_clock,
+               static_cast<double>(beat.steps), static_cast<double>(beat.retries), beat.wall_clock,
                static_cast<double>(parallel::size())});
-  archive.write(folder / "beat.bin");
+  archive.write(folder / beat_name);
 }
 
 BeatResult read_beat(const std::filesystem::path& folder) {
-  const Archive archive = Archive::read(folder / "beat.bin");
+  const Archive archive = Archive::read(folder / beat_name);
   const auto& facts = archive.get("facts");
   BeatResult result;
   result.beat.curves = heartbeat::load_curves(archive);
@@ -242,17 +295,16 @@ BeatResult read_beat(const std::filesystem::path& folder) {
   result.beat.contraction_was_steady = facts.at(1) != 0.0;
   result.beat.steps = static_cast<int>(facts.at(2));
   result.beat.retries = static_cast<int>(facts.at(3));
-  result.wall_clock = facts.at(4);
+  result.beat.wall_clock = facts.at(4);
   result.ranks = static_cast<int>(facts.at(5));
   return result;
 }
 
 std::string make_results(const Case& c, const MeshResult& mesh, const BeatResult& beat,
                          const std::filesystem::path& folder) {
-  const solid::Wall wall(mesh.mesh, c.fibres, wall_material(c));
-  const analysis::BeatFields fields{analysis::cell_fields(wall, at_rest(mesh.mesh)),
-                                    analysis::cell_fields(wall, beat.beat.end_diastole),
-                                    analysis::cell_fields(wall, beat.beat.end_systole)};
+  const analysis::FieldAnalysis analysis = field_analysis(c, mesh.mesh);
+  const analysis::BeatFields fields{analysis.at_rest(), analysis.fields(beat.beat.end_diastole),
+                                    analysis.fields(beat.beat.end_systole)};
   if (!parallel::is_root())
     return "";
   const analysis::Results results = analysis::results(mesh.mesh, mesh.regions, beat.beat, fields);
@@ -261,6 +313,11 @@ std::string make_results(const Case& c, const MeshResult& mesh, const BeatResult
   report::regions_table(results).write_csv(folder / "regions.csv");
   report::rotation_table(results).write_csv(folder / "rotation.csv");
   report::curves_table(beat.beat.curves).write_csv(folder / "curves.csv");
+  report::write_wall(folder / "end_diastole.vtu", mesh.mesh, mesh.regions, beat.beat.end_diastole,
+                     fields.end_diastole, fields.end_diastole);
+  report::write_wall(folder / "end_systole.vtu", mesh.mesh, mesh.regions, beat.beat.end_systole,
+                     fields.end_systole, fields.end_diastole);
+  draw(mesh.mesh, beat.beat, fields, results, folder);
   return report::summary_text(facts, beat.beat, results);
 }
 

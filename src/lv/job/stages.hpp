@@ -2,16 +2,11 @@
 
 #include "lv/analysis/results.hpp"
 #include "lv/heartbeat/immersed_beat.hpp"
-#include "lv/job/case.hpp"
+#include "lv/job/anatomy.hpp"
 
 #include <filesystem>
 
 namespace lv::job {
-
-/// The wall's shape as a map, and how image space relates to the model.
-struct Shape {
-  mesh::WallMap wall;
-};
 
 /// The wall ready for an engine.
 struct MeshResult {
@@ -19,23 +14,25 @@ struct MeshResult {
   mesh::Regions regions;
 };
 
-[[nodiscard]] Shape make_anatomy(const Case& c);
+/// Throws InputError when the mesh is too coarse for the grid.
 [[nodiscard]] MeshResult make_mesh(const Case& c, const Shape& shape);
 
-void write_anatomy(const Case& c, const Shape& shape, const std::filesystem::path& folder);
-void write_mesh_result(const MeshResult& result, const Case& c,
-                       const std::filesystem::path& folder);
+void write_mesh_result(const MeshResult& result, const std::filesystem::path& folder);
 [[nodiscard]] MeshResult read_mesh_result(const std::filesystem::path& folder);
+
+/// Writes the mesh for ParaView, its quality table and pictures; collective.
+void show_mesh(const MeshResult& result, const Case& c, const std::filesystem::path& folder);
 
 /// Runs the beat in `folder`, writing fields and curves as it goes; collective.
 [[nodiscard]] heartbeat::Beat make_beat(const Case& c, const MeshResult& mesh,
                                         const std::filesystem::path& folder);
 
-void write_beat(const heartbeat::Beat& beat, double wall_clock,
-                const std::filesystem::path& folder);
+/// Name of a finished beat inside its folder.
+inline constexpr const char* beat_name = "beat.bin";
+
+void write_beat(const heartbeat::Beat& beat, const std::filesystem::path& folder);
 struct BeatResult {
   heartbeat::Beat beat;
-  double wall_clock = 0.0;  ///< [s]
   int ranks = 1;
 };
 [[nodiscard]] BeatResult read_beat(const std::filesystem::path& folder);

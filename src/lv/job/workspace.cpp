@@ -1,6 +1,7 @@
 #include "lv/job/workspace.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/log.hpp"
 #include "lv/base/table.hpp"
 
 #include <boost/crc.hpp>
@@ -10,6 +11,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <fstream>
 #include <sstream>
 
@@ -39,6 +41,15 @@ Ingredients recorded(const std::filesystem::path& folder) {
 
 void record(const std::filesystem::path& folder, const Ingredients& ingredients) {
   write_file(folder / record_name, nlohmann::json(ingredients).dump(1) + "\n");
+}
+
+void move(const std::filesystem::path& from, const std::filesystem::path& to) {
+  std::error_code error;
+  std::filesystem::rename(from, to, error);
+  if (error)
+    throw RunError(
+        fmt::format("{} cannot be renamed to {}: {}", from.string(), to.string(), error.message()),
+        "Check the folder's permissions, or name another one with --work");
 }
 
 }  // namespace
@@ -87,8 +98,13 @@ std::string StageFolder::reason() const {
 
 std::filesystem::path StageFolder::begin() const {
   const std::filesystem::path part = unfinished();
-  if (recorded(part) != ingredients_)
-    std::filesystem::remove_all(part);
+  if (std::filesystem::exists(part) && recorded(part) != ingredients_) {
+    const std::filesystem::path other = folder_.string() + ".other";
+    log::warn("{} holds an unfinished run with other parameters; it is now {}", part.string(),
+              other.string());
+    std::filesystem::remove_all(other);
+    move(part, other);
+  }
   std::error_code error;
   std::filesystem::create_directories(part, error);
   if (error)
@@ -98,9 +114,14 @@ std::filesystem::path StageFolder::begin() const {
   return part;
 }
 
+/// The old folder goes last: a kill at any moment leaves a whole one, old or new.
 void StageFolder::finish() const {
-  std::filesystem::remove_all(folder_);
-  std::filesystem::rename(unfinished(), folder_);
+  const std::filesystem::path old = folder_.string() + ".old";
+  std::filesystem::remove_all(old);
+  if (std::filesystem::exists(folder_))
+    move(folder_, old);
+  move(unfinished(), folder_);
+  std::filesystem::remove_all(old);
 }
 
 WorkLock::WorkLock(const std::filesystem::path& work) {
@@ -112,7 +133,11 @@ WorkLock::WorkLock(const std::filesystem::path& work) {
     throw RunError(fmt::format("{} cannot be written", work.string()),
                    "Check the folder's permissions, or name another one with --work");
   if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
+    const bool taken = errno == EWOULDBLOCK;
     ::close(descriptor_);
+    if (!taken)
+      throw RunError(fmt::format("{} cannot be locked", file.string()),
+                     "Name a folder on a local disk with --work");
     throw RunError(fmt::format("another run is at work in {}", work.string()),
                    "Wait for it to end, or name another folder with --work");
   }

@@ -12,9 +12,7 @@ Sarcomere<double> NiedererHunterSmith::steady_state(double Ca, double stretch) c
   const auto bind = [&](double z) {
     state.z = z;
     state.tension = tension(state);
-    const double k_off =
-        k_off_ref * std::max(1.0 - state.tension / (gamma * T_ref()), unbinding_min);
-    state.Ca_trpn = k_on * Ca * Ca_trpn_max / (k_on * Ca + k_off);
+    state.Ca_trpn = k_on * Ca * Ca_trpn_max / (k_on * Ca + unbinding_rate(state.tension));
   };
   const auto rate_of_z = [&](double z) {
     bind(z);

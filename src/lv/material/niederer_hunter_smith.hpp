@@ -82,6 +82,14 @@ struct NiedererHunterSmith {
     return isometric_tension(state) * fading_memory(T(state.Q[0] + state.Q[1] + state.Q[2]));
   }
 
+  /// k_off (A.3), never below `unbinding_min` of its tension-free rate [1/s]. Muscle without
+  /// strength (T_ref = 0) unbinds as without tension.
+  template <class T>
+  [[nodiscard]] T unbinding_rate(const T& tension) const {
+    const double per_tension = T_ref() > 0.0 ? 1.0 / (gamma * T_ref()) : 0.0;
+    return k_off_ref * maximum(T(1.0 - per_tension * tension), T(unbinding_min));
+  }
+
   /// dT/dlambda at fixed time over T_0, at Q = 0: (1 + a) sum A_i [-]. Stretching faster than the
   /// fading memory forgets meets this stiffness.
   [[nodiscard]] double instantaneous_stiffness() const { return (1.0 + a) * (A[0] + A[1] + A[2]); }
@@ -151,7 +159,7 @@ T NiedererHunterSmith::fading_memory(const T& Q) const {
 template <class T>
 NiedererHunterSmith::Rates<T> NiedererHunterSmith::rates(const Sarcomere<T>& state,
                                                          double Ca) const {
-  const T k_off = k_off_ref * maximum(1.0 - state.tension / (gamma * T_ref()), T(unbinding_min));
+  const T k_off = unbinding_rate(state.tension);
   const T bound = state.Ca_trpn / (Ca_trpn_max * half_binding(state.stretch));
   const T z_n = power(state.z, n_r);
   return {k_on * Ca * (Ca_trpn_max - state.Ca_trpn) - k_off * state.Ca_trpn,

@@ -9,7 +9,7 @@ namespace lv::material {
 ///   U(F) = beta_s (ln J)^2                                               [kPa]
 ///   P(F) = dU/dF = beta_s log(I3) F^{-T},  I3 = det C = J^2              [kPa]
 struct Volumetric {
-  double beta_s = 100.0;  ///< [kPa]; the paper: 1.0e6 dyn/cm^2
+  double beta_s = 1000.0;  ///< [kPa]; the paper: 1.0e6 dyn/cm^2 = 100 kPa, see docs/method.md
 
   template <class T>
   [[nodiscard]] T energy(const Tensor<T>& F) const {

@@ -1,5 +1,8 @@
 #include "lv/mesh/fibres.hpp"
 
+#include "lv/base/check.hpp"
+#include "lv/mesh/cell.hpp"
+
 #include <Eigen/Geometry>
 
 #include <cmath>
@@ -8,6 +11,7 @@
 namespace lv::mesh {
 
 WallAxes wall_axes(const Vec3& transmural_gradient) {
+  LV_CHECK(transmural_gradient.squaredNorm() > 0.0);
   WallAxes axes;
   axes.radial = transmural_gradient.normalized();
   Vec3 along = Vec3::UnitZ() - axes.radial.z() * axes.radial;
@@ -16,6 +20,43 @@ WallAxes wall_axes(const Vec3& transmural_gradient) {
   axes.longitudinal = along.normalized();
   axes.circumferential = axes.longitudinal.cross(axes.radial);
   return axes;
+}
+
+namespace {
+
+/// Gives nodes without a direction the mean of those that share a cell with them. Whether any
+/// received one.
+bool fill_from_neighbours(const Mesh& mesh, std::vector<Vec3>& directions) {
+  std::vector<Vec3> sum(directions.size(), Vec3::Zero());
+  for (int c = 0; c < mesh.cell_count(); ++c)
+    for (const int a : mesh.cell(c))
+      for (const int b : mesh.cell(c))
+        sum[a] += directions[b];
+  bool any = false;
+  for (std::size_t a = 0; a < directions.size(); ++a) {
+    if (directions[a] != Vec3::Zero() || sum[a].norm() < 1e-9)
+      continue;
+    directions[a] = sum[a].normalized();
+    any = true;
+  }
+  return any;
+}
+
+}  // namespace
+
+std::vector<Vec3> radial_directions(const Mesh& mesh) {
+  std::vector<Vec3> radial(mesh.nodes.size(), Vec3::Zero());
+  for (int c = 0; c < mesh.cell_count(); ++c) {
+    const Vec3 gradient = cell_volume(mesh, c) * mean_gradient(mesh, c, mesh.transmural);
+    for (const int node : mesh.cell(c))
+      radial[node] += gradient;
+  }
+  const double least = 1e-9 * cell_volume(mesh, 0);
+  for (Vec3& direction : radial)
+    direction = direction.norm() > least ? direction.normalized() : Vec3::Zero().eval();
+  while (fill_from_neighbours(mesh, radial)) {
+  }
+  return radial;
 }
 
 Mat3 fibre_frame(const FibreRule& rule, const WallAxes& axes, double t) {

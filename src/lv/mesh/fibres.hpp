@@ -2,6 +2,9 @@
 
 #include "lv/base/tensor.hpp"
 #include "lv/base/units.hpp"
+#include "lv/mesh/mesh.hpp"
+
+#include <vector>
 
 namespace lv::mesh {
 
@@ -14,8 +17,14 @@ struct WallAxes {
 
 /// The axes from the gradient of the transmural coordinate. The longitudinal direction is the
 /// model's z axis projected on the wall; where the two are parallel (the apex itself) any direction
-/// serves.
+/// serves. The gradient must not vanish.
 [[nodiscard]] WallAxes wall_axes(const Vec3& transmural_gradient);
+
+/// The radial direction at every node: the mean of grad t over the cells around it, weighted by
+/// their volumes, normalised; a node whose cells all lie on one side of the wall, where t is
+/// constant, takes the mean of its neighbours. It serves tetrahedra, whose own grad t may vanish:
+/// unstructured meshes have cells with all nodes on one side.
+[[nodiscard]] std::vector<Vec3> radial_directions(const Mesh& mesh);
 
 /// Rule-based fibres (section 2.2; Potse et al., IEEE Trans. Biomed. Eng. 53:2425, 2006). Angles in
 /// radians.

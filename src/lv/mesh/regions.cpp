@@ -1,8 +1,11 @@
 #include "lv/mesh/regions.hpp"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 namespace lv::mesh {
@@ -32,14 +35,40 @@ double lowest(const Mesh& mesh, const Surface& surface) {
   return z;
 }
 
-int aha_segment(const Vec3& x, double cavity_length, double septum) {
-  const double depth = -x.z() / cavity_length;
-  const double angle = std::atan2(x.y(), x.x());
-  if (depth >= 1.0)
+/// Slabs of the wall, counted from the base.
+using SlabOf = std::function<int(double z)>;
+
+/// The middle of the endocardium in each slab, weighted by area. Slabs beyond the cavity have the
+/// middle of the one before.
+std::vector<Vec3> cavity_centres(const Mesh& mesh, int slabs, const SlabOf& slab_of) {
+  std::vector<Vec3> sum(slabs, Vec3::Zero());
+  std::vector<double> area(slabs, 0.0);
+  for (int f = 0; f < mesh.endo.size(); ++f) {
+    const auto face = mesh.endo.face(f);
+    Vec3 middle = Vec3::Zero();
+    for (const int a : face)
+      middle += mesh.nodes[a] / static_cast<double>(face.size());
+    const Vec3 diagonal = mesh.nodes[face[2]] - mesh.nodes[face[0]];
+    const double dA = 0.5 * diagonal.cross(mesh.nodes[face.back()] - mesh.nodes[face[1]]).norm();
+    const int slab = slab_of(middle.z());
+    sum[slab] += dA * middle;
+    area[slab] += dA;
+  }
+  std::vector<Vec3> centres(slabs, Vec3::Zero());
+  for (int s = 0; s < slabs; ++s)
+    centres[s] = area[s] > 0.0 ? Vec3(sum[s] / area[s]) : s > 0 ? centres[s - 1] : Vec3::Zero();
+  return centres;
+}
+
+double angle_about(const Vec3& centre, const Vec3& x) {
+  return std::atan2(x.y() - centre.y(), x.x() - centre.x());
+}
+
+/// `third` 0 to 2 from the base, 3 beyond the cavity.
+int aha_segment(int third, double angle, double septum) {
+  if (third == 3)
     return 17;
-  if (depth >= 2.0 / 3.0)
-    return 12 + sector_at(angle, septum, 4);
-  return (depth >= 1.0 / 3.0 ? 6 : 0) + sector_at(angle, septum, 6);
+  return 6 * third + sector_at(angle, septum, third == 2 ? 4 : 6);
 }
 
 }  // namespace
@@ -49,15 +78,24 @@ Regions divide(const Mesh& mesh, const RegionParameters& parameters) {
   const double cavity_length = -lowest(mesh, mesh.endo);
   const double spacing =
       parameters.slice_spacing > 0.0 ? parameters.slice_spacing : length / (slice_count - 0.5);
+  const SlabOf plane_of = [&](double z) {
+    return std::clamp(static_cast<int>(std::lround(-z / spacing)), 0, slice_count - 1);
+  };
+  const SlabOf third_of = [&](double z) {
+    return std::clamp(static_cast<int>(std::floor(-3.0 * z / cavity_length)), 0, 3);
+  };
+  const std::vector<Vec3> plane_centres = cavity_centres(mesh, slice_count, plane_of);
+  const std::vector<Vec3> third_centres = cavity_centres(mesh, 4, third_of);
   Regions regions;
   for (int c = 0; c < mesh.cell_count(); ++c) {
     const Vec3 x = centre(mesh, c);
-    const int plane = static_cast<int>(std::lround(-x.z() / spacing));
-    const int slice = std::clamp(plane + 1, 1, slice_count);
-    regions.slice.push_back(slice);
-    regions.sector.push_back(
-        sector_at(std::atan2(x.y(), x.x()), parameters.septum_angle, sectors_of_slice(slice)));
-    regions.aha.push_back(aha_segment(x, cavity_length, parameters.septum_angle));
+    const int plane = plane_of(x.z());
+    const int third = third_of(x.z());
+    regions.slice.push_back(plane + 1);
+    regions.sector.push_back(sector_at(angle_about(plane_centres[plane], x),
+                                       parameters.septum_angle, sectors_of_slice(plane + 1)));
+    regions.aha.push_back(
+        aha_segment(third, angle_about(third_centres[third], x), parameters.septum_angle));
   }
   return regions;
 }

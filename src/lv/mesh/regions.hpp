@@ -11,7 +11,7 @@ struct RegionParameters {
   double septum_angle =
       0.0;  ///< direction of the middle of the septum about the long axis, from x towards y [rad]
   double slice_spacing = 0.0;  ///< between the seven slice planes [mm]; 0: the wall's length / 6.5,
-                               ///< the seventh at the apex
+                               ///< so that the apex is half a spacing beyond the seventh
 };
 
 /// The paper's division (section 2.2, Fig. 3): seven short-axis planes from the base on, five with
@@ -19,8 +19,9 @@ struct RegionParameters {
 /// segments of the American Heart Association: basal, middle and apical thirds of the cavity's
 /// length, and the apex beyond the cavity.
 ///
-/// Sectors are named for a heart with the septum at `septum_angle` and the anterior wall 90 degrees
-/// further, anticlockwise seen from the base.
+/// Sectors are counted about the centre of the cavity in their slice (a third for the AHA's), as on
+/// an image: the long axis of a real ventricle is bent. They are named for a heart with the septum
+/// at `septum_angle` and the anterior wall 90 degrees further, anticlockwise seen from the base.
 struct Regions {
   std::vector<int> slice;   ///< per cell: 1 (base) to 7 (apex)
   std::vector<int> sector;  ///< per cell: 1-6 ant antsept infsept inf inflat antlat; in slices 6,

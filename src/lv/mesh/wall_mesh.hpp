@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lv/mesh/mesh.hpp"
+#include "lv/mesh/parameters.hpp"
 
 #include <functional>
 
@@ -9,11 +10,6 @@ namespace lv::mesh {
 /// The wall as a map from (u, theta, t) to space: u from the apex (0) to the base plane (1), theta
 /// about the long axis, t from the endocardium (0) to the epicardium (1).
 using WallMap = std::function<Vec3(double u, double theta, double t)>;
-
-struct WallMeshParameters {
-  double edge_length = 1.4;  ///< target length of element edges [mm]
-  int layers = 0;            ///< elements through the wall; 0: as the edge length asks, at least 3
-};
 
 /// An all-hexahedral mesh of the wall without collapsed elements.
 ///

@@ -105,10 +105,16 @@ void write_whole(const std::filesystem::path& file, Data* data) {
   writer->SetDataModeToAppended();
   writer->EncodeAppendedDataOff();
   writer->SetCompressorTypeToZLib();
-  if (writer->Write() == 0)
+  // VTK returns 1 also when the disk is full
+  bool good = writer->Write() != 0 && writer->GetErrorCode() == 0;
+  if (good) {
+    std::error_code error;
+    std::filesystem::rename(unfinished, file, error);
+    good = !error;
+  }
+  if (!good)
     throw RunError(fmt::format("{} cannot be written", file.string()),
                    "Check the folder's permissions and the space left on the disk");
-  std::filesystem::rename(unfinished, file);
 }
 
 void add_regions(Arrays& arrays, const mesh::Regions& regions) {
@@ -184,7 +190,6 @@ void write_wall(const std::filesystem::path& file, const mesh::Mesh& mesh,
   Arrays nodal(grid->GetPointData(), mesh.nodes.size());
   nodal.vector("displacement",
                [&](auto a) -> Vec3 { return snapshot.positions[a] - mesh.nodes[a]; });
-  nodal.scalar("active_tension", [&](auto a) { return snapshot.tension[a]; });
   nodal.scalar("transmural", [&](auto a) { return mesh.transmural[a]; });
   Arrays cells(grid->GetCellData(), now.size());
   add_frames(cells, now);
@@ -236,6 +241,25 @@ void write_surfaces(const std::filesystem::path& file, const mesh::WallMap& wall
   }
   grid->SetPoints(points);
   grid->GetPointData()->AddArray(depth);
+  write_whole<vtkXMLUnstructuredGridWriter>(file, grid.Get());
+}
+
+void write_surfaces(const std::filesystem::path& file, const mesh::Mesh& mesh) {
+  vtkNew<vtkUnstructuredGrid> grid;
+  vtkNew<vtkPoints> points;
+  for (const Vec3& x : mesh.nodes)
+    points->InsertNextPoint(x.data());
+  grid->SetPoints(points);
+  for (const mesh::Surface* side : {&mesh.endo, &mesh.epi})
+    for (int f = 0; f < side->size(); ++f) {
+      const auto face = side->face(f);
+      const std::vector<vtkIdType> nodes(face.begin(), face.end());
+      grid->InsertNextCell(nodes.size() == 4 ? VTK_QUAD : VTK_TRIANGLE,
+                           static_cast<vtkIdType>(nodes.size()), nodes.data());
+    }
+  Arrays(grid->GetPointData(), mesh.nodes.size()).scalar("t", [&](auto a) {
+    return mesh.transmural[a];
+  });
   write_whole<vtkXMLUnstructuredGridWriter>(file, grid.Get());
 }
 

@@ -46,4 +46,7 @@ void write_mesh(const std::filesystem::path& file, const mesh::Mesh& mesh,
 /// them apart.
 void write_surfaces(const std::filesystem::path& file, const mesh::WallMap& wall);
 
+/// The same for the sides of a mesh.
+void write_surfaces(const std::filesystem::path& file, const mesh::Mesh& mesh);
+
 }  // namespace lv::report

@@ -147,6 +147,10 @@ std::string summary_text(const RunFacts& facts, const heartbeat::Beat& beat, con
   for (const Observation& o : observations(r))
     text += fmt::format("  {:<22}{:>9.2f} {:<4} {:<44} {}\n", o.name, o.value, o.unit, o.rule,
                         o.holds ? "yes" : "NO");
+  if (!facts.warnings.empty())
+    text += "\n";
+  for (const std::string& warning : facts.warnings)
+    text += fmt::format("  warning: {}\n", warning);
   return text;
 }
 

@@ -43,4 +43,33 @@ Table rotation_table(const analysis::Results& results) {
   return table;
 }
 
+Table quality_table(const mesh::Quality& quality) {
+  Table table({"quantity", "value", "unit"});
+  for (const mesh::QualityRow& row : mesh::table(quality))
+    table.add_row({row.quantity, number(row.value), row.unit});
+  return table;
+}
+
+Table fit_table(const geometry::FitReport& fit) {
+  Table table({"image", "slice", "surface", "points", "mean_mm", "rms_mm", "max_mm", "shift_mm"});
+  const auto add = [&](const std::string& image, const std::string& slice, const char* surface,
+                       const std::optional<geometry::Residual>& r, double shift) {
+    if (r)
+      table.add_row({image, slice, surface, std::to_string(r->points), number(r->mean),
+                     number(r->rms), number(r->max), number(shift)});
+  };
+  const auto add_images = [&](const std::string& kind,
+                              const std::vector<geometry::ImageReport>& images) {
+    for (const geometry::ImageReport& i : images) {
+      add(kind, std::to_string(i.slice), "endo", i.endo, i.shift.norm());
+      add(kind, std::to_string(i.slice), "epi", i.epi, i.shift.norm());
+    }
+  };
+  add_images("short_axis", fit.short_axis);
+  add_images("long_axis", fit.long_axis);
+  add("apex", "", "endo", fit.apex_endo, 0.0);
+  add("apex", "", "epi", fit.apex_epi, 0.0);
+  return table;
+}
+
 }  // namespace lv::report

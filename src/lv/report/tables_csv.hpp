@@ -2,6 +2,8 @@
 
 #include "lv/analysis/results.hpp"
 #include "lv/base/table.hpp"
+#include "lv/geometry/fit_report.hpp"
+#include "lv/mesh/quality.hpp"
 
 namespace lv::report {
 
@@ -13,5 +15,12 @@ namespace lv::report {
 
 /// rotation.csv: one row per slice, in degrees, anticlockwise seen from the apex positive.
 [[nodiscard]] Table rotation_table(const analysis::Results& results);
+
+/// quality.csv: the mesh's figures, one per row, the worst element named.
+[[nodiscard]] Table quality_table(const mesh::Quality& quality);
+
+/// fit.csv: per image and surface the distances of the contours' points from the fitted surface and
+/// how far the slice was moved.
+[[nodiscard]] Table fit_table(const geometry::FitReport& fit);
 
 }  // namespace lv::report

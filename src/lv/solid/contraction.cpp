@@ -32,17 +32,26 @@ Pack load(std::span<const double> values, std::size_t first) {
 
 }  // namespace
 
-Contraction::Contraction(const material::NiedererHunterSmith& law, std::span<const Vec3> nodes,
-                         std::span<const double> volumes, double density, double shortest_wave)
+std::vector<double> strength(const mesh::Mesh& mesh, const material::InfarctScaling& infarct) {
+  std::vector<double> result;
+  result.reserve(mesh.infarct.size());
+  for (const double M : mesh.infarct)
+    result.push_back(infarct.active(M));
+  return result;
+}
+
+Contraction::Contraction(const material::NiedererHunterSmith& law, const ContractingNodes& nodes,
+                         double density, double shortest_wave)
     : law_(law),
       density_(density),
       shortest_wave_(shortest_wave),
-      filter_(nodes, volumes),
-      sarcomeres_((nodes.size() + pack_size - 1) / pack_size),
-      tension_(nodes.size(), 0.0),
-      isometric_tension_(nodes.size(), 0.0),
-      stretch_rate_(nodes.size(), 0.0),
-      damping_(nodes.size(), 0.0) {}
+      filter_(nodes.positions, nodes.volumes),
+      sarcomeres_((nodes.positions.size() + pack_size - 1) / pack_size),
+      tension_(nodes.positions.size(), 0.0),
+      strength_(nodes.strength.begin(), nodes.strength.end()),
+      isometric_tension_(nodes.positions.size(), 0.0),
+      stretch_rate_(nodes.positions.size(), 0.0),
+      damping_(nodes.positions.size(), 0.0) {}
 
 void Contraction::relax(double Ca) {
   const material::Sarcomere<double> rest = law_.steady_state(Ca, 1.0);
@@ -87,7 +96,7 @@ void Contraction::publish_tension() {
     const Pack T_0 = law_.isometric_tension(sarcomeres_[g]);
     for (std::size_t a = g * pack_size; a < std::min((g + 1) * pack_size, tension_.size()); ++a) {
       tension_[a] = sarcomeres_[g].tension.get(a % pack_size) + damping_[a];
-      isometric_tension_[a] = T_0.get(a % pack_size);
+      isometric_tension_[a] = strength_[a] * T_0.get(a % pack_size);
     }
   }
 }

@@ -1,12 +1,26 @@
 #pragma once
 
+#include "lv/material/law.hpp"
 #include "lv/material/niederer_hunter_smith.hpp"
+#include "lv/mesh/mesh.hpp"
 #include "lv/solid/rate_filter.hpp"
 
 #include <span>
 #include <vector>
 
 namespace lv::solid {
+
+/// The nodes of a contracting wall: positions in the undeformed wall [mm], the volume around each
+/// [mm^3] and the strength of contraction left by an infarct, 1 - M (2.24).
+struct ContractingNodes {
+  std::span<const Vec3> positions;
+  std::span<const double> volumes;
+  std::span<const double> strength;
+};
+
+/// The strength per node of an infarcted wall.
+[[nodiscard]] std::vector<double> strength(const mesh::Mesh& mesh,
+                                           const material::InfarctScaling& infarct);
 
 /// The contractile state of the wall, kept at its nodes; between them the tension is interpolated
 /// by the finite elements.
@@ -22,10 +36,9 @@ namespace lv::solid {
 /// Every rank knows and advances all nodes.
 class Contraction {
  public:
-  /// `nodes` and `volumes`: node positions in the undeformed wall and the volume around each;
   /// `density` of the muscle [kg/mm^3]; `shortest_wave` h, the grid's spacing [mm].
-  Contraction(const material::NiedererHunterSmith& law, std::span<const Vec3> nodes,
-              std::span<const double> volumes, double density, double shortest_wave);
+  Contraction(const material::NiedererHunterSmith& law, const ContractingNodes& nodes,
+              double density, double shortest_wave);
 
   /// Brings every node to its steady state at this calcium [uM] and a stretch of 1.
   void relax(double Ca);
@@ -36,7 +49,8 @@ class Contraction {
   /// Speed of the fastest fibre wave, sqrt((1+a) sum A_i max T_0 / rho) [mm/s].
   [[nodiscard]] double wave_speed() const;
 
-  /// Tension per node, with the damping of short waves, which is zero in a steady state [kPa].
+  /// Tension per node, with the damping of short waves, which is zero in a steady state, and
+  /// without the infarct's factor, which the wall's elements apply [kPa].
   [[nodiscard]] std::span<const double> tension() const { return tension_; }
 
   /// The state as numbers, seven per node and the filter's width, and back: for checkpoints.
@@ -55,7 +69,8 @@ class Contraction {
                                ///< would make noise [mm]
   std::vector<material::Sarcomere<Pack>> sarcomeres_;  ///< pack_size nodes each
   std::vector<double> tension_;
-  std::vector<double> isometric_tension_;
+  std::vector<double> strength_;
+  std::vector<double> isometric_tension_;  ///< with the infarct's factor
   std::vector<double> stretch_rate_;
   std::vector<double> damping_;
 };

@@ -54,16 +54,6 @@ struct Hex8 {
     }
     return rule;
   }
-
-  static constexpr Quadrature<1, 8> centre_quadrature() {
-    Quadrature<1, 8> rule;
-    rule.weight[0] = 8.0;
-    for (int a = 0; a < 8; ++a) {
-      rule.gradient[0][a] = gradient(a, {0, 0, 0});
-      rule.value[0][a] = 0.125;
-    }
-    return rule;
-  }
 };
 
 /// Linear tetrahedron on the unit simplex.
@@ -92,7 +82,6 @@ struct Tet4 {
     }
     return rule;
   }
-  static constexpr Quadrature<1, 4> centre_quadrature() { return full_quadrature(); }
 };
 
 }  // namespace lv::solid

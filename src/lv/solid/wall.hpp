@@ -12,14 +12,15 @@
 namespace lv::solid {
 
 /// Where the volumetric penalty (2.20) is integrated: at the points of the rest of the energy, or
-/// at one point per element (mean dilatation), which does not lock.
-enum class VolumetricPoints { full, one };
+/// from mean dilatations, which do not lock: a hexahedron's own, from its mean deformation
+/// gradient; of tetrahedra, which are too stiff one by one, that of all around a node.
+enum class VolumetricPoints { full, mean };
 
 /// What the wall is made of.
 struct WallMaterial {
   material::Passive passive = material::HolzapfelOgden{};
   material::Volumetric volumetric;
-  VolumetricPoints volumetric_points = VolumetricPoints::one;
+  VolumetricPoints volumetric_points = VolumetricPoints::mean;
   material::InfarctScaling infarct;
 };
 
@@ -68,8 +69,8 @@ class Wall {
   /// Smallest and largest J of the last add_elastic_forces, over all ranks.
   [[nodiscard]] VolumeRange volume_range() const;
 
-  /// Reference volume that belongs to each node, int phi_a dX [mm^3].
-  [[nodiscard]] std::span<const double> nodal_volumes() const { return nodal_volumes_; }
+  /// Reference volume that belongs to each node, int phi_a dX [mm^3]; complete on every rank.
+  [[nodiscard]] std::span<const double> nodal_volumes() const;
 
   /// Every quadrature point of this rank's elements.
   [[nodiscard]] std::vector<PointSample> sample(std::span<const Vec3> positions,
@@ -79,7 +80,6 @@ class Wall {
 
  private:
   std::unique_ptr<Elements> elements_;
-  std::vector<double> nodal_volumes_;
 };
 
 }  // namespace lv::solid

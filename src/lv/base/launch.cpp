@@ -1,0 +1,81 @@
+#include "lv/base/launch.hpp"
+
+#include "lv/base/check.hpp"
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <filesystem>
+
+namespace lv::launch {
+namespace {
+
+/// `sharing`: the cores belong to others too, so ranks are not tied to them.
+std::vector<std::string> command_line(int ranks, bool sharing,
+                                      const std::vector<std::string>& arguments) {
+  const std::string self = std::filesystem::read_symlink("/proc/self/exe");
+  std::vector<std::string> command;
+  if (ranks > 1) {
+    command = {"mpirun", "-q", "--oversubscribe", "-n", std::to_string(ranks)};
+    if (sharing)
+      command.insert(command.end(), {"--bind-to", "none"});
+  }
+  command.push_back(self);
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  return command;
+}
+
+void allow_mpirun() {
+  setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 0);
+  setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 0);
+  // shared memory without ptrace rights, which containers withhold
+  setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 0);
+  // seconds from the request to stop until ranks are killed: a checkpoint must be written in them
+  setenv("OMPI_MCA_odls_base_sigkill_timeout", "30", 0);
+}
+
+/// Returns only when the program cannot be started.
+void execute(std::vector<std::string> command) {
+  std::vector<char*> args;
+  for (std::string& argument : command)
+    args.push_back(argument.data());
+  args.push_back(nullptr);
+  execvp(args[0], args.data());
+}
+
+}  // namespace
+
+bool under_mpirun() {
+  // set by OpenMPI's mpirun, and by other launchers such as Slurm's srun
+  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"})
+    if (std::getenv(name) != nullptr)
+      return true;
+  return false;
+}
+
+void replace(int ranks, const std::vector<std::string>& arguments) {
+  allow_mpirun();
+  execute(command_line(ranks, false, arguments));
+  throw RunError("mpirun cannot be started", "Install openmpi-bin, or use --ranks 1");
+}
+
+int run(int ranks, const std::vector<std::string>& arguments) {
+  const std::vector<std::string> command = command_line(ranks, true, arguments);
+  const pid_t child = fork();
+  if (child < 0)
+    throw RunError("a process cannot be started", "Is the machine out of memory?");
+  if (child == 0) {
+    allow_mpirun();
+    dup2(STDERR_FILENO, STDOUT_FILENO);
+    execute(command);
+    _exit(127);
+  }
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+}  // namespace lv::launch

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+/// Copies of this program as processes of their own, alone or on several MPI ranks.
+namespace lv::launch {
+
+/// Whether mpirun has started this process.
+[[nodiscard]] bool under_mpirun();
+
+/// Replaces this process by `ranks` copies of it under mpirun with the same arguments. Throws
+/// RunError when mpirun is missing.
+[[noreturn]] void replace(int ranks, const std::vector<std::string>& arguments);
+
+/// Runs `ranks` copies of this program with these arguments, waits for them and returns their exit
+/// code (128 + signal when they were killed). What they print goes to stderr. The caller must not
+/// hold MPI itself.
+[[nodiscard]] int run(int ranks, const std::vector<std::string>& arguments);
+
+}  // namespace lv::launch

@@ -1,0 +1,357 @@
+#include "lv/geometry/contour_checks.hpp"
+
+#include "lv/base/check.hpp"
+#include "lv/geometry/contour_measures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+namespace lv::geometry {
+namespace {
+
+using Vec2 = Eigen::Vector2d;
+
+constexpr std::size_t least_loop_points = 8;
+constexpr std::size_t least_curve_points = 5;
+constexpr std::size_t least_slices = 3;
+constexpr double least_diameter = 10.0;  // mean of the endocardial loops [mm]
+constexpr double largest_diameter = 120.0;
+constexpr double flatness = 0.5;       // of a loop: farthest point from its plane [mm]
+constexpr double pair_flatness = 1.0;  // of endo and epi in one slice [mm]
+constexpr double gap_ratio = 4.0;      // of a loop's closing segment to the usual one
+constexpr double least_spacing = 1.0;  // of slices [mm]
+constexpr double largest_tilt = 15.0;  // of a slice against the stack's mean [degrees]
+constexpr double farthest = 200.0;     // of long-axis and apex points from the stack [mm]
+
+std::string place(const Vec3& x) {
+  return fmt::format("({:.1f}, {:.1f}, {:.1f}) mm", x.x(), x.y(), x.z());
+}
+
+/// A closed polygon in a plane.
+using Polygon = std::vector<Vec2>;
+
+Polygon project(const Contour& loop, const Frame& plane) {
+  Polygon polygon;
+  for (const Vec3& x : loop.points)
+    polygon.emplace_back(plane.to_model(x).head<2>());
+  return polygon;
+}
+
+double cross(const Vec2& a, const Vec2& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+/// Where the segment p0 p1 meets q0 q1, if it does.
+std::optional<Vec2> meeting_point(const Vec2& p0, const Vec2& p1, const Vec2& q0, const Vec2& q1) {
+  const Vec2 p = p1 - p0;
+  const Vec2 q = q1 - q0;
+  const double det = cross(p, q);
+  if (det == 0.0)
+    return std::nullopt;
+  const double s = cross(q0 - p0, q) / det;
+  const double t = cross(q0 - p0, p) / det;
+  if (s < 0.0 || s > 1.0 || t < 0.0 || t > 1.0)
+    return std::nullopt;
+  return p0 + s * p;
+}
+
+struct Crossing {
+  std::size_t first, second;  ///< segments, by their first points
+  Vec2 at;
+};
+
+std::optional<Crossing> self_crossing(const Polygon& loop) {
+  const std::size_t n = loop.size();
+  for (std::size_t i = 0; i + 2 < n; ++i)
+    for (std::size_t j = i + 2; j < n; ++j) {
+      if (i == 0 && j == n - 1)
+        continue;  // neighbours
+      if (const auto at = meeting_point(loop[i], loop[i + 1], loop[j], loop[(j + 1) % n]))
+        return Crossing{i, j, *at};
+    }
+  return std::nullopt;
+}
+
+std::optional<Crossing> crossing(const Polygon& a, const Polygon& b) {
+  for (std::size_t i = 0; i < a.size(); ++i)
+    for (std::size_t j = 0; j < b.size(); ++j)
+      if (const auto at = meeting_point(a[i], a[(i + 1) % a.size()], b[j], b[(j + 1) % b.size()]))
+        return Crossing{i, j, *at};
+  return std::nullopt;
+}
+
+bool inside(const Vec2& x, const Polygon& polygon) {
+  bool in = false;
+  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
+    const Vec2& a = polygon[i];
+    const Vec2& b = polygon[j];
+    if ((a.y() > x.y()) != (b.y() > x.y()) &&
+        x.x() < a.x() + (x.y() - a.y()) * (b.x() - a.x()) / (b.y() - a.y()))
+      in = !in;
+  }
+  return in;
+}
+
+void check_counts(const Contours& contours) {
+  const auto check = [](const Contour& c, std::size_t least, const char* kind) {
+    if (c.points.size() < least)
+      throw InputError(c.where(),
+                       fmt::format("{}: {} point{} in a {}; at least {} are needed", label(c),
+                                   c.points.size(), c.points.size() == 1 ? "" : "s", kind, least),
+                       "Draw the contour with more points or remove it");
+  };
+  if (contours.short_axis.empty())
+    throw InputError("contours", "there is no short-axis contour", "Draw at least three slices");
+  for (const Contour& c : contours.short_axis)
+    check(c, least_loop_points, "short-axis loop");
+  for (const Contour& c : contours.long_axis)
+    check(c, least_curve_points, "long-axis curve");
+}
+
+/// The unit in which a length would be that of a ventricle.
+std::string likely_unit(double diameter) {
+  struct Unit {
+    const char* name;
+    double mm;
+  };
+  for (const Unit& unit : {Unit{"cm", 10.0}, Unit{"m", 1000.0}, Unit{"micrometres", 1e-3}})
+    if (diameter * unit.mm >= least_diameter && diameter * unit.mm <= largest_diameter)
+      return fmt::format("The numbers seem to be in {}: multiply them by {}", unit.name, unit.mm);
+  return "No common unit explains it: check the positions";
+}
+
+void check_units(const Contours& contours) {
+  double sum = 0.0;
+  int loops = 0;
+  for (const Contour& c : contours.short_axis) {
+    if (c.side != Side::endo)
+      continue;
+    sum += 2.0 * mean_radius(c);
+    ++loops;
+  }
+  const double diameter = loops > 0 ? sum / loops : 2.0 * mean_radius(contours.short_axis.front());
+  if (diameter < least_diameter || diameter > largest_diameter)
+    throw InputError(
+        contours.short_axis.front().where(),
+        fmt::format("the mean diameter of the endocardium is {:.3g} mm; a ventricle's lies between "
+                    "{:g} and {:g} mm",
+                    diameter, least_diameter, largest_diameter),
+        likely_unit(diameter));
+}
+
+void check_flat(const Contour& loop, const Frame& plane, double tolerance, const char* remedy) {
+  for (std::size_t i = 0; i < loop.points.size(); ++i) {
+    const double height = plane.to_model(loop.points[i]).z();
+    if (std::abs(height) > tolerance)
+      throw InputError(
+          loop.where(i),
+          fmt::format("{}: the point {} lies {:.2f} mm out of the slice's plane; at most {:g} mm "
+                      "is accepted",
+                      label(loop), place(loop.points[i]), std::abs(height), tolerance),
+          remedy);
+  }
+}
+
+void check_closed(const Contour& loop) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < loop.points.size(); ++i)
+    steps.push_back((loop.points[i] - loop.points[i - 1]).norm());
+  std::nth_element(steps.begin(), steps.begin() + steps.size() / 2, steps.end());
+  const double usual = steps[steps.size() / 2];
+  const double gap = (loop.points.back() - loop.points.front()).norm();
+  if (gap > gap_ratio * usual)
+    throw InputError(
+        loop.where(loop.points.size() - 1),
+        fmt::format("{}: the loop is open: its ends {} and {} are {:.1f} mm apart where "
+                    "neighbouring points are {:.1f} mm apart",
+                    label(loop), place(loop.points.front()), place(loop.points.back()), gap, usual),
+        "Draw the loop all the way round");
+}
+
+void check_simple(const Contour& loop, const Frame& plane) {
+  if (const auto c = self_crossing(project(loop, plane)))
+    throw InputError(loop.where(c->first),
+                     fmt::format("{}: the loop crosses itself at {}, after its points {} and {}",
+                                 label(loop), place(plane.to_image({c->at.x(), c->at.y(), 0.0})),
+                                 c->first + 1, c->second + 1),
+                     "Put the points in order along the border or redraw it there");
+}
+
+/// The endocardium must lie inside the epicardium of its slice.
+void check_pair(const Contour& endo, const Contour& epi) {
+  const Frame plane = plane_of(endo.points);
+  check_flat(epi, plane, pair_flatness,
+             "Both borders of a slice lie on one image: check the slice numbers");
+  const Polygon inner = project(endo, plane);
+  const Polygon outer = project(epi, plane);
+  if (const auto c = crossing(inner, outer))
+    throw InputError(
+        endo.where(c->first),
+        fmt::format("slice {}: the endocardium crosses the epicardium ({}) at {}", endo.slice,
+                    epi.where(c->second), place(plane.to_image({c->at.x(), c->at.y(), 0.0}))),
+        "Redraw the borders there: the wall lies between them");
+  if (inside(outer.front(), inner))
+    throw InputError(
+        endo.where(),
+        fmt::format("slice {}: the endo loop encloses the epi loop ({})", endo.slice, epi.where()),
+        "The names seem swapped: endo is the inner border, epi the outer one");
+  if (!inside(inner.front(), outer))
+    throw InputError(endo.where(),
+                     fmt::format("slice {}: the endo loop lies beside the epi loop ({})",
+                                 endo.slice, epi.where()),
+                     "Check that both borders belong to the same slice and image");
+}
+
+void check_slices(const Contours& contours) {
+  for (const Contour& c : contours.short_axis) {
+    const Contour* endo = find(contours.short_axis, c.slice, Side::endo);
+    if (endo == nullptr)
+      throw InputError(c.where(), fmt::format("slice {} has no endocardium", c.slice),
+                       "Draw its endo loop or remove the slice");
+    if (c.side == Side::epi)
+      check_pair(*endo, c);
+  }
+}
+
+/// The endocardial loops in slice order with the planes they lie in, normals all to one side.
+struct Stack {
+  std::vector<const Contour*> loops;
+  std::vector<Frame> planes;
+  Vec3 normal = Vec3::Zero();  ///< mean of the planes'
+};
+
+Stack stack_of(const Contours& contours) {
+  Stack stack;
+  for (const Contour& c : contours.short_axis) {
+    if (c.side != Side::endo)
+      continue;
+    Frame plane = plane_of(c.points);
+    if (!stack.planes.empty() && plane.axes.col(2).dot(stack.planes.front().axes.col(2)) < 0.0)
+      plane.axes.rightCols<2>() *= -1.0;
+    stack.loops.push_back(&c);
+    stack.planes.push_back(plane);
+    stack.normal += plane.axes.col(2);
+  }
+  stack.normal.normalize();
+  return stack;
+}
+
+void check_parallel(const Stack& stack) {
+  for (std::size_t i = 0; i < stack.loops.size(); ++i) {
+    const double cosine = std::min(1.0, stack.planes[i].axes.col(2).dot(stack.normal));
+    const double tilt = std::acos(cosine) * 180.0 / std::numbers::pi;
+    if (tilt > largest_tilt)
+      throw InputError(stack.loops[i]->where(),
+                       fmt::format("slice {} is tilted by {:.0f} degrees against the mean of the "
+                                   "slices; at most {:g} are accepted",
+                                   stack.loops[i]->slice, tilt, largest_tilt),
+                       "Short-axis slices are parallel: check the positions of this one");
+  }
+}
+
+void check_distinct(const Stack& stack) {
+  for (std::size_t i = 0; i < stack.loops.size(); ++i)
+    for (std::size_t j = i + 1; j < stack.loops.size(); ++j) {
+      const double distance =
+          std::abs((stack.planes[j].origin - stack.planes[i].origin).dot(stack.normal));
+      if (distance < least_spacing)
+        throw InputError(stack.loops[j]->where(),
+                         fmt::format("slices {} and {} lie in the same plane ({:.2f} mm apart)",
+                                     stack.loops[i]->slice, stack.loops[j]->slice, distance),
+                         "Keep one of them, or check the positions");
+    }
+}
+
+void check_order(const Stack& stack) {
+  for (std::size_t i = 2; i < stack.loops.size(); ++i) {
+    const auto step = [&](std::size_t k) {
+      return (stack.planes[k].origin - stack.planes[k - 1].origin).dot(stack.normal);
+    };
+    if (step(i - 1) * step(i) < 0.0)
+      throw InputError(stack.loops[i]->where(),
+                       fmt::format("slice {} does not follow slices {} and {}: it lies {:.1f} mm "
+                                   "back towards the first of them",
+                                   stack.loops[i]->slice, stack.loops[i - 2]->slice,
+                                   stack.loops[i - 1]->slice, std::abs(step(i))),
+                       "Number the slices in order from one end of the ventricle to the other");
+  }
+}
+
+/// No loop may reach through the plane of its neighbour.
+void check_apart(const Stack& stack) {
+  for (std::size_t i = 1; i < stack.loops.size(); ++i) {
+    const Frame& below = stack.planes[i - 1];
+    const double side = below.to_model(stack.planes[i].origin).z();
+    for (std::size_t p = 0; p < stack.loops[i]->points.size(); ++p)
+      if (below.to_model(stack.loops[i]->points[p]).z() * side <= 0.0)
+        throw InputError(
+            stack.loops[i]->where(p),
+            fmt::format("slices {} and {} cross each other at {}", stack.loops[i - 1]->slice,
+                        stack.loops[i]->slice, place(stack.loops[i]->points[p])),
+            "Short-axis slices are parallel: check the positions of both");
+  }
+}
+
+void check_nearby(const Contours& contours, const Stack& stack) {
+  Vec3 middle = Vec3::Zero();
+  for (const Frame& plane : stack.planes)
+    middle += plane.origin / static_cast<double>(stack.planes.size());
+  for (const auto* set : {&contours.long_axis, &contours.apex})
+    for (const Contour& c : *set)
+      for (std::size_t i = 0; i < c.points.size(); ++i)
+        if ((c.points[i] - middle).norm() > farthest)
+          throw InputError(c.where(i),
+                           fmt::format("{}: the point {} lies {:.0f} mm from the short-axis "
+                                       "slices",
+                                       label(c), place(c.points[i]), (c.points[i] - middle).norm()),
+                           "All contours share the scanner's coordinates in mm");
+}
+
+/// A curve on a long-axis image runs from the base over the apex to the base: its ends are apart.
+void check_open(const Contour& curve) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < curve.points.size(); ++i)
+    length += (curve.points[i] - curve.points[i - 1]).norm();
+  const double gap = (curve.points.back() - curve.points.front()).norm();
+  constexpr double least = 0.05;  // of its length; a ventricle's base is a fifth and more
+  if (gap < least * length)
+    throw InputError(curve.where(),
+                     fmt::format("{}: the long-axis curve is closed: its ends are {:.1f} mm apart",
+                                 label(curve), gap),
+                     "Draw it open, from the base over the apex to the base");
+}
+
+}  // namespace
+
+void check_contours(const Contours& contours) {
+  check_counts(contours);
+  check_units(contours);
+  for (const Contour& loop : contours.short_axis) {
+    const Frame plane = plane_of(loop.points);
+    check_flat(loop, plane, flatness, "A short-axis loop is drawn on one image: check the point");
+    check_closed(loop);
+    check_simple(loop, plane);
+  }
+  for (const Contour& curve : contours.long_axis)
+    check_open(curve);
+  check_slices(contours);
+  const Stack stack = stack_of(contours);
+  if (stack.loops.size() < least_slices)
+    throw InputError(
+        contours.short_axis.front().where(),
+        fmt::format("{} short-axis slice{}; at least {} are needed", stack.loops.size(),
+                    stack.loops.size() == 1 ? "" : "s", least_slices),
+        "Draw more slices between base and apex");
+  check_parallel(stack);
+  check_distinct(stack);
+  check_order(stack);
+  check_apart(stack);
+  check_nearby(contours, stack);
+}
+
+}  // namespace lv::geometry

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "lv/geometry/contours.hpp"
+
+namespace lv::geometry {
+
+/// Refuses contours that cannot be borders of one left ventricle, by file and line: fewer than 8
+/// points in a loop (5 in a long-axis curve) or fewer than 3 slices; a size that only another unit
+/// than mm explains; loops that are not flat, not closed or cross themselves; a slice without
+/// endocardium; an endocardium that crosses, encloses or lies beside its epicardium; slices that
+/// are not parallel, not in order, or share a plane; long-axis curves or apex points far from the
+/// slices. A slice without epicardium is accepted. @throws InputError
+void check_contours(const Contours& contours);
+
+}  // namespace lv::geometry

@@ -1,0 +1,249 @@
+#include "lv/geometry/contours.hpp"
+
+#include "lv/base/check.hpp"
+#include "lv/geometry/contour_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <string_view>
+#include <utility>
+
+namespace lv::geometry {
+namespace {
+
+/// The columns of a contour file; the first six are needed.
+enum Column { slice, contour, point, x_mm, y_mm, z_mm, px_x, px_y, column_count };
+constexpr std::array<std::string_view, column_count> column_names{
+    "slice", "contour", "point", "x_mm", "y_mm", "z_mm", "px_x", "px_y"};
+constexpr int columns_needed = px_x;
+constexpr const char* column_rule =
+    "The first line names the columns slice,contour,point,x_mm,y_mm,z_mm (px_x and px_y may be "
+    "there), separated by commas";
+
+struct Row {
+  int slice, point;
+  Side side;
+  Vec3 x;
+  int line;
+};
+
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t\r");
+  if (first == std::string_view::npos)
+    return {};
+  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+std::vector<std::string_view> fields_of(std::string_view line) {
+  std::vector<std::string_view> fields;
+  for (;;) {
+    const auto comma = line.find(',');
+    fields.push_back(trimmed(line.substr(0, comma)));
+    if (comma == std::string_view::npos)
+      return fields;
+    line.remove_prefix(comma + 1);
+  }
+}
+
+/// One contour file, read line by line.
+class Table {
+ public:
+  explicit Table(const std::filesystem::path& path) : file_(path.string()), stream_(path) {
+    if (!stream_)
+      throw InputError(file_, "the contour file cannot be opened",
+                       "Check the name and that it can be read");
+    read_header();
+  }
+
+  std::vector<Row> rows() {
+    std::vector<Row> rows;
+    while (next_line())
+      rows.push_back(row());
+    if (rows.empty())
+      throw InputError(where(), "the contour file holds no points",
+                       "Write one line per point after the line of column names");
+    return rows;
+  }
+
+ private:
+  [[nodiscard]] std::string where() const { return fmt::format("{}:{}", file_, line_); }
+
+  /// The next line that is not blank.
+  bool next_line() {
+    while (std::getline(stream_, text_)) {
+      ++line_;
+      if (line_ == 1 && text_.starts_with("\xEF\xBB\xBF"))
+        text_.erase(0, 3);
+      if (!trimmed(text_).empty())
+        return true;
+    }
+    return false;
+  }
+
+  void read_header() {
+    if (!next_line())
+      throw InputError(file_, "the contour file is empty", column_rule);
+    const auto fields = fields_of(text_);
+    width_ = fields.size();
+    at_.fill(width_);
+    for (std::size_t i = 0; i < width_; ++i) {
+      const auto* found = std::find(column_names.begin(), column_names.end(), fields[i]);
+      if (found == column_names.end())
+        throw InputError(where(), fmt::format("unknown column \"{}\"", fields[i]), column_rule);
+      auto& at = at_[found - column_names.begin()];
+      if (at != width_)
+        throw InputError(where(), fmt::format("column \"{}\" appears twice", fields[i]),
+                         column_rule);
+      at = i;
+    }
+    for (int c = 0; c < columns_needed; ++c)
+      if (at_[c] == width_)
+        throw InputError(where(), fmt::format("column \"{}\" is missing", column_names[c]),
+                         column_rule);
+  }
+
+  [[nodiscard]] Row row() const {
+    const auto fields = fields_of(text_);
+    if (fields.size() != width_)
+      throw InputError(where(),
+                       fmt::format("{} values in a table of {} columns", fields.size(), width_),
+                       "Give every line one value per column");
+    const auto field = [&](Column c) { return fields[at_[c]]; };
+    return {whole_number(field(slice), "slice"),
+            whole_number(field(point), "point"),
+            side(field(contour)),
+            {coordinate(field(x_mm), "x_mm"), coordinate(field(y_mm), "y_mm"),
+             coordinate(field(z_mm), "z_mm")},
+            line_};
+  }
+
+  template <class Number>
+  static bool parse(std::string_view text, Number& value) {
+    const char* end = text.data() + text.size();
+    const auto result = std::from_chars(text.data(), end, value);
+    return result.ec == std::errc() && result.ptr == end;
+  }
+
+  [[nodiscard]] int whole_number(std::string_view text, const char* column) const {
+    int value = 0;
+    if (!parse(text, value))
+      throw InputError(where(), fmt::format("{} \"{}\" is not a whole number", column, text),
+                       "Number slices and points 1, 2, 3 and so on");
+    return value;
+  }
+
+  [[nodiscard]] double coordinate(std::string_view text, const char* column) const {
+    double value = 0.0;
+    if (!parse(text, value) || !std::isfinite(value))
+      throw InputError(where(), fmt::format("{} \"{}\" is not a finite number", column, text),
+                       "Give the point's position in scanner millimetres or remove the line");
+    return value;
+  }
+
+  [[nodiscard]] Side side(std::string_view text) const {
+    if (text == "endo")
+      return Side::endo;
+    if (text == "epi")
+      return Side::epi;
+    throw InputError(where(), fmt::format("unknown contour \"{}\"", text),
+                     "A contour is endo (inner border of the muscle) or epi (outer border)");
+  }
+
+  std::string file_;
+  std::ifstream stream_;
+  std::string text_;
+  int line_ = 0;
+  std::size_t width_ = 0;
+  std::array<std::size_t, column_count> at_{};  ///< position of each column; width_: not there
+};
+
+/// Puts a contour's points in the order of their numbers.
+Contour in_order(std::vector<Row> rows, const std::string& file) {
+  std::stable_sort(rows.begin(), rows.end(),
+                   [](const Row& p, const Row& q) { return p.point < q.point; });
+  Contour c{rows.front().slice, rows.front().side, {}, file, {}};
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (i > 0 && rows[i].point == rows[i - 1].point)
+      throw InputError(fmt::format("{}:{}", file, rows[i].line),
+                       fmt::format("slice {}, {}, point {} is given a second time (first in line "
+                                   "{})",
+                                   c.slice, name(c.side), rows[i].point, rows[i - 1].line),
+                       "Number the slices, and the points of each contour, once each");
+    c.points.push_back(rows[i].x);
+    c.lines.push_back(rows[i].line);
+  }
+  return c;
+}
+
+std::vector<Contour> read_file(const std::filesystem::path& path) {
+  std::map<std::pair<int, Side>, std::vector<Row>> groups;
+  for (const Row& row : Table(path).rows())
+    groups[{row.slice, row.side}].push_back(row);
+  std::vector<Contour> contours;
+  for (auto& [key, rows] : groups)
+    contours.push_back(in_order(std::move(rows), path.string()));
+  return contours;
+}
+
+/// Drops points that repeat the one before; a loop is closed by its last segment, not by repeating
+/// its first point.
+void drop_repeats(Contour& loop) {
+  const auto repeats = [&](std::size_t i, std::size_t j) {
+    return (loop.points[i] - loop.points[j]).norm() < 1e-6;
+  };
+  Contour kept = loop;
+  kept.points.clear();
+  kept.lines.clear();
+  const std::size_t n = loop.points.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    if (i > 0 && (repeats(i, i - 1) || (i == n - 1 && repeats(i, 0))))
+      continue;
+    kept.points.push_back(loop.points[i]);
+    kept.lines.push_back(loop.lines[i]);
+  }
+  loop = std::move(kept);
+}
+
+void append_apex_points(const std::filesystem::path& path, std::vector<Contour>& apex) {
+  for (const Contour& c : read_file(path))
+    for (std::size_t i = 0; i < c.points.size(); ++i)
+      apex.push_back({c.slice, c.side, {c.points[i]}, c.file, {c.lines[i]}});
+}
+
+}  // namespace
+
+const char* name(Side side) {
+  return side == Side::endo ? "endo" : "epi";
+}
+
+std::string Contour::where(std::size_t point) const {
+  return point < lines.size() ? fmt::format("{}:{}", file, lines[point]) : file;
+}
+
+const Contour* find(const std::vector<Contour>& contours, int slice, Side side) {
+  const auto found = std::find_if(contours.begin(), contours.end(), [&](const Contour& c) {
+    return c.slice == slice && c.side == side;
+  });
+  return found == contours.end() ? nullptr : &*found;
+}
+
+Contours read_contours(const ContourFiles& files) {
+  Contours contours;
+  contours.short_axis = read_file(files.short_axis);
+  for (Contour& loop : contours.short_axis)
+    drop_repeats(loop);
+  if (files.long_axis)
+    contours.long_axis = read_file(*files.long_axis);
+  for (const auto& path : files.apex)
+    append_apex_points(path, contours.apex);
+  check_contours(contours);
+  return contours;
+}
+
+}  // namespace lv::geometry

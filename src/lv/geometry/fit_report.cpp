@@ -1,0 +1,135 @@
+#include "lv/geometry/fit_report.hpp"
+
+#include "lv/geometry/contour_measures.hpp"
+#include "lv/geometry/long_axis.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <set>
+
+namespace lv::geometry {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// The surfaces and the contours they belong to.
+struct Fitted {
+  const Frame& frame;
+  const StarSurface& endo;
+  const StarSurface& epi;
+  double margin;
+
+  [[nodiscard]] const StarSurface& surface(Side side) const {
+    return side == Side::endo ? endo : epi;
+  }
+};
+
+/// Residual of the points of some contours up to `highest`; none if there are none.
+std::optional<Residual> residual(const std::vector<const Contour*>& contours, const Fitted& fitted,
+                                 double highest) {
+  Residual r;
+  for (const Contour* c : contours)
+    for (const Vec3& image : c->points) {
+      const Vec3 x = fitted.frame.to_model(image);
+      if (x.z() > highest)
+        continue;
+      const double d = std::abs(fitted.surface(c->side).distance(x));
+      ++r.points;
+      r.mean += d;
+      r.rms += d * d;
+      r.max = std::max(r.max, d);
+    }
+  if (r.points == 0)
+    return std::nullopt;
+  r.mean /= r.points;
+  r.rms = std::sqrt(r.rms / r.points);
+  return r;
+}
+
+ImageReport image_report(const std::vector<Contour>& set, int slice, const Fitted& fitted,
+                         double highest) {
+  ImageReport report;
+  report.slice = slice;
+  if (const Contour* endo = find(set, slice, Side::endo))
+    report.endo = residual({endo}, fitted, highest);
+  if (const Contour* epi = find(set, slice, Side::epi))
+    report.epi = residual({epi}, fitted, highest);
+  return report;
+}
+
+std::optional<Residual> apex_residual(const Contours& contours, Side side, const Fitted& fitted) {
+  std::vector<const Contour*> points;
+  for (const Contour& c : contours.apex)
+    if (c.side == side)
+      points.push_back(&c);
+  return residual(points, fitted, fitted.margin);
+}
+
+/// The slice whose endocardium's centre is nearest in height.
+int nearest_slice(const Contours& contours, const Frame& frame, double z) {
+  int slice = 0;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Contour& c : contours.short_axis) {
+    const double distance = std::abs(frame.to_model(mean_of(c.points)).z() - z);
+    if (c.side == Side::endo && distance < nearest) {
+      nearest = distance;
+      slice = c.slice;
+    }
+  }
+  return slice;
+}
+
+void measure_thickness(const Contours& contours, const Fitted& fitted, FitReport& report) {
+  constexpr int rows = 40;
+  constexpr int angles = 72;
+  report.thinnest.value = std::numeric_limits<double>::infinity();
+  report.thickest.value = -std::numeric_limits<double>::infinity();
+  for (int j = 0; j < angles; ++j) {
+    const double theta = 2.0 * pi * j / angles;
+    const double base = fitted.endo.base_angle(theta);
+    for (int i = 0; i <= rows; ++i) {
+      const Vec3 x = fitted.endo.point(base * i / rows, theta);
+      const double thickness = -fitted.epi.distance(x);
+      if (thickness < report.thinnest.value)
+        report.thinnest = {thickness, x, 0};
+      if (thickness > report.thickest.value)
+        report.thickest = {thickness, x, 0};
+    }
+  }
+  for (Thickness* t : {&report.thinnest, &report.thickest})
+    t->slice = nearest_slice(contours, fitted.frame, t->at.z());
+}
+
+/// The angle between the long axis and the normal of the most basal slice.
+double slice_tilt(const Contours& contours) {
+  const Contour& basal = *find(contours.short_axis, slices_from_base(contours).front(), Side::endo);
+  const double cosine = plane_of(basal.points).axes.col(2).dot(long_axis(contours).up);
+  return std::acos(std::min(1.0, std::abs(cosine)));
+}
+
+}  // namespace
+
+FitReport measure_fit(const Contours& contours, const Frame& frame, const StarSurface& endo,
+                      const StarSurface& epi, double margin) {
+  const Fitted fitted{frame, endo, epi, margin};
+  FitReport report;
+  constexpr double everywhere = std::numeric_limits<double>::infinity();
+  for (const int slice : slices_from_base(contours))
+    report.short_axis.push_back(image_report(contours.short_axis, slice, fitted, everywhere));
+  std::set<int> images;
+  for (const Contour& c : contours.long_axis)
+    images.insert(c.slice);
+  for (const int slice : images)
+    report.long_axis.push_back(image_report(contours.long_axis, slice, fitted, margin));
+  report.apex_endo = apex_residual(contours, Side::endo, fitted);
+  report.apex_epi = apex_residual(contours, Side::epi, fitted);
+  report.volume_cavity = endo.enclosed_volume();
+  report.volume_wall = epi.enclosed_volume() - report.volume_cavity;
+  measure_thickness(contours, fitted, report);
+  report.slice_tilt = slice_tilt(contours);
+  return report;
+}
+
+}  // namespace lv::geometry

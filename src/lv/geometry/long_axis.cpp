@@ -1,0 +1,157 @@
+#include "lv/geometry/long_axis.hpp"
+
+#include "lv/base/check.hpp"
+#include "lv/geometry/contour_measures.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace lv::geometry {
+namespace {
+
+/// The point of a long-axis curve farthest from the chord between its ends.
+Vec3 tip(const Contour& curve) {
+  const Vec3 start = curve.points.front();
+  const Vec3 chord = (curve.points.back() - start).normalized();
+  const auto distance = [&](const Vec3& x) { return (x - start).cross(chord).norm(); };
+  return *std::max_element(curve.points.begin(), curve.points.end(),
+                           [&](const Vec3& x, const Vec3& y) { return distance(x) < distance(y); });
+}
+
+/// What the contours show of the apex of one surface.
+std::vector<Vec3> apex_points(const Contours& contours, Side side) {
+  std::vector<Vec3> points;
+  for (const Contour& c : contours.apex)
+    if (c.side == side)
+      points.push_back(c.points.front());
+  if (points.empty())
+    for (const Contour& c : contours.long_axis)
+      if (c.side == side)
+        points.push_back(tip(c));
+  return points;
+}
+
+std::vector<const Contour*> endo_loops(const Contours& contours) {
+  std::vector<const Contour*> loops;
+  for (const Contour& c : contours.short_axis)
+    if (c.side == Side::endo)
+      loops.push_back(&c);
+  return loops;
+}
+
+/// Whether the first slice is the most apical one.
+bool starts_at_apex(const Contours& contours) {
+  const auto loops = endo_loops(contours);
+  std::vector<Vec3> apex = apex_points(contours, Side::endo);
+  if (apex.empty())
+    apex = apex_points(contours, Side::epi);
+  if (apex.empty())
+    return mean_radius(*loops.front()) < mean_radius(*loops.back());
+  const Vec3 at = mean_of(apex);
+  return (mean_of(loops.front()->points) - at).norm() < (mean_of(loops.back()->points) - at).norm();
+}
+
+std::vector<const Contour*> loops_from_base(const Contours& contours) {
+  std::vector<const Contour*> loops;
+  for (const int slice : slices_from_base(contours))
+    loops.push_back(find(contours.short_axis, slice, Side::endo));
+  return loops;
+}
+
+Vec3 across(const Vec3& direction, const Vec3& axis) {
+  return direction - direction.dot(axis) * axis;
+}
+
+/// The direction of x before it is made normal to z.
+Vec3 x_direction(const Contour& basal, const Vec3& origin, const Vec3& z,
+                 const FrameParameters& parameters) {
+  if (!parameters.septum)
+    return across(basal.points.front() - mean_of(basal.points), z);
+  const auto& septum = *parameters.septum;
+  const Vec3 x = across(Vec3(septum[0], septum[1], septum[2]) - origin, z);
+  if (x.norm() < 1.0)
+    throw InputError("septum point",
+                     fmt::format("the point ({:.1f}, {:.1f}, {:.1f}) mm lies on the long axis",
+                                 septum[0], septum[1], septum[2]),
+                     "Give a point in the wall between the two ventricles, in scanner mm");
+  return x;
+}
+
+}  // namespace
+
+std::vector<int> slices_from_base(const Contours& contours) {
+  std::vector<int> slices;
+  for (const Contour* loop : endo_loops(contours))
+    slices.push_back(loop->slice);
+  if (starts_at_apex(contours))
+    std::reverse(slices.begin(), slices.end());
+  return slices;
+}
+
+bool shows_apex(const Contours& contours, Side side) {
+  return !apex_points(contours, side).empty();
+}
+
+double extrapolated_depth(const Contours& contours) {
+  const auto loops = loops_from_base(contours);
+  const Contour& last = *loops[loops.size() - 1];
+  const Contour& above = *loops[loops.size() - 2];
+  const double spacing = std::abs(plane_of(last.points).to_model(mean_of(above.points)).z());
+  const double r = mean_radius(last);
+  const double r_above = mean_radius(above);
+  if (r_above <= r)
+    return spacing;
+  return std::min(spacing, spacing * r * r / (r_above * r_above - r * r));
+}
+
+LongAxis long_axis(const Contours& contours) {
+  std::vector<Vec3> centres;
+  for (const Contour* loop : loops_from_base(contours))
+    centres.push_back(mean_of(loop->points));
+  const Vec3 base = centres.front();
+  if (shows_apex(contours, Side::endo))
+    centres.push_back(mean_of(apex_points(contours, Side::endo)));
+  LongAxis axis{mean_of(centres), Vec3::Zero()};
+  Mat3 scatter = Mat3::Zero();
+  for (const Vec3& x : centres)
+    scatter += (x - axis.point) * (x - axis.point).transpose();
+  axis.up = Eigen::SelfAdjointEigenSolver<Mat3>(scatter).eigenvectors().col(2);
+  if (axis.up.dot(base - centres.back()) < 0.0)
+    axis.up = -axis.up;
+  return axis;
+}
+
+Vec3 endo_apex(const Contours& contours) {
+  const auto shown = apex_points(contours, Side::endo);
+  if (!shown.empty())
+    return mean_of(shown);
+  const LongAxis axis = long_axis(contours);
+  const Vec3 last = mean_of(loops_from_base(contours).back()->points);
+  const double height = (last - axis.point).dot(axis.up) - extrapolated_depth(contours);
+  return axis.point + height * axis.up;
+}
+
+Frame model_frame(const Contours& contours, const FrameParameters& parameters) {
+  const Contour& basal = *loops_from_base(contours).front();
+  const LongAxis axis = long_axis(contours);
+  Frame frame;
+  frame.origin = mean_of(basal.points);
+  Vec3 z = axis.up;
+  if (parameters.base_plane == BasePlane::basal_slice) {
+    z = plane_of(basal.points).axes.col(2);
+    z *= std::copysign(1.0, z.dot(axis.up));
+  } else {
+    frame.origin = axis.point + (frame.origin - axis.point).dot(z) * z;
+  }
+  const Vec3 x = x_direction(basal, frame.origin, z, parameters).normalized();
+  frame.axes.col(0) = x;
+  frame.axes.col(1) = z.cross(x);
+  frame.axes.col(2) = z;
+  return frame;
+}
+
+}  // namespace lv::geometry

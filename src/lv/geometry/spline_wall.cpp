@@ -1,0 +1,298 @@
+#include "lv/geometry/spline_wall.hpp"
+
+#include "lv/base/check.hpp"
+#include "lv/geometry/contour_measures.hpp"
+#include "lv/geometry/long_axis.hpp"
+#include "lv/geometry/surface_fit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <set>
+#include <utility>
+
+namespace lv::geometry {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// "z = -12.3 mm, angle 45 degrees" of a point in the model frame.
+std::string place(const Vec3& x) {
+  const double angle = std::atan2(x.y(), x.x()) * 180.0 / pi;
+  const double z = std::round(10.0 * x.z()) / 10.0 + 0.0;  // never "-0.0"
+  return fmt::format("z = {:.1f} mm, angle {:.0f} degrees", z, angle < 0.0 ? angle + 360.0 : angle);
+}
+
+/// Collects the points of the contours for the fit.
+class Sampler {
+ public:
+  Sampler(const Contours& contours, const Frame& frame, double margin)
+      : contours_(contours), frame_(frame), slices_(slices_from_base(contours)) {
+    for (const Contour& c : contours.short_axis)
+      add_curve(c, true, infinity);
+    for (const Contour& c : contours.long_axis)
+      add_curve(c, false, margin);
+    for (const Contour& c : contours.apex)
+      add_apex(c.side, frame.to_model(c.points.front()));
+    if (samples(Side::epi).empty())
+      throw InputError(contours.short_axis.front().where(), "no slice has an epicardium",
+                       "Draw the epi loops: the wall lies between endo and epi");
+  }
+
+  /// The apexes that no contour shows, with a note on each.
+  void add_assumed_apexes(std::vector<std::string>& notes) {
+    const Vec3 endo = frame_.to_model(endo_apex(contours_));
+    if (!shows_apex(contours_, Side::endo)) {
+      add_apex(Side::endo, endo);
+      notes.push_back(fmt::format(
+          "no contour shows the endocardial apex: assumed {:.1f} mm beyond the last slice",
+          extrapolated_depth(contours_)));
+    }
+    if (!shows_apex(contours_, Side::epi)) {
+      const double thickness = apical_thickness();
+      add_apex(Side::epi, endo - Vec3(0.0, 0.0, thickness));
+      notes.push_back(
+          fmt::format("no contour shows the epicardial apex: assumed {:.1f} mm below "
+                      "the endocardial one, as thick as the wall of the last slice",
+                      thickness));
+    }
+  }
+
+  [[nodiscard]] FitData data() const { return {samples_, {}}; }
+
+  /// The same, with slices that may move.
+  [[nodiscard]] FitData movable_data() const {
+    FitData data{samples_, {}};
+    for (const int slice : slices_) {
+      Frame plane = plane_of(find(contours_.short_axis, slice, Side::endo)->points);
+      plane.axes = frame_.axes.transpose() * plane.axes;
+      plane.origin = frame_.to_model(plane.origin);
+      data.planes.push_back(plane);
+    }
+    return data;
+  }
+
+ private:
+  std::vector<Sample>& samples(Side side) { return samples_[side == Side::endo ? 0 : 1]; }
+
+  void add_curve(const Contour& c, bool closed, double highest) {
+    const auto length = point_lengths(c, closed);
+    const auto index = std::find(slices_.begin(), slices_.end(), c.slice) - slices_.begin();
+    for (std::size_t i = 0; i < c.points.size(); ++i) {
+      const Vec3 x = frame_.to_model(c.points[i]);
+      if (x.z() > highest)
+        continue;
+      if (closed)
+        samples(c.side).push_back({x, length[i], Source::short_axis, static_cast<int>(index)});
+      else
+        samples(c.side).push_back({x, length[i], Source::long_axis});
+    }
+  }
+
+  /// Its length is the others' mean.
+  void add_apex(Side side, const Vec3& x) {
+    double sum = 0.0;
+    for (const Sample& p : samples(side))
+      sum += p.length;
+    const auto n = static_cast<double>(samples(side).size());
+    samples(side).push_back({x, n > 0.0 ? sum / n : 1.0, Source::apex});
+  }
+
+  /// Mean thickness of the most apical slice that shows both borders.
+  [[nodiscard]] double apical_thickness() const {
+    for (auto slice = slices_.rbegin(); slice != slices_.rend(); ++slice)
+      if (const Contour* epi = find(contours_.short_axis, *slice, Side::epi))
+        return mean_radius(*epi) - mean_radius(*find(contours_.short_axis, *slice, Side::endo));
+    return 0.0;
+  }
+
+  const Contours& contours_;
+  const Frame& frame_;
+  std::vector<int> slices_;  ///< from the base to the apex
+  std::array<std::vector<Sample>, 2> samples_;
+};
+
+int count_images(const std::vector<Contour>& contours) {
+  std::set<int> images;
+  for (const Contour& c : contours)
+    images.insert(c.slice);
+  return static_cast<int>(images.size());
+}
+
+/// How the slices, from base to apex, have to move in image space [mm].
+std::vector<Vec3> slice_shifts(const Contours& contours, const SplineFitParameters& parameters) {
+  const std::vector<int> slices = slices_from_base(contours);
+  if (!parameters.correct_shifts || count_images(contours.long_axis) < 2)
+    return std::vector<Vec3>(slices.size(), Vec3::Zero());
+  const Frame frame = model_frame(contours, parameters.frame);
+  const Sampler sampler(contours, frame, parameters.margin);
+  std::vector<Vec3> shifts = fit_surfaces(sampler.movable_data(), parameters).shifts;
+  for (std::size_t k = 0; k < slices.size(); ++k) {
+    shifts[k] = frame.axes * shifts[k];
+    if (shifts[k].norm() > parameters.largest_shift)
+      throw InputError(find(contours.short_axis, slices[k], Side::endo)->where(),
+                       fmt::format("slice {} lies {:.1f} mm from where the long-axis contours put "
+                                   "it; at most {:g} mm are accepted",
+                                   slices[k], shifts[k].norm(), parameters.largest_shift),
+                       "Check that all contours show the same time of the heartbeat, or redraw "
+                       "the slice");
+  }
+  return shifts;
+}
+
+Contours moved(Contours contours, const std::vector<Vec3>& shifts) {
+  const std::vector<int> slices = slices_from_base(contours);
+  for (Contour& c : contours.short_axis) {
+    const auto k = std::find(slices.begin(), slices.end(), c.slice) - slices.begin();
+    for (Vec3& x : c.points)
+      x += shifts[k];
+  }
+  return contours;
+}
+
+/// Refuses a loop that the rays from the long axis do not meet, or meet more than once.
+void check_star_shaped(const Contour& loop, const Frame& frame) {
+  constexpr double tolerance = 10.0 * pi / 180.0;  // a small notch is smoothed away
+  const std::size_t n = loop.points.size();
+  std::vector<double> turns(n);
+  double total = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec3 p = frame.to_model(loop.points[i]);
+    const Vec3 q = frame.to_model(loop.points[(i + 1) % n]);
+    turns[i] = std::atan2(p.x() * q.y() - p.y() * q.x(), p.x() * q.x() + p.y() * q.y());
+    total += turns[i];
+  }
+  if (std::abs(total) < pi)
+    throw InputError(loop.where(), label(loop) + ": the long axis does not pass through the loop",
+                     "The slice seems shifted against the others: check its position and the apex "
+                     "points, or give long-axis contours to correct it");
+  double back = 0.0;
+  for (std::size_t i = 0; i < 2 * n; ++i) {
+    back = std::max(0.0, back - std::copysign(1.0, total) * turns[i % n]);
+    if (back > tolerance)
+      throw InputError(loop.where(i % n),
+                       fmt::format("{}: the loop is folded as seen from the long axis, at {}",
+                                   label(loop), place(frame.to_model(loop.points[i % n]))),
+                       "Leave papillary muscles and trabeculae out of the border there");
+  }
+}
+
+void check_surfaces(const Contours& contours, const FittedSurfaces& fit) {
+  for (const Side side : {Side::endo, Side::epi})
+    if (!(side == Side::endo ? fit.endo : fit.epi).is_sound())
+      throw InputError(
+          contours.short_axis.front().where(),
+          fmt::format("no smooth {} surface fits the contours: it folds or does not reach the "
+                      "base plane",
+                      name(side)),
+          "Check the contours near the base, or smooth more (smoothing length)");
+}
+
+void check_wall(const Contours& contours, const Thickness& thinnest, double least) {
+  if (thinnest.value >= least)
+    return;
+  const Contour& loop = *find(contours.short_axis, thinnest.slice, Side::endo);
+  const std::string at = fmt::format("{}, near slice {}", place(thinnest.at), thinnest.slice);
+  if (thinnest.value <= 0.0)
+    throw InputError(loop.where(),
+                     fmt::format("the fitted endocardium lies {:.1f} mm outside the epicardium at "
+                                 "{}",
+                                 -thinnest.value, at),
+                     "Redraw the borders there");
+  throw InputError(
+      loop.where(),
+      fmt::format("the wall is only {:.1f} mm thick at {}; at least {:g} mm are needed",
+                  thinnest.value, at, least),
+      "Redraw the borders there, or accept a thinner wall");
+}
+
+void note_missing_epicardium(const Contours& contours, std::vector<std::string>& notes) {
+  for (const int slice : slices_from_base(contours))
+    if (find(contours.short_axis, slice, Side::epi) == nullptr)
+      notes.push_back(
+          fmt::format("slice {} has no epicardium: interpolated from its neighbours", slice));
+}
+
+/// Where the most basal loop of a side leaves a gap below the base plane.
+void note_extrapolated_base(const Contours& contours, const Frame& frame,
+                            std::vector<std::string>& notes) {
+  constexpr double tolerance = 1.0;  // [mm]
+  for (const Side side : {Side::endo, Side::epi})
+    for (const int slice : slices_from_base(contours)) {
+      const Contour* loop = find(contours.short_axis, slice, side);
+      if (loop == nullptr)
+        continue;
+      double lowest = 0.0;
+      for (const Vec3& x : loop->points)
+        lowest = std::min(lowest, frame.to_model(x).z());
+      if (lowest < -tolerance)
+        notes.push_back(
+            fmt::format("{} is extrapolated by up to {:.1f} mm from slice {} to the "
+                        "base plane{}",
+                        name(side), -lowest, slice,
+                        contours.long_axis.empty() ? "" : ", led by long-axis contours"));
+      break;
+    }
+}
+
+void note_wide_gaps(const Contours& contours, const Frame& frame, std::vector<std::string>& notes) {
+  const std::vector<int> slices = slices_from_base(contours);
+  std::vector<double> gaps;
+  for (std::size_t k = 0; k + 1 < slices.size(); ++k) {
+    const auto height = [&](std::size_t i) {
+      return frame.to_model(mean_of(find(contours.short_axis, slices[i], Side::endo)->points)).z();
+    };
+    gaps.push_back(height(k) - height(k + 1));
+  }
+  std::vector<double> sorted = gaps;
+  std::sort(sorted.begin(), sorted.end());
+  const double usual = sorted[sorted.size() / 2];
+  for (std::size_t k = 0; k < gaps.size(); ++k)
+    if (gaps[k] > 1.5 * usual)
+      notes.push_back(
+          fmt::format("slices {} and {} are {:.1f} mm apart where others are {:.1f}: "
+                      "the wall between them is interpolated",
+                      slices[k], slices[k + 1], gaps[k], usual));
+}
+
+}  // namespace
+
+SplineWall::SplineWall(const Frame& frame, MeridianMaps maps, FitReport report)
+    : frame_(frame), maps_(std::move(maps)), report_(std::move(report)) {}
+
+Vec3 SplineWall::point(double u, double theta, double t) const {
+  Vec3 x = (1.0 - t) * maps_.endo.point(u, theta) + t * maps_.epi.point(u, theta);
+  if (u == 1.0)
+    x.z() = 0.0;  // rounding off
+  return x;
+}
+
+SplineWall fit_spline_wall(const Contours& contours, const SplineFitParameters& parameters) {
+  const std::vector<Vec3> shifts = slice_shifts(contours, parameters);
+  const Contours placed = moved(contours, shifts);
+  const Frame frame = model_frame(placed, parameters.frame);
+  for (const Contour& loop : placed.short_axis)
+    check_star_shaped(loop, frame);
+
+  std::vector<std::string> notes;
+  Sampler sampler(placed, frame, parameters.margin);
+  sampler.add_assumed_apexes(notes);
+  note_missing_epicardium(placed, notes);
+  note_extrapolated_base(placed, frame, notes);
+  note_wide_gaps(placed, frame, notes);
+
+  const FittedSurfaces fit = fit_surfaces(sampler.data(), parameters);
+  check_surfaces(placed, fit);
+  FitReport report = measure_fit(placed, frame, fit.endo, fit.epi, parameters.margin);
+  for (std::size_t k = 0; k < shifts.size(); ++k)
+    report.short_axis[k].shift = shifts[k];
+  report.notes = std::move(notes);
+  check_wall(placed, report.thinnest, parameters.thinnest_wall);
+  return {frame, matched_meridians(fit.endo, fit.epi), std::move(report)};
+}
+
+}  // namespace lv::geometry

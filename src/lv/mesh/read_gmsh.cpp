@@ -1,0 +1,222 @@
+#include "lv/mesh/read_gmsh.hpp"
+
+#include "lv/base/check.hpp"
+
+#include <fmt/format.h>
+#include <gmsh.h>
+
+#include <algorithm>
+#include <fstream>
+#include <numeric>
+#include <unordered_map>
+
+namespace lv::mesh {
+namespace {
+
+using Tags = std::vector<std::size_t>;
+
+constexpr int triangle = 2;
+constexpr int quadrilateral = 3;
+
+/// Gmsh from its start to its end, silent.
+class Gmsh {
+ public:
+  Gmsh() {
+    gmsh::initialize(0, nullptr, false);
+    gmsh::option::setNumber("General.Terminal", 0);
+    gmsh::logger::start();
+  }
+  ~Gmsh() {
+    gmsh::logger::stop();
+    gmsh::finalize();
+  }
+  Gmsh(const Gmsh&) = delete;
+  Gmsh& operator=(const Gmsh&) = delete;
+
+  [[nodiscard]] static std::string first_error() {
+    std::vector<std::string> log;
+    gmsh::logger::get(log);
+    for (const std::string& line : log)
+      if (line.starts_with("Error: "))
+        return line.substr(7);
+    return {};
+  }
+};
+
+/// Gmsh would run a file that it does not recognise as a script.
+void check_format(const std::string& file) {
+  std::ifstream stream(file);
+  std::string header;
+  double version = 0.0;
+  stream >> header >> version;
+  if (header != "$MeshFormat")
+    throw InputError(fmt::format("{}:1", file), "is not a Gmsh mesh: $MeshFormat is missing",
+                     "Export it from Gmsh as .msh, version 4.1 or 2.2");
+  if (version != 2.2 && version != 4.1)
+    throw InputError(fmt::format("{}:2", file),
+                     fmt::format("has Gmsh's mesh format {}, which is not read", version),
+                     "Export it as version 4.1 or 2.2");
+}
+
+void open(const std::string& file) {
+  try {
+    gmsh::open(file);
+  } catch (...) {  // Gmsh throws numbers or strings, by version; the log tells what happened
+    throw InputError(file, fmt::format("cannot be read: {}", Gmsh::first_error()),
+                     "The file seems to be truncated or damaged");
+  }
+  if (const std::string error = Gmsh::first_error(); !error.empty())
+    throw InputError(file, fmt::format("cannot be read: {}", error),
+                     "The file seems to be truncated or damaged");
+}
+
+/// Elements of one type.
+struct Elements {
+  int type = 0;
+  int nodes_each = 0;
+  std::string name;  ///< "Hexahedron 8"
+  Tags tags, nodes;
+};
+
+std::vector<Elements> elements_of(int dimension, int entity) {
+  std::vector<int> types;
+  std::vector<Tags> tags;
+  std::vector<Tags> nodes;
+  gmsh::model::mesh::getElements(types, tags, nodes, dimension, entity);
+  std::vector<Elements> result;
+  for (std::size_t i = 0; i < types.size(); ++i) {
+    Elements e{types[i], 0, "", tags[i], nodes[i]};
+    int order = 0;
+    int corners = 0;
+    std::vector<double> places;
+    gmsh::model::mesh::getElementProperties(e.type, e.name, dimension, order, e.nodes_each, places,
+                                            corners);
+    result.push_back(std::move(e));
+  }
+  return result;
+}
+
+std::string shape(const std::string& name) {
+  if (name == "Hexahedron 8")
+    return hexahedron_name;
+  if (name == "Tetrahedron 4")
+    return tetrahedron_name;
+  return name;
+}
+
+/// The order of ascending tags: Gmsh gives nodes and elements entity by entity.
+std::vector<std::size_t> ascending(const Tags& tags) {
+  std::vector<std::size_t> order(tags.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return tags[a] < tags[b]; });
+  return order;
+}
+
+/// The place of each node's tag in our list.
+class NodeIndex {
+ public:
+  explicit NodeIndex(ForeignMesh& foreign) : file_(foreign.files.front()) {
+    Tags tags;
+    std::vector<double> coordinates;
+    std::vector<double> parametric;
+    gmsh::model::mesh::getNodes(tags, coordinates, parametric, -1, -1, false, false);
+    for (const std::size_t i : ascending(tags)) {
+      if (!index_.emplace(tags[i], static_cast<int>(foreign.mesh.nodes.size())).second)
+        continue;
+      foreign.mesh.nodes.emplace_back(&coordinates[3 * i]);
+      foreign.node_numbers.push_back(static_cast<std::int64_t>(tags[i]));
+    }
+  }
+
+  [[nodiscard]] int operator()(std::size_t tag) const {
+    const auto found = index_.find(tag);
+    if (found == index_.end())
+      throw InputError(file_, fmt::format("an element uses node {}, which is not defined", tag),
+                       "The file seems to be truncated or damaged");
+    return found->second;
+  }
+
+ private:
+  std::string file_;
+  std::unordered_map<std::size_t, int> index_;
+};
+
+void add_cells(ForeignMesh& foreign, const NodeIndex& index) {
+  const auto volumes = elements_of(3, -1);
+  std::map<std::string, int> shapes;
+  for (const Elements& e : volumes)
+    shapes[shape(e.name)] += static_cast<int>(e.tags.size());
+  foreign.mesh.kind = only_kind(foreign.files.front(), shapes);
+  const Elements& cells = volumes.front();
+  for (const std::size_t i : ascending(cells.tags)) {
+    for (int a = 0; a < cells.nodes_each; ++a)
+      foreign.mesh.cells.push_back(index(cells.nodes[i * cells.nodes_each + a]));
+    foreign.cell_numbers.push_back(static_cast<std::int64_t>(cells.tags[i]));
+  }
+}
+
+struct PhysicalSurface {
+  int number;
+  std::string name;
+};
+
+std::vector<PhysicalSurface> physical_surfaces() {
+  gmsh::vectorpair groups;
+  gmsh::model::getPhysicalGroups(groups, 2);
+  std::vector<PhysicalSurface> surfaces;
+  for (const auto& [dimension, number] : groups) {
+    surfaces.push_back({number, ""});
+    gmsh::model::getPhysicalName(dimension, number, surfaces.back().name);
+  }
+  return surfaces;
+}
+
+ForeignSide side_of_group(int number, const NodeIndex& index) {
+  ForeignSide side;
+  std::vector<int> entities;
+  gmsh::model::getEntitiesForPhysicalGroup(2, number, entities);
+  for (const int entity : entities) {
+    for (const Elements& e : elements_of(2, entity)) {
+      if (e.type != triangle && e.type != quadrilateral)
+        continue;
+      for (std::size_t first = 0; first < e.nodes.size(); first += e.nodes_each) {
+        std::vector<int> face;
+        for (int a = 0; a < e.nodes_each; ++a)
+          face.push_back(index(e.nodes[first + a]));
+        side.faces.push_back(face_key(face));
+      }
+    }
+  }
+  return side;
+}
+
+ForeignSide find_side(const std::string& file, const std::string& tag, const NodeIndex& index) {
+  const auto surfaces = physical_surfaces();
+  std::vector<std::string> tags;
+  for (const PhysicalSurface& surface : surfaces) {
+    const std::string number = fmt::format("{}", surface.number);
+    if (tag == surface.name || tag == number)
+      return side_of_group(surface.number, index);
+    tags.push_back(surface.name.empty() ? number : surface.name);
+  }
+  fail_missing_tag(file, "physical surface", tag, tags);
+}
+
+}  // namespace
+
+ForeignMesh read_gmsh(const ImportParameters& parameters) {
+  check_format(parameters.file);
+  const Gmsh session;
+  open(parameters.file);
+  ForeignMesh foreign;
+  foreign.files = {parameters.file};
+  const NodeIndex index(foreign);
+  add_cells(foreign, index);
+  if (parameters.sides == SideSource::tags)
+    for (const std::string& tag : side_tags(parameters))
+      foreign.sides.push_back(find_side(parameters.file, tag, index));
+  return foreign;
+}
+
+}  // namespace lv::mesh

@@ -1,0 +1,279 @@
+#include "lv/mesh/read_vtk.hpp"
+
+#include "lv/base/check.hpp"
+
+#include <fmt/format.h>
+#include <vtkCellData.h>
+#include <vtkCellType.h>
+#include <vtkCellTypes.h>
+#include <vtkDataArray.h>
+#include <vtkIdList.h>
+#include <vtkLogger.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkOutputWindow.h>
+#include <vtkPointData.h>
+#include <vtkSmartPointer.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkUnstructuredGridReader.h>
+#include <vtkXMLUnstructuredGridReader.h>
+
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+namespace lv::mesh {
+namespace {
+
+/// Keeps VTK's messages instead of printing them.
+class MessageWindow : public vtkOutputWindow {
+ public:
+  static MessageWindow* New();  // NOLINT(readability-identifier-naming): VTK's name
+  // NOLINTNEXTLINE(readability-identifier-naming): VTK's name
+  void DisplayText(const char* text) override { messages += text; }
+
+  std::string messages;
+};
+vtkStandardNewMacro(MessageWindow);
+
+/// VTK's messages while it lives.
+class Messages {
+ public:
+  Messages()
+      : window_before_(vtkOutputWindow::GetInstance()),
+        verbosity_before_(vtkLogger::GetCurrentVerbosityCutoff()) {
+    vtkOutputWindow::SetInstance(window_);
+    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
+  }
+  ~Messages() {
+    vtkLogger::SetStderrVerbosity(verbosity_before_);
+    vtkOutputWindow::SetInstance(window_before_);
+  }
+  Messages(const Messages&) = delete;
+  Messages& operator=(const Messages&) = delete;
+
+  /// "ERROR: In file.cxx, line 1\nvtkClass (0x1): what happened" -> "what happened"
+  [[nodiscard]] std::string first() const {
+    const auto start = window_->messages.find("): ");
+    if (start == std::string::npos)
+      return window_->messages;
+    const auto end = window_->messages.find('\n', start);
+    return window_->messages.substr(start + 3, end - start - 3);
+  }
+
+ private:
+  vtkSmartPointer<vtkOutputWindow> window_before_;
+  vtkLogger::Verbosity verbosity_before_;
+  vtkNew<MessageWindow> window_;
+};
+
+bool is_legacy(const std::string& file) {
+  return !file.ends_with('u') && !file.ends_with('U');
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> read_legacy(const std::string& file) {
+  vtkNew<vtkUnstructuredGridReader> reader;
+  reader->SetFileName(file.c_str());
+  reader->ReadAllScalarsOn();
+  reader->ReadAllFieldsOn();
+  if (reader->IsFileUnstructuredGrid() == 0)
+    throw InputError(file, "is not a VTK file of an unstructured grid",
+                     "Write the volume cells as DATASET UNSTRUCTURED_GRID");
+  reader->Update();
+  return reader->GetOutput();
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> read_xml(const std::string& file) {
+  vtkNew<vtkXMLUnstructuredGridReader> reader;
+  if (reader->CanReadFile(file.c_str()) == 0)
+    throw InputError(file, "is not a VTK file of type UnstructuredGrid",
+                     "Write the volume cells as .vtu");
+  reader->SetFileName(file.c_str());
+  reader->Update();
+  return reader->GetOutput();
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::string& file) {
+  const Messages messages;
+  const auto grid = is_legacy(file) ? read_legacy(file) : read_xml(file);
+  if (const std::string message = messages.first(); !message.empty())
+    throw InputError(file, fmt::format("cannot be read: {}", message),
+                     "The file seems to be truncated or damaged");
+  return grid;
+}
+
+int dimension(int cell_type) {
+  switch (cell_type) {
+    case VTK_EMPTY_CELL:
+    case VTK_VERTEX:
+    case VTK_POLY_VERTEX:
+      return 0;
+    case VTK_LINE:
+    case VTK_POLY_LINE:
+    case VTK_QUADRATIC_EDGE:
+      return 1;
+    case VTK_TRIANGLE:
+    case VTK_TRIANGLE_STRIP:
+    case VTK_POLYGON:
+    case VTK_PIXEL:
+    case VTK_QUAD:
+    case VTK_QUADRATIC_TRIANGLE:
+    case VTK_QUADRATIC_QUAD:
+    case VTK_BIQUADRATIC_QUAD:
+      return 2;
+    default:
+      return 3;
+  }
+}
+
+std::string shape(int cell_type) {
+  switch (cell_type) {
+    case VTK_HEXAHEDRON:
+      return hexahedron_name;
+    case VTK_TETRA:
+      return tetrahedron_name;
+    default:
+      return vtkCellTypes::GetClassNameFromTypeId(cell_type);
+  }
+}
+
+ForeignMesh to_mesh(const std::string& file, vtkUnstructuredGrid& grid) {
+  ForeignMesh foreign;
+  foreign.files = {file};
+  std::map<std::string, int> shapes;
+  for (vtkIdType c = 0; c < grid.GetNumberOfCells(); ++c)
+    if (dimension(grid.GetCellType(c)) == 3)
+      ++shapes[shape(grid.GetCellType(c))];
+  foreign.mesh.kind = only_kind(file, shapes);
+  for (vtkIdType p = 0; p < grid.GetNumberOfPoints(); ++p) {
+    foreign.mesh.nodes.emplace_back(grid.GetPoint(p));
+    foreign.node_numbers.push_back(p);
+  }
+  vtkNew<vtkIdList> points;
+  for (vtkIdType c = 0; c < grid.GetNumberOfCells(); ++c) {
+    if (dimension(grid.GetCellType(c)) != 3)
+      continue;
+    grid.GetCellPoints(c, points);
+    for (vtkIdType i = 0; i < points->GetNumberOfIds(); ++i)
+      foreign.mesh.cells.push_back(static_cast<int>(points->GetId(i)));
+    foreign.cell_numbers.push_back(c);
+  }
+  return foreign;
+}
+
+std::vector<std::string> array_names(vtkFieldData& data) {
+  std::vector<std::string> names;
+  for (int i = 0; i < data.GetNumberOfArrays(); ++i)
+    if (data.GetArrayName(i) != nullptr)
+      names.emplace_back(data.GetArrayName(i));
+  return names;
+}
+
+/// The array of that name with one number per point or cell.
+vtkDataArray& find_array(const std::string& file, vtkFieldData& data, const std::string& what,
+                         const std::string& name) {
+  vtkDataArray* array = data.GetArray(name.c_str());
+  if (array == nullptr)
+    fail_missing_tag(file, what, name, array_names(data));
+  if (array->GetNumberOfComponents() != 1)
+    throw InputError(
+        file,
+        fmt::format("{} \"{}\" has {} components", what, name, array->GetNumberOfComponents()),
+        "It must have one number per point or cell");
+  return *array;
+}
+
+/// The nodes at which a point array of zeros and ones is one.
+ForeignSide side_of_points(const std::string& file, vtkUnstructuredGrid& grid,
+                           const std::string& tag) {
+  vtkDataArray& array = find_array(file, *grid.GetPointData(), "point array", tag);
+  ForeignSide side;
+  for (vtkIdType p = 0; p < array.GetNumberOfTuples(); ++p) {
+    const double value = array.GetTuple1(p);
+    if (value != 0.0 && value != 1.0)
+      throw InputError(file, fmt::format("point array \"{}\" is {} at point {}", tag, value, p),
+                       "It must be 1 on the side and 0 elsewhere");
+    if (value == 1.0)
+      side.nodes.push_back(static_cast<int>(p));
+  }
+  return side;
+}
+
+FaceKey key_of_cell(vtkUnstructuredGrid& grid, vtkIdType cell) {
+  vtkNew<vtkIdList> points;
+  grid.GetCellPoints(cell, points);
+  std::vector<int> nodes;
+  for (vtkIdType i = 0; i < points->GetNumberOfIds(); ++i)
+    nodes.push_back(static_cast<int>(points->GetId(i)));
+  return face_key(nodes);
+}
+
+bool is_face(int cell_type) {
+  return cell_type == VTK_TRIANGLE || cell_type == VTK_QUAD || cell_type == VTK_PIXEL;
+}
+
+/// The surface cells by their value in a cell array.
+std::map<double, ForeignSide> sides_by_value(vtkUnstructuredGrid& grid, vtkDataArray& array) {
+  std::map<double, ForeignSide> sides;
+  for (vtkIdType c = 0; c < grid.GetNumberOfCells(); ++c)
+    if (is_face(grid.GetCellType(c)))
+      sides[array.GetTuple1(c)].faces.push_back(key_of_cell(grid, c));
+  return sides;
+}
+
+ForeignSide side_of_value(const ImportParameters& parameters, const std::string& tag,
+                          const std::map<double, ForeignSide>& sides) {
+  double wanted = 0.0;
+  const auto [end, error] = std::from_chars(tag.data(), tag.data() + tag.size(), wanted);
+  if (error != std::errc() || end != tag.data() + tag.size())
+    throw InputError(
+        parameters.file,
+        fmt::format("\"{}\" is not a number of the cell array \"{}\"", tag, parameters.side_array),
+        "Give the side's number, or name no cell array to use point arrays");
+  if (const auto found = sides.find(wanted); found != sides.end())
+    return found->second;
+  std::vector<std::string> tags;
+  for (const auto& [value, side] : sides)
+    tags.push_back(fmt::format("{}", value));
+  fail_missing_tag(parameters.file,
+                   fmt::format("surface cell whose \"{}\" is", parameters.side_array), tag, tags);
+}
+
+std::vector<ForeignSide> read_sides(const ImportParameters& parameters, vtkUnstructuredGrid& grid) {
+  std::vector<ForeignSide> sides;
+  if (parameters.side_array.empty()) {
+    for (const std::string& tag : side_tags(parameters))
+      sides.push_back(side_of_points(parameters.file, grid, tag));
+    return sides;
+  }
+  const auto by_value = sides_by_value(
+      grid, find_array(parameters.file, *grid.GetCellData(), "cell array", parameters.side_array));
+  for (const std::string& tag : side_tags(parameters))
+    sides.push_back(side_of_value(parameters, tag, by_value));
+  return sides;
+}
+
+std::vector<double> read_infarct(const ImportParameters& parameters, vtkUnstructuredGrid& grid) {
+  const bool named = !parameters.infarct_array.empty();
+  const std::string name = named ? parameters.infarct_array : "infarct";
+  if (!named && grid.GetPointData()->GetArray(name.c_str()) == nullptr)
+    return {};
+  vtkDataArray& array = find_array(parameters.file, *grid.GetPointData(), "point array", name);
+  std::vector<double> M;
+  for (vtkIdType p = 0; p < array.GetNumberOfTuples(); ++p)
+    M.push_back(array.GetTuple1(p));
+  return M;
+}
+
+}  // namespace
+
+ForeignMesh read_vtk(const ImportParameters& parameters) {
+  const auto grid = read_grid(parameters.file);
+  ForeignMesh foreign = to_mesh(parameters.file, *grid);
+  if (parameters.sides == SideSource::tags)
+    foreign.sides = read_sides(parameters, *grid);
+  foreign.mesh.infarct = read_infarct(parameters, *grid);
+  return foreign;
+}
+
+}  // namespace lv::mesh

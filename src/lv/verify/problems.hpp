@@ -1,0 +1,35 @@
+#pragma once
+
+#include "lv/verify/problem.hpp"
+
+/// The problems themselves. What each proves, its formula, tolerance and measured values:
+/// docs/verification.md.
+namespace lv::verify {
+
+// material points
+void holzapfel_ogden_curves(Findings& found);
+void niederer_steady(Findings& found);
+void niederer_twitch(Findings& found);
+void niederer_release(Findings& found);
+
+// blood alone
+void stokes_modes(Findings& found);
+void stokes_order(Findings& found);
+void convection_order(Findings& found);
+
+// wall meets grid
+void delta_moments(Findings& found);
+void spread_interpolate_adjoint(Findings& found);
+void force_and_torque_conserved(Findings& found);
+void thick_sphere_at_rest(Findings& found);
+
+// the whole engine
+void rank_independence(Findings& found);
+void restart_is_bitwise(Findings& found);
+void grid_convergence(Findings& found);
+void time_step(Findings& found);
+void idealised_ventricle(Findings& found);
+void pressure_volume(Findings& found);
+void other_ventricles(Findings& found);
+
+}  // namespace lv::verify

@@ -1,0 +1,149 @@
+#!/usr/bin/env python3
+"""A whole beat of the command-line program, coarse enough for seconds: its numbers, its stages, and what becomes of it
+when it is stopped, killed or spread over ranks. Usage: check.py VENTRICLE"""
+import csv
+import filecmp
+import json
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import xml.etree.ElementTree as xml
+
+here = pathlib.Path(__file__).parent
+program = pathlib.Path(sys.argv[1]).resolve()
+failures = []
+
+
+def check(claim, holds, detail=""):
+    print(f"{'pass' if holds else 'FAIL'}  {claim}{f': {detail}' if detail and not holds else ''}", flush=True)
+    if not holds:
+        failures.append(claim)
+
+
+def command(work, ranks, case, *more):
+    return [program, "run", case, "--work", work, "--ranks", str(ranks), *more]
+
+
+def run(work, ranks=1, case=here / "small.toml", *more):
+    return subprocess.run(command(work, ranks, case, *more), capture_output=True, text=True, check=False)
+
+
+def summary(work):
+    return json.loads((work / "04_results" / "summary.json").read_text())
+
+
+def flat(value, prefix=""):
+    if isinstance(value, dict):
+        for key, inner in value.items():
+            yield from flat(inner, f"{prefix}.{key}" if prefix else key)
+    else:
+        yield prefix, value
+
+
+def check_numbers(work):
+    """expected.csv: quantity of summary.json, value, relative tolerance."""
+    found = dict(flat(summary(work)))
+    for row in csv.DictReader((here / "expected.csv").open()):
+        value, expected, tolerance = found[row["quantity"]], float(row["value"]), float(row["tolerance"])
+        check(f"{row['quantity']} is {expected:g} within {100 * tolerance:g}%",
+              abs(value - expected) <= tolerance * abs(expected), f"{value:g}")
+
+
+def check_physiology(work):
+    for o in summary(work)["observations"]:
+        if o["name"] != "wall_volume_tails":  # asks for a finer mesh than this one
+            check(f"{o['name']}: {o['rule']}", o["holds"], f"{o['value']} {o['unit']}")
+
+
+def check_outputs(work):
+    series = xml.parse(work / "03_beat" / "wall.pvd").getroot().findall("./Collection/DataSet")
+    times = [float(entry.get("timestep")) for entry in series]
+    check("the series of frames is in the order of time", times == sorted(set(times)) and len(times) > 2, times)
+    check("every frame of the series is there", all((work / "03_beat" / e.get("file")).exists() for e in series))
+    rows = list(csv.DictReader((work / "03_beat" / "curves.csv").open()))
+    times = [float(row["time_s"]) for row in rows]
+    check("the curves are in the order of time", times == sorted(set(times)))
+    check("nothing unfinished is left", not list(work.rglob("*.part*")) and not list(work.rglob("checkpoint*")))
+    for picture in ("02_mesh/mesh.png", "02_mesh/fibres.png", "04_results/states.png", "04_results/curves.png"):
+        check(f"{picture} is there", (work / picture).stat().st_size > 10_000)
+
+
+def check_stages(work):
+    again = run(work, 1, here / "small.toml", "--explain")
+    check("a second run has nothing to do", again.stdout.count("is up to date") == 4, again.stdout)
+    other = work.parent / "stronger.toml"
+    other.write_text((here / "small.toml").read_text() + '\n[active]\nT_scale = 4\n')
+    explained = run(work, 1, other, "--explain", "--until", "mesh").stdout
+    check("strength of contraction leaves the mesh alone", explained.count("is up to date") == 2, explained)
+
+
+def different_tables(a, b):
+    return [name for name in ("03_beat/curves.csv", "04_results/regions.csv", "04_results/rotation.csv")
+            if not filecmp.cmp(a / name, b / name, shallow=False)]
+
+
+def wait_for(file, seconds=120):
+    end = time.time() + seconds
+    while not file.exists() and time.time() < end:
+        time.sleep(0.02)
+    return file.exists()
+
+
+def check_stop_and_resume(reference, work, stop, code):
+    """Stops a run in its middle, resumes it, and compares with the undisturbed one."""
+    case = work.parent / "often.toml"
+    case.write_text((here / "small.toml").read_text().replace('checkpoint_interval = "1 s"',
+                                                              'checkpoint_interval = "0.1 s"'))
+    process = subprocess.Popen(command(work, 1, case), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    check(f"{stop.name}: a checkpoint is written", wait_for(work / "03_beat.part" / "checkpoint.bin"))
+    time.sleep(1.0)
+    process.send_signal(stop)
+    process.communicate()
+    check(f"{stop.name}: exit code {code}", process.returncode == code, process.returncode)
+    check(f"{stop.name}: nothing looks finished", not (work / "03_beat").exists())
+    resumed = run(work, 1, case)
+    check(f"{stop.name}: the next run resumes", resumed.returncode == 0 and "resumed from the checkpoint" in resumed.stdout,
+          resumed.stdout + resumed.stderr)
+    different = different_tables(reference, work)
+    check(f"{stop.name}: the resumed run gives the same tables", not different, different)
+    check_outputs(work)
+
+
+def check_ranks(reference, work):
+    done = run(work, 2)
+    check("two ranks finish", done.returncode == 0, done.stderr)
+    a, b = summary(reference), summary(work)
+    for volume in ("edv_ml", "esv_ml"):
+        check(f"two ranks give the same {volume}", abs(a[volume] / b[volume] - 1) < 1e-6, (a[volume], b[volume]))
+
+
+def check_refusals(folder):
+    shut = folder / "shut"
+    shut.write_text("a file where a folder should be")
+    refused = run(shut)
+    check("a work folder that cannot be made is an error", refused.returncode == 2 and "--work" in refused.stderr,
+          refused.stderr)
+    stage = run(folder / "stage", 1, here / "small.toml", "--until", "bea")
+    check("a misspelt stage is an error with the nearest name",
+          stage.returncode == 1 and "did you mean beat?" in stage.stderr, stage.stderr)
+
+
+with tempfile.TemporaryDirectory(prefix="ventricle_regress_") as temporary:
+    folder = pathlib.Path(temporary)
+    undisturbed = folder / "undisturbed"
+    done = run(undisturbed)
+    check("a beat runs", done.returncode == 0, done.stdout + done.stderr)
+    if done.returncode == 0:
+        check_numbers(undisturbed)
+        check_physiology(undisturbed)
+        check_outputs(undisturbed)
+        check_stages(undisturbed)
+        check_stop_and_resume(undisturbed, folder / "killed", signal.SIGKILL, -signal.SIGKILL)
+        check_stop_and_resume(undisturbed, folder / "terminated", signal.SIGTERM, 130)
+        check_ranks(undisturbed, folder / "two_ranks")
+    check_refusals(folder)
+print(f"{len(failures)} failed")
+sys.exit(1 if failures else 0)

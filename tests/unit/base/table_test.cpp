@@ -1,0 +1,67 @@
+#include "lv/base/table.hpp"
+
+#include "lv/base/check.hpp"
+
+#include "support/temporary_folder.hpp"
+#include <catch2/catch.hpp>
+
+#include <limits>
+
+using namespace lv;
+using Catch::Matchers::Contains;
+
+TEST_CASE("a table is written as CSV with its header", "[unit][base]") {
+  const test::TemporaryFolder folder;
+  Table table({"time_s", "phase", "volume_ml"});
+  table.add_row({Table::number(0.1), "filling", Table::number(70.79)});
+  table.add_row({Table::number(0.2), "", Table::number(std::numeric_limits<double>::quiet_NaN())});
+  table.write_csv(folder / "curves.csv");
+  CHECK(test::bytes_of(folder / "curves.csv") ==
+        "time_s,phase,volume_ml\n0.1,filling,70.79\n0.2,,\n");
+}
+
+TEST_CASE("numbers keep as many digits as asked for, and NaN is an empty field", "[unit][base]") {
+  CHECK(Table::number(3.14159265358979) == "3.141593");
+  CHECK(Table::number(3.14159265358979, 3) == "3.14");
+  CHECK(Table::number(-1.5e-9) == "-1.5e-09");
+  CHECK(Table::number(0.0) == "0");
+  CHECK(Table::number(std::numeric_limits<double>::quiet_NaN()).empty());
+}
+
+TEST_CASE("a row that does not fit the columns is our own mistake", "[unit][base]") {
+  Table table({"a", "b"});
+  CHECK_THROWS_AS(table.add_row({"1"}), LogicError);
+  CHECK_THROWS_AS(table.add_row({"1", "2", "3"}), LogicError);
+  CHECK(table.rows().empty());
+}
+
+TEST_CASE("files are replaced whole and leave nothing else behind", "[unit][base]") {
+  const test::TemporaryFolder folder;
+  write_file(folder / "a.txt", "a long first version\n");
+  write_file(folder / "a.txt", "second\n");
+  CHECK(read_file(folder / "a.txt") == "second\n");
+  CHECK(folder.file_count() == 1);
+  const std::string binary("\0\r\n\xff", 4);
+  write_file(folder / "b.bin", binary);
+  CHECK(read_file(folder / "b.bin") == binary);
+}
+
+TEST_CASE("a file that cannot be written is named", "[unit][base]") {
+  const test::TemporaryFolder folder;
+  CHECK_THROWS_AS(write_file(folder / "absent/a.txt", "a"), RunError);
+  CHECK_THROWS_WITH(write_file(folder / "absent/a.txt", "a"), Contains("absent/a.txt"));
+}
+
+TEST_CASE("a file that cannot take its final name is named", "[unit][base]") {
+  const test::TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "taken/by_a_folder");
+  CHECK_THROWS_AS(write_file(folder / "taken", "a"), RunError);
+  CHECK_THROWS_WITH(write_file(folder / "taken", "a"), Contains("taken"));
+}
+
+TEST_CASE("a file that cannot be read is named", "[unit][base]") {
+  const test::TemporaryFolder folder;
+  CHECK_THROWS_AS(read_file(folder / "absent.txt"), InputError);
+  CHECK_THROWS_WITH(read_file(folder / "absent.txt"), Contains("absent.txt"));
+  CHECK_THROWS_AS(read_file(folder / "."), InputError);
+}

@@ -1,0 +1,143 @@
+#include "lv/heartbeat/protocol.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+namespace {
+
+using namespace lv;
+using heartbeat::Phase;
+using heartbeat::Protocol;
+using heartbeat::SteadyVolume;
+
+constexpr double mmHg = 0.133322387415;
+
+/// Feeds volume(t) every millisecond; the time at which the criterion first holds, or -1.
+template <class Volume>
+double first_steady(double window, double tolerance, double end, const Volume& volume) {
+  SteadyVolume steady(window, tolerance);
+  for (int i = 0; i * 1e-3 <= end; ++i) {
+    steady.record(i * 1e-3, volume(i * 1e-3));
+    if (steady.reached())
+      return i * 1e-3;
+  }
+  return -1.0;
+}
+
+}  // namespace
+
+TEST_CASE("the smooth step rises from 0 to 1 without slope or curvature at its ends",
+          "[unit][heartbeat]") {
+  using heartbeat::smooth_step;
+  CHECK(smooth_step(-1.0) == 0.0);
+  CHECK(smooth_step(0.0) == 0.0);
+  CHECK(smooth_step(0.5) == 0.5);
+  CHECK(smooth_step(1.0) == 1.0);
+  CHECK(smooth_step(7.0) == 1.0);
+  constexpr double h = 1e-3;
+  CHECK(smooth_step(h) < 11.0 * h * h * h);  // 10 s^3 to leading order
+  CHECK(1.0 - smooth_step(1.0 - h) < 11.0 * h * h * h);
+  for (double s = 0.0; s < 1.0; s += 0.05) {
+    CHECK(smooth_step(s + 0.05) > smooth_step(s));
+    CHECK(smooth_step(s) + smooth_step(1.0 - s) == Approx(1.0));
+  }
+}
+
+TEST_CASE("filling raises the pressure from zero to its end-diastolic value at resting calcium",
+          "[unit][heartbeat]") {
+  const Protocol p;
+  const auto at = [&](double t) { return heartbeat::loads(p, Phase::filling, t); };
+  CHECK(at(0.0).pressure == 0.0);
+  CHECK(at(0.15).pressure == Approx(4.0 * mmHg));
+  CHECK(at(0.3).pressure == 8.0 * mmHg);
+  CHECK(at(2.0).pressure == 8.0 * mmHg);
+  for (const double t : {0.0, 0.1, 0.5})
+    CHECK(at(t).calcium == 0.01);
+}
+
+TEST_CASE("contraction begins with the loads that end filling", "[unit][heartbeat]") {
+  const Protocol p;
+  const auto end = heartbeat::loads(p, Phase::filling, 1.0);
+  const auto begin = heartbeat::loads(p, Phase::contraction, 0.0);
+  CHECK(begin.pressure == end.pressure);
+  CHECK(begin.calcium == end.calcium);
+}
+
+TEST_CASE("contraction raises pressure and calcium to their plateaus", "[unit][heartbeat]") {
+  const Protocol p;
+  const auto at = [&](double t) { return heartbeat::loads(p, Phase::contraction, t); };
+  CHECK(at(0.1).pressure == Approx(79.0 * mmHg));  // half way from 8 to 150
+  CHECK(at(0.2).pressure == Approx(150.0 * mmHg).epsilon(1e-15));
+  CHECK(at(0.03).calcium == p.calcium.at(0.03));
+  CHECK(at(0.06).calcium == 1.0);
+  CHECK(at(1.0).calcium == 1.0);
+  Protocol transient;
+  transient.calcium.mode = material::Calcium::Mode::transient;
+  CHECK(heartbeat::loads(transient, Phase::contraction, 0.3).calcium < 0.11);  // 0.01 + 0.09
+}
+
+TEST_CASE("the loads are final when the slower of pressure and calcium has arrived",
+          "[unit][heartbeat]") {
+  Protocol p;
+  CHECK_FALSE(heartbeat::loads_are_final(p, Phase::filling, 0.299));
+  CHECK(heartbeat::loads_are_final(p, Phase::filling, 0.3));
+  CHECK_FALSE(heartbeat::loads_are_final(p, Phase::contraction, 0.199));
+  CHECK(heartbeat::loads_are_final(p, Phase::contraction, 0.2));
+  p.contraction_ramp = 0.01;
+  CHECK_FALSE(heartbeat::loads_are_final(p, Phase::contraction, 0.059));
+  CHECK(heartbeat::loads_are_final(p, Phase::contraction, 0.06));
+}
+
+TEST_CASE("drag acts only when the loads are final", "[unit][heartbeat]") {
+  Protocol p;
+  p.contraction_drag = 7.0;
+  CHECK(heartbeat::loads(p, Phase::filling, 0.29).drag == 0.0);
+  CHECK(heartbeat::loads(p, Phase::filling, 0.3).drag == 40.0);
+  CHECK(heartbeat::loads(p, Phase::contraction, 0.19).drag == 0.0);
+  CHECK(heartbeat::loads(p, Phase::contraction, 0.2).drag == 7.0);
+}
+
+TEST_CASE("a constant volume is steady after one window, not before", "[unit][heartbeat]") {
+  CHECK(first_steady(0.1, 0.002, 1.0, [](double) { return 5.0; }) == Approx(0.1).margin(1.1e-3));
+  SteadyVolume nothing(0.1, 0.002);
+  CHECK_FALSE(nothing.reached());
+  nothing.record(0.0, 5.0);
+  CHECK_FALSE(nothing.reached());
+}
+
+TEST_CASE("the turning points of a swing do not look steady", "[unit][heartbeat]") {
+  // 1 % either way, with periods up to twice the window
+  for (const double period : {0.05, 0.1, 0.15, 0.2})
+    CHECK(first_steady(0.1, 0.002, 3.0, [&](double t) {
+            return 100.0 + std::cos(2.0 * M_PI * t / period);
+          }) == -1.0);
+}
+
+TEST_CASE("a swing is steady once it has died down to the tolerance", "[unit][heartbeat]") {
+  // range over mean is 2 % exp(-5 t) over half a period before: below 0.2 % at t = 0.46 + 0.1 s
+  const double t = first_steady(0.1, 0.002, 3.0, [](double time) {
+    return 100.0 + std::exp(-5.0 * time) * std::cos(2.0 * M_PI * time / 0.1);
+  });
+  CHECK(t > 0.46);
+  CHECK(t < 0.57);
+}
+
+TEST_CASE("a slow drift is steady when a window sees less than the tolerance",
+          "[unit][heartbeat]") {
+  const auto drift = [](double per_window) {
+    return first_steady(0.1, 0.002, 0.2,
+                        [&](double t) { return 100.0 * (1.0 + per_window * t / 0.1); });
+  };
+  CHECK(drift(0.0025) == -1.0);
+  CHECK(drift(0.0015) > 0.0);
+}
+
+TEST_CASE("what is older than the window is forgotten", "[unit][heartbeat]") {
+  SteadyVolume steady(0.1, 0.002);
+  for (int i = 0; i <= 300; ++i)
+    steady.record(i * 1e-3, i < 100 ? 50.0 : 100.0);
+  CHECK(steady.reached());
+  CHECK(steady.variation() == 0.0);
+  CHECK(steady.samples().size() <= 102);  // 100 steps and both ends
+}

@@ -1,0 +1,149 @@
+#include "lv/heartbeat/run_state.hpp"
+
+#include "lv/base/check.hpp"
+
+#include "support/temporary_folder.hpp"
+#include <catch2/catch.hpp>
+
+namespace {
+
+using namespace lv;
+using namespace heartbeat;
+
+/// A snapshot whose every number differs from those of other seeds.
+Snapshot snapshot(double seed, Phase phase) {
+  return {seed + 0.1,
+          phase,
+          seed + 0.2,
+          seed + 0.3,
+          {{seed, 1.0, 2.0}, {3.0, seed, 4.0}},
+          {seed + 0.4, seed + 0.5}};
+}
+
+void check_equal(const Snapshot& a, const Snapshot& b) {
+  CHECK(a.time == b.time);
+  CHECK(a.phase == b.phase);
+  CHECK(a.pressure == b.pressure);
+  CHECK(a.volume == b.volume);
+  CHECK(a.positions == b.positions);
+  CHECK(a.tension == b.tension);
+}
+
+void check_equal(const CurveRow& a, const CurveRow& b) {
+  CHECK(a.time == b.time);
+  CHECK(a.phase == b.phase);
+  CHECK(a.pressure == b.pressure);
+  CHECK(a.volume == b.volume);
+  CHECK(a.calcium == b.calcium);
+  CHECK(a.mean_tension == b.mean_tension);
+  CHECK(a.kinetic_energy == b.kinetic_energy);
+  CHECK(a.largest_velocity == b.largest_velocity);
+  CHECK(a.min_J == b.min_J);
+  CHECK(a.max_J == b.max_J);
+  CHECK(a.step == b.step);
+}
+
+/// A run in the middle of its contraction, no two members alike and none at its default.
+RunState example(const Protocol& protocol) {
+  RunState run;
+  run.time = 0.91;
+  run.phase = Phase::contraction;
+  run.phase_start = 0.62;
+  run.next_frame = 1.0;
+  run.next_curve = 0.92;
+  run.frames = 3;
+  run.frame_times = {0.0, 0.5, 0.62};
+  run.largest_velocity = 431.0;
+  run.halvings = 2;
+  run.good_steps = 117;
+  run.patience = 1000;
+  run.steady = criterion(protocol, run.phase);
+  for (int i = 0; i < 500; ++i)
+    run.steady.record(0.62 + 1e-3 * i, 100.0 + 0.01 * (i % 7));
+  run.volume_was_falling = true;
+  run.least = snapshot(10.0, Phase::contraction);
+  run.beat.curves = {{0.1, Phase::filling, 2, 3, 4, 5, 6, 7, 8, 9, 10},
+                     {0.2, Phase::contraction, 12, 13, 14, 15, 16, 17, 18, 19, 20}};
+  run.beat.end_diastole = snapshot(20.0, Phase::filling);
+  run.beat.filling_was_steady = true;
+  run.beat.steps = 9100;
+  run.beat.retries = 5;
+  return run;
+}
+
+RunState through_file(const RunState& run, const Protocol& protocol) {
+  const test::TemporaryFolder folder;
+  Archive archive;
+  store(run, archive);
+  archive.write(folder / "checkpoint.bin");
+  return load_run_state(Archive::read(folder / "checkpoint.bin"), protocol);
+}
+
+}  // namespace
+
+TEST_CASE("a run's state comes back from a checkpoint as it was", "[unit][heartbeat]") {
+  const Protocol protocol;
+  const RunState run = example(protocol);
+  const RunState loaded = through_file(run, protocol);
+  CHECK(loaded.time == run.time);
+  CHECK(loaded.phase == run.phase);
+  CHECK(loaded.phase_start == run.phase_start);
+  CHECK(loaded.next_frame == run.next_frame);
+  CHECK(loaded.next_curve == run.next_curve);
+  CHECK(loaded.frames == run.frames);
+  CHECK(loaded.frame_times == run.frame_times);
+  CHECK(loaded.largest_velocity == run.largest_velocity);
+  CHECK(loaded.halvings == run.halvings);
+  CHECK(loaded.good_steps == run.good_steps);
+  CHECK(loaded.patience == run.patience);
+  CHECK(loaded.volume_was_falling == run.volume_was_falling);
+  CHECK(loaded.beat.filling_was_steady == run.beat.filling_was_steady);
+  CHECK(loaded.beat.steps == run.beat.steps);
+  CHECK(loaded.beat.retries == run.beat.retries);
+  check_equal(loaded.least, run.least);
+  check_equal(loaded.beat.end_diastole, run.beat.end_diastole);
+  REQUIRE(loaded.beat.curves.size() == 2);
+  for (int i = 0; i < 2; ++i)
+    check_equal(loaded.beat.curves[i], run.beat.curves[i]);
+}
+
+TEST_CASE("the steadiness criterion goes on where it was", "[unit][heartbeat]") {
+  const Protocol protocol;
+  RunState run = example(protocol);
+  RunState loaded = through_file(run, protocol);
+  CHECK(loaded.steady.samples() == run.steady.samples());
+  CHECK(loaded.steady.variation() == run.steady.variation());
+  CHECK(loaded.steady.reached() == run.steady.reached());
+  for (int i = 500; i < 900; ++i) {
+    for (RunState* state : {&run, &loaded})
+      state->steady.record(0.62 + 1e-3 * i, 99.0 - 0.01 * (i % 5));
+    CHECK(loaded.steady.variation() == run.steady.variation());
+  }
+}
+
+TEST_CASE("a fresh run comes back as a fresh run", "[unit][heartbeat]") {
+  const RunState loaded = through_file(RunState{}, {});
+  CHECK(loaded.phase == Phase::filling);
+  CHECK(loaded.beat.curves.empty());
+  CHECK(loaded.least.positions.empty());
+  CHECK_FALSE(loaded.beat.filling_was_steady);
+  CHECK_FALSE(loaded.steady.reached());
+}
+
+TEST_CASE("each phase has its own criterion", "[unit][heartbeat]") {
+  Protocol protocol;
+  protocol.filling_window = 0.05;
+  protocol.contraction_window = 0.2;
+  for (const auto& [phase, window] : {std::pair{Phase::filling, 0.05}, {Phase::contraction, 0.2}}) {
+    SteadyVolume steady = criterion(protocol, phase);
+    steady.record(0.0, 1.0);
+    steady.record(0.9 * window, 1.0);
+    CHECK_FALSE(steady.reached());
+    steady.record(1.1 * window, 1.0);
+    CHECK(steady.reached());
+  }
+}
+
+TEST_CASE("a checkpoint without the run's state is refused", "[unit][heartbeat]") {
+  CHECK_THROWS_AS(load_run_state(Archive{}, {}), RunError);
+}

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "lv/geometry/ellipsoid.hpp"
+#include "lv/mesh/mesh.hpp"
+
+#include <filesystem>
+#include <string>
+
+/// Meshes for tests, and the files of other programs that hold them.
+namespace lv::test {
+
+/// A wall_mesh of the ellipsoid; `layers` 0 follows the edge length.
+[[nodiscard]] mesh::Mesh ellipsoid_mesh(const geometry::Ellipsoid& ellipsoid, double edge_length,
+                                        int layers = 0);
+
+/// A coarse ventricle of the default size: hexahedra, or the tetrahedra they split into.
+[[nodiscard]] mesh::Mesh coarse_mesh(mesh::CellKind kind);
+
+/// A file that holds `text` as long as the object lives.
+class TemporaryFile {
+ public:
+  TemporaryFile(const std::string& ending, const std::string& text);
+  ~TemporaryFile();
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+  [[nodiscard]] std::string path() const { return path_.string(); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// How an ABAQUS file marks the sides ENDO, EPI and BASE.
+enum class AbaqusTags { none, labelled_faces, node_sets, shells };
+[[nodiscard]] std::string abaqus_text(const mesh::Mesh& mesh, AbaqusTags tags);
+
+/// How a VTK file marks them: cell array "side" with 1, 2, 3 on surface cells, or point arrays
+/// "endo", "epi", "base". The infarct is the point array "infarct".
+enum class VtkTags { none, surface_cells, point_arrays };
+[[nodiscard]] std::string vtk_text(const mesh::Mesh& mesh, VtkTags tags);
+[[nodiscard]] std::string vtu_text(const mesh::Mesh& mesh, VtkTags tags);
+
+/// Gmsh files with the physical surfaces "endo" (1), "epi" (2), "base" (3).
+[[nodiscard]] std::string gmsh22_text(const mesh::Mesh& mesh);
+[[nodiscard]] std::string gmsh41_text(const mesh::Mesh& mesh);
+
+}  // namespace lv::test

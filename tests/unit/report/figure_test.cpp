@@ -1,0 +1,203 @@
+#include "lv/report/figure.hpp"
+
+#include "lv/base/check.hpp"
+
+#include <cairo.h>
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <memory>
+
+namespace {
+
+using namespace lv::report;
+constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+
+/// What a reader of the file sees.
+struct Pixels {
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint32_t> rgb;
+
+  [[nodiscard]] std::map<std::uint32_t, int> counts() const {
+    std::map<std::uint32_t, int> found;
+    for (const auto pixel : rgb)
+      ++found[pixel];
+    return found;
+  }
+};
+
+Pixels decoded(const std::string& png) {
+  std::string rest = png;
+  const auto read = [](void* from, unsigned char* to, unsigned count) {
+    auto& bytes = *static_cast<std::string*>(from);
+    std::memcpy(to, bytes.data(), count);
+    bytes.erase(0, count);
+    return CAIRO_STATUS_SUCCESS;
+  };
+  const std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)> surface(
+      cairo_image_surface_create_from_png_stream(read, &rest), &cairo_surface_destroy);
+  REQUIRE(cairo_surface_status(surface.get()) == CAIRO_STATUS_SUCCESS);
+  Pixels p{cairo_image_surface_get_width(surface.get()),
+           cairo_image_surface_get_height(surface.get()),
+           {}};
+  const auto* data = cairo_image_surface_get_data(surface.get());
+  for (int y = 0; y < p.height; ++y) {
+    const auto* row = data + y * cairo_image_surface_get_stride(surface.get());
+    for (int x = 0; x < p.width; ++x) {
+      std::uint32_t pixel = 0;
+      std::memcpy(&pixel, row + 4 * x, 4);
+      p.rgb.push_back(pixel & 0xffffffU);
+    }
+  }
+  return p;
+}
+
+std::uint32_t packed(const Colour& c) {
+  const auto byte = [](double part) { return static_cast<std::uint32_t>(std::lround(255 * part)); };
+  return byte(c.r) << 16U | byte(c.g) << 8U | byte(c.b);
+}
+
+Figure of(const Panel& panel) {
+  return {.panels = {panel}, .columns = 1, .panel_width = 240.0, .panel_height = 200.0};
+}
+
+BullsEye bulls_eye(double third) {
+  BullsEye plot{.scale = {sequential(), 0.0, 10.0}, .decimals = -1};
+  plot.values.assign(17, 5.0);
+  plot.values[2] = third;
+  return plot;
+}
+
+Picture triangle() {
+  Patch patch{{{0, 0, 0}, {10, 0, 0}, {0, 0, 10}}, {{0, 1, 2}}, {}};
+  Scene scene{{{.patch = patch, .paint = hex(0xff0000), .shaded = false}}};
+  return {scene, fitted(scene, lv::Vec3::UnitY())};
+}
+
+LineChart chart_with_gap() {
+  LineChart chart{.x = {"time [s]"}, .y = {"pressure [kPa]"}};
+  chart.series.push_back({.label = "", .x = {0, 1, 2, 3, 4}, .y = {1, 1, missing, 1, 1}});
+  return chart;
+}
+
+}  // namespace
+
+TEST_CASE("ticks are round numbers with the decimals of their step", "[unit][report]") {
+  CHECK(ticks_within({0.0, 1.0}).labels ==
+        std::vector<std::string>{"0.0", "0.2", "0.4", "0.6", "0.8", "1.0"});
+  CHECK(ticks_within({-60.0, 60.0}).labels ==
+        std::vector<std::string>{"\u221260", "\u221240", "\u221220", "0", "20", "40", "60"});
+  const Ticks around = ticks_around({3.1, 13.7});
+  CHECK(around.range.low == Approx(2.0));
+  CHECK(around.range.high == Approx(14.0));
+  CHECK(ticks_within({0.0, 3e-6}).labels[1] == "1\u00d710\u207b\u2076");
+  CHECK(ticks_around({7.0, 7.0}).values.size() >= 2);
+  CHECK(number(-0.04, 1) == "0.0");
+  CHECK(round_down(38.0) == Approx(20.0));
+  CHECK(round_down(50.0) == Approx(50.0));
+}
+
+TEST_CASE("every axis has three to nine ticks", "[unit][report]") {
+  for (int i = 0; i < 60; ++i) {
+    const double span = 0.013 * std::pow(1.37, i);
+    const auto count = ticks_around({0.3 * span, 1.3 * span}).values.size();
+    CHECK(count >= 3);
+    CHECK(count <= 9);
+  }
+}
+
+TEST_CASE("a PNG file is one, of the right size, and shows something", "[unit][report]") {
+  const std::string bytes = png(of({.title = "triangle", .content = triangle()}), 2.0);
+  CHECK(bytes.substr(0, 8) == "\x89PNG\r\n\x1a\n");
+  const Pixels p = decoded(bytes);
+  CHECK(p.width == 2 * (240 + 24));
+  auto counts = p.counts();
+  CHECK(counts[0xffffff] > counts[0xff0000]);
+  CHECK(counts[0xff0000] > 10000);  // half of a square of 350 pixels, about
+}
+
+TEST_CASE("missing values of a bull's-eye are striped and never a colour of the scale",
+          "[unit][report]") {
+  const auto stripes = [](double value) {
+    const Panel panel{.content = bulls_eye(value)};
+    auto counts = decoded(png(of(panel))).counts();
+    const std::uint32_t zero = packed(sequential()(0.0));
+    CHECK(counts[zero] < (value == 0.0 ? 100000 : 20));
+    return counts[packed(missing_ground)];
+  };
+  CHECK(stripes(missing) > 500);
+  CHECK(stripes(0.0) < 20);  // letters have some grey pixels
+}
+
+TEST_CASE("a bull's-eye counts anticlockwise from the top", "[unit][report]") {
+  BullsEye plot{.values = std::vector<double>(17, 0.0), .decimals = -1};
+  plot.colours.assign(17, hex(0xcccccc));
+  plot.colours[0] = hex(0xff0000);
+  plot.colours[1] = hex(0x00ff00);
+  const Pixels p = decoded(png(of({.content = plot})));
+  double x[2] = {0.0, 0.0};
+  double y[2] = {0.0, 0.0};
+  int count[2] = {0, 0};
+  for (std::size_t i = 0; i < p.rgb.size(); ++i) {
+    const int k = p.rgb[i] == 0xff0000 ? 0 : p.rgb[i] == 0x00ff00 ? 1 : -1;
+    if (k < 0)
+      continue;
+    const int at = static_cast<int>(i);
+    x[k] += at % p.width;
+    y[k] += at / p.width;  // NOLINT(bugprone-integer-division): the row
+    ++count[k];
+  }
+  CHECK(x[0] / count[0] == Approx(0.5 * p.width).margin(2.0));  // anterior: top
+  CHECK(y[0] / count[0] < 0.25 * p.height);
+  CHECK(x[1] / count[1] < 0.4 * p.width);  // anteroseptal: upper left
+  CHECK(y[1] / count[1] < 0.5 * p.height);
+}
+
+TEST_CASE("a missing point interrupts its curve", "[unit][report]") {
+  const Pixels p = decoded(png(of({.content = chart_with_gap()})));
+  const std::uint32_t blue = packed(category(0));
+  std::vector<int> columns;
+  for (int x = 0; x < p.width; ++x)
+    for (int y = 0; y < p.height; ++y)
+      if (p.rgb[y * p.width + x] == blue && (columns.empty() || columns.back() != x))
+        columns.push_back(x);
+  REQUIRE(columns.size() > 20);
+  int widest_gap = 0;
+  for (std::size_t i = 1; i < columns.size(); ++i)
+    widest_gap = std::max(widest_gap, columns[i] - columns[i - 1]);
+  CHECK(widest_gap > (columns.back() - columns.front()) * 0.45);
+}
+
+TEST_CASE("in SVG charts and bull's-eyes are vectors, scenes are bitmaps", "[unit][report]") {
+  const auto has_bitmap = [](const Panel& panel) {
+    const std::string text = svg(of(panel));
+    CHECK(text.find("<svg") != std::string::npos);
+    return text.find("<image") != std::string::npos;
+  };
+  CHECK_FALSE(has_bitmap({.content = chart_with_gap()}));
+  CHECK_FALSE(has_bitmap({.content = bulls_eye(missing),
+                          .colour_bar = ColourBar{"stress [kPa]", {sequential(), 0.0, 10.0}}}));
+  CHECK(has_bitmap({.content = triangle()}));
+}
+
+TEST_CASE("a figure that cannot be written names its file", "[unit][report]") {
+  const std::filesystem::path file = "/no/such/folder/figure.png";
+  CHECK_THROWS_AS(write(of({.content = triangle()}), file), lv::RunError);
+  CHECK_THROWS_WITH(write(of({.content = triangle()}), file), Catch::Contains(file.string()));
+}
+
+TEST_CASE("a figure is written whole under its own name only", "[unit][report]") {
+  const auto folder = std::filesystem::temp_directory_path() / "lv_figure_test";
+  std::filesystem::create_directories(folder);
+  for (const char* name : {"a.png", "a.svg"}) {
+    write(of({.content = chart_with_gap()}), folder / name);
+    CHECK(std::filesystem::file_size(folder / name) > 1000);
+    CHECK_FALSE(std::filesystem::exists(folder / (std::string(name) + ".partial")));
+  }
+  std::filesystem::remove_all(folder);
+}

@@ -1,0 +1,18 @@
+#!/bin/sh
+# Installs the Debian 12 packages that the program needs to be built and run; with --tests also those of the tests.
+set -e
+packages="g++ cmake ninja-build pkg-config openmpi-bin libopenmpi-dev libfftw3-dev libfftw3-mpi-dev
+  libeigen3-dev libxsimd-dev libboost-dev libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libspdlog-dev
+  libfmt-dev libvtk9-dev libgmsh-dev libcairo2-dev fonts-dejavu-core"
+[ "$1" != --tests ] || packages="$packages catch2 libsundials-dev python3 clang-format"
+missing=""
+for package in $packages; do
+  dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q "install ok installed" || missing="$missing $package"
+done
+[ -n "$missing" ] || exit 0
+echo "installing:$missing"
+sudo=""
+[ "$(id -u)" = 0 ] || sudo=sudo
+$sudo apt-get update -q
+# shellcheck disable=SC2086
+$sudo env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends $missing
