@@ -18,6 +18,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <thread>
 
 namespace {
@@ -54,17 +55,21 @@ void write_new_case(const std::string& file) {
   fmt::print("wrote {}; next: ventricle validate {}\n", file, file);
 }
 
-/// Starts this program again under mpirun if it is to run on several ranks.
-void start_ranks(const Command& command, const std::array<int, 3>& cells, int argc, char** argv) {
+/// Runs this program under mpirun if it is to run on several ranks. Its exit code; nothing if this
+/// process is to do the work itself.
+std::optional<int> run_on_ranks(const Command& command, const std::array<int, 3>& cells, int argc,
+                                char** argv) {
   const int usual = std::min(default_ranks(), lv::job::most_ranks(cells));
   const int ranks = command.ranks > 0 ? command.ranks : usual;
-  if (!lv::launch::under_mpirun() && ranks > 1)
-    lv::launch::replace(ranks, {argv + 1, argv + argc});
+  if (lv::launch::under_mpirun() || ranks == 1)
+    return {};
+  return lv::launch::run_in_front(ranks, {argv + 1, argv + argc});
 }
 
 int bench(const Command& command, int argc, char** argv) {
   const std::vector<int>& n = command.bench.cells;
-  start_ranks(command, {n.at(0), n.at(1), n.at(2)}, argc, argv);
+  if (const auto code = run_on_ranks(command, {n.at(0), n.at(1), n.at(2)}, argc, argv))
+    return *code;
   const lv::parallel::Session session(&argc, &argv);
   const std::string result = lv::job::bench(command.bench);
   if (lv::parallel::is_root())
@@ -75,7 +80,8 @@ int bench(const Command& command, int argc, char** argv) {
 int run_parallel(Command& command, int argc, char** argv) {
   const lv::job::Case c =
       lv::job::read_case(command.case_file);  // mistakes are told before ranks start
-  start_ranks(command, c.box.cells, argc, argv);
+  if (const auto code = run_on_ranks(command, c.box.cells, argc, argv))
+    return *code;
   const lv::parallel::Session session(&argc, &argv);
   if (!command.until.empty())
     command.run.until = command.until;

@@ -92,23 +92,23 @@ def wait_for(file, seconds=120):
     return file.exists()
 
 
-def check_stop_and_resume(reference, work, stop, code):
-    """Stops a run in its middle, resumes it, and compares with the undisturbed one."""
+def check_stop_and_resume(reference, work, stop, code, ranks=1):
+    """Stops a run in its middle, resumes it, and compares with an undisturbed one."""
     case = work.parent / "often.toml"
     case.write_text((here / "small.toml").read_text().replace('checkpoint_interval = "1 s"',
                                                               'checkpoint_interval = "0.1 s"'))
-    process = subprocess.Popen(command(work, 1, case), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-    check(f"{stop.name}: a checkpoint is written", wait_for(work / "03_beat.part" / "checkpoint.bin"))
+    process = subprocess.Popen(command(work, ranks, case), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    check(f"{stop.name} on {ranks}: a checkpoint is written", wait_for(work / "03_beat.part" / "checkpoint.bin"))
     time.sleep(1.0)
     process.send_signal(stop)
     process.communicate()
-    check(f"{stop.name}: exit code {code}", process.returncode == code, process.returncode)
-    check(f"{stop.name}: nothing looks finished", not (work / "03_beat").exists())
-    resumed = run(work, 1, case)
-    check(f"{stop.name}: the next run resumes", resumed.returncode == 0 and "resumed from the checkpoint" in resumed.stdout,
+    check(f"{stop.name} on {ranks}: exit code {code}", process.returncode == code, process.returncode)
+    check(f"{stop.name} on {ranks}: nothing looks finished", not (work / "03_beat").exists())
+    resumed = run(work, ranks, case)
+    check(f"{stop.name} on {ranks}: the next run resumes", resumed.returncode == 0 and "resumed from the checkpoint" in resumed.stdout,
           resumed.stdout + resumed.stderr)
     different = different_tables(reference, work)
-    check(f"{stop.name}: the resumed run gives the same tables", not different, different)
+    check(f"{stop.name} on {ranks}: the resumed run gives the same tables", not different, different)
     check_outputs(work)
 
 
@@ -144,6 +144,7 @@ with tempfile.TemporaryDirectory(prefix="ventricle_regress_") as temporary:
         check_stop_and_resume(undisturbed, folder / "killed", signal.SIGKILL, -signal.SIGKILL)
         check_stop_and_resume(undisturbed, folder / "terminated", signal.SIGTERM, 130)
         check_ranks(undisturbed, folder / "two_ranks")
+        check_stop_and_resume(folder / "two_ranks", folder / "stopped_on_two", signal.SIGINT, 130, ranks=2)
     check_refusals(folder)
 print(f"{len(failures)} failed")
 sys.exit(1 if failures else 0)

@@ -21,6 +21,7 @@ void note(int signal) {
 void install() {
   std::signal(SIGINT, note);
   std::signal(SIGTERM, note);
+  std::signal(SIGUSR1, note);  // how mpirun passes a request on (launch.hpp)
 }
 
 bool requested() {

@@ -2,10 +2,13 @@
 
 #include "lv/base/check.hpp"
 
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 
@@ -32,9 +35,24 @@ void allow_mpirun() {
   setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 0);
   // shared memory without ptrace rights, which containers withhold
   setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 0);
-  // seconds from the request to stop until ranks are killed: a checkpoint must be written in them
-  setenv("OMPI_MCA_odls_base_sigkill_timeout", "30", 0);
 }
+
+volatile std::sig_atomic_t ranks_process = 0;
+
+/// mpirun passes SIGUSR1 on to its ranks.
+void ask_ranks_to_stop(int /*signal*/) {
+  kill(ranks_process, SIGUSR1);
+}
+
+/// The exit code of a child once it has ended, 128 + signal when it was killed.
+int wait_for(pid_t child) {
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+constexpr int cannot_start = 127;
 
 /// Returns only when the program cannot be started.
 void execute(std::vector<std::string> command) {
@@ -55,10 +73,25 @@ bool under_mpirun() {
   return false;
 }
 
-void replace(int ranks, const std::vector<std::string>& arguments) {
-  allow_mpirun();
-  execute(command_line(ranks, false, arguments));
-  throw RunError("mpirun cannot be started", "Install openmpi-bin, or use --ranks 1");
+int run_in_front(int ranks, const std::vector<std::string>& arguments) {
+  const std::vector<std::string> command = command_line(ranks, false, arguments);
+  ranks_process = fork();
+  if (ranks_process < 0)
+    throw RunError("a process cannot be started", "Is the machine out of memory?");
+  if (ranks_process == 0) {
+    setpgid(0, 0);                     // the terminal's Ctrl-C is for the process in front
+    prctl(PR_SET_PDEATHSIG, SIGTERM);  // and this one ends with it
+    allow_mpirun();
+    if (freopen("/dev/null", "r", stdin) != nullptr)
+      execute(command);
+    _exit(cannot_start);
+  }
+  std::signal(SIGINT, ask_ranks_to_stop);
+  std::signal(SIGTERM, ask_ranks_to_stop);
+  const int code = wait_for(ranks_process);
+  if (code == cannot_start)
+    throw RunError("mpirun cannot be started", "Install openmpi-bin, or use --ranks 1");
+  return code;
 }
 
 int run(int ranks, const std::vector<std::string>& arguments) {
@@ -70,12 +103,9 @@ int run(int ranks, const std::vector<std::string>& arguments) {
     allow_mpirun();
     dup2(STDERR_FILENO, STDOUT_FILENO);
     execute(command);
-    _exit(127);
+    _exit(cannot_start);
   }
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return wait_for(child);
 }
 
 }  // namespace lv::launch

@@ -9,9 +9,11 @@ namespace lv::launch {
 /// Whether mpirun has started this process.
 [[nodiscard]] bool under_mpirun();
 
-/// Replaces this process by `ranks` copies of it under mpirun with the same arguments. Throws
-/// RunError when mpirun is missing.
-[[noreturn]] void replace(int ranks, const std::vector<std::string>& arguments);
+/// Runs `ranks` copies of this program under mpirun with these arguments, waits for them and
+/// returns their exit code. SIGINT and SIGTERM reach the ranks as SIGUSR1 (see interrupt.hpp):
+/// mpirun itself would kill them before a checkpoint is written. Throws RunError when mpirun is
+/// missing.
+[[nodiscard]] int run_in_front(int ranks, const std::vector<std::string>& arguments);
 
 /// Runs `ranks` copies of this program with these arguments, waits for them and returns their exit
 /// code (128 + signal when they were killed). What they print goes to stderr. The caller must not

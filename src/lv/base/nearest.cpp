@@ -47,9 +47,9 @@ std::string nearest_name(const std::string& wanted, std::span<const std::string>
   const auto distance = [&](const std::string& name) {
     return std::pair(distance_between(wanted, name), edit_distance(wanted, name));
   };
-  const auto nearest = std::min_element(
-      names.begin(), names.end(),
-      [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
+  const auto nearest =
+      std::min_element(names.begin(), names.end(),
+                       [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
   const bool alike = nearest != names.end() && distance(*nearest).first <= wanted.size() / 2;
   return alike ? *nearest : "";
 }
