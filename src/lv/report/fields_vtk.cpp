@@ -10,6 +10,7 @@
 #include <vtkImageData.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
+#include <vtkObject.h>
 #include <vtkPointData.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLImageDataWriter.h>
@@ -99,6 +100,7 @@ template <class Writer, class Data>
 void write_whole(const std::filesystem::path& file, Data* data) {
   std::filesystem::path unfinished = file;
   unfinished.replace_extension(".part" + file.extension().string());
+  vtkObject::GlobalWarningDisplayOff();  // what goes wrong is said once, below
   vtkNew<Writer> writer;
   writer->SetFileName(unfinished.c_str());
   writer->SetInputData(data);

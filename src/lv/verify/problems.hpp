@@ -28,7 +28,6 @@ void rank_independence(Findings& found);
 void restart_is_bitwise(Findings& found);
 void grid_convergence(Findings& found);
 void time_step(Findings& found);
-void time_step_of_motion(Findings& found);
 void idealised_ventricle(Findings& found);
 void pressure_volume(Findings& found);
 void other_ventricles(Findings& found);
