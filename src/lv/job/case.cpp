@@ -54,7 +54,10 @@ quasi_static::Muscle muscle(const Case& c) {
                                  ? quasi_static::Contractility(c.active, c.protocol.calcium.Ca_0,
                                                                c.protocol.calcium.Ca_max)
                                  : quasi_static::Contractility(c.prescribed_tension);
-  return {wall_material(c), contractility, {c.base.kind, quasi_static_base}};
+  return {wall_material(c),
+          contractility,
+          {c.base.kind, quasi_static_base},
+          c.quasi_static.stabilisation};
 }
 
 immersed::ModelParameters model_parameters(const Case& c, const mesh::Mesh& mesh) {

@@ -59,8 +59,9 @@ struct Box {
 /// The quasi-static engine and the mesh that it works on.
 struct QuasiStatic {
   int order = 2;             ///< of its finite elements
-  double edge_length = 5.0;  ///< target, of quadratic elements [mm]
+  double edge_length = 7.0;  ///< target, of quadratic elements [mm]
   int layers = 0;            ///< quadratic elements through the wall; 0: as edge_length asks
+  material::Volumetric stabilisation = quasi_static::Muscle{}.stabilisation;
   quasi_static::Parameters solver;
 };
 

@@ -257,6 +257,10 @@ void declare_engine(Declarations& d) {
   d.table = "quasi_static";
   d.choice("linear_solver", LV_AT(quasi_static.solver.linear_solver), {"direct", "iterative"},
            "MUMPS, or flexible GMRES with multigrid for meshes whose factors do not fit in memory");
+  d.quantity(
+      "stabilisation", LV_AT(quasi_static.stabilisation.beta_s), "kPa", not_negative,
+      "volumetric stiffness at every quadrature point, which keeps elements from buckling inside; "
+      "zero at J = 1");
   d.number("first_step", LV_AT(quasi_static.solver.first_step), between(1e-3, 1.0),
            "first load step, as a share of the whole load");
   d.quantity("tolerance", LV_AT(quasi_static.solver.newton.tolerance), "mm", between(1e-12, 0.1),

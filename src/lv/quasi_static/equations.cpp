@@ -66,11 +66,21 @@ struct Constitution {
              std::visit([&](const auto& law) { return law.stress(F); }, muscle.material.passive);
     P.col(0) += material::active_stress_column(F, determinant(F), tension(F, M).value,
                                                muscle.material.active_form);
-    return P;
+    return P + muscle.stabilisation.stress(F);
+  }
+  /// d/dF of 2 beta ln J / J cof F.
+  [[nodiscard]] Tangent<double> stabilisation_tangent(const Mat3& F) const {
+    const Mat3 cof = cofactor(F);
+    const double J = F.col(0).dot(cof.col(0));
+    const Eigen::Map<const Eigen::Matrix<double, 9, 1>> c(cof.data());
+    const double beta = muscle.stabilisation.beta_s;
+    return 2.0 * beta / J *
+           ((1.0 - std::log(J)) / J * c * c.transpose() + std::log(J) * cofactor_tangent(F));
   }
   [[nodiscard]] Tangent<double> tangent(const Mat3& F, double M) const {
     const Tension T = tension(F, M);
-    return muscle.material.infarct.passive(M) *
+    return stabilisation_tangent(F) +
+           muscle.material.infarct.passive(M) *
                std::visit([&](const auto& law) { return law.tangent(F); },
                           muscle.material.passive) +
            material::active_tangent(F, T.value, T.derivative, muscle.material.active_form);
@@ -167,10 +177,14 @@ Equations::Equations(const mesh::Mesh& mesh, const mesh::FibreRule& fibres, cons
       sides_(mesh::sides(mesh, mesh.endo)),
       side_shapes_(solid::side_shapes(mesh.kind, mesh.order)),
       muscle_(muscle),
-      base_(mesh, muscle.base) {}
+      base_(mesh, muscle.base) {
+  set_muscle(muscle);
+}
 
 void Equations::set_muscle(const Muscle& muscle) {
   muscle_ = muscle;
+  if (mesh_.order == 1)
+    muscle_.stabilisation.beta_s = 0.0;
   base_ = solid::BasalPenalty(mesh_, muscle.base);
 }
 

@@ -19,8 +19,13 @@ struct Loads {
 /// What the wall is made of, and how its base is held.
 struct Muscle {
   solid::WallMaterial material;  ///< its volumetric penalty is not used: the wall is incompressible
-  Contractility contractility;
+  Contractility contractility{0.0};
   solid::BasalSupport base;
+  /// Volumetric stiffness at every quadrature point, beside the pressures' weaker constraint. Zero
+  /// at J = 1, so no solution sees it, but it holds the deformations inside an element that change
+  /// volume here and there and not in the mean: under p they would buckle in so soft a muscle. Of
+  /// quadratic elements only: linear ones would lock.
+  material::Volumetric stabilisation{.beta_s = 10.0};
 };
 
 /// Positions of the nodes [mm] and pressures of the elements [kPa]: all unknowns, on every rank.
@@ -31,7 +36,7 @@ struct State {
 
 /// Equilibrium of the incompressible wall in weak form, for all test functions phi_a and q_m:
 ///
-///   R_a = int [P_passive(F) + P_active(F) + p cof F] grad phi_a dX
+///   R_a = int [P_passive(F) + P_active(F) + P_stabilisation(F) + p cof F] grad phi_a dX
 ///         + p_endo int phi_a n da + K_base (x_a - X_a)  = 0                                [mN]
 ///   R_m = int q_m (J - 1) dX                            = 0                                [mm^3]
 ///
