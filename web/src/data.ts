@@ -57,10 +57,9 @@ async function unpacked(id: string, bytes: 2 | 4): Promise<Int16Array | Int32Arr
   const values = bytes === 2 ? new Int16Array(count) : new Int32Array(count);
   let sum = 0;
   for (let i = 0; i < count; ++i) {
-    let difference = 0;
-    for (let b = 0; b < bytes; ++b) difference |= planes[b * count + i] << (8 * b);
-    sum = (sum + difference) | 0;
-    values[i] = sum;
+    let difference = planes[i] | (planes[count + i] << 8);
+    if (bytes === 4) difference |= (planes[2 * count + i] << 16) | (planes[3 * count + i] << 24);
+    values[i] = sum = (sum + difference) | 0;
   }
   return values;
 }
@@ -148,7 +147,9 @@ export class Wall {
 
 export class Case {
   readonly regions: Row[];
+  name: string;
   private constructor(readonly json: CaseJson, readonly summary: any, readonly wall: Wall | undefined) {
+    this.name = summary?.case ?? json.folder;
     this.regions = csv(json.files["regions.csv"]);
   }
 
@@ -158,7 +159,6 @@ export class Case {
     return new Case(json, summary, json.wall && (await Wall.read(json.wall)));
   }
 
-  get name(): string { return this.summary?.case ?? this.json.folder; }
   get flow(): FlowJson | undefined { return this.json.flow; }
   table(file: string): Row[] { return csv(this.json.files[file]); }
 

@@ -26,6 +26,7 @@ function header(cases: Case[], version: string): HTMLElement {
 async function main(): Promise<void> {
   const { version, cases: count } = about();
   const cases = await Promise.all(Array.from({ length: count }, (_, i) => Case.read(i)));
+  if (new Set(cases.map((c) => c.name)).size < cases.length) for (const c of cases) c.name += ` (${c.json.folder})`;
   const time = timeline(cases);
   const first = ["active_tension", "fibre_stress"].find((name) => cases.some((c) => c.wall?.quantities.includes(name))) ?? "infarct";
   const shared = new Shared({ quantity: first, step: time.start, cut: { kind: "long", angle: 0, height: -40 }, fibres: false, fixed: false });

@@ -110,7 +110,7 @@ class Panel {
     const field = await this.field(state.quantity);
     const t = this.time.time(this.number, state.step);
     const ed = this.c.json.end_diastole_s ?? Infinity;
-    const phase = t < ed ? "filling" : t === ed ? "end-diastole" : "contraction";
+    const phase = Math.abs(t - ed) < 1e-5 ? "end-diastole" : t < ed ? "filling" : "contraction";
     this.caption.textContent = `${this.c.name}: t = ${t.toFixed(3)} s, ${phase}` +
       (field ? "" : `; ${quantity(state.quantity).title} is not in this case's frames`);
     this.view.show(frame, field, this.scale(), state.cut, state.fibres);

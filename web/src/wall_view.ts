@@ -32,6 +32,15 @@ void main() {
   gl_FragColor = vec4(colour, 1.0);
 }`;
 
+/** Whether there is no graphics processor: smooth edges then cost more than they are worth. */
+function drawnBySoftware(): boolean {
+  const context = document.createElement("canvas").getContext("webgl2");
+  const facts = context?.getExtension("WEBGL_debug_renderer_info");
+  const name = facts ? String(context!.getParameter(facts.UNMASKED_RENDERER_WEBGL)) : "";
+  context?.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|software/i.test(name);
+}
+
 export interface Picked { cell: number; value: number; at: Vector3 }
 
 function dynamic(size: number, width: number): BufferAttribute {
@@ -62,11 +71,13 @@ export class WallView {
   private plane?: Plane;
   private selection?: Selection;
   private waiting = false;
+  private slow = drawnBySoftware();
+  private atRest = 0;  // timer of the full resolution
   onRender?: () => void;
 
   /** Throws when the browser has no WebGL. */
   constructor(readonly wall: Wall) {
-    this.renderer = new WebGLRenderer({ canvas: this.canvas, antialias: true, preserveDrawingBuffer: true });
+    this.renderer = new WebGLRenderer({ canvas: this.canvas, antialias: !this.slow, preserveDrawingBuffer: true });
     this.renderer.setClearColor(0xffffff);
     this.skinNodes = Int32Array.from(new Set(wall.skin)).sort();
     this.skin = this.makeSkin();
@@ -137,7 +148,6 @@ export class WallView {
   private resize(): void {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     if (!width || !height) return;
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
@@ -276,13 +286,22 @@ export class WallView {
 
   region(cell: number, scheme: Scheme): number | undefined { return this.wall.region(scheme)?.[cell]; }
 
-  /** Draws at the next frame of the screen. */
+  /** With a share of the screen's resolution. */
+  private draw(share: number): void {
+    const ratio = share * Math.min(devicePixelRatio, 2);
+    if (this.renderer.getPixelRatio() !== ratio) this.renderer.setPixelRatio(ratio);
+    this.renderer.render(this.scene, this.camera);
+  }
+
+  /** Draws at the next frame of the screen; without a graphics processor coarsely while things move. */
   render(): void {
     if (this.waiting) return;
     this.waiting = true;
     requestAnimationFrame(() => {
       this.waiting = false;
-      this.renderer.render(this.scene, this.camera);
+      this.draw(this.slow ? 0.5 : 1);
+      clearTimeout(this.atRest);
+      if (this.slow) this.atRest = window.setTimeout(() => this.draw(1), 200);
       this.onRender?.();
     });
   }

@@ -164,8 +164,9 @@ std::vector<TimedFrame> frames_of(const std::filesystem::path& pvd) {
 WallSeries read_wall_series(const std::vector<TimedFrame>& frames, double end_diastole) {
   WallSeries wall =
       fixed_part(Frame(frames.front().file, {"f0", "infarct", "slice", "sector", "aha17"}));
+  constexpr double rounding = 1e-5;  // of times in a series [s]
   for (const TimedFrame& frame : frames)
-    add_frame(wall, frame, frame.time > end_diastole);
+    add_frame(wall, frame, frame.time > end_diastole + rounding);
   return wall;
 }
 
