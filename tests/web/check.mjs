@@ -304,7 +304,8 @@ makePages();
 if (screenshots) mkdirSync(screenshots, { recursive: true });
 const opened = await open("page.html");
 const megabytes = statSync(join(folder, "page.html")).size / 1e6;
-console.log(`info  the page has ${megabytes.toFixed(2)} MB and is drawn ${await opened.page.evaluate(() => document.body.dataset.ready)} ms after its start`);
+console.log(`info  the page has ${megabytes.toFixed(2)} MB; its first view is there ${await opened.page.evaluate(() => document.body.dataset.first)} ms and the wall ` +
+  `${await opened.page.evaluate(() => document.body.dataset.ready)} ms after its start`);
 check("the page is smaller than 15 MB", megabytes < 15, megabytes);
 await checkDrawn(opened.page);
 if (screenshots) for (const id of ["summary", "wall", "regions", "curves", "rotation", "flow", "muscle", "normal", "zones", "input"])

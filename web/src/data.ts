@@ -46,8 +46,12 @@ function text(id: string): string {
   return document.getElementById(id)!.textContent!;
 }
 
+const parsed = new Promise((done) => document.addEventListener("DOMContentLoaded", done));
+
 /** Undoes src/lv/report/packing.hpp. */
 async function unpacked(id: string, bytes: 2 | 4): Promise<Int16Array | Int32Array> {
+  // what the first view does not need stands after the script
+  if (!document.getElementById(id)) await parsed;
   const letters = atob(text(id));
   const packed = new Uint8Array(letters.length);
   for (let i = 0; i < letters.length; ++i) packed[i] = letters.charCodeAt(i);
@@ -79,9 +83,6 @@ export class Series {
     return new Series(json, await Promise.all(json.shapes.map(shorts)), size);
   }
 
-  /** The largest difference from the file on disk. */
-  get largestError(): number { return this.json.largest_error; }
-
   /** The field at a frame, added to `out`. */
   addTo(out: Float32Array, frame: number): Float32Array {
     this.shapes.forEach((shape, k) => {
@@ -101,13 +102,13 @@ export const sectorsPerRing: Record<Scheme, number[]> = { sector: [6, 6, 6, 6, 6
 export class Wall {
   private constructor(
     private json: WallJson, readonly cells: Int32Array, readonly skin: Int32Array, readonly skinCells: Int32Array,
-    readonly undeformed: Float32Array, readonly f0: Float32Array | undefined, readonly infarct: Float32Array | undefined,
+    readonly undeformed: Float32Array, readonly infarct: Float32Array | undefined,
     private displacement: Series, private regions: Partial<Record<Scheme, Int16Array>>) {}
 
   static async read(json: WallJson): Promise<Wall> {
-    const [cells, skin, skinCells, undeformed, f0, infarct, displacement, slice, sector, aha17] = await Promise.all([
+    const [cells, skin, skinCells, undeformed, infarct, displacement, slice, sector, aha17] = await Promise.all([
       wholes(json.cells), wholes(json.skin), wholes(json.skin_cells), scaled(json.undeformed),
-      json.f0 && scaled(json.f0), json.infarct && scaled(json.infarct),
+      json.infarct && scaled(json.infarct),
       Series.read(json.displacement, 3 * json.nodes),
       json.slice ? shorts(json.slice) : undefined, json.sector ? shorts(json.sector) : undefined,
       json.aha17 ? shorts(json.aha17) : undefined]);
@@ -117,14 +118,13 @@ export class Wall {
       regions.sector = slice.map((s, c) => start[s - 1] + sector[c] - 1);
     }
     if (aha17) regions.aha17 = aha17.map((a) => a - 1);
-    return new Wall(json, cells, skin, skinCells, undeformed, f0, infarct, displacement, regions);
+    return new Wall(json, cells, skin, skinCells, undeformed, infarct, displacement, regions);
   }
 
   get nodes(): number { return this.json.nodes; }
   get times(): number[] { return this.json.times; }
   get nodesPerCell(): number { return this.json.nodes_per_cell; }
   get nodesPerFace(): number { return this.nodesPerCell === 8 ? 4 : 3; }
-  get positionError(): number { return this.displacement.largestError; }
   get quantities(): string[] { return Object.keys(this.json.quantities); }
 
   range(quantity: string): [number, number] {
@@ -141,6 +141,9 @@ export class Wall {
     return Series.read(this.json.quantities[quantity], this.nodes);
   }
 
+  /** Fibre directions of the cells, by component; undefined when there are none. */
+  async fibres(): Promise<Float32Array | undefined> { return this.json.f0 && scaled(this.json.f0); }
+
   /** Number of the region that each cell lies in, from 0. */
   region(scheme: Scheme): Int16Array | undefined { return this.regions[scheme]; }
 }
@@ -148,16 +151,19 @@ export class Wall {
 export class Case {
   readonly regions: Row[];
   name: string;
-  private constructor(readonly json: CaseJson, readonly summary: any, readonly wall: Wall | undefined) {
+  wall?: Wall;  // once it is loaded
+  private constructor(readonly json: CaseJson, readonly summary: any) {
     this.name = summary?.case ?? json.folder;
     this.regions = csv(json.files["regions.csv"]);
   }
 
-  static async read(number: number): Promise<Case> {
+  static read(number: number): Case {
     const json: CaseJson = JSON.parse(text(`case${number}`));
     const summary = json.files["summary.json"] ? JSON.parse(json.files["summary.json"]) : undefined;
-    return new Case(json, summary, json.wall && (await Wall.read(json.wall)));
+    return new Case(json, summary);
   }
+
+  async loadWall(): Promise<void> { this.wall = this.json.wall && (await Wall.read(this.json.wall)); }
 
   get flow(): FlowJson | undefined { return this.json.flow; }
   table(file: string): Row[] { return csv(this.json.files[file]); }

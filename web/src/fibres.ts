@@ -30,14 +30,14 @@ function solve(m: Mat3, v: number[]): number[] {
 
 export class Fibres {
   private local = new Map<number, number[]>();  // f0 in the cell's own coordinates
-  constructor(private wall: Wall) {}
+  constructor(private wall: Wall, private f0: Float32Array) {}
 
   /** Unit vector along the deformed fibre of a cell. */
   direction(positions: Float32Array, cell: number): number[] {
     let xi = this.local.get(cell);
     if (!xi) {
       const count = this.wall.cells.length / this.wall.nodesPerCell;
-      const f0 = [0, 1, 2].map((d) => this.wall.f0![d * count + cell]);
+      const f0 = [0, 1, 2].map((d) => this.f0[d * count + cell]);
       xi = solve(jacobian(this.wall, this.wall.undeformed, cell), f0);
       this.local.set(cell, xi);
     }

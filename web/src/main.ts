@@ -12,7 +12,7 @@ function header(cases: Case[], version: string): HTMLElement {
   const title = cases.map((c) => c.name).join(" beside ");
   document.title = `${title} – ventricle`;
   const unfinished = cases.filter((c) => !c.json.complete);
-  const fidelity = cases.filter((c) => c.wall).map((c) => c.wall!.positionError).reduce((a, b) => Math.max(a, b), 0);
+  const fidelity = cases.map((c) => c.json.wall?.displacement.largest_error ?? 0).reduce((a, b) => Math.max(a, b), 0);
   return el("header", {}, el("h1", {}, title),
     el("p", {}, `A left ventricle modelled by ventricle; page written by version ${version} from the files in ` +
       `${cases.map((c) => c.json.folder).join(" and ")}. ` +
@@ -23,24 +23,34 @@ function header(cases: Case[], version: string): HTMLElement {
       `${fidelity.toFixed(2)} mm and values within 0.5 % of their range.`));
 }
 
+const painted = () => new Promise((done) => requestAnimationFrame(() => setTimeout(done)));
+
 async function main(): Promise<void> {
   const { version, cases: count } = about();
-  const cases = await Promise.all(Array.from({ length: count }, (_, i) => Case.read(i)));
+  const cases = Array.from({ length: count }, (_, i) => Case.read(i));
   if (new Set(cases.map((c) => c.name)).size < cases.length) for (const c of cases) c.name += ` (${c.json.folder})`;
+  const page = document.getElementById("page")!;
+  page.className = cases.length > 1 ? "two" : "one";
+  const nav = el("nav", { "aria-label": "sections" });
+  const summary = summarySection(cases);
+  page.append(header(cases, version), nav, summary);
+  await painted();
+  document.body.dataset.first = performance.now().toFixed(0);
+
+  await Promise.all(cases.map((c) => c.loadWall()));
   const time = timeline(cases);
   const first = ["active_tension", "fibre_stress"].find((name) => cases.some((c) => c.wall?.quantities.includes(name))) ?? "infarct";
   const shared = new Shared({ quantity: first, step: time.start, cut: { kind: "long", angle: 0, height: -40 }, fibres: false, fixed: false });
-  const sections = [summarySection(cases), wallSection(cases, shared, time), bullsEyeSection(cases, shared),
+  const wall = wallSection(cases, shared, time);
+  const sections = [wall.element, bullsEyeSection(cases, shared),
     curvesSection(cases, shared, time), rotationSection(cases), flowSection(cases), muscleSection(cases), normalSection(cases),
     zoneSection(cases), inputSection(cases), parameterSection(cases)];
-  const page = document.getElementById("page")!;
-  page.className = cases.length > 1 ? "two" : "one";
-  page.append(header(cases, version),
-    el("nav", { "aria-label": "sections" }, ...sections.map((part) =>
-      el("a", { href: `#${part.id}` }, part.querySelector("h2")!.textContent!))), ...sections,
-    el("footer", {}, "Drawn with three.js (MIT licence). Colour maps are even in lightness and safe for colour-blind eyes. " +
-      "ventricle is free software under the GPL, version 3 or later."));
-  requestAnimationFrame(() => { document.body.dataset.ready = performance.now().toFixed(0); });
+  nav.append(...[summary, ...sections].map((part) => el("a", { href: `#${part.id}` }, part.querySelector("h2")!.textContent!)));
+  page.append(...sections, el("footer", {}, "Drawn with three.js (MIT licence). Colour maps are even in lightness and safe for " +
+    "colour-blind eyes. ventricle is free software under the GPL, version 3 or later."));
+  await wall.drawn;
+  await painted();
+  document.body.dataset.ready = performance.now().toFixed(0);
 }
 
 main().catch((error: unknown) => {

@@ -3,6 +3,7 @@ import { drawBullsEye, type DrawnBullsEye } from "./bullseye.ts";
 import { colourTable, type Scale } from "./colours.ts";
 import { Case, type Scheme, type Series, value } from "./data.ts";
 import { el, figure, missing, saveButtons, section, svg, fileName } from "./dom.ts";
+import { Fibres } from "./fibres.ts";
 import { infarct, label, quantities, quantity, shown, stateTitle } from "./quantities.ts";
 import { regionScale, Shared, type Timeline, wallScale } from "./shared.ts";
 import { WallView } from "./wall_view.ts";
@@ -48,6 +49,7 @@ class Panel {
   private view?: WallView;
   private series = new Map<string, Series | Float32Array | undefined>();
   readonly element: HTMLElement;
+  private fibres?: Fibres;
   private read = el("p", { class: "read", "aria-live": "polite" });
   private caption = el("p", { class: "time" });
   constructor(private c: Case, private number: number, private shared: Shared, private time: Timeline, private scale: () => Scale) {
@@ -113,13 +115,17 @@ class Panel {
     const phase = Math.abs(t - ed) < 1e-5 ? "end-diastole" : t < ed ? "filling" : "contraction";
     this.caption.textContent = `${this.c.name}: t = ${t.toFixed(3)} s, ${phase}` +
       (field ? "" : `; ${quantity(state.quantity).title} is not in this case's frames`);
-    this.view.show(frame, field, this.scale(), state.cut, state.fibres);
+    if (state.fibres && !this.fibres) {
+      const f0 = await this.c.wall!.fibres();
+      this.fibres = f0 && new Fibres(this.c.wall!, f0);
+    }
+    this.view.show(frame, field, this.scale(), state.cut, state.fibres ? this.fibres : undefined);
   }
 
   choose(): void { this.view?.choose(this.shared.state.selection); }
 }
 
-export function wallSection(cases: Case[], shared: Shared, time: Timeline): HTMLElement {
+export function wallSection(cases: Case[], shared: Shared, time: Timeline): { element: HTMLElement; drawn: Promise<unknown> } {
   const scale = () => {
     const { quantity: name, range } = shared.state;
     const usual = wallScale(cases, name);
@@ -180,19 +186,19 @@ export function wallSection(cases: Case[], shared: Shared, time: Timeline): HTML
     height.hidden = cut.kind !== "short";
     timeSlider.value = String(shared.state.step);
     timeSlider.setAttribute("aria-valuetext", cases.map((_, i) => `${time.time(i, shared.state.step).toFixed(3)} s`).join(", "));
-    panels.forEach((panel) => void panel.update());
+    return Promise.all(panels.map((panel) => panel.update()));
   };
   shared.onChange((_, changed) => {
-    if (["quantity", "step", "cut", "fibres", "range"].some((name) => changed.has(name as never))) refresh();
+    if (["quantity", "step", "cut", "fibres", "range"].some((name) => changed.has(name as never))) void refresh();
     if (changed.has("selection")) panels.forEach((panel) => panel.choose());
   });
-  refresh();
-  return section("wall", "The wall in 3-D",
+  const drawn = refresh();
+  return { drawn, element: section("wall", "The wall in 3-D",
     "Drag to turn, wheel or pinch to zoom, arrow keys to turn when the picture has the focus. Point at the wall to read a value and " +
     "to mark its segment here and in the bull's-eyes; click to keep it marked. The section is cut anew at every moment by a plane " +
     "fixed in space. Only moments that the run wrote are shown, none is made up in between. Values of elements are averaged to the nodes.",
     controls, help, bar, el("div", { class: "time-bar" }, play, timeSlider),
-    el("div", { class: "cases" }, ...panels.map((panel) => panel.element)));
+    el("div", { class: "cases" }, ...panels.map((panel) => panel.element))) };
 }
 
 export function bullsEyeSection(cases: Case[], shared: Shared): HTMLElement {

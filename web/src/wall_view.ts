@@ -6,7 +6,7 @@ import {
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { colourTable, type Scale } from "./colours.ts";
 import type { Scheme, Selection, Series, Wall } from "./data.ts";
-import { Fibres } from "./fibres.ts";
+import type { Fibres } from "./fibres.ts";
 import { atPoints, cutWall, type Plane, type Section } from "./section.ts";
 import type { Cut } from "./shared.ts";
 
@@ -32,15 +32,6 @@ void main() {
   gl_FragColor = vec4(colour, 1.0);
 }`;
 
-/** Whether there is no graphics processor: smooth edges then cost more than they are worth. */
-function drawnBySoftware(): boolean {
-  const context = document.createElement("canvas").getContext("webgl2");
-  const facts = context?.getExtension("WEBGL_debug_renderer_info");
-  const name = facts ? String(context!.getParameter(facts.UNMASKED_RENDERER_WEBGL)) : "";
-  context?.getExtension("WEBGL_lose_context")?.loseContext();
-  return /swiftshader|llvmpipe|software/i.test(name);
-}
-
 export interface Picked { cell: number; value: number; at: Vector3 }
 
 function dynamic(size: number, width: number): BufferAttribute {
@@ -65,19 +56,21 @@ export class WallView {
   private sticks: LineSegments;
   private skinNodes: Int32Array;
   private section?: Section;
-  private fibres?: Fibres;
   private positions!: Float32Array;
   private values?: Float32Array;
   private plane?: Plane;
   private selection?: Selection;
   private waiting = false;
-  private slow = drawnBySoftware();
+  private slow: boolean;  // no graphics processor
   private atRest = 0;  // timer of the full resolution
   onRender?: () => void;
 
   /** Throws when the browser has no WebGL. */
   constructor(readonly wall: Wall) {
-    this.renderer = new WebGLRenderer({ canvas: this.canvas, antialias: !this.slow, preserveDrawingBuffer: true });
+    this.renderer = new WebGLRenderer({ canvas: this.canvas, preserveDrawingBuffer: true });
+    const context = this.renderer.getContext();
+    const facts = context.getExtension("WEBGL_debug_renderer_info");
+    this.slow = /swiftshader|llvmpipe|software/i.test(facts ? String(context.getParameter(facts.UNMASKED_RENDERER_WEBGL)) : "");
     this.renderer.setClearColor(0xffffff);
     this.skinNodes = Int32Array.from(new Set(wall.skin)).sort();
     this.skin = this.makeSkin();
@@ -155,13 +148,13 @@ export class WallView {
   }
 
   /** The wall at a frame; `series` colours it, M if it is an array. */
-  show(frame: number, field: Series | Float32Array | undefined, scale: Scale, cut: Cut, fibres: boolean): void {
+  show(frame: number, field: Series | Float32Array | undefined, scale: Scale, cut: Cut, fibres: Fibres | undefined): void {
     this.positions = this.wall.positions(frame);
     this.values = field instanceof Float32Array ? field : field?.addTo(new Float32Array(this.wall.nodes), frame);
     this.plane = planeOf(cut);
     this.updateSkin();
     this.updateCap();
-    this.updateSticks(fibres && this.wall.f0 !== undefined);
+    this.updateSticks(fibres);
     const table = colourTable(scale);
     const map = new DataTexture(Uint8Array.from(table.flatMap((rgb) => [...rgb, 255])), 256, 1, RGBAFormat);
     map.magFilter = map.minFilter = LinearFilter;
@@ -206,16 +199,15 @@ export class WallView {
   }
 
   /** Fibres every few millimetres on the surfaces and on the section, a little before them. */
-  private updateSticks(wanted: boolean): void {
-    this.sticks.visible = wanted;
-    if (!wanted) return;
-    this.fibres ??= new Fibres(this.wall);
+  private updateSticks(fibres: Fibres | undefined): void {
+    this.sticks.visible = fibres !== undefined;
+    if (!fibres) return;
     const ends: number[] = [];
     const n = this.wall.nodes;
     const half = 1.6;
     const before = 0.35;
     const add = (x: number[], normal: number[], cell: number) => {
-      const f = this.fibres!.direction(this.positions, cell);
+      const f = fibres.direction(this.positions, cell);
       for (const side of [-half, half]) for (let d = 0; d < 3; ++d) ends.push(x[d] + before * normal[d] + side * f[d]);
     };
     const perFace = this.wall.nodesPerFace;
@@ -288,20 +280,21 @@ export class WallView {
 
   /** With a share of the screen's resolution. */
   private draw(share: number): void {
-    const ratio = share * Math.min(devicePixelRatio, 2);
+    const ratio = Math.min(share * devicePixelRatio, 3);
     if (this.renderer.getPixelRatio() !== ratio) this.renderer.setPixelRatio(ratio);
     this.renderer.render(this.scene, this.camera);
   }
 
-  /** Draws at the next frame of the screen; without a graphics processor coarsely while things move. */
+  /** Draws at the next frame of the screen. */
   render(): void {
     if (this.waiting) return;
     this.waiting = true;
     requestAnimationFrame(() => {
       this.waiting = false;
+      // finer at rest than in motion; edges are smoothed by drawing finer than the screen where that is cheap
       this.draw(this.slow ? 0.5 : 1);
       clearTimeout(this.atRest);
-      if (this.slow) this.atRest = window.setTimeout(() => this.draw(1), 200);
+      this.atRest = window.setTimeout(() => this.draw(this.slow ? 1 : 2), 200);
       this.onRender?.();
     });
   }

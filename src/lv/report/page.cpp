@@ -50,6 +50,11 @@ std::string element(const std::string& id, const char* type, std::string text) {
   return fmt::format("<script type=\"{}\" id=\"{}\">{}</script>\n", type, id, text);
 }
 
+/// Elements of the page before its script and after it.
+struct Data {
+  std::string first, more;
+};
+
 /// Collects a case's arrays as elements of the page; in the JSON they are named by their ids.
 class Arrays {
  public:
@@ -58,11 +63,12 @@ class Arrays {
   template <class Number>
   std::string add(const std::vector<Number>& values) {
     const std::string id = fmt::format("{}-{}", prefix_, count_++);
-    html += element(id, "text/plain", packed(values));
+    (is_first ? data.first : data.more) += element(id, "text/plain", packed(values));
     return id;
   }
 
-  std::string html;
+  Data data;
+  bool is_first = true;  ///< whether the first view needs what is added
 
  private:
   std::string prefix_;
@@ -172,9 +178,6 @@ Json wall_json(const WallSeries& wall, Arrays& arrays) {
   json["skin_cells"] = arrays.add(skin.cells);
   json["undeformed"] = {{"step", node_step},
                         {"values", arrays.add(flattened(wall.undeformed, node_step))}};
-  if (!wall.f0.empty())
-    json["f0"] = {{"step", direction_step},
-                  {"values", arrays.add(flattened(wall.f0, direction_step))}};
   if (std::any_of(wall.infarct.begin(), wall.infarct.end(), [](float M) { return M > 0.0F; })) {
     std::vector<std::int16_t> M;
     for (const float value : wall.infarct)
@@ -192,11 +195,16 @@ Json wall_json(const WallSeries& wall, Arrays& arrays) {
     const Range range = range_of(series);
     if (series.size() != wall.times.size() || !(range.max > range.min))
       continue;
+    arrays.is_first = name == "active_tension";  // the page opens with it
     json["quantities"][name] =
         modes_json(modes(series, quantity_tolerance * (range.max - range.min)), arrays);
     json["quantities"][name]["min"] = rounded(range.min);
     json["quantities"][name]["max"] = rounded(range.max);
   }
+  arrays.is_first = false;
+  if (!wall.f0.empty())
+    json["f0"] = {{"step", direction_step},
+                  {"values", arrays.add(flattened(wall.f0, direction_step))}};
   return json;
 }
 
@@ -306,7 +314,7 @@ std::vector<TimedFrame> wall_frames(const fs::path& work) {
   return frames;
 }
 
-std::string case_html(const PageCase& shown, int number) {
+Data case_html(const PageCase& shown, int number) {
   Arrays arrays(number);
   const fs::path folder = fs::absolute(shown.work).lexically_normal();
   Json json{{"folder", folder.filename().empty() ? folder.parent_path().filename().string()
@@ -325,21 +333,30 @@ std::string case_html(const PageCase& shown, int number) {
     if (!blood.empty())
       json["flow"] = flow_json(read_flow_series(blood, lower, upper), arrays);
   }
-  return element(fmt::format("case{}", number), "application/json", json.dump()) + arrays.html;
+  arrays.data.first.insert(0,
+                           element(fmt::format("case{}", number), "application/json", json.dump()));
+  return arrays.data;
 }
 
 }  // namespace
 
 std::string page(const std::vector<PageCase>& cases, const std::string& version) {
-  constexpr std::string_view mark = "<!-- data -->";
   std::string html(page_bundle());
-  const std::size_t at = html.find(mark);
-  LV_CHECK(at != std::string::npos);
-  std::string data = element("about", "application/json",
-                             Json{{"version", version}, {"cases", cases.size()}}.dump());
-  for (std::size_t i = 0; i < cases.size(); ++i)
-    data += case_html(cases[i], static_cast<int>(i));
-  html.replace(at, mark.size(), data);
+  const auto put = [&](std::string_view mark, const std::string& data) {
+    const std::size_t at = html.find(mark);
+    LV_CHECK(at != std::string::npos);
+    html.replace(at, mark.size(), data);
+  };
+  Data data{element("about", "application/json",
+                    Json{{"version", version}, {"cases", cases.size()}}.dump()),
+            ""};
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const Data one = case_html(cases[i], static_cast<int>(i));
+    data.first += one.first;
+    data.more += one.more;
+  }
+  put("<!-- more data -->", data.more);
+  put("<!-- data -->", data.first);
   return html;
 }
 
