@@ -18,7 +18,9 @@ const { outputFiles } = await build({
 });
 const part = (suffix) => outputFiles.find((file) => file.path.endsWith(suffix)).text.trim();
 const template = readFileSync(new URL("src/page.html", here), "utf8");
+const licence = readFileSync(new URL("node_modules/three/LICENSE", here), "utf8");
 const page = template
+  .replace("/* licence */", () => licence)
   .replace("/* style */", () => part(".css"))
   .replace("/* script */", () => part(".js").replaceAll("</script", "<\\/script"));
 writeFileSync(process.argv[2] ?? new URL("dist/page.html", here), page);

@@ -2,8 +2,8 @@
 
 export type Row = Record<string, string>;
 
-/** sum_k course_k(t) step shape_k(i); see src/lv/report/modes.hpp. */
-interface ModesJson { step: number; largest_error: number; courses: number[][]; shapes: string[]; min?: number; max?: number }
+/** offset + sum_k course_k(t) step shape_k(i); see src/lv/report/modes.hpp. */
+interface ModesJson { offset: number; step: number; largest_error: number; courses: number[][]; shapes: string[]; min?: number; max?: number }
 interface Packed { step: number; values: string }
 
 interface WallJson {
@@ -85,6 +85,8 @@ export class Series {
 
   /** The field at a frame, added to `out`. */
   addTo(out: Float32Array, frame: number): Float32Array {
+    const { offset } = this.json;
+    for (let i = 0; i < out.length; ++i) out[i] += offset;
     this.shapes.forEach((shape, k) => {
       const factor = this.json.courses[k][frame] * this.json.step;
       for (let i = 0; i < shape.length; ++i) out[i] += factor * shape[i];

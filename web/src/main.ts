@@ -13,6 +13,8 @@ function header(cases: Case[], version: string): HTMLElement {
   document.title = `${title} – ventricle`;
   const unfinished = cases.filter((c) => !c.json.complete);
   const fidelity = cases.map((c) => c.json.wall?.displacement.largest_error ?? 0).reduce((a, b) => Math.max(a, b), 0);
+  const relative = cases.flatMap((c) => Object.values(c.json.wall?.quantities ?? {}))
+    .map((q) => q.largest_error / (q.max! - q.min!)).reduce((a, b) => Math.max(a, b), 0);
   return el("header", {}, el("h1", {}, title),
     el("p", {}, `A left ventricle modelled by ventricle; page written by version ${version} from the files in ` +
       `${cases.map((c) => c.json.folder).join(" and ")}. ` +
@@ -20,7 +22,7 @@ function header(cases: Case[], version: string): HTMLElement {
     ...unfinished.map((c) => el("div", { class: "state", role: "alert" }, el("strong", {}, `The run of ${c.name} is not complete. `),
       "What there is, is shown; what is not there, is said to be missing.", el("ul", {}, ...c.json.state.map((line) => el("li", {}, line))))),
     el("p", { class: "help" }, "Tables and charts repeat the files exactly. The 3-D view repeats positions within " +
-      `${fidelity.toFixed(2)} mm and values within 0.5 % of their range.`));
+      `${fidelity.toFixed(2)} mm and values within ${(100 * relative).toFixed(1)} % of their range.`));
 }
 
 const painted = () => new Promise((done) => requestAnimationFrame(() => setTimeout(done)));

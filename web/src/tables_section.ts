@@ -36,7 +36,7 @@ function summaryOf(c: Case): (Node | undefined)[] {
         ["ejection fraction", `${shown(s.ejection_fraction_percent, 3)} %`, "ejection_fraction_percent"],
         ["mean fibre stress, end-systole", `${shown(s.whole_wall?.end_systole?.fibre_stress?.mean)} kPa`, "fibre_stress"],
         ["mean active tension, end-systole", `${shown(s.whole_wall?.end_systole?.active_tension?.mean)} kPa`, "active_tension"]]
-        .flatMap(([title, text, id]) => [el("dt", {}, title), el("dd", { "data-key": id }, text)])),
+        .map(([title, text, id]) => el("div", {}, el("dt", {}, title), el("dd", { "data-key": id }, text)))),
     table(fileName(c.name, "states"), ["", "early diastole", "end-diastole", "end-systole"], [
       row("time (s)", "time_s"), row("endocardial pressure (mmHg)", "pressure_mmHg"), row("cavity volume (ml)", "cavity_volume_ml"),
       ["measured cavity volume (ml)", "–", ...["edv_ml", "esv_ml"].map((key) => shown(measured(key), 4))],

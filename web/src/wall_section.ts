@@ -196,7 +196,8 @@ export function wallSection(cases: Case[], shared: Shared, time: Timeline): { el
   return { drawn, element: section("wall", "The wall in 3-D",
     "Drag to turn, wheel or pinch to zoom, arrow keys to turn when the picture has the focus. Point at the wall to read a value and " +
     "to mark its segment here and in the bull's-eyes; click to keep it marked. The section is cut anew at every moment by a plane " +
-    "fixed in space. Only moments that the run wrote are shown, none is made up in between. Values of elements are averaged to the nodes.",
+    "fixed in space. Only moments that the run wrote are shown, none is made up in between. Values of elements are averaged to the nodes. " +
+    "Fibres are drawn by their part in the surface or section: short where they run through it.",
     controls, help, bar, el("div", { class: "time-bar" }, play, timeSlider),
     el("div", { class: "cases" }, ...panels.map((panel) => panel.element))) };
 }

@@ -198,7 +198,7 @@ export class WallView {
     geometry.boundingSphere = new Sphere(new Vector3(), 1e4);
   }
 
-  /** Fibres every few millimetres on the surfaces and on the section, a little before them. */
+  /** Fibres every few millimetres on the surfaces and on the section, a little before them: their part in the surface. */
   private updateSticks(fibres: Fibres | undefined): void {
     this.sticks.visible = fibres !== undefined;
     if (!fibres) return;
@@ -207,7 +207,9 @@ export class WallView {
     const half = 1.6;
     const before = 0.35;
     const add = (x: number[], normal: number[], cell: number) => {
-      const f = fibres.direction(this.positions, cell);
+      const fibre = fibres.direction(this.positions, cell);
+      const out = fibre[0] * normal[0] + fibre[1] * normal[1] + fibre[2] * normal[2];
+      const f = fibre.map((v, d) => v - out * normal[d]);
       for (const side of [-half, half]) for (let d = 0; d < 3; ++d) ends.push(x[d] + before * normal[d] + side * f[d]);
     };
     const perFace = this.wall.nodesPerFace;

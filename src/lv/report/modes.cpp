@@ -31,7 +31,9 @@ Eigen::MatrixXd courses_of(const Field& field) {
 }  // namespace
 
 Modes modes(const NodalSeries& series, double tolerance) {
-  const Field field = as_field(series);
+  Field field = as_field(series);
+  const double offset = field.mean();
+  field.array() -= offset;
   const Eigen::MatrixXd U = courses_of(field);
   Field rest = field;
   Field shapes(0, field.cols());
@@ -45,6 +47,7 @@ Modes modes(const NodalSeries& series, double tolerance) {
   constexpr double most = 32767.0;
   const auto count = static_cast<double>(std::max<Eigen::Index>(shapes.rows(), 1));
   Modes result;
+  result.offset = offset;
   result.step = std::max(tolerance / count, largest(shapes) / most);
   for (Eigen::Index k = 0; k < shapes.rows(); ++k) {
     auto& course = result.courses.emplace_back();

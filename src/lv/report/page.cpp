@@ -26,10 +26,10 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 // how exactly the page repeats the fields on disk
-constexpr double position_tolerance = 0.05;   // [mm]
-constexpr double quantity_tolerance = 0.005;  // of the range of a quantity
-constexpr double velocity_step = 0.5;         // [mm/s]
-constexpr double pressure_step = 0.002;       // [kPa]
+constexpr double position_tolerance = 0.1;   // [mm]
+constexpr double quantity_tolerance = 0.01;  // of the range of a quantity
+constexpr double velocity_step = 0.5;        // [mm/s]
+constexpr double pressure_step = 0.002;      // [kPa]
 
 /// A number rounded to seven digits.
 double rounded(double value) {
@@ -80,7 +80,7 @@ std::int16_t steps(double value, double step) {
 }
 
 Json modes_json(const Modes& m, Arrays& arrays) {
-  Json json{{"step", m.step}, {"largest_error", rounded(m.largest_error)}};
+  Json json{{"offset", m.offset}, {"step", m.step}, {"largest_error", rounded(m.largest_error)}};
   json["courses"] = Json::array();
   json["shapes"] = Json::array();
   for (const auto& course : m.courses)

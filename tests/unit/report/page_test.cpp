@@ -21,12 +21,12 @@ NodalSeries travelling_wave(int times, int places) {
   NodalSeries series(times);
   for (int t = 0; t < times; ++t)
     for (int i = 0; i < places; ++i)
-      series[t].push_back(static_cast<float>(3.0 * std::sin(0.05 * i - 0.2 * t) + 0.01 * i));
+      series[t].push_back(static_cast<float>(100.0 + 3.0 * std::sin(0.05 * i - 0.2 * t) + 0.01 * i));
   return series;
 }
 
 double value(const Modes& m, std::size_t t, std::size_t i) {
-  double sum = 0.0;
+  double sum = m.offset;
   for (std::size_t k = 0; k < m.shapes.size(); ++k)
     sum += m.courses[k][t] * m.step * m.shapes[k][i];
   return sum;
