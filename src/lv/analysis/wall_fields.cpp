@@ -123,8 +123,9 @@ solid::WallMaterial without_penalty(solid::WallMaterial material) {
 }  // namespace
 
 FieldAnalysis::FieldAnalysis(const mesh::Mesh& mesh, const mesh::FibreRule& fibres,
-                             const solid::WallMaterial& material, double basal_stiffness)
-    : mesh_(mesh), wall_(mesh, fibres, without_penalty(material)), base_(mesh, basal_stiffness) {}
+                             const solid::WallMaterial& material,
+                             const solid::BasalSupport& support)
+    : mesh_(mesh), wall_(mesh, fibres, without_penalty(material)), base_(mesh, support) {}
 
 std::vector<CellFields> FieldAnalysis::fields(const heartbeat::Snapshot& snapshot) const {
   return cell_fields(wall_, snapshot, wall_pressure(mesh_, wall_, base_, snapshot));

@@ -312,7 +312,7 @@ void ImmersedRun::write_frame() {
   const fluid::Component pressure = model_.pressure();
   const int number = run_.frames++;
   run_.frame_times.push_back(run_.time);
-  observers_.frame({number, snapshot(), run_, model_, pressure});
+  observers_.frame({number, snapshot(), run_, Blood{model_, pressure}});
 }
 
 /// End-systole of a calcium transient is the smallest volume: noticed at the first step that fills

@@ -16,12 +16,23 @@ double smooth_step(double s) {
 
 immersed::Loads loads(const Protocol& p, Phase phase, double time) {
   const bool holds = loads_are_final(p, phase, time);
-  if (phase == Phase::filling)
-    return {p.ed_pressure * smooth_step(time / p.filling_ramp), p.calcium.Ca_0,
-            holds ? p.filling_drag : 0.0};
-  return {p.ed_pressure + (p.es_pressure - p.ed_pressure) * smooth_step(time / p.contraction_ramp),
-          p.calcium.at(time),
-          holds && p.calcium.mode == material::Calcium::Mode::hold ? p.contraction_drag : 0.0};
+  immersed::Loads now;
+  if (phase == Phase::filling) {
+    now = {.pressure = p.ed_pressure * smooth_step(time / p.filling_ramp),
+           .calcium = p.calcium.Ca_0,
+           .drag = holds ? p.filling_drag : 0.0};
+    if (p.tension)
+      now.tension = 0.0;
+    return now;
+  }
+  const double rise = smooth_step(time / p.contraction_ramp);
+  now = {
+      .pressure = p.ed_pressure + (p.es_pressure - p.ed_pressure) * rise,
+      .calcium = p.calcium.at(time),
+      .drag = holds && p.calcium.mode == material::Calcium::Mode::hold ? p.contraction_drag : 0.0};
+  if (p.tension)
+    now.tension = *p.tension * rise;
+  return now;
 }
 
 bool loads_are_final(const Protocol& p, Phase phase, double time) {

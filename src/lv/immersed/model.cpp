@@ -17,7 +17,7 @@ Model::Model(const mesh::Mesh& mesh, const mesh::FibreRule& fibres,
       strength_(solid::strength(mesh, material.infarct)),
       contraction_(active, {mesh.nodes, wall_.nodal_volumes(), strength_}, parameters.blood.density,
                    parameters.grid.spacing.minCoeff()),
-      base_(mesh, parameters.basal_stiffness),
+      base_(mesh, parameters.base),
       cavity_(mesh),
       mesh_(mesh),
       transfer_(parameters.grid, slab_, parameters.coupling.kernel),
@@ -45,7 +45,9 @@ void Model::relax(double calcium) {
 }
 
 StepReport Model::step(const Loads& loads, double dt) {
-  if (state_.dt > 0.0) {
+  if (loads.tension) {
+    contraction_.prescribe(*loads.tension);
+  } else if (state_.dt > 0.0) {
     wall_.nodal_stretch(state_.positions, stretch_);
     contraction_.advance(stretch_, state_.calcium, loads.calcium, state_.dt);
   }

@@ -9,6 +9,7 @@
 #include "lv/solid/wall.hpp"
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace lv::immersed {
@@ -17,14 +18,16 @@ namespace lv::immersed {
 struct Loads {
   double pressure = 0.0;  ///< on the endocardium [kPa]
   double calcium = 0.0;   ///< [uM]
-  double drag = 0.0;      ///< uniform resistance to the velocity [1/s]; moves no equilibrium
+  /// Prescribed active tension [kPa]; without, that of Appendix A.
+  std::optional<double> tension = std::nullopt;
+  double drag = 0.0;  ///< uniform resistance to the velocity [1/s]; moves no equilibrium
 };
 
 struct ModelParameters {
   fluid::Grid grid;
   fluid::Blood blood;
   CouplingParameters coupling;
-  double basal_stiffness = 300.0;  ///< kappa of BasalPenalty [kPa/mm]
+  solid::BasalSupport base;
 };
 
 /// Everything that one rank's part of a Model carries from step to step.

@@ -1,6 +1,12 @@
 #include "lv/job/case.hpp"
 
 namespace lv::job {
+namespace {
+
+/// Springs that yield by micrometres under the pressures of a ventricle [kPa/mm].
+constexpr double quasi_static_base = 1e6;
+
+}  // namespace
 
 solid::WallMaterial wall_material(const Case& c) {
   solid::WallMaterial material;
@@ -18,7 +24,37 @@ solid::WallMaterial wall_material(const Case& c) {
   material.volumetric = c.volumetric;
   material.volumetric_points = c.volumetric_points;
   material.infarct = c.infarct;
+  material.active_form = c.active_form;
   return material;
+}
+
+mesh::WallMeshParameters mesh_parameters(const Case& c) {
+  if (c.engine == Engine::immersed || c.quasi_static.order == 1)
+    return c.mesh;
+  return {.edge_length = 0.5 * c.quasi_static.edge_length,
+          .layers = 2 * c.quasi_static.layers,
+          .order = 2};
+}
+
+heartbeat::Protocol protocol(const Case& c) {
+  heartbeat::Protocol p = c.protocol;
+  if (c.active_form != material::ActiveForm::niederer)
+    p.tension = c.prescribed_tension;
+  return p;
+}
+
+solid::BasalSupport basal_support(const Case& c) {
+  if (c.engine == Engine::immersed)
+    return c.base;
+  return {c.base.kind, quasi_static_base};
+}
+
+quasi_static::Muscle muscle(const Case& c) {
+  const auto contractility = c.active_form == material::ActiveForm::niederer
+                                 ? quasi_static::Contractility(c.active, c.protocol.calcium.Ca_0,
+                                                               c.protocol.calcium.Ca_max)
+                                 : quasi_static::Contractility(c.prescribed_tension);
+  return {wall_material(c), contractility, {c.base.kind, quasi_static_base}};
 }
 
 immersed::ModelParameters model_parameters(const Case& c, const mesh::Mesh& mesh) {
@@ -35,7 +71,7 @@ immersed::ModelParameters model_parameters(const Case& c, const mesh::Mesh& mesh
   p.grid.lower = 0.5 * (lower + upper) - 0.5 * size;
   p.blood = c.blood;
   p.coupling = c.coupling;
-  p.basal_stiffness = c.basal_stiffness;
+  p.base = c.base;
   return p;
 }
 

@@ -6,6 +6,7 @@
 #include "lv/immersed/model.hpp"
 #include "lv/mesh/regions.hpp"
 #include "lv/mesh/wall_mesh.hpp"
+#include "lv/quasi_static/engine.hpp"
 
 #include <filesystem>
 #include <map>
@@ -18,6 +19,9 @@ enum class AnatomySource { ellipsoid, contours, mesh };
 
 /// Which passive law the wall follows.
 enum class PassiveLaw { holzapfel_ogden, guccione, neo_hookean };
+
+/// Which solver runs the beat.
+enum class Engine { immersed, quasi_static };
 
 /// Contours and how surfaces are fitted to them. File names as the case file gives them.
 struct ContourAnatomy {
@@ -52,6 +56,14 @@ struct Box {
   std::array<int, 3> cells{96, 96, 128};
 };
 
+/// The quasi-static engine and the mesh that it works on.
+struct QuasiStatic {
+  int order = 2;             ///< of its finite elements
+  double edge_length = 5.0;  ///< target, of quadratic elements [mm]
+  int layers = 0;            ///< quadratic elements through the wall; 0: as edge_length asks
+  quasi_static::Parameters solver;
+};
+
 /// All that a case file says, checked once and constant from then on. Member initialisers are the
 /// defaults; names, units, ranges and meanings are in parameters.cpp.
 struct Case {
@@ -63,12 +75,16 @@ struct Case {
   Passive passive;
   material::Volumetric volumetric;
   solid::VolumetricPoints volumetric_points = solid::VolumetricPoints::mean;
+  material::ActiveForm active_form = material::ActiveForm::niederer;
+  double prescribed_tension = 60.0;  ///< for the other forms [kPa]
   material::NiedererHunterSmith active;
   material::InfarctScaling infarct;
   fluid::Blood blood;
   Box box;
   immersed::CouplingParameters coupling;
-  double basal_stiffness = immersed::ModelParameters{}.basal_stiffness;  ///< [kPa/mm]
+  solid::BasalSupport base;
+  Engine engine = Engine::immersed;
+  QuasiStatic quasi_static;
   heartbeat::Protocol protocol;
   heartbeat::StepControl time;
   heartbeat::OutputSchedule output;
@@ -78,9 +94,23 @@ struct Case {
       origin;  ///< parameter -> "file:line" where the case file sets it
 };
 
+/// Passive and active law as the walls of both engines know them.
 [[nodiscard]] solid::WallMaterial wall_material(const Case& c);
 
-/// The engine's parameters, with the box placed around the middle of the wall.
+/// How the wall is meshed for the engine of the case.
+[[nodiscard]] mesh::WallMeshParameters mesh_parameters(const Case& c);
+
+/// Pressures, calcium and, for a prescribed active stress, its tension.
+[[nodiscard]] heartbeat::Protocol protocol(const Case& c);
+
+/// How the base is held: by the springs of the case, or by the quasi-static engine's, so stiff that
+/// it does not move.
+[[nodiscard]] solid::BasalSupport basal_support(const Case& c);
+
+/// The muscle of the quasi-static engine.
+[[nodiscard]] quasi_static::Muscle muscle(const Case& c);
+
+/// The immersed engine's parameters, with the box placed around the middle of the wall.
 [[nodiscard]] immersed::ModelParameters model_parameters(const Case& c, const mesh::Mesh& mesh);
 
 }  // namespace lv::job

@@ -17,6 +17,11 @@ void declare_anatomy(Declarations& d) {
   d.stage = Stage::results;
   d.table = "";
   d.text("name", LV_AT(name), "name of the subject or case, for reports");
+  d.stage = Stage::mesh;
+  d.choice(
+      "engine", LV_AT(engine), {"immersed", "quasi_static"},
+      "the dynamic immersed boundary model, or equilibrium without inertia and blood: the answer "
+      "of slow loads, in seconds");
   d.stage = Stage::anatomy;
   d.table = "anatomy";
   d.choice("source", LV_AT(anatomy.source), {"ellipsoid", "contours", "mesh"},
@@ -103,6 +108,15 @@ void declare_mesh(Declarations& d) {
              "2.5");
   d.whole("layers", LV_AT(mesh.layers), between(0, 40),
           "elements through the wall; 0: as edge_length asks");
+  d.table = "quasi_static";
+  d.whole(
+      "order", LV_AT(quasi_static.order), between(1, 2),
+      "2: quadratic elements, on a mesh of their own; 1: linear hexahedra on the immersed engine's "
+      "mesh");
+  d.quantity("edge_length", LV_AT(quasi_static.edge_length), "mm", between(0.5, 20.0),
+             "target length of the edges of quadratic elements");
+  d.whole("layers", LV_AT(quasi_static.layers), between(0, 20),
+          "quadratic elements through the wall; 0: as edge_length asks");
   d.table = "fibres";
   const Range angle = between(-90.0, 90.0);
   d.quantity("helix_endo", LV_AT(fibres.helix_endo), "deg", angle,
@@ -164,6 +178,13 @@ void declare_passive(Declarations& d) {
 
 void declare_active(Declarations& d) {
   d.table = "active";
+  d.choice(
+      "law", LV_AT(active_form), {"niederer", "second_piola", "cauchy"},
+      "active tension of Niederer, Hunter and Smith, J T F f0 (x) f0; or a prescribed tension as "
+      "the second Piola-Kirchhoff stress T f0 (x) f0, or as the Cauchy stress T along the fibre",
+      "2.21");
+  d.quantity("tension", LV_AT(prescribed_tension), "kPa", not_negative,
+             "prescribed tension at end-systole (laws second_piola and cauchy)");
   d.number("T_scale", LV_AT(active.T_scale), not_negative,
            "strength of contraction, T_ref = T_scale x T_ref_unscaled", "A");
   d.quantity("T_ref_unscaled", LV_AT(active.T_ref_unscaled), "kPa", positive,
@@ -233,9 +254,23 @@ void declare_engine(Declarations& d) {
            "2.5");
   d.number("points_per_cell", LV_AT(coupling.points_per_cell), between(0.5, 8.0),
            "Gauss points per mesh width (quadrature coupling)", "2.5");
+  d.table = "quasi_static";
+  d.choice("linear_solver", LV_AT(quasi_static.solver.linear_solver), {"direct", "iterative"},
+           "MUMPS, or flexible GMRES with multigrid for meshes whose factors do not fit in memory");
+  d.number("first_step", LV_AT(quasi_static.solver.first_step), between(1e-3, 1.0),
+           "first load step, as a share of the whole load");
+  d.quantity("tolerance", LV_AT(quasi_static.solver.newton.tolerance), "mm", between(1e-12, 0.1),
+             "Newton's method ends when its correction moves the wall by less, rms");
   d.table = "base";
-  d.quantity("stiffness", LV_AT(basal_stiffness), "kPa/mm", positive,
-             "springs per area that hold the basal plane along the axis and around it", "2.4");
+  d.choice(
+      "support", LV_AT(base.kind), {"sliding", "fixed"},
+      "the basal plane is held along the axis and around it and moves freely outwards, or is held "
+      "altogether",
+      "2.4");
+  d.quantity("stiffness", LV_AT(base.stiffness), "kPa/mm", positive,
+             "springs per area that hold the basal plane (immersed engine; the quasi-static engine "
+             "holds it rigidly)",
+             "2.4");
 }
 
 void declare_protocol(Declarations& d) {
@@ -333,6 +368,7 @@ const std::vector<Section>& sections() {
       {"fibres", "Rule-based fibre and sheet directions"},
       {"regions",
        "Division of the wall for tables: the paper's seven slices and the AHA's 17 segments"},
+      {"quasi_static", "The quasi-static engine (engine = \"quasi_static\", and calibration)"},
       {"passive", "Passive muscle"},
       {"passive.holzapfel_ogden",
        "Holzapfel-Ogden law; the defaults are the paper's healthy subject"},
@@ -340,7 +376,8 @@ const std::vector<Section>& sections() {
       {"passive.neo_hookean", "Neo-Hookean law (law = \"neo_hookean\")"},
       {"volumetric", "Incompressibility in Lagrangian form"},
       {"infarct", "What an infarct does to the muscle; its extent M comes with the mesh"},
-      {"active", "Active tension of Niederer, Hunter and Smith"},
+      {"active",
+       "Active tension; all but law and tension belong to the law of Niederer, Hunter and Smith"},
       {"calcium", "Intracellular calcium, the same everywhere"},
       {"blood", "Blood and muscle share density and viscosity"},
       {"box", "The box of blood around the ventricle and its grid"},

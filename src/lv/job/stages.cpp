@@ -4,9 +4,11 @@
 #include "lv/base/parallel.hpp"
 #include "lv/base/table.hpp"
 #include "lv/heartbeat/archive.hpp"
+#include "lv/heartbeat/quasi_static_beat.hpp"
 #include "lv/job/parameters.hpp"
 #include "lv/job/run.hpp"
 #include "lv/mesh/quality.hpp"
+#include "lv/mesh/refine.hpp"
 #include "lv/report/fields_vtk.hpp"
 #include "lv/report/heart_figures.hpp"
 #include "lv/report/summary.hpp"
@@ -42,17 +44,18 @@ mesh::Surface load_surface(const Archive& archive, const std::string& name) {
 }
 
 analysis::FieldAnalysis field_analysis(const Case& c, const mesh::Mesh& m) {
-  return {m, c.fibres, wall_material(c), c.basal_stiffness};
+  return {m, c.fibres, wall_material(c), basal_support(c)};
 }
 
 /// Velocity averaged to the cell centres, and pressure, of the whole box on the root.
 report::BloodFields blood_fields(const heartbeat::Frame& frame) {
-  const fluid::Grid& grid = frame.model.grid();
-  const fluid::FaceField& u = frame.model.velocity();
+  const immersed::Model& model = frame.blood->model;
+  const fluid::Grid& grid = model.grid();
+  const fluid::FaceField& u = model.velocity();
   report::BloodFields blood{
-      grid.lower, grid.spacing, grid.cells, {}, fluid::gather(frame.pressure)};
+      grid.lower, grid.spacing, grid.cells, {}, fluid::gather(frame.blood->pressure)};
   std::vector<double> mine;
-  for (int k = 0; k < frame.model.slab().planes.size(); ++k)
+  for (int k = 0; k < model.slab().planes.size(); ++k)
     for (int j = 0; j < grid.cells[1]; ++j)
       for (int i = 0; i < grid.cells[0]; ++i)
         mine.insert(mine.end(),
@@ -80,13 +83,13 @@ class BeatWriter {
     if (parallel::is_root())
       report::write_wall(folder_ / wall_file(f.number), mesh_.mesh, mesh_.regions, f.wall, cells,
                          end_diastole_.value_or(std::vector<analysis::CellFields>{}));
-    if (case_.output.blood) {
+    if (f.blood && case_.output.blood) {
       const auto blood = blood_fields(f);
       if (parallel::is_root())
         report::write_blood(folder_ / blood_file(f.number), blood);
     }
     if (parallel::is_root())
-      write_series(f.run);
+      write_series(f.run, f.blood && case_.output.blood);
   }
 
   void curves(const heartbeat::RunState& run) const {
@@ -100,7 +103,7 @@ class BeatWriter {
     return fmt::format("fields/blood_{:04d}.vti", number);
   }
 
-  void write_series(const heartbeat::RunState& run) const {
+  void write_series(const heartbeat::RunState& run, bool with_blood) const {
     std::vector<report::TimedFile> wall;
     std::vector<report::TimedFile> blood;
     for (int n = 0; n < run.frames; ++n) {
@@ -108,7 +111,7 @@ class BeatWriter {
       blood.push_back({run.frame_times[n], blood_file(n)});
     }
     report::write_pvd(folder_ / "wall.pvd", wall);
-    if (case_.output.blood)
+    if (with_blood)
       report::write_pvd(folder_ / "blood.pvd", blood);
   }
 
@@ -123,7 +126,7 @@ report::RunFacts run_facts(const Case& c, const MeshResult& mesh, const BeatResu
   report::RunFacts facts;
   facts.case_name = c.name;
   facts.version = version();
-  facts.engine = "immersed";
+  facts.engine = c.engine == Engine::immersed ? "immersed" : "quasi-static";
   facts.ranks = beat.ranks;
   facts.nodes = static_cast<int>(mesh.mesh.nodes.size());
   facts.cells = mesh.mesh.cell_count();
@@ -205,9 +208,14 @@ void draw(const mesh::Mesh& mesh, const heartbeat::Beat& beat, const analysis::B
 
 MeshResult make_mesh(const Case& c, const Shape& shape) {
   MeshResult result;
-  result.mesh = shape.given ? *shape.given : mesh::wall_mesh(shape.wall, c.mesh);
-  check_box(c, result.mesh);
-  check_spacing(c, result.mesh);
+  result.mesh = shape.given ? *shape.given : mesh::wall_mesh(shape.wall, mesh_parameters(c));
+  if (c.engine == Engine::immersed) {
+    check_box(c, result.mesh);
+    check_spacing(c, result.mesh);
+  } else if (c.quasi_static.order == 2 && result.mesh.order == 1) {
+    result.mesh =
+        mesh::refine(result.mesh);  // each element of a given mesh becomes a quadratic one
+  }
   result.regions = mesh::divide(result.mesh, c.regions);
   return result;
 }
@@ -216,6 +224,7 @@ void write_mesh_result(const MeshResult& result, const std::filesystem::path& fo
   const mesh::Mesh& m = result.mesh;
   Archive archive;
   archive.set("kind", {m.kind == mesh::CellKind::hexahedron ? 0.0 : 1.0});
+  archive.set("order", {static_cast<double>(m.order)});
   archive.set("nodes", {m.nodes.front().data(), m.nodes.front().data() + 3 * m.nodes.size()});
   archive.set("cells", as_numbers(m.cells));
   archive.set("transmural", m.transmural);
@@ -245,6 +254,7 @@ MeshResult read_mesh_result(const std::filesystem::path& folder) {
   MeshResult result;
   mesh::Mesh& m = result.mesh;
   m.kind = archive.number("kind") == 0.0 ? mesh::CellKind::hexahedron : mesh::CellKind::tetrahedron;
+  m.order = static_cast<int>(archive.number("order"));
   const auto& nodes = archive.get("nodes");
   for (std::size_t a = 0; a + 2 < nodes.size(); a += 3)
     m.nodes.emplace_back(nodes[a], nodes[a + 1], nodes[a + 2]);
@@ -261,14 +271,17 @@ MeshResult read_mesh_result(const std::filesystem::path& folder) {
 
 heartbeat::Beat make_beat(const Case& c, const MeshResult& mesh,
                           const std::filesystem::path& folder) {
-  check_box(c, mesh.mesh);  // the grid may have changed since the mesh was made
-  check_spacing(c, mesh.mesh);
   BeatWriter writer(c, mesh, folder);
-  const heartbeat::BeatSetup setup{
-      mesh.mesh,  c.fibres, wall_material(c), c.active, model_parameters(c, mesh.mesh),
-      c.protocol, c.time,   c.output};
   const heartbeat::Observers observers{[&](const heartbeat::Frame& f) { writer.frame(f); },
                                        [&](const heartbeat::RunState& run) { writer.curves(run); }};
+  if (c.engine == Engine::quasi_static)
+    return heartbeat::run_quasi_static_beat(
+        {mesh.mesh, c.fibres, muscle(c), c.quasi_static.solver, protocol(c)}, observers);
+  check_box(c, mesh.mesh);  // the grid may have changed since the mesh was made
+  check_spacing(c, mesh.mesh);
+  const heartbeat::BeatSetup setup{
+      mesh.mesh,   c.fibres, wall_material(c), c.active, model_parameters(c, mesh.mesh),
+      protocol(c), c.time,   c.output};
   return heartbeat::run_immersed_beat(setup, folder, observers);
 }
 

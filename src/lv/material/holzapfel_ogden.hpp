@@ -1,6 +1,6 @@
 #pragma once
 
-#include "lv/base/tensor.hpp"
+#include "lv/material/tangent.hpp"
 
 namespace lv::material {
 
@@ -31,8 +31,23 @@ struct HolzapfelOgden {
   template <class T>
   [[nodiscard]] Tensor<T> stress(const Tensor<T>& F) const;
 
+  /// dP/dF [kPa]. Not symmetric, because of the term of (2.18) that has no potential. Where
+  /// I4f = 1 or I4s = 1, at the switches of (2.16), it is that of compression.
+  [[nodiscard]] Tangent<double> tangent(const Mat3& F) const;
+
   /// The same law with a_f, a_s, a_fs multiplied by C_a: the patient's remote muscle (2.25).
   [[nodiscard]] HolzapfelOgden with_anisotropy_scaled(double C_a) const;
+
+ private:
+  /// Derivative of a_i/2b_i exp(b_i x^2) by x, and its own slope.
+  struct Load {
+    double value = 0.0;
+    double slope = 0.0;
+  };
+  [[nodiscard]] static Load load(double a_i, double b_i, double x) {
+    const double e = a_i * std::exp(b_i * x * x);
+    return {e * x, e * (1.0 + 2.0 * b_i * x * x)};
+  }
 };
 
 template <class T>
@@ -70,6 +85,28 @@ Tensor<T> HolzapfelOgden::stress(const Tensor<T>& F) const {
   P.col(0) += fibre * f + shear * s;
   P.col(1) += sheet * s + shear * f;
   return P;
+}
+
+inline Tangent<double> HolzapfelOgden::tangent(const Mat3& F) const {
+  const Vec3 f = F.col(0);
+  const Vec3 s = F.col(1);
+  const double I4f = f.squaredNorm();
+  const double I4s = s.squaredNorm();
+  const Load fibre = I4f > 1.0 ? load(a_f, b_f, I4f - 1.0) : Load{};
+  const Load sheet = I4s > 1.0 ? load(a_s, b_s, I4s - 1.0) : Load{};
+  const Load shear = load(a_fs, b_fs, f.dot(s));
+  const double isotropic = a * std::exp(b * (F.squaredNorm() - 3.0));
+  const Mat3 G = cofactor(F) / determinant(F);
+  Mat3 dI8;
+  dI8 << s, f, Vec3::Zero();
+
+  Tangent<double> A = isotropic * (Tangent<double>::Identity() - inverse_transpose_tangent(G)) +
+                      outer(2.0 * b * isotropic * (F - G), F) + outer(shear.slope * dI8, dI8);
+  block(A, 0, 0) += 2.0 * fibre.value * Mat3::Identity() + 4.0 * fibre.slope * f * f.transpose();
+  block(A, 1, 1) += 2.0 * sheet.value * Mat3::Identity() + 4.0 * sheet.slope * s * s.transpose();
+  block(A, 0, 1) += shear.value * Mat3::Identity();
+  block(A, 1, 0) += shear.value * Mat3::Identity();
+  return A;
 }
 
 inline HolzapfelOgden HolzapfelOgden::with_anisotropy_scaled(double C_a) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lv/base/tensor.hpp"
+#include "lv/material/active_stress.hpp"
 #include "lv/material/guccione.hpp"
 #include "lv/material/holzapfel_ogden.hpp"
 #include "lv/material/neo_hookean.hpp"
@@ -10,14 +11,15 @@
 
 namespace lv::material {
 
-/// The shape of a passive law: strain energy and first Piola-Kirchhoff stress [kPa] as pure
-/// functions of the deformation gradient F with its second index in the fibre frame (columns F f0,
-/// F s0, F n0).
+/// The shape of a passive law: strain energy, first Piola-Kirchhoff stress and its derivative by F
+/// [kPa] as pure functions of the deformation gradient F with its second index in the fibre frame
+/// (columns F f0, F s0, F n0).
 template <class L>
 concept PassiveLaw = requires(const L& law, const Tensor<double>& F, const Tensor<Pack>& F_pack) {
   { law.energy(F) } -> std::same_as<double>;
   { law.stress(F) } -> std::same_as<Tensor<double>>;
   { law.stress(F_pack) } -> std::same_as<Tensor<Pack>>;
+  { law.tangent(F) } -> std::same_as<Tangent<double>>;
 };
 
 static_assert(PassiveLaw<HolzapfelOgden> && PassiveLaw<Guccione> && PassiveLaw<NeoHookean>);
@@ -41,12 +43,5 @@ struct InfarctScaling {
     return 1.0 - M;
   }
 };
-
-/// Active first Piola-Kirchhoff stress P = J T F f0 (x) f0 (2.21): only its first column, J T F f0,
-/// is not zero. The fibre is not normalised: the Cauchy stress is T f (x) f with f = F f0 (2.22).
-template <class T>
-Vector<T> active_stress_column(const Tensor<T>& F, const T& J, const T& tension) {
-  return (J * tension) * F.col(0);
-}
 
 }  // namespace lv::material

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "lv/base/tensor.hpp"
+#include "lv/material/tangent.hpp"
 
 namespace lv::material {
 
@@ -22,6 +22,12 @@ struct NeoHookean {
     const Tensor<T> cof = cofactor(F);
     const T J = F.col(0).dot(cof.col(0));
     return T(mu) * F - (T(mu) / J) * cof;
+  }
+
+  /// dP/dF [kPa].
+  [[nodiscard]] Tangent<double> tangent(const Mat3& F) const {
+    const Mat3 G = cofactor(F) / determinant(F);
+    return mu * (Tangent<double>::Identity() - inverse_transpose_tangent(G));
   }
 };
 

@@ -48,7 +48,7 @@ void add_pressure_forces(const mesh::Surface& surface, double pressure,
   }
 }
 
-BasalPenalty::BasalPenalty(const mesh::Mesh& mesh, double stiffness) {
+BasalPenalty::BasalPenalty(const mesh::Mesh& mesh, const BasalSupport& support) {
   std::map<int, double> area;
   for (int f = 0; f < mesh.base.size(); ++f) {
     const auto face = mesh.base.face(f);
@@ -59,7 +59,12 @@ BasalPenalty::BasalPenalty(const mesh::Mesh& mesh, double stiffness) {
   }
   for (const auto& [node, A] : area) {
     const Vec3& X = mesh.nodes[node];
-    springs_.push_back({node, stiffness * A, X, Vec3(-X.y(), X.x(), 0.0).normalized()});
+    Mat3 held = Mat3::Identity();
+    if (support.kind == BasalSupport::Kind::sliding) {
+      const Vec3 e_r = Vec3(X.x(), X.y(), 0.0).normalized();
+      held -= e_r * e_r.transpose();
+    }
+    springs_.push_back({node, support.stiffness * A * held, X});
   }
 }
 
@@ -68,9 +73,7 @@ void BasalPenalty::add_forces(std::span<const Vec3> positions, std::span<Vec3> f
       parallel::share(static_cast<int>(springs_.size()), parallel::rank(), parallel::size());
   for (int i = share.begin; i < share.end; ++i) {
     const Spring& s = springs_[i];
-    const Vec3 u = positions[s.node] - s.reference;
-    forces[s.node] -=
-        s.stiffness * (u.z() * Vec3::UnitZ() + u.dot(s.circumferential) * s.circumferential);
+    forces[s.node] -= s.stiffness * (positions[s.node] - s.reference);
   }
 }
 

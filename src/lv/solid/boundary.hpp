@@ -12,29 +12,41 @@ namespace lv::solid {
 void add_pressure_forces(const mesh::Surface& surface, double pressure,
                          std::span<const Vec3> positions, std::span<Vec3> forces);
 
-/// The penalty that holds the basal plane (section 2.4): per reference area, springs against axial
-/// and circumferential displacement; radial motion is free.
+/// How the basal plane is held (section 2.4).
+struct BasalSupport {
+  enum class Kind {
+    sliding,  ///< against axial and circumferential displacement; radial motion is free
+    fixed     ///< against all displacement
+  };
+  Kind kind = Kind::sliding;
+  double stiffness = 300.0;  ///< kappa, of springs per reference area [kPa/mm]
+};
+
+/// The springs that hold the base:
 ///
 ///   F_a = -kappa A_a { [(x - X).e_z] e_z + [(x - X).e_theta(X)] e_theta(X) }   [mN]
 ///
-/// with e_theta about the long axis and A_a the node's share of the basal area [mm^2].
+/// with e_theta about the long axis and A_a the node's share of the basal area [mm^2]; a fixed base
+/// has a spring along e_r(X) too.
 class BasalPenalty {
  public:
-  /// `stiffness` is kappa [kPa/mm].
-  BasalPenalty(const mesh::Mesh& mesh, double stiffness);
+  struct Spring {
+    int node;
+    Mat3 stiffness;  ///< -dF/dx [mN/mm]
+    Vec3 reference;
+  };
+
+  BasalPenalty(const mesh::Mesh& mesh, const BasalSupport& support);
 
   void add_forces(std::span<const Vec3> positions, std::span<Vec3> forces) const;
+
+  /// One per node of the base.
+  [[nodiscard]] const std::vector<Spring>& springs() const { return springs_; }
 
   /// Largest axial displacement of the base [mm].
   [[nodiscard]] double largest_axial_displacement(std::span<const Vec3> positions) const;
 
  private:
-  struct Spring {
-    int node;
-    double stiffness;  ///< kappa A_a [mN/mm]
-    Vec3 reference;
-    Vec3 circumferential;
-  };
   std::vector<Spring> springs_;
 };
 

@@ -86,6 +86,10 @@ void Contraction::damp_what_is_smoothed_away(double dt) {
     damping_[a] = viscosity * (damping_[a] - stretch_rate_[a]);
 }
 
+void Contraction::prescribe(double tension) {
+  std::fill(tension_.begin(), tension_.end(), tension);
+}
+
 double Contraction::wave_speed() const {
   const double T_0 = *std::max_element(isometric_tension_.begin(), isometric_tension_.end());
   return std::sqrt(law_.instantaneous_stiffness() * T_0 / density_);

@@ -46,6 +46,9 @@ class Contraction {
   /// Advances by dt [s] to the given nodal stretches, calcium going from Ca_before to Ca_after.
   void advance(std::span<const double> stretch, double Ca_before, double Ca_after, double dt);
 
+  /// The same tension at every node instead [kPa].
+  void prescribe(double tension);
+
   /// Speed of the fastest fibre wave, sqrt((1+a) sum A_i max T_0 / rho) [mm/s].
   [[nodiscard]] double wave_speed() const;
 

@@ -383,7 +383,7 @@ void PackedElements<E>::point_forces(const Law& law, const Group& group, const N
     max_J_ = xsimd::max(max_J_, J);
     Tensor<Pack> P = law.stress(F) * material_.infarct.passive(point.infarct);
     const Pack T = at_point(tension, q) * material_.infarct.active(point.infarct);
-    P.col(0) += material::active_stress_column(F, J, T);
+    P.col(0) += material::active_stress_column(F, J, T, material_.active_form);
     if (volumetric_here)
       P += material_.volumetric.stress(F);
     subtract_force(P, point, rule.gradient[q], force);
@@ -471,7 +471,8 @@ PointSample PackedElements<E>::sample_point(int group, int q, int i, const Tenso
           material_.infarct.passive(X.M) +
       material_.volumetric.stress(F_fibre);
   s.cauchy_passive = P * F_fibre.transpose() / J;
-  s.cauchy_active = s.tension * F_fibre.col(0) * F_fibre.col(0).transpose();
+  s.cauchy_active = material::active_stress_column(F_fibre, J, s.tension, material_.active_form) *
+                    F_fibre.col(0).transpose() / J;
   return s;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "lv/material/active_stress.hpp"
 #include "lv/material/law.hpp"
 #include "lv/material/volumetric.hpp"
 #include "lv/mesh/fibres.hpp"
@@ -22,6 +23,7 @@ struct WallMaterial {
   material::Volumetric volumetric;
   VolumetricPoints volumetric_points = VolumetricPoints::mean;
   material::InfarctScaling infarct;
+  material::ActiveForm active_form = material::ActiveForm::niederer;  ///< what the tension means
 };
 
 /// Smallest and largest J over the quadrature points of all ranks.

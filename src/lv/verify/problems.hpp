@@ -11,6 +11,7 @@ void holzapfel_ogden_curves(Findings& found);
 void niederer_steady(Findings& found);
 void niederer_twitch(Findings& found);
 void niederer_release(Findings& found);
+void tangent_is_derivative(Findings& found);
 
 // blood alone
 void stokes_modes(Findings& found);
@@ -22,6 +23,13 @@ void delta_moments(Findings& found);
 void spread_interpolate_adjoint(Findings& found);
 void force_and_torque_conserved(Findings& found);
 void thick_sphere_at_rest(Findings& found);
+
+// equilibrium without time
+void thick_sphere_static(Findings& found);
+void no_locking(Findings& found);
+void land2015_problem1(Findings& found);
+void land2015_problem2(Findings& found);
+void land2015_problem3(Findings& found);
 
 // the whole engine
 void rank_independence(Findings& found);

@@ -83,7 +83,7 @@ void time_step(Findings& found) {
 namespace {
 
 analysis::Results analyse(const mesh::Mesh& mesh, const Beat& beat) {
-  const analysis::FieldAnalysis analysis(mesh, {}, {}, immersed::ModelParameters{}.basal_stiffness);
+  const analysis::FieldAnalysis analysis(mesh, {}, {}, {});
   const analysis::BeatFields fields{analysis.at_rest(), analysis.fields(beat.end_diastole),
                                     analysis.fields(beat.end_systole)};
   return analysis::results(mesh, mesh::divide(mesh, {}), beat, fields);

@@ -43,7 +43,8 @@ double error(int around, int layers) {
     s.positions.push_back(shell.radius_now(X.norm()) / X.norm() * X);
   s.tension.assign(mesh.nodes.size(), 0.0);
 
-  const auto p = analysis::wall_pressure(mesh, wall, solid::BasalPenalty(mesh, 1.0), s);
+  const auto p =
+      analysis::wall_pressure(mesh, wall, solid::BasalPenalty(mesh, {.stiffness = 1.0}), s);
   double squares = 0.0;
   double scale = 0.0;
   for (int c = 0; c < mesh.cell_count(); ++c) {

@@ -1,6 +1,7 @@
 #include "lv/material/guccione.hpp"
 
 #include "support/law_checks.hpp"
+#include "support/tangent_checks.hpp"
 #include <Eigen/Eigenvalues>
 
 using namespace lv;
@@ -8,6 +9,14 @@ using namespace lv;
 TEST_CASE("the Guccione stress is the objective derivative of its energy", "[unit][material]") {
   test::check_law(material::Guccione{});
   test::check_law(material::Guccione{10.0, 1.0, 1.0, 1.0});  // Land et al. 2015, problem 2
+}
+
+TEST_CASE("the Guccione tangent is the derivative of the stress", "[unit][material]") {
+  for (const material::Guccione& law :
+       {material::Guccione{}, material::Guccione{10.0, 1.0, 1.0, 1.0}}) {
+    test::check_tangent(law);
+    test::check_symmetric([&](const Mat3& F) { return law.tangent(F); });
+  }
 }
 
 TEST_CASE("the Guccione energy weighs every strain with its own stiffness", "[unit][material]") {

@@ -1,6 +1,7 @@
 #include "lv/material/holzapfel_ogden.hpp"
 
 #include "support/law_checks.hpp"
+#include "support/tangent_checks.hpp"
 
 #include <array>
 
@@ -79,6 +80,32 @@ TEST_CASE("the Holzapfel-Ogden stress is dW/dF - a exp[b(I1-3)] F^-T", "[unit][m
   test::check_stress_is_derivative(
       [&](const Mat3& F) { return Mat3(healthy.stress(F) + rest_term(healthy, F)); },
       [&](const Mat3& F) { return healthy.energy(F); }, 1e-7);  // exponents up to b I1 = 15
+}
+
+TEST_CASE("the Holzapfel-Ogden tangent is the derivative of the stress", "[unit][material]") {
+  for (const HolzapfelOgden& law : {healthy, pig, human})
+    test::check_tangent(law);
+}
+
+TEST_CASE("the Holzapfel-Ogden tangent is symmetric but for the term of (2.18)",
+          "[unit][material]") {
+  test::check_symmetric([](const Mat3& F) {
+    const Mat3 rest = rest_term(healthy, F);
+    return material::Tangent<double>(healthy.tangent(F) + material::outer(2 * healthy.b * rest, F));
+  });
+}
+
+TEST_CASE("fibres and sheets have no stiffness in compression", "[unit][material]") {
+  HolzapfelOgden stiff = healthy;
+  stiff.a_f *= 100.0;
+  stiff.a_s *= 100.0;
+  Mat3 F = Mat3::Identity();
+  F.diagonal() << 0.95, 0.9, 1.2;
+  CHECK(stiff.tangent(F) == healthy.tangent(F));
+  CHECK(stiff.tangent(Mat3::Identity()) == healthy.tangent(Mat3::Identity()));  // I4f = I4s = 1
+  F(0, 0) = 1.0 + 1e-9;
+  // 4 a_f: all of the fibre's stiffness at once, not gradually
+  CHECK(stiff.tangent(F)(0, 0) - healthy.tangent(F)(0, 0) == Approx(99.0 * 4.0 * healthy.a_f));
 }
 
 TEST_CASE("the Holzapfel-Ogden law is objective", "[unit][material]") {

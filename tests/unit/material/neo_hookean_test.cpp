@@ -1,11 +1,18 @@
 #include "lv/material/neo_hookean.hpp"
 
 #include "support/law_checks.hpp"
+#include "support/tangent_checks.hpp"
 
 using namespace lv;
 
 TEST_CASE("the neo-Hookean stress is the objective derivative of its energy", "[unit][material]") {
   test::check_law(material::NeoHookean{3.0});
+}
+
+TEST_CASE("the neo-Hookean tangent is the derivative of the stress", "[unit][material]") {
+  const material::NeoHookean law{3.0};
+  test::check_tangent(law);
+  test::check_symmetric([&](const Mat3& F) { return law.tangent(F); });
 }
 
 TEST_CASE("the neo-Hookean shear stress is mu gamma", "[unit][material]") {

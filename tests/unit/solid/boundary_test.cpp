@@ -113,7 +113,7 @@ TEST_CASE("the base resists axial and circumferential motion in proportion to it
           "[unit][solid]") {
   for (const CellKind kind : kinds) {
     const Mesh mesh = test::coarse_mesh(kind);
-    const solid::BasalPenalty base(mesh, 100.0);
+    const solid::BasalPenalty base(mesh, {.stiffness = 100.0});
     const double area = mesh::area(mesh.nodes, mesh.base);
     std::vector<Vec3> forces(mesh.nodes.size(), Vec3::Zero());
     const std::vector<Vec3> lifted = test::moved(mesh.nodes, Mat3::Identity(), {0, 0, 0.5});
@@ -141,7 +141,7 @@ TEST_CASE("the base resists axial and circumferential motion in proportion to it
 TEST_CASE("the base is free to move radially, and the rest of the wall to move at all",
           "[unit][solid]") {
   const Mesh mesh = test::coarse_mesh(CellKind::hexahedron);
-  const solid::BasalPenalty base(mesh, 100.0);
+  const solid::BasalPenalty base(mesh, {.stiffness = 100.0});
   std::vector<Vec3> forces(mesh.nodes.size(), Vec3::Zero());
   Mat3 widen = Mat3::Identity();
   widen(0, 0) = widen(1, 1) = 1.2;

@@ -1,0 +1,117 @@
+#include "lv/heartbeat/quasi_static_beat.hpp"
+
+#include "lv/base/interrupt.hpp"
+#include "lv/base/log.hpp"
+#include "lv/base/parallel.hpp"
+#include "lv/base/units.hpp"
+
+#include <chrono>
+#include <limits>
+
+namespace lv::heartbeat {
+namespace {
+
+using quasi_static::Engine;
+using quasi_static::Loads;
+using quasi_static::Step;
+using units::mmHg;
+
+class QuasiStaticRun {
+ public:
+  QuasiStaticRun(const QuasiStaticSetup& setup, const Observers& observers)
+      : setup_(setup),
+        observers_(observers),
+        engine_(setup.mesh, setup.fibres, setup.muscle, setup.parameters),
+        wall_(setup.mesh, setup.fibres, setup.muscle.material) {
+    record({engine_.loads(), 0.0, 0.0, engine_.cavity_volume(), {}});
+  }
+
+  Beat run() {
+    const auto start = std::chrono::steady_clock::now();
+    const Protocol& p = setup_.protocol;
+    go_to({p.ed_pressure, 0.0});
+    run_.beat.end_diastole = state();
+    run_.phase = Phase::contraction;
+    run_.phase_start = 1.0;
+    go_to({p.es_pressure, 1.0});
+    run_.beat.end_systole = state();
+    run_.beat.filling_was_steady = run_.beat.contraction_was_steady = true;
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+    run_.beat.wall_clock = elapsed.count();
+    return std::move(run_.beat);
+  }
+
+ private:
+  void go_to(const Loads& loads) {
+    engine_.go_to(loads, [&](const Step& step) {
+      ++run_.beat.steps;
+      record(step);
+      log::info(
+          "{} {:3.0f}%  {:.2f} mmHg  {:.2f} ml  T {:.1f} kPa  {} corrections, {} factorisation{}",
+          name(run_.phase), 100.0 * step.progress, step.loads.pressure / mmHg, 1e-3 * step.volume,
+          run_.beat.curves.back().mean_tension, step.newton.iterations, step.newton.factorisations,
+          step.newton.factorisations == 1 ? "" : "s");
+      if (parallel::any(interrupt::requested()))
+        throw Interrupted("stopped; run the same command again to start the beat anew");
+    });
+  }
+
+  void record(const Step& step) {
+    run_.time = run_.phase_start + step.progress;
+    CurveRow row;
+    row.time = run_.time;
+    row.phase = run_.phase;
+    row.pressure = step.loads.pressure;
+    row.volume = step.volume;
+    row.calcium = calcium(step.loads.activation);
+    row.mean_tension = engine_.mean_tension();
+    row.step = step.length;
+    run_.beat.curves.push_back(row);
+    if (observers_.curves)
+      observers_.curves(run_);
+    if (!observers_.frame)
+      return;
+    const int number = run_.frames++;
+    run_.frame_times.push_back(run_.time);
+    observers_.frame({number, state(), run_, {}});
+  }
+
+  /// Known where the muscle rests or is fully active; in between the tension is a mean of both.
+  [[nodiscard]] double calcium(double activation) const {
+    const auto& c = setup_.protocol.calcium;
+    return activation == 0.0   ? c.Ca_0
+           : activation == 1.0 ? c.Ca_max
+                               : std::numeric_limits<double>::quiet_NaN();
+  }
+
+  [[nodiscard]] Snapshot state() const { return snapshot(engine_, wall_, run_.phase, run_.time); }
+
+  const QuasiStaticSetup& setup_;
+  const Observers& observers_;
+  Engine engine_;
+  solid::Wall wall_;
+  RunState run_;
+};
+
+}  // namespace
+
+Snapshot snapshot(const Engine& engine, const solid::Wall& wall, Phase phase, double time) {
+  Snapshot s;
+  s.time = time;
+  s.phase = phase;
+  s.pressure = engine.loads().pressure;
+  s.volume = engine.cavity_volume();
+  s.positions = engine.state().positions;
+  std::vector<double> stretch(s.positions.size());
+  wall.nodal_stretch(s.positions, stretch);
+  for (const double lambda : stretch)
+    s.tension.push_back(
+        engine.equations().muscle().contractility.at(lambda, engine.loads().activation).value);
+  return s;
+}
+
+Beat run_quasi_static_beat(const QuasiStaticSetup& setup, const Observers& observers) {
+  return QuasiStaticRun(setup, observers).run();
+}
+
+}  // namespace lv::heartbeat

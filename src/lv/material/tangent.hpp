@@ -1,0 +1,30 @@
+#pragma once
+
+#include "lv/base/tensor.hpp"
+
+namespace lv::material {
+
+/// dP/dF, both tensors column by column: row i + 3 j belongs to P(i,j), column k + 3 l to F(k,l).
+template <class T>
+using Tangent = Eigen::Matrix<T, 9, 9>;
+
+/// The derivative of P's column j by F's column l.
+inline auto block(Tangent<double>& A, int j, int l) {
+  return A.block<3, 3>(3 * j, 3 * l);
+}
+
+/// A (x) B, the tangent of P = A (B : F).
+inline Tangent<double> outer(const Mat3& A, const Mat3& B) {
+  return A.reshaped() * B.reshaped().transpose();
+}
+
+/// dF^{-T}/dF = -G(i,l) G(k,j) with G = F^{-T}.
+inline Tangent<double> inverse_transpose_tangent(const Mat3& G) {
+  Tangent<double> A;
+  for (int j = 0; j < 3; ++j)
+    for (int l = 0; l < 3; ++l)
+      block(A, j, l) = -G.col(l) * G.col(j).transpose();
+  return A;
+}
+
+}  // namespace lv::material

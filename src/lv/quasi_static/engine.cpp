@@ -1,0 +1,113 @@
+#include "lv/quasi_static/engine.hpp"
+
+#include "lv/base/check.hpp"
+#include "lv/base/log.hpp"
+#include "lv/base/units.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace lv::quasi_static {
+namespace {
+
+Loads between(const Loads& a, const Loads& b, double s) {
+  return {(1.0 - s) * a.pressure + s * b.pressure, (1.0 - s) * a.activation + s * b.activation};
+}
+
+/// The straight line through two states, `by` times their distance beyond the second.
+State extrapolate(const State& before, const State& now, double by) {
+  State next = now;
+  for (std::size_t a = 0; a < next.positions.size(); ++a)
+    next.positions[a] += by * (now.positions[a] - before.positions[a]);
+  for (std::size_t m = 0; m < next.pressures.size(); ++m)
+    next.pressures[m] += by * (now.pressures[m] - before.pressures[m]);
+  return next;
+}
+
+/// Step lengths grow when Newton's method finds it easy, and shrink when it does not.
+constexpr int easy = 5;  // corrections
+constexpr int hard = 12;
+constexpr double growth = 1.7;
+
+}  // namespace
+
+Engine::Engine(const mesh::Mesh& mesh, const mesh::FibreRule& fibres, const Muscle& muscle,
+               const Parameters& parameters)
+    : parameters_(parameters),
+      equations_(mesh, fibres, muscle),
+      newton_(equations_, parameters.linear_solver, parameters.newton),
+      cavity_(mesh),
+      state_(equations_.rest()) {}
+
+void Engine::go_to(const Loads& target, const std::function<void(const Step&)>& observe) {
+  const Loads start = loads_;
+  std::optional<State> before;
+  double last_length = 0.0;
+  double length = parameters_.first_step;
+  double progress = 0.0;
+  while (progress < 1.0) {
+    length = std::min(length, 1.0 - progress);
+    if (1.0 - progress - length < 0.1 * length)
+      length = 1.0 - progress;  // no crumbs
+    const Loads loads = between(start, target, progress + length);
+    State next = before ? extrapolate(*before, state_, length / last_length) : state_;
+    NewtonReport report;
+    try {
+      report = newton_.solve(next, loads);
+    } catch (const NoConvergence& failure) {
+      log::info("a step of {:.3g} of the way failed: {}", length, failure.what());
+      if (before) {
+        before.reset();  // once more without extrapolation
+        length *= 0.5;
+      } else {
+        length *= 0.25;
+      }
+      if (length < parameters_.smallest_step)
+        throw RunError(
+            fmt::format("No equilibrium was found beyond {:.2f} mmHg and {:.0f}% of the active "
+                        "tension: {}",
+                        loads_.pressure / units::mmHg, 100.0 * loads_.activation, failure.what()),
+            "Look at the mesh's worst element and at the stiffness (a wall too soft for its "
+            "pressure "
+            "has no equilibrium); try a finer mesh, or a smaller quasi_static.first_step");
+      continue;
+    }
+    before = std::move(state_);
+    state_ = std::move(next);
+    loads_ = loads;
+    progress = progress + length;
+    last_length = length;
+    if (observe)
+      observe({loads_, progress, length, cavity_volume(), report});
+    if (report.iterations <= easy)
+      length *= growth;
+    else if (report.iterations >= hard)
+      length /= growth;
+  }
+  loads_ = target;
+}
+
+void Engine::set_muscle(const Muscle& muscle) {
+  equations_.set_muscle(muscle);
+  newton_.forget_tangent();
+  try {
+    newton_.solve(state_, loads_);
+  } catch (const NoConvergence&) {
+    const Loads loads = loads_;
+    relax();
+    go_to(loads);
+  }
+}
+
+void Engine::relax() {
+  restore(equations_.rest(), {});
+}
+
+void Engine::restore(const State& state, const Loads& loads) {
+  state_ = state;
+  loads_ = loads;
+  newton_.forget_tangent();
+}
+
+}  // namespace lv::quasi_static

@@ -1,0 +1,72 @@
+#pragma once
+
+#include "lv/quasi_static/newton.hpp"
+#include "lv/solid/cavity.hpp"
+
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace lv::quasi_static {
+
+/// Parameters of the quasi-static engine.
+struct Parameters {
+  LinearSolver linear_solver = LinearSolver::direct;
+  NewtonParameters newton;
+  double first_step = 0.1;      ///< of the way from one load to the next [-]
+  double smallest_step = 1e-4;  ///< before the engine gives up [-]
+};
+
+/// One equilibrium on the way to the loads that were asked for.
+struct Step {
+  Loads loads;
+  double progress = 0.0;  ///< share of the way done [-]
+  double length = 0.0;    ///< of the step, as a share of the way [-]
+  double volume = 0.0;    ///< of the cavity [mm^3]
+  NewtonReport newton;
+};
+
+/// The wall in equilibrium with its loads; goes from loads to loads by adaptive steps. All is
+/// collective.
+class Engine {
+ public:
+  /// The mesh must outlive the engine. Throws InputError as reference_wall.
+  Engine(const mesh::Mesh& mesh, const mesh::FibreRule& fibres, const Muscle& muscle,
+         const Parameters& parameters);
+
+  /// Goes straight from the present loads to others, in steps as long as Newton's method manages;
+  /// `observe` (may be empty) is told each equilibrium. Throws RunError, with the last equilibrium
+  /// and what to try, when the smallest step fails; the engine stays at that equilibrium.
+  void go_to(const Loads& loads, const std::function<void(const Step&)>& observe = {});
+
+  /// Replaces the muscle and finds the equilibrium under the same loads, at once if Newton's method
+  /// manages, else all the way from rest.
+  void set_muscle(const Muscle& muscle);
+
+  /// Back to the undeformed wall without loads.
+  void relax();
+
+  [[nodiscard]] const State& state() const { return state_; }
+  [[nodiscard]] const Loads& loads() const { return loads_; }
+  [[nodiscard]] const Equations& equations() const { return equations_; }
+  [[nodiscard]] double cavity_volume() const {
+    return cavity_.volume(state_.positions);
+  }  ///< [mm^3]
+  /// Volume-weighted mean over the wall of the active tension, with the infarct's factor [kPa].
+  [[nodiscard]] double mean_tension() const {
+    return equations_.mean_tension(state_, loads_.activation);
+  }
+
+  /// Takes over an equilibrium that was reached before, with the loads that held it.
+  void restore(const State& state, const Loads& loads);
+
+ private:
+  Parameters parameters_;
+  Equations equations_;
+  Newton newton_;
+  solid::Cavity cavity_;
+  State state_;
+  Loads loads_;
+};
+
+}  // namespace lv::quasi_static

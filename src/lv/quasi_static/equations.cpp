@@ -1,0 +1,300 @@
+#include "lv/quasi_static/equations.hpp"
+
+#include "lv/base/check.hpp"
+#include "lv/base/parallel.hpp"
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+
+namespace lv::quasi_static {
+namespace {
+
+using material::Tangent;
+
+/// The unknowns of one element and where they belong.
+struct ElementState {
+  Eigen::Matrix3Xd x;
+  Eigen::VectorXd p;
+};
+
+ElementState gather(const ReferenceWall& wall, int e, const State& state) {
+  const auto nodes = wall.elements.element(e);
+  const auto pressures = wall.pressures.element(e);
+  ElementState s{Eigen::Matrix3Xd(3, nodes.size()), Eigen::VectorXd(pressures.size())};
+  for (std::size_t a = 0; a < nodes.size(); ++a)
+    s.x.col(static_cast<Eigen::Index>(a)) = state.positions[nodes[a]];
+  for (std::size_t m = 0; m < pressures.size(); ++m)
+    s.p[static_cast<Eigen::Index>(m)] = state.pressures[pressures[m]];
+  return s;
+}
+
+/// v x
+Mat3 cross_matrix(const Vec3& v) {
+  Mat3 m;
+  m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
+  return m;
+}
+
+/// d cof(F)/dF, column-major as every Tangent: cof F is the cross product of F's columns, whose
+/// derivative is a cross product matrix.
+Tangent<double> cofactor_tangent(const Mat3& F) {
+  Tangent<double> C = Tangent<double>::Zero();
+  for (int j = 0; j < 3; ++j) {
+    const int k = (j + 1) % 3;
+    const int l = (j + 2) % 3;
+    C.block<3, 3>(3 * j, 3 * l) = cross_matrix(F.col(k));  // cof_j = F_k x F_l
+    C.block<3, 3>(3 * j, 3 * k) = -cross_matrix(F.col(l));
+  }
+  return C;
+}
+
+/// Stress and, where asked for, tangent at one point, with the second index of F in the fibre
+/// frame, and without the pressure's part.
+struct Constitution {
+  const Muscle& muscle;
+  double activation;
+
+  [[nodiscard]] Tension tension(const Mat3& F, double M) const {
+    Tension T = muscle.contractility.at(F.col(0).norm(), activation);
+    T.value *= muscle.material.infarct.active(M);
+    T.derivative *= muscle.material.infarct.active(M);
+    return T;
+  }
+  [[nodiscard]] Mat3 stress(const Mat3& F, double M) const {
+    Mat3 P = muscle.material.infarct.passive(M) *
+             std::visit([&](const auto& law) { return law.stress(F); }, muscle.material.passive);
+    P.col(0) += material::active_stress_column(F, determinant(F), tension(F, M).value,
+                                               muscle.material.active_form);
+    return P;
+  }
+  [[nodiscard]] Tangent<double> tangent(const Mat3& F, double M) const {
+    const Tension T = tension(F, M);
+    return muscle.material.infarct.passive(M) *
+               std::visit([&](const auto& law) { return law.tangent(F); },
+                          muscle.material.passive) +
+           material::active_tangent(F, T.value, T.derivative, muscle.material.active_form);
+  }
+};
+
+/// The element's tangent, displacements (node by node) before pressures.
+class ElementTangent {
+ public:
+  ElementTangent(Eigen::Index nodes, Eigen::Index pressures, std::size_t points)
+      : n_(nodes),
+        m_(pressures),
+        gradients_(3 * static_cast<Eigen::Index>(points), nodes),
+        K_(3 * nodes + pressures, 3 * nodes + pressures) {
+    for (auto& Y : fluxes_)
+      Y.resize(gradients_.rows(), nodes);
+  }
+
+  const Eigen::MatrixXd& compute(const std::vector<Point>& points, const ElementState& s,
+                                 const Constitution& law, const Eigen::MatrixXd& pressure_shapes) {
+    K_.setZero();
+    schur_.setZero(m_, m_);
+    for (std::size_t q = 0; q < points.size(); ++q)
+      add_point(points[q], static_cast<Eigen::Index>(q), s, law, pressure_shapes);
+    multiply();
+    K_.bottomLeftCorner(m_, 3 * n_) = K_.topRightCorner(3 * n_, m_).transpose();
+    return K_;
+  }
+
+  /// Of the last element, - int q_m q_n / mu dX with a mean stiffness mu [mm^3/kPa]: about
+  /// - B A^{-1} B^T.
+  [[nodiscard]] const Eigen::MatrixXd& schur() const { return schur_; }
+
+ private:
+  using Index = Eigen::Index;
+
+  void add_point(const Point& point, Index q, const ElementState& s, const Constitution& law,
+                 const Eigen::MatrixXd& pressure_shapes) {
+    const Mat3 F = s.x * point.gradient.transpose();
+    const Eigen::VectorXd N = pressure_shapes.row(q);
+    const Tangent<double> C =
+        point.volume * (law.tangent(F, point.infarct) + N.dot(s.p) * cofactor_tangent(F));
+    const double mu = C.trace() / (9.0 * point.volume);
+    schur_ -= (point.volume / mu) * N * N.transpose();
+    gradients_.middleRows(3 * q, 3) = point.gradient;
+    for (int i = 0; i < 3; ++i) {
+      for (int k = 0; k < 3; ++k) {
+        Mat3 C_ik;
+        for (int j = 0; j < 3; ++j)
+          for (int l = 0; l < 3; ++l)
+            C_ik(j, l) = C(i + 3 * j, k + 3 * l);
+        for (Index b = 0; b < n_; ++b)
+          fluxes_[3 * i + k].block<3, 1>(3 * q, b).noalias() = C_ik * point.gradient.col(b);
+      }
+    }
+    const Eigen::Matrix3Xd dJ = point.volume * cofactor(F) * point.gradient;
+    K_.topRightCorner(3 * n_, m_) +=
+        Eigen::Map<const Eigen::VectorXd>(dJ.data(), dJ.size()) * N.transpose();
+  }
+
+  /// K_ab(i,k) = sum_q G_a . C_ik G_b, one product of matrices for each i and k.
+  void multiply() {
+    for (int i = 0; i < 3; ++i) {
+      for (int k = 0; k < 3; ++k) {
+        product_.noalias() = gradients_.transpose() * fluxes_[3 * i + k];
+        for (Index b = 0; b < n_; ++b)
+          for (Index a = 0; a < n_; ++a)
+            K_(3 * a + i, 3 * b + k) = product_(a, b);
+      }
+    }
+  }
+
+  Index n_, m_;
+  Eigen::MatrixXd gradients_;              ///< G, of all points
+  std::array<Eigen::MatrixXd, 9> fluxes_;  ///< C_ik G
+  Eigen::MatrixXd product_, K_, schur_;
+};
+
+std::vector<int> unknowns(const ReferenceWall& wall, int e, int node_count) {
+  std::vector<int> result;
+  for (const int node : wall.elements.element(e))
+    for (int i = 0; i < 3; ++i)
+      result.push_back(3 * node + i);
+  for (const int p : wall.pressures.element(e))
+    result.push_back(3 * node_count + p);
+  return result;
+}
+
+}  // namespace
+
+Equations::Equations(const mesh::Mesh& mesh, const mesh::FibreRule& fibres, const Muscle& muscle)
+    : mesh_(mesh),
+      wall_(reference_wall(mesh, fibres)),
+      sides_(mesh::sides(mesh, mesh.endo)),
+      side_shapes_(solid::side_shapes(mesh.kind, mesh.order)),
+      muscle_(muscle),
+      base_(mesh, muscle.base) {}
+
+void Equations::set_muscle(const Muscle& muscle) {
+  muscle_ = muscle;
+  base_ = solid::BasalPenalty(mesh_, muscle.base);
+}
+
+State Equations::rest() const {
+  return {mesh_.nodes, std::vector<double>(wall_.pressure_count, 0.0)};
+}
+
+Pattern Equations::pattern() const {
+  Pattern pattern{mesh_.nodes, wall_.pressure_count, {}};
+  for (int e = 0; e < wall_.elements.size(); ++e)
+    pattern.groups.push_back(unknowns(wall_, e, node_count()));
+  return pattern;
+}
+
+/// Calls visit(nodes, their positions) for this rank's sides of the endocardium.
+template <class Visit>
+void Equations::for_sides(const State& state, const Visit& visit) const {
+  const auto share = parallel::share(sides_.size(), parallel::rank(), parallel::size());
+  for (int f = share.begin; f < share.end; ++f) {
+    const auto nodes = sides_.element(f);
+    Eigen::Matrix3Xd x(3, nodes.size());
+    for (std::size_t a = 0; a < nodes.size(); ++a)
+      x.col(static_cast<Eigen::Index>(a)) = state.positions[nodes[a]];
+    visit(nodes, x);
+  }
+}
+
+std::vector<double> Equations::residual(const State& state, const Loads& loads) const {
+  std::vector<double> R(size(), 0.0);
+  const Constitution law{muscle_, loads.activation};
+  bool inverted = false;
+  for (std::size_t i = 0; i < wall_.points.size(); ++i) {
+    const int e = wall_.first_element + static_cast<int>(i);
+    const ElementState s = gather(wall_, e, state);
+    Eigen::Matrix3Xd force = Eigen::Matrix3Xd::Zero(3, s.x.cols());
+    Eigen::VectorXd swelling = Eigen::VectorXd::Zero(s.p.size());
+    for (std::size_t q = 0; q < wall_.points[i].size(); ++q) {
+      const Point& point = wall_.points[i][q];
+      const Mat3 F = s.x * point.gradient.transpose();
+      const double J = determinant(F);
+      inverted = inverted || !(J > 0.0);
+      const Eigen::VectorXd N = wall_.pressure_shapes.value.row(static_cast<Eigen::Index>(q));
+      const Mat3 P = law.stress(F, point.infarct) + N.dot(s.p) * cofactor(F);
+      force.noalias() += point.volume * P * point.gradient;
+      swelling += point.volume * (J - 1.0) * N;
+    }
+    const auto to = unknowns(wall_, e, node_count());
+    for (Eigen::Index k = 0; k < force.size(); ++k)
+      R[to[k]] += force.data()[k];
+    for (Eigen::Index m = 0; m < swelling.size(); ++m)
+      R[to[force.size() + m]] += swelling[m];
+  }
+  if (parallel::any(inverted))
+    return {};
+  for_sides(state, [&](std::span<const int> nodes, const Eigen::Matrix3Xd& x) {
+    for (int q = 0; q < side_shapes_.points(); ++q) {
+      const Eigen::Matrix<double, 3, 2> x_xi = x * side_shapes_.gradient[q].transpose();
+      const Vec3 n_da = side_shapes_.weight[q] * x_xi.col(0).cross(x_xi.col(1));
+      for (std::size_t a = 0; a < nodes.size(); ++a)
+        for (int i = 0; i < 3; ++i)
+          R[3 * nodes[a] + i] += loads.pressure * side_shapes_.value(q, a) * n_da[i];
+    }
+  });
+  std::vector<Vec3> springs(state.positions.size(), Vec3::Zero());
+  base_.add_forces(state.positions, springs);
+  for (std::size_t a = 0; a < springs.size(); ++a)
+    for (int i = 0; i < 3; ++i)
+      R[3 * a + i] -= springs[a][i];
+  parallel::sum(R);
+  return R;
+}
+
+void Equations::tangent(const State& state, const Loads& loads, SparseMatrix& K) const {
+  K.set_zero();
+  const Constitution law{muscle_, loads.activation};
+  ElementTangent element(wall_.elements.nodes_per_element, wall_.pressures.nodes_per_element,
+                         wall_.points.empty() ? 0 : wall_.points.front().size());
+  for (std::size_t i = 0; i < wall_.points.size(); ++i) {
+    const int e = wall_.first_element + static_cast<int>(i);
+    K.add(unknowns(wall_, e, node_count()),
+          element.compute(wall_.points[i], gather(wall_, e, state), law,
+                          wall_.pressure_shapes.value));
+    K.add_schur(wall_.pressures.element(e), element.schur());
+  }
+  for_sides(state, [&](std::span<const int> nodes, const Eigen::Matrix3Xd& x) {
+    const auto n = static_cast<Eigen::Index>(nodes.size());
+    Eigen::MatrixXd block = Eigen::MatrixXd::Zero(3 * n, 3 * n);
+    for (int q = 0; q < side_shapes_.points(); ++q) {
+      const Eigen::MatrixXd& gradient = side_shapes_.gradient[q];
+      const Eigen::Matrix<double, 3, 2> x_xi = x * gradient.transpose();
+      const Mat3 along_s = cross_matrix(x_xi.col(0));
+      const Mat3 along_t = cross_matrix(x_xi.col(1));
+      for (Eigen::Index b = 0; b < n; ++b) {
+        const Mat3 d_normal = loads.pressure * side_shapes_.weight[q] *
+                              (gradient(1, b) * along_s - gradient(0, b) * along_t);
+        for (Eigen::Index a = 0; a < n; ++a)
+          block.block<3, 3>(3 * a, 3 * b) += side_shapes_.value(q, a) * d_normal;
+      }
+    }
+    std::vector<int> at;
+    for (const int node : nodes)
+      at.insert(at.end(), {3 * node, 3 * node + 1, 3 * node + 2});
+    K.add(at, block);
+  });
+  if (parallel::is_root())
+    for (const auto& spring : base_.springs())
+      K.add(std::array{3 * spring.node, 3 * spring.node + 1, 3 * spring.node + 2},
+            spring.stiffness);
+  K.finish();
+}
+
+double Equations::mean_tension(const State& state, double activation) const {
+  const Constitution law{muscle_, activation};
+  std::array<double, 2> sums{};
+  for (std::size_t i = 0; i < wall_.points.size(); ++i) {
+    const ElementState s = gather(wall_, wall_.first_element + static_cast<int>(i), state);
+    for (const Point& point : wall_.points[i]) {
+      const Mat3 F = s.x * point.gradient.transpose();
+      sums[0] += point.volume * law.tension(F, point.infarct).value;
+      sums[1] += point.volume;
+    }
+  }
+  parallel::sum(sums);
+  return sums[0] / sums[1];
+}
+
+}  // namespace lv::quasi_static

@@ -1,0 +1,81 @@
+#pragma once
+
+#include "lv/quasi_static/contractility.hpp"
+#include "lv/quasi_static/reference_wall.hpp"
+#include "lv/quasi_static/sparse.hpp"
+#include "lv/solid/boundary.hpp"
+#include "lv/solid/wall.hpp"
+
+#include <vector>
+
+namespace lv::quasi_static {
+
+/// What acts on the wall.
+struct Loads {
+  double pressure = 0.0;    ///< on the endocardium, a follower load [kPa]
+  double activation = 0.0;  ///< see Contractility [-]
+};
+
+/// What the wall is made of, and how its base is held.
+struct Muscle {
+  solid::WallMaterial material;  ///< its volumetric penalty is not used: the wall is incompressible
+  Contractility contractility;
+  solid::BasalSupport base;
+};
+
+/// Positions of the nodes [mm] and pressures of the elements [kPa]: all unknowns, on every rank.
+struct State {
+  std::vector<Vec3> positions;
+  std::vector<double> pressures;
+};
+
+/// Equilibrium of the incompressible wall in weak form, for all test functions phi_a and q_m:
+///
+///   R_a = int [P_passive(F) + P_active(F) + p cof F] grad phi_a dX
+///         + p_endo int phi_a n da + K_base (x_a - X_a)  = 0                                [mN]
+///   R_m = int q_m (J - 1) dX                            = 0                                [mm^3]
+///
+/// with P_passive from (2.18) and (2.23), P_active from (2.21) and (2.24), n out of the wall. p is
+/// the tension that holds J = 1: the Cauchy stress is sigma^p + sigma^a + p 1, so -p is the p of
+/// (2.6). Unknowns are numbered 3 a + i for the positions, then the pressures.
+class Equations {
+ public:
+  /// The mesh must outlive the equations.
+  Equations(const mesh::Mesh& mesh, const mesh::FibreRule& fibres, const Muscle& muscle);
+
+  /// Other muscle on the same mesh.
+  void set_muscle(const Muscle& muscle);
+  [[nodiscard]] const Muscle& muscle() const { return muscle_; }
+
+  /// Undeformed, without pressures.
+  [[nodiscard]] State rest() const;
+
+  [[nodiscard]] int size() const { return 3 * node_count() + wall_.pressure_count; }
+  [[nodiscard]] int node_count() const { return static_cast<int>(mesh_.nodes.size()); }
+
+  /// Which unknowns the tangent joins.
+  [[nodiscard]] Pattern pattern() const;
+
+  /// R, complete on every rank; empty when an element is turned inside out at some point of any
+  /// rank.
+  [[nodiscard]] std::vector<double> residual(const State& state, const Loads& loads) const;
+
+  /// Adds dR/d(unknowns) of this rank's elements to a matrix that is zero, and finishes it.
+  void tangent(const State& state, const Loads& loads, SparseMatrix& K) const;
+
+  /// Volume-weighted mean over the wall of T with the infarct's factor [kPa].
+  [[nodiscard]] double mean_tension(const State& state, double activation) const;
+
+ private:
+  template <class Visit>
+  void for_sides(const State& state, const Visit& visit) const;
+
+  const mesh::Mesh& mesh_;
+  ReferenceWall wall_;
+  mesh::ElementNodes sides_;  ///< of the endocardium
+  solid::ShapeTable side_shapes_;
+  Muscle muscle_;
+  solid::BasalPenalty base_;
+};
+
+}  // namespace lv::quasi_static

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "lv/mesh/fibres.hpp"
+#include "lv/mesh/quadratic.hpp"
+#include "lv/solid/shape_table.hpp"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+/// Implicit equilibrium of the wall without inertia.
+namespace lv::quasi_static {
+
+/// What the equations need of the undeformed wall at one quadrature point.
+struct Point {
+  Eigen::Matrix3Xd
+      gradient;         ///< d phi_a/dX in the fibre frame, 3 x nodes: F' = sum_a x_a (x) gradient_a
+  double volume = 0.0;  ///< [mm^3]
+  double infarct = 0.0;  ///< M
+};
+
+/// The wall as finite elements of its mesh's order: displacement at the nodes, and the pressure
+/// that keeps it incompressible (Q1/P0, Q2/P1 or P2/P1).
+struct ReferenceWall {
+  mesh::ElementNodes elements;   ///< of all ranks
+  mesh::ElementNodes pressures;  ///< numbers of the pressure unknowns of each element
+  int pressure_count = 0;
+  solid::ShapeTable pressure_shapes;
+  int first_element = 0;                   ///< of this rank's share
+  std::vector<std::vector<Point>> points;  ///< of this rank's elements
+};
+
+/// Throws InputError for an inverted or collapsed element, naming it, and for linear tetrahedra,
+/// which lock.
+[[nodiscard]] ReferenceWall reference_wall(const mesh::Mesh& mesh, const mesh::FibreRule& fibres);
+
+}  // namespace lv::quasi_static

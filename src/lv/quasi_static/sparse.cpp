@@ -1,0 +1,319 @@
+#include "lv/quasi_static/sparse.hpp"
+
+#include "lv/base/check.hpp"
+#include "lv/base/parallel.hpp"
+
+#include <fmt/format.h>
+#include <petscksp.h>
+
+#include <algorithm>
+
+namespace lv::quasi_static {
+namespace {
+
+void check(PetscErrorCode code) {
+  if (code == 0)
+    return;
+  const char* text = nullptr;
+  PetscErrorMessage(code, &text, nullptr);
+  throw RunError(fmt::format("PETSc failed: {}", text == nullptr ? "unknown error" : text),
+                 "Not enough memory is the usual reason: take a coarser mesh or more machines");
+}
+
+/// PETSc runs as long as somebody needs it.
+class Petsc {
+ public:
+  Petsc() {
+    if (users++ > 0)
+      return;
+    PetscOptionsSetValue(nullptr, "-no_signal_handler", "true");  // interrupts are ours
+    check(PetscInitializeNoArguments());
+    check(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr));
+  }
+  ~Petsc() {
+    if (--users == 0)
+      PetscFinalize();
+  }
+  Petsc(const Petsc&) = delete;
+  Petsc& operator=(const Petsc&) = delete;
+
+ private:
+  static inline int users = 0;
+};
+
+/// PETSc wants each rank's unknowns in one run: here those of its share of the nodes, then those
+/// of its share of the pressures.
+class Numbering {
+ public:
+  explicit Numbering(const Pattern& pattern) : numbers_(pattern.size()) {
+    const int ranks = parallel::size();
+    const int nodes = static_cast<int>(pattern.nodes.size());
+    int next = 0;
+    for (int r = 0; r < ranks; ++r) {
+      const int begin = next;
+      const auto of_nodes = parallel::share(nodes, r, ranks);
+      for (int u = 3 * of_nodes.begin; u < 3 * of_nodes.end; ++u)
+        numbers_[u] = next++;
+      const int middle = next;
+      const auto of_pressures = parallel::share(pattern.pressures, r, ranks);
+      for (int p = of_pressures.begin; p < of_pressures.end; ++p)
+        numbers_[pattern.displacements() + p] = next++;
+      if (r == parallel::rank()) {
+        displacements = {begin, middle};
+        pressures = {middle, next};
+      }
+    }
+  }
+
+  [[nodiscard]] PetscInt operator[](int unknown) const { return numbers_[unknown]; }
+  [[nodiscard]] PetscInt begin() const { return displacements.begin; }
+  [[nodiscard]] PetscInt end() const { return pressures.end; }
+
+  parallel::Range displacements, pressures;  ///< of this rank, in PETSc's numbers
+
+ private:
+  std::vector<PetscInt> numbers_;
+};
+
+/// Numbers of entries of each of this rank's rows, in its own columns and in the others'.
+struct RowLengths {
+  std::vector<PetscInt> own, other;
+};
+
+/// Counts each (row, column) that some group joins once.
+RowLengths row_lengths(const Pattern& pattern, const Numbering& numbers) {
+  const PetscInt begin = numbers.begin();
+  const PetscInt end = numbers.end();
+  std::vector<std::vector<int>> groups_of_row(end - begin);
+  for (int g = 0; g < static_cast<int>(pattern.groups.size()); ++g)
+    for (const int unknown : pattern.groups[g])
+      if (numbers[unknown] >= begin && numbers[unknown] < end)
+        groups_of_row[numbers[unknown] - begin].push_back(g);
+  RowLengths lengths{std::vector<PetscInt>(end - begin), std::vector<PetscInt>(end - begin)};
+  std::vector<PetscInt> columns;
+  for (PetscInt row = 0; row < end - begin; ++row) {
+    columns.clear();
+    for (const int g : groups_of_row[row])
+      for (const int unknown : pattern.groups[g])
+        columns.push_back(numbers[unknown]);
+    std::sort(columns.begin(), columns.end());
+    columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
+    for (const PetscInt column : columns)
+      ++(column >= begin && column < end ? lengths.own : lengths.other)[row];
+  }
+  return lengths;
+}
+
+}  // namespace
+
+class SparseMatrix::Implementation {
+ public:
+  Implementation(const Pattern& pattern, LinearSolver solver) : solver_(solver), numbers_(pattern) {
+    make_matrix(pattern);
+    check(MatCreateVecs(K_, &x_, &b_));
+    check(VecScatterCreateToAll(x_, &to_all_, &everything_));
+    check(KSPCreate(PETSC_COMM_WORLD, &ksp_));
+    solver == LinearSolver::direct ? configure_direct() : configure_iterative(pattern);
+  }
+  ~Implementation() {
+    KSPDestroy(&ksp_);
+    VecScatterDestroy(&to_all_);
+    VecDestroy(&everything_);
+    VecDestroy(&x_);
+    VecDestroy(&b_);
+    MatDestroy(&schur_);
+    MatDestroy(&K_);
+  }
+  Implementation(const Implementation&) = delete;
+  Implementation& operator=(const Implementation&) = delete;
+
+  void set_zero() {
+    check(MatZeroEntries(K_));
+    if (schur_ != nullptr)
+      check(MatZeroEntries(schur_));
+  }
+
+  void add(std::span<const int> unknowns, const Eigen::MatrixXd& block) {
+    at_.clear();
+    for (const int u : unknowns)
+      at_.push_back(numbers_[u]);
+    insert(K_, block);
+  }
+
+  void add_schur(std::span<const int> pressures, const Eigen::MatrixXd& block) {
+    if (schur_ == nullptr)
+      return;
+    at_.assign(pressures.begin(), pressures.end());  // ranks own runs of pressures, in order
+    insert(schur_, block);
+  }
+
+  void finish() {
+    for (Mat matrix : {K_, schur_}) {
+      if (matrix == nullptr)
+        continue;
+      check(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY));
+      check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
+    }
+    check(KSPSetOperators(ksp_, K_, K_));
+  }
+
+  std::vector<double> solve(std::span<const double> b) {
+    set_right_hand_side(b);
+    check(KSPSolve(ksp_, b_, x_));
+    KSPConvergedReason reason{};
+    check(KSPGetConvergedReason(ksp_, &reason));
+    if (reason < 0)
+      throw RunError(
+          fmt::format("The linear equations could not be solved ({})", KSPConvergedReasons[reason]),
+          solver_ == LinearSolver::direct
+              ? "A wall that nothing holds is the usual reason: look at the base"
+              : "Set quasi_static.linear_solver = \"direct\"");
+    check(VecScatterBegin(to_all_, x_, everything_, INSERT_VALUES, SCATTER_FORWARD));
+    check(VecScatterEnd(to_all_, x_, everything_, INSERT_VALUES, SCATTER_FORWARD));
+    const PetscScalar* values = nullptr;
+    check(VecGetArrayRead(everything_, &values));
+    std::vector<double> x(b.size());
+    for (std::size_t u = 0; u < x.size(); ++u)
+      x[u] = values[numbers_[static_cast<int>(u)]];
+    check(VecRestoreArrayRead(everything_, &values));
+    return x;
+  }
+
+ private:
+  void insert(Mat matrix, const Eigen::MatrixXd& block) {
+    const auto n = static_cast<PetscInt>(at_.size());
+    row_major_ = block;
+    check(MatSetValues(matrix, n, at_.data(), n, at_.data(), row_major_.data(), ADD_VALUES));
+  }
+
+  void set_right_hand_side(std::span<const double> b) {
+    PetscScalar* mine = nullptr;
+    check(VecGetArray(b_, &mine));
+    for (std::size_t u = 0; u < b.size(); ++u) {
+      const PetscInt number = numbers_[static_cast<int>(u)];
+      if (number >= numbers_.begin() && number < numbers_.end())
+        mine[number - numbers_.begin()] = b[u];
+    }
+    check(VecRestoreArray(b_, &mine));
+  }
+
+  void make_matrix(const Pattern& pattern) {
+    const PetscInt local = numbers_.end() - numbers_.begin();
+    check(MatCreate(PETSC_COMM_WORLD, &K_));
+    check(MatSetSizes(K_, local, local, pattern.size(), pattern.size()));
+    check(MatSetType(K_, MATAIJ));
+    const RowLengths lengths = row_lengths(pattern, numbers_);
+    check(MatSeqAIJSetPreallocation(K_, 0, lengths.own.data()));
+    check(MatMPIAIJSetPreallocation(K_, 0, lengths.own.data(), 0, lengths.other.data()));
+  }
+
+  void configure_direct() {
+    check(KSPSetType(ksp_, KSPPREONLY));
+    PC pc = nullptr;
+    check(KSPGetPC(ksp_, &pc));
+    check(PCSetType(pc, PCLU));
+    check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+    check(KSPSetOperators(ksp_, K_, K_));
+    check(PCFactorSetUpMatSolverType(pc));
+    Mat factor = nullptr;
+    check(PCFactorGetMatrix(pc, &factor));
+    check(MatMumpsSetIcntl(factor, 14, 60));  // room for pivots that move, in per cent
+  }
+
+  void configure_iterative(const Pattern& pattern) {
+    const PetscInt local = numbers_.pressures.size();
+    check(MatCreateAIJ(PETSC_COMM_WORLD, local, local, pattern.pressures, pattern.pressures, 40,
+                       nullptr, 40, nullptr, &schur_));
+    check(MatSetOption(schur_, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_FALSE));
+    check(KSPSetType(ksp_, KSPFGMRES));
+    check(KSPGMRESSetRestart(ksp_, 200));
+    check(KSPSetTolerances(ksp_, 1e-6, PETSC_DEFAULT, PETSC_DEFAULT, 600));
+    PC pc = nullptr;
+    check(KSPGetPC(ksp_, &pc));
+    check(PCSetType(pc, PCFIELDSPLIT));
+    const IS displacements = index_set(numbers_.displacements);
+    attach_rigid_motions(displacements, pattern);
+    check(PCFieldSplitSetIS(pc, "displacement", displacements));
+    const IS pressures = index_set(numbers_.pressures);
+    check(PCFieldSplitSetIS(pc, "pressure", pressures));
+    check(PCFieldSplitSetType(pc, PC_COMPOSITE_SCHUR));
+    check(PCFieldSplitSetSchurFactType(pc, PC_FIELDSPLIT_SCHUR_FACT_UPPER));
+    check(PCFieldSplitSetSchurPre(pc, PC_FIELDSPLIT_SCHUR_PRE_USER, schur_));
+    for (const auto& [option, value] : {std::pair{"-fieldsplit_displacement_ksp_type", "preonly"},
+                                        std::pair{"-fieldsplit_displacement_pc_type", "gamg"},
+                                        std::pair{"-fieldsplit_pressure_ksp_type", "preonly"},
+                                        std::pair{"-fieldsplit_pressure_pc_type", "bjacobi"}})
+      check(PetscOptionsSetValue(nullptr, option, value));
+    check(KSPSetFromOptions(ksp_));
+  }
+
+  static IS index_set(const parallel::Range& range) {
+    IS set = nullptr;
+    check(ISCreateStride(PETSC_COMM_WORLD, range.size(), range.begin, 1, &set));
+    return set;
+  }
+
+  /// Multigrid is told what rigid motions look like: they cost no energy.
+  void attach_rigid_motions(IS displacements, const Pattern& pattern) const {
+    check(ISSetBlockSize(displacements, 3));
+    Vec coordinates = nullptr;
+    check(VecCreate(PETSC_COMM_WORLD, &coordinates));
+    check(VecSetBlockSize(coordinates, 3));
+    check(VecSetSizes(coordinates, numbers_.displacements.size(), pattern.displacements()));
+    check(VecSetFromOptions(coordinates));
+    PetscScalar* mine = nullptr;
+    check(VecGetArray(coordinates, &mine));
+    const auto nodes =
+        parallel::share(static_cast<int>(pattern.nodes.size()), parallel::rank(), parallel::size());
+    for (int a = nodes.begin; a < nodes.end; ++a)
+      for (int i = 0; i < 3; ++i)
+        *mine++ = pattern.nodes[a][i];
+    mine -= 3 * nodes.size();
+    check(VecRestoreArray(coordinates, &mine));
+    MatNullSpace motions = nullptr;
+    check(MatNullSpaceCreateRigidBody(coordinates, &motions));
+    check(PetscObjectCompose(reinterpret_cast<PetscObject>(displacements), "nearnullspace",
+                             reinterpret_cast<PetscObject>(motions)));
+    check(MatNullSpaceDestroy(&motions));
+    check(VecDestroy(&coordinates));
+  }
+
+  Petsc petsc_;
+  LinearSolver solver_;
+  Numbering numbers_;
+  Mat K_ = nullptr;
+  Mat schur_ = nullptr;
+  KSP ksp_ = nullptr;
+  Vec x_ = nullptr, b_ = nullptr, everything_ = nullptr;
+  VecScatter to_all_ = nullptr;
+  std::vector<PetscInt> at_;
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> row_major_;
+};
+
+SparseMatrix::SparseMatrix(const Pattern& pattern, LinearSolver solver)
+    : implementation_(std::make_unique<Implementation>(pattern, solver)) {}
+SparseMatrix::~SparseMatrix() = default;
+SparseMatrix::SparseMatrix(SparseMatrix&&) noexcept = default;
+SparseMatrix& SparseMatrix::operator=(SparseMatrix&&) noexcept = default;
+
+void SparseMatrix::set_zero() {
+  implementation_->set_zero();
+}
+
+void SparseMatrix::add(std::span<const int> unknowns, const Eigen::MatrixXd& block) {
+  implementation_->add(unknowns, block);
+}
+
+void SparseMatrix::add_schur(std::span<const int> pressures, const Eigen::MatrixXd& block) {
+  implementation_->add_schur(pressures, block);
+}
+
+void SparseMatrix::finish() {
+  implementation_->finish();
+}
+
+std::vector<double> SparseMatrix::solve(std::span<const double> b) {
+  return implementation_->solve(b);
+}
+
+}  // namespace lv::quasi_static

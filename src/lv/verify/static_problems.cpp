@@ -1,0 +1,160 @@
+#include "lv/mesh/refine.hpp"
+#include "lv/mesh/split.hpp"
+#include "lv/mesh/surface.hpp"
+#include "lv/mesh/wall_mesh.hpp"
+#include "lv/quasi_static/engine.hpp"
+#include "lv/verify/land2015.hpp"
+#include "lv/verify/problems.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+/// Problems of the quasi-static engine with known answers.
+namespace lv::verify {
+namespace {
+
+using quasi_static::Contractility;
+using quasi_static::Engine;
+using solid::BasalSupport;
+using Kind = BasalSupport::Kind;
+
+/// Stiff enough to hold the base to a micrometre [kPa/mm].
+constexpr double rigid = 1e6;
+
+/// Half a shell of neo-Hookean rubber between the radii A and B, inflated until its inner radius is
+/// a.
+struct HalfSphere {
+  double A = 10.0, B = 15.0;  ///< [mm]
+  double a = 14.0;            ///< [mm]
+  double mu = 4.0;            ///< [kPa]
+
+  /// From b^3 - B^3 = a^3 - A^3.
+  [[nodiscard]] double outer_radius() const { return std::cbrt(B * B * B + a * a * a - A * A * A); }
+
+  /// p = mu/2 [4 B/b + (B/b)^4 - 4 A/a - (A/a)^4], by integration of the radial balance [kPa].
+  [[nodiscard]] double pressure() const {
+    const auto g = [](double ratio) { return 4.0 * ratio + std::pow(ratio, 4); };
+    return 0.5 * mu * (g(B / outer_radius()) - g(A / a));
+  }
+
+  [[nodiscard]] mesh::Mesh mesh(int order) const {
+    const auto map = [this](double u, double theta, double t) {
+      const double R = A + t * (B - A);
+      const double psi = 0.5 * std::numbers::pi * u;
+      return Vec3(R * std::sin(psi) * std::cos(theta), R * std::sin(psi) * std::sin(theta),
+                  -R * std::cos(psi));
+    };
+    return mesh::wall_mesh(map, {.edge_length = 1.5, .order = order});
+  }
+};
+
+}  // namespace
+
+void thick_sphere_static(Findings& found) {
+  const HalfSphere sphere;
+  const double volume = 2.0 / 3.0 * std::numbers::pi * std::pow(sphere.a, 3);
+  for (const int order : {1, 2}) {
+    const mesh::Mesh mesh = sphere.mesh(order);
+    solid::WallMaterial rubber;
+    rubber.passive = material::NeoHookean{sphere.mu};
+    Engine engine(mesh, {}, {rubber, Contractility(0.0), {Kind::sliding, rigid}}, {});
+    engine.go_to({sphere.pressure(), 0.0});
+    const std::string which = order == 1 ? ", linear elements" : ", quadratic elements";
+    found.add_within("cavity volume" + which, engine.cavity_volume(), volume,
+                     order == 1 ? 0.01 : 1e-3, "mm^3");
+    double thickness = 0.0;  // largest error of an outer node's radius
+    for (const int node : mesh::surface_nodes(mesh.epi))
+      thickness = std::max(thickness,
+                           std::abs(engine.state().positions[node].norm() - sphere.outer_radius()));
+    found.add_error("radius of the outer surface" + which, thickness, order == 1 ? 0.1 : 0.02,
+                    "mm");
+  }
+}
+
+void land2015_problem1(Findings& found) {
+  const LandBeam beam;
+  for (const int refinement : {1, 2}) {
+    const mesh::Mesh mesh = beam.mesh(refinement);
+    Engine engine(mesh, beam.fibres(), {beam.material(), Contractility(0.0), {Kind::fixed, rigid}},
+                  {});
+    engine.go_to({beam.pressure, 0.0});
+    const double z = engine.state().positions[beam.watched_node(mesh)].z();
+    found.add_within(fmt::format("z of (10, 0.5, 1), {} quadratic elements", mesh.cell_count() / 8),
+                     z, 4.167, 0.005, "mm");
+  }
+}
+
+namespace {
+
+/// Where the ends of the long axis are.
+struct Apex {
+  double endo, epi;  ///< z [mm]
+};
+
+Apex apex(const mesh::Mesh& mesh, std::span<const Vec3> positions) {
+  const auto lowest = [&](const mesh::Surface& surface) {
+    double z = 0.0;
+    for (const int node : mesh::surface_nodes(surface))
+      if (std::hypot(mesh.nodes[node].x(), mesh.nodes[node].y()) < 1e-6)
+        z = positions[node].z();
+    return z + LandEllipsoid::base_height;
+  };
+  return {lowest(mesh.endo), lowest(mesh.epi)};
+}
+
+Engine inflated(const mesh::Mesh& mesh, const LandProblem& problem) {
+  Engine engine(mesh, problem.fibres,
+                {problem.material, Contractility(problem.tension), {Kind::fixed, rigid}}, {});
+  engine.go_to({problem.pressure, 1.0});
+  return engine;
+}
+
+}  // namespace
+
+void land2015_problem2(Findings& found) {
+  const LandProblem problem = land_inflation();
+  for (const double edge : {2.0, 1.5}) {
+    const mesh::Mesh mesh = LandEllipsoid::mesh({.edge_length = 0.5 * edge, .order = 2});
+    const Engine engine = inflated(mesh, problem);
+    const Apex z = apex(mesh, engine.state().positions);
+    const std::string which = fmt::format(", {} quadratic elements", mesh.cell_count() / 8);
+    found.add_within("z of the endocardial apex" + which, z.endo, -26.61, 0.002, "mm");
+    found.add_within("z of the epicardial apex" + which, z.epi, -28.28, 0.002, "mm");
+    found.add_within("cavity volume" + which, engine.cavity_volume(), 10734.5, 0.002, "mm^3");
+  }
+}
+
+void land2015_problem3(Findings& found) {
+  const LandProblem problem = land_contraction();
+  for (const double edge : {2.0, 1.5}) {
+    const mesh::Mesh mesh = LandEllipsoid::mesh({.edge_length = 0.5 * edge, .order = 2});
+    const Engine engine = inflated(mesh, problem);
+    const Apex z = apex(mesh, engine.state().positions);
+    const std::string which = fmt::format(", {} quadratic elements", mesh.cell_count() / 8);
+    found.add_within("z of the endocardial apex" + which, z.endo, -12.35, 0.01, "mm");
+    found.add_within("z of the epicardial apex" + which, z.epi, -15.46, 0.01, "mm");
+    found.add_within("cavity volume" + which, engine.cavity_volume(), 1795.9, 0.01, "mm^3");
+  }
+}
+
+/// Elements that lock are too stiff by tens of per cent on meshes as coarse as these.
+void no_locking(Findings& found) {
+  const LandProblem problem = land_inflation();
+  const auto volume = [&](const mesh::Mesh& mesh) {
+    return inflated(mesh, problem).cavity_volume();
+  };
+  constexpr double reference = 10734.5;
+  found.add_within("cavity volume, linear hexahedra of 1.5 mm",
+                   volume(LandEllipsoid::mesh({.edge_length = 1.5})), reference, 0.05, "mm^3");
+  found.add_within("cavity volume, quadratic hexahedra of 3 mm",
+                   volume(LandEllipsoid::mesh({.edge_length = 1.5, .order = 2})), reference, 0.02,
+                   "mm^3");
+  found.add_within(
+      "cavity volume, quadratic tetrahedra of 3 mm",
+      volume(mesh::refine(mesh::split_into_tetrahedra(LandEllipsoid::mesh({.edge_length = 3.0})))),
+      reference, 0.05, "mm^3");
+}
+
+}  // namespace lv::verify
