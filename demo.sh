@@ -8,4 +8,5 @@ cmake --preset release -DBUILD_TESTING=OFF
 cmake --build --preset release --target ventricle
 build/release/ventricle run examples/demo.toml --work build/demo
 echo "pictures: $(pwd)/build/demo/02_mesh/*.png and $(pwd)/build/demo/04_results/*.png"
+echo "page: $(pwd)/build/demo/05_report/report.html"
 echo "fields for ParaView: $(pwd)/build/demo/03_beat/wall.pvd and blood.pvd"

@@ -34,6 +34,8 @@ struct Command {
   std::string case_file;
   std::string new_file = "case.toml";
   std::string until;
+  std::vector<std::filesystem::path> works;
+  std::string page;
   lv::job::RunOptions run;
   int ranks = 0;
   bool markdown = false;
@@ -115,6 +117,23 @@ int verify(const Command& command, int argc, char** argv) {
   return 0;
 }
 
+void add_page(CLI::App& app, Command& command, const char* name, const char* help, int works) {
+  auto* page = app.add_subcommand(name, help);
+  page->add_option("WORK", command.works, "work folders of ventricle run")
+      ->required()
+      ->expected(works);
+  page->add_option("--output", command.page,
+                   fmt::format("the page to write (default: {}.html)", name));
+}
+
+int write_page(const Command& command, const std::string& name, int argc, char** argv) {
+  const lv::parallel::Session session(&argc, &argv);
+  const std::string file = command.page.empty() ? name + ".html" : command.page;
+  lv::job::write_page(command.works, file);
+  fmt::print("wrote {}\n", file);
+  return 0;
+}
+
 void add_verify(CLI::App& app, Command& command) {
   auto* verify = app.add_subcommand("verify", "solve problems with known answers and compare");
   verify->add_option("NAME", command.verify.names, "problems (default: all but the nightly ones)");
@@ -142,12 +161,14 @@ int dispatch(int argc, char** argv) {
   run->add_option("CASE", command.case_file, "the case file")->required();
   run->add_option("--work", command.run.work,
                   "work folder (default: the case file's name with .work)");
-  run->add_option("--until", command.until, "last stage: anatomy, mesh, beat or results");
+  run->add_option("--until", command.until, "last stage: anatomy, mesh, beat, results or report");
   run->add_flag("--explain", command.run.explain, "say why each stage runs or does not");
   run->add_option("--ranks", command.ranks, "MPI ranks (default: the number of cores, at most 8)")
       ->check(CLI::PositiveNumber);
 
   add_verify(app, command);
+  add_page(app, command, "report", "write one page that shows a run, finished or not", 1);
+  add_page(app, command, "compare", "write one page that shows two runs side by side", 2);
 
   auto* list = app.add_subcommand("parameters",
                                   "list every parameter: default, range, meaning, paper equation");
@@ -179,6 +200,9 @@ int dispatch(int argc, char** argv) {
     return run_parallel(command, argc, argv);
   if (*time)
     return bench(command, argc, argv);
+  for (const char* page : {"report", "compare"})
+    if (app.got_subcommand(page))
+      return write_page(command, page, argc, argv);
   if (app.got_subcommand("verify"))
     return verify(command, argc, argv);
   if (*list)

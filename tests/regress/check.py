@@ -67,13 +67,14 @@ def check_outputs(work):
     times = [float(row["time_s"]) for row in rows]
     check("the curves are in the order of time", times == sorted(set(times)))
     check("nothing unfinished is left", not list(work.rglob("*.part*")) and not list(work.rglob("checkpoint*")))
-    for picture in ("02_mesh/mesh.png", "02_mesh/fibres.png", "04_results/states.png", "04_results/curves.png"):
+    for picture in ("02_mesh/mesh.png", "02_mesh/fibres.png", "04_results/states.png", "04_results/curves.png",
+                    "05_report/report.html"):
         check(f"{picture} is there", (work / picture).stat().st_size > 10_000)
 
 
 def check_stages(work):
     again = run(work, 1, here / "small.toml", "--explain")
-    check("a second run has nothing to do", again.stdout.count("is up to date") == 4, again.stdout)
+    check("a second run has nothing to do", again.stdout.count("is up to date") == 5, again.stdout)
     other = work.parent / "stronger.toml"
     other.write_text((here / "small.toml").read_text() + '\n[active]\nT_scale = 4\n')
     explained = run(work, 1, other, "--explain", "--until", "mesh").stdout

@@ -11,7 +11,7 @@
 namespace lv::job {
 
 /// The stage whose result a parameter changes.
-enum class Stage { anatomy, mesh, beat, results };
+enum class Stage { anatomy, mesh, beat, results, report };
 
 /// One parameter of a case file, declared once, in parameters.cpp.
 struct Parameter {

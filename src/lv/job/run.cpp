@@ -11,6 +11,7 @@
 #include "lv/job/stages.hpp"
 #include "lv/job/workspace.hpp"
 #include "lv/mesh/quality.hpp"
+#include "lv/report/page.hpp"
 #include "lv/solid/cavity.hpp"
 
 #include <fmt/format.h>
@@ -20,8 +21,6 @@
 
 namespace lv::job {
 namespace {
-
-const std::array<std::string, 4> stage_names{"anatomy", "mesh", "beat", "results"};
 
 /// Runs something on the root alone; when it throws, all ranks throw.
 template <class Work>
@@ -97,7 +96,7 @@ class Pipeline {
   }
 
   [[nodiscard]] std::filesystem::path folder(std::size_t stage) const {
-    return work_ / fmt::format("{:02d}_{}", stage + 1, stage_names[stage]);
+    return work_ / stage_folder(stage);
   }
 
   void run_stage(std::size_t s, Ingredients ingredients) {
@@ -136,6 +135,12 @@ class Pipeline {
         text_ = make_results(case_, read_mesh_result(folder(1)), read_beat(folder(2)), part);
         on_root([&] { write_file(part / "summary.txt", text_); });
         break;
+      case Stage::report:
+        on_root([&] {
+          write_page({work_}, part / "report.html");
+          write_file(part / "paraview.py", report::paraview_script("../" + stage_folder(2)));
+        });
+        break;
     }
   }
 
@@ -154,6 +159,8 @@ class Pipeline {
   void show(std::size_t s) const {
     if (static_cast<Stage>(s) == Stage::results && parallel::is_root())
       fmt::print("\n{}\nresults in {}\n", read_file(folder(3) / "summary.txt"), folder(3).string());
+    if (static_cast<Stage>(s) == Stage::report && parallel::is_root())
+      fmt::print("page: {}\n", (folder(4) / "report.html").string());
   }
 
   const Case& case_;
@@ -179,7 +186,22 @@ double trial_step(const Case& c, const mesh::Mesh& mesh, const immersed::ModelPa
 
 void run(const Case& c, const RunOptions& options) {
   interrupt::install();
-  Pipeline(c, options).run();
+  try {
+    Pipeline(c, options).run();
+  } catch (const std::exception& failure) {
+    log::warn("the run ended early: {}", failure.what());
+    throw;
+  }
+}
+
+void write_page(const std::vector<std::filesystem::path>& works,
+                const std::filesystem::path& file) {
+  std::vector<report::PageCase> cases;
+  for (const std::filesystem::path& work : works) {
+    const std::vector<std::string> state = state_of(work);
+    cases.push_back({work, state.empty(), state});
+  }
+  write_file(file, report::page(cases, version()));
 }
 
 std::string validate(const Case& c) {

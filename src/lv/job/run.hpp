@@ -5,12 +5,13 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace lv::job {
 
 struct RunOptions {
   std::filesystem::path work;        ///< work folder; empty: the case file's name with .work
-  std::optional<std::string> until;  ///< last stage to run: anatomy, mesh, beat or results
+  std::optional<std::string> until;  ///< last stage to run: anatomy, mesh, beat, results or report
   bool explain = false;              ///< say why each stage runs or does not
 };
 
@@ -21,9 +22,14 @@ struct RunOptions {
 ///   mesh      elements, fibres, regions, quality          02_mesh/
 ///   beat      filling and contraction                     03_beat/
 ///   results   tables, summary, pictures                   04_results/
+///   report    the page, a script for ParaView             05_report/
 ///
 /// Collective: every rank calls it.
 void run(const Case& c, const RunOptions& options);
+
+/// Writes one self-contained page about what one work folder holds, or two side by side; a run that
+/// is unfinished may be among them. Throws InputError when a folder holds no results of a run.
+void write_page(const std::vector<std::filesystem::path>& works, const std::filesystem::path& file);
 
 /// Builds anatomy and mesh in memory and says what a run would compute. Throws InputError for a
 /// case that cannot run.

@@ -3,6 +3,7 @@
 #include "lv/base/check.hpp"
 #include "lv/base/log.hpp"
 #include "lv/base/table.hpp"
+#include "lv/job/parameters.hpp"
 
 #include <boost/crc.hpp>
 #include <fcntl.h>
@@ -52,7 +53,28 @@ void move(const std::filesystem::path& from, const std::filesystem::path& to) {
         "Check the folder's permissions, or name another one with --work");
 }
 
+/// Whether a stage's record names the upstream stage as it is now.
+bool made_from(const std::filesystem::path& folder, const std::string& upstream,
+               const std::filesystem::path& upstream_folder) {
+  const Ingredients record = recorded(folder);
+  const auto entry = record.find("result of " + upstream);
+  return entry == record.end() || entry->second == fingerprint(recorded(upstream_folder));
+}
+
+/// Of a text file; empty when there is none.
+std::string last_line(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::string last;
+  for (std::string line; std::getline(in, line);)
+    last = line;
+  return last;
+}
+
 }  // namespace
+
+std::string stage_folder(std::size_t stage) {
+  return fmt::format("{:02d}_{}", stage + 1, stage_names.at(stage));
+}
 
 std::string fingerprint(const Ingredients& ingredients) {
   return checksum(nlohmann::json(ingredients).dump());
@@ -122,6 +144,35 @@ void StageFolder::finish() const {
     move(folder_, old);
   move(unfinished(), folder_);
   std::filesystem::remove_all(old);
+}
+
+std::vector<std::string> state_of(const std::filesystem::path& work) {
+  constexpr auto results = static_cast<std::size_t>(Stage::results);
+  std::vector<std::string> state;
+  std::size_t found = 0;
+  for (std::size_t s = 0; s <= results; ++s) {
+    const std::filesystem::path folder = work / stage_folder(s);
+    const bool whole = std::filesystem::exists(folder);
+    const bool begun = std::filesystem::exists(folder.string() + ".part");
+    found += whole || begun ? 1 : 0;
+    if (whole && begun)
+      state.push_back(fmt::format(
+          "A newer run has begun {} and has not finished it; what is shown is the one before.",
+          stage_folder(s)));
+    else if (begun)
+      state.push_back(fmt::format("{} is unfinished.", stage_folder(s)));
+    else if (!whole)
+      state.push_back(fmt::format("{} has not been made.", stage_folder(s)));
+    else if (s > 0 && !made_from(folder, stage_names[s - 1], work / stage_folder(s - 1)))
+      state.push_back(fmt::format("{} was made from another {} than the one that is there.",
+                                  stage_folder(s), stage_folder(s - 1)));
+  }
+  if (found == 0)
+    throw InputError(work.string(), "holds no results of a run",
+                     "Name a work folder of ventricle run");
+  if (const std::string line = last_line(work / "log.txt"); !state.empty() && !line.empty())
+    state.push_back("The log ends: " + line);
+  return state;
 }
 
 WorkLock::WorkLock(const std::filesystem::path& work) {

@@ -1,10 +1,18 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
 namespace lv::job {
+
+/// The stages in their order, as in Stage.
+inline const std::array<std::string, 5> stage_names{"anatomy", "mesh", "beat", "results", "report"};
+
+/// "01_anatomy", ...
+[[nodiscard]] std::string stage_folder(std::size_t stage);
 
 /// What a stage's result depends on: names and values as text, program version included.
 using Ingredients = std::map<std::string, std::string>;
@@ -43,6 +51,10 @@ class StageFolder {
   std::filesystem::path folder_;
   Ingredients ingredients_;
 };
+
+/// What is missing, unfinished or out of date in a work folder, up to the results, in sentences;
+/// none when all is as it should be. Throws InputError when it holds no stage at all.
+[[nodiscard]] std::vector<std::string> state_of(const std::filesystem::path& work);
 
 /// Holds a work folder for this process alone. Throws RunError when another run is at work there.
 class WorkLock {

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace lv::report {
+
+/// Whole numbers as text for a page: differences between neighbours (modulo 2^16 or 2^32), their
+/// bytes sorted by significance, zlib, base64. Neighbouring nodes have similar values, so the
+/// differences are small and their upper bytes compress to almost nothing.
+[[nodiscard]] std::string packed(const std::vector<std::int16_t>& values);
+[[nodiscard]] std::string packed(const std::vector<std::int32_t>& values);
+
+}  // namespace lv::report

@@ -1,0 +1,363 @@
+#include "lv/report/page.hpp"
+
+#include "lv/base/check.hpp"
+#include "lv/base/table.hpp"
+#include "lv/base/units.hpp"
+#include "lv/mesh/cell.hpp"
+#include "lv/report/bundle.hpp"
+#include "lv/report/flow_series.hpp"
+#include "lv/report/modes.hpp"
+#include "lv/report/packing.hpp"
+#include "lv/report/wall_series.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <sstream>
+
+namespace lv::report {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+// how exactly the page repeats the fields on disk
+constexpr double position_tolerance = 0.1;   // [mm]
+constexpr double quantity_tolerance = 0.01;  // of the range of a quantity
+constexpr double velocity_step = 0.5;        // [mm/s]
+constexpr double pressure_step = 0.002;      // [kPa]
+
+/// A number rounded to seven digits.
+double rounded(double value) {
+  return std::stod(fmt::format("{:.7g}", value));
+}
+
+Json rounded(const std::vector<double>& values) {
+  Json list = Json::array();
+  for (const double value : values)
+    list.push_back(rounded(value));
+  return list;
+}
+
+/// Text that is safe inside a script element.
+std::string element(const std::string& id, const char* type, std::string text) {
+  for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at))
+    text.replace(at, 1, "\\u003c");  // stands inside strings of JSON alone
+  return fmt::format("<script type=\"{}\" id=\"{}\">{}</script>\n", type, id, text);
+}
+
+/// Elements of the page before its script and after it.
+struct Data {
+  std::string first, more;
+};
+
+/// Collects a case's arrays as elements of the page; in the JSON they are named by their ids.
+class Arrays {
+ public:
+  explicit Arrays(int number) : prefix_(fmt::format("case{}", number)) {}
+
+  template <class Number>
+  std::string add(const std::vector<Number>& values) {
+    const std::string id = fmt::format("{}-{}", prefix_, count_++);
+    (is_first ? data.first : data.more) += element(id, "text/plain", packed(values));
+    return id;
+  }
+
+  Data data;
+  bool is_first = true;  ///< whether the first view needs what is added
+
+ private:
+  std::string prefix_;
+  int count_ = 0;
+};
+
+std::int16_t steps(double value, double step) {
+  return static_cast<std::int16_t>(std::lround(std::clamp(value / step, -32767.0, 32767.0)));
+}
+
+Json modes_json(const Modes& m, Arrays& arrays) {
+  Json json{{"offset", m.offset}, {"step", m.step}, {"largest_error", rounded(m.largest_error)}};
+  json["courses"] = Json::array();
+  json["shapes"] = Json::array();
+  for (const auto& course : m.courses)
+    json["courses"].push_back(rounded(course));
+  for (const auto& shape : m.shapes)
+    json["shapes"].push_back(arrays.add(shape));
+  return json;
+}
+
+struct Range {
+  double min = std::numeric_limits<double>::infinity();
+  double max = -min;
+};
+
+Range range_of(const NodalSeries& series) {
+  Range range;
+  for (const auto& frame : series)
+    for (const float value : frame)
+      if (std::isfinite(value))
+        range = {std::min<double>(range.min, value), std::max<double>(range.max, value)};
+  return range;
+}
+
+/// The faces that belong to one cell only, with normals that point out of the wall.
+struct Skin {
+  std::vector<std::int32_t> nodes;  ///< face after face
+  std::vector<std::int32_t> cells;  ///< behind each face
+};
+
+Skin skin_of(const WallSeries& wall) {
+  const int per_cell = mesh::nodes_per_cell(wall.kind);
+  const int per_face = wall.kind == mesh::CellKind::hexahedron ? 4 : 3;
+  struct Face {
+    std::array<int, 4> sorted, nodes;
+    int cell;
+  };
+  std::vector<Face> faces;
+  for (std::size_t first = 0; first < wall.cells.size(); first += per_cell)
+    for (const mesh::LocalFace& local : mesh::cell_faces(wall.kind)) {
+      Face face{{-1, -1, -1, -1}, {-1, -1, -1, -1}, static_cast<int>(first) / per_cell};
+      for (int i = 0; i < per_face; ++i)
+        face.nodes.at(i) = wall.cells[first + local.at(i)];
+      face.sorted = face.nodes;
+      std::sort(face.sorted.begin(), face.sorted.end());
+      faces.push_back(face);
+    }
+  std::stable_sort(faces.begin(), faces.end(),
+                   [](const Face& a, const Face& b) { return a.sorted < b.sorted; });
+  Skin skin;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const bool shared = (f > 0 && faces[f - 1].sorted == faces[f].sorted) ||
+                        (f + 1 < faces.size() && faces[f + 1].sorted == faces[f].sorted);
+    if (shared)
+      continue;
+    skin.nodes.insert(skin.nodes.end(), faces[f].nodes.begin(), faces[f].nodes.begin() + per_face);
+    skin.cells.push_back(faces[f].cell);
+  }
+  return skin;
+}
+
+std::vector<std::int16_t> flattened(const std::vector<Vec3>& vectors, double step) {
+  std::vector<std::int16_t> numbers;
+  for (int d = 0; d < 3; ++d)  // by component: neighbours then differ little
+    for (const Vec3& v : vectors)
+      numbers.push_back(steps(v[d], step));
+  return numbers;
+}
+
+std::vector<std::int16_t> narrow(const std::vector<int>& values) {
+  return {values.begin(), values.end()};
+}
+
+/// Displacements by component too.
+NodalSeries by_component(const NodalSeries& displacement) {
+  NodalSeries sorted;
+  for (const auto& frame : displacement) {
+    auto& to = sorted.emplace_back();
+    for (std::size_t d = 0; d < 3; ++d)
+      for (std::size_t i = d; i < frame.size(); i += 3)
+        to.push_back(frame[i]);
+  }
+  return sorted;
+}
+
+Json wall_json(const WallSeries& wall, Arrays& arrays) {
+  constexpr double node_step = 0.01;       // [mm]
+  constexpr double direction_step = 0.01;  // of unit vectors
+  constexpr double infarct_step = 1e-4;
+  const Skin skin = skin_of(wall);
+  Json json{{"nodes_per_cell", mesh::nodes_per_cell(wall.kind)},
+            {"nodes", wall.undeformed.size()},
+            {"times", rounded(wall.times)}};
+  json["cells"] = arrays.add(std::vector<std::int32_t>(wall.cells.begin(), wall.cells.end()));
+  json["skin"] = arrays.add(skin.nodes);
+  json["skin_cells"] = arrays.add(skin.cells);
+  json["undeformed"] = {{"step", node_step},
+                        {"values", arrays.add(flattened(wall.undeformed, node_step))}};
+  if (std::any_of(wall.infarct.begin(), wall.infarct.end(), [](float M) { return M > 0.0F; })) {
+    std::vector<std::int16_t> M;
+    for (const float value : wall.infarct)
+      M.push_back(steps(value, infarct_step));
+    json["infarct"] = {{"step", infarct_step}, {"values", arrays.add(M)}};
+  }
+  for (const auto& [name, regions] :
+       {std::pair{"slice", &wall.slice}, {"sector", &wall.sector}, {"aha17", &wall.aha17}})
+    if (!regions->empty())
+      json[name] = arrays.add(narrow(*regions));
+  json["displacement"] =
+      modes_json(modes(by_component(wall.displacement), position_tolerance), arrays);
+  json["quantities"] = Json::object();
+  for (const auto& [name, series] : wall.quantities) {
+    const Range range = range_of(series);
+    if (series.size() != wall.times.size() || !(range.max > range.min))
+      continue;
+    arrays.is_first = name == "active_tension";  // the page opens with it
+    json["quantities"][name] =
+        modes_json(modes(series, quantity_tolerance * (range.max - range.min)), arrays);
+    json["quantities"][name]["min"] = rounded(range.min);
+    json["quantities"][name]["max"] = rounded(range.max);
+  }
+  arrays.is_first = false;
+  if (!wall.f0.empty())
+    json["f0"] = {{"step", direction_step},
+                  {"values", arrays.add(flattened(wall.f0, direction_step))}};
+  return json;
+}
+
+/// One array per time and component.
+Json frames_json(const std::vector<std::vector<float>>& frames, std::size_t components, double step,
+                 Arrays& arrays) {
+  Json json = Json::array();
+  for (const auto& frame : frames) {
+    std::vector<std::int16_t> numbers;
+    for (std::size_t d = 0; d < components; ++d)
+      for (std::size_t i = d; i < frame.size(); i += components)
+        numbers.push_back(steps(frame[i], step));
+    json.push_back(arrays.add(numbers));
+  }
+  return json;
+}
+
+Json flow_json(const FlowSeries& flow, Arrays& arrays) {
+  return {
+      {"cells", flow.cells},
+      {"lower", flow.lower},
+      {"spacing", flow.spacing},
+      {"times", rounded(flow.times)},
+      {"velocity",
+       {{"step", velocity_step}, {"frames", frames_json(flow.velocity, 3, velocity_step, arrays)}}},
+      {"pressure",
+       {{"step", pressure_step},
+        {"frames", frames_json(flow.pressure, 1, pressure_step, arrays)}}}};
+}
+
+/// The rectangle (x and z) that the wall ever touches, with room for the jet at the base.
+std::array<std::array<double, 2>, 2> surroundings(const WallSeries& wall) {
+  constexpr double margin = 6.0;  // [mm]
+  constexpr double above = 35.0;  // [mm]
+  std::array<double, 2> lower{1e9, 1e9};
+  std::array<double, 2> upper{-1e9, -1e9};
+  for (const auto& frame : wall.displacement)
+    for (std::size_t a = 0; a < wall.undeformed.size(); ++a)
+      for (const std::size_t i : {0U, 1U}) {
+        const double at =
+            wall.undeformed[a][static_cast<Eigen::Index>(2 * i)] + frame[3 * a + 2 * i];
+        lower.at(i) = std::min(lower.at(i), at);
+        upper.at(i) = std::max(upper.at(i), at);
+      }
+  return {{{lower[0] - margin, lower[1] - margin}, {upper[0] + margin, upper[1] + above}}};
+}
+
+/// The folder of a stage ("beat"), or what there is of it before it is finished; empty if neither.
+fs::path stage_folder(const fs::path& work, const std::string& stage) {
+  fs::path unfinished;
+  for (const auto& entry : fs::directory_iterator(work)) {
+    const std::string name = entry.path().filename();  // "beat"
+    if (name.size() > 3 && name.substr(3) == stage)
+      return entry.path();
+    if (name.size() > 3 && name.substr(3) == stage + ".part")
+      unfinished = entry.path();
+  }
+  return unfinished;
+}
+
+/// The tables and the summary, as they are on disk.
+Json files_json(const fs::path& work) {
+  Json json = Json::object();
+  for (const auto& [stage, name] : {std::pair{"results", "summary.json"},
+                                    {"results", "regions.csv"},
+                                    {"results", "rotation.csv"},
+                                    {"beat", "curves.csv"},
+                                    {"mesh", "quality.csv"},
+                                    {"anatomy", "fit.csv"}}) {
+    const fs::path file = stage_folder(work, stage) / name;
+    if (fs::exists(file))
+      json[name] = read_file(file);
+  }
+  return json;
+}
+
+/// The time of the last row of a curves.csv in the filling phase, if contraction follows [s].
+double end_of_filling(const std::string& curves) {
+  std::istringstream lines(curves);
+  std::string line;
+  double end = std::numeric_limits<double>::infinity();
+  double time = 0.0;
+  std::getline(lines, line);
+  while (std::getline(lines, line)) {
+    const std::size_t comma = line.find(',');
+    if (line.compare(comma + 1, 7, "filling") != 0)
+      end = std::min(end, time);
+    time = std::stod(line.substr(0, comma));
+  }
+  return end;
+}
+
+/// When the beat was at end-diastole; infinite when it has not been there [s].
+double end_diastole(const Json& files) {
+  if (files.contains("summary.json"))
+    return Json::parse(files["summary.json"].get<std::string>())["end_diastole"]["time_s"];
+  return files.contains("curves.csv") ? end_of_filling(files["curves.csv"])
+                                      : std::numeric_limits<double>::infinity();
+}
+
+/// Frames of the beat; without any, the undeformed mesh.
+std::vector<TimedFrame> wall_frames(const fs::path& work) {
+  std::vector<TimedFrame> frames = frames_of(stage_folder(work, "beat") / "wall.pvd");
+  const fs::path undeformed = stage_folder(work, "mesh") / "mesh.vtu";
+  if (frames.empty() && fs::exists(undeformed))
+    frames.push_back({0.0, undeformed});
+  return frames;
+}
+
+Data case_html(const PageCase& shown, int number) {
+  Arrays arrays(number);
+  const fs::path folder = fs::absolute(shown.work).lexically_normal();
+  Json json{{"folder", folder.filename().empty() ? folder.parent_path().filename().string()
+                                                 : folder.filename().string()},
+            {"complete", shown.complete},
+            {"state", shown.state},
+            {"files", files_json(shown.work)}};
+  const double ed = end_diastole(json["files"]);
+  if (std::isfinite(ed))
+    json["end_diastole_s"] = ed;
+  if (const auto frames = wall_frames(shown.work); !frames.empty()) {
+    const WallSeries wall = read_wall_series(frames, ed);
+    json["wall"] = wall_json(wall, arrays);
+    const auto blood = frames_of(stage_folder(shown.work, "beat") / "blood.pvd");
+    const auto [lower, upper] = surroundings(wall);
+    if (!blood.empty())
+      json["flow"] = flow_json(read_flow_series(blood, lower, upper), arrays);
+  }
+  arrays.data.first.insert(0,
+                           element(fmt::format("case{}", number), "application/json", json.dump()));
+  return arrays.data;
+}
+
+}  // namespace
+
+std::string page(const std::vector<PageCase>& cases, const std::string& version) {
+  std::string html(page_bundle());
+  const auto put = [&](std::string_view mark, const std::string& data) {
+    const std::size_t at = html.find(mark);
+    LV_CHECK(at != std::string::npos);
+    html.replace(at, mark.size(), data);
+  };
+  Data data{element("about", "application/json",
+                    Json{{"version", version}, {"cases", cases.size()}}.dump()),
+            ""};
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const Data one = case_html(cases[i], static_cast<int>(i));
+    data.first += one.first;
+    data.more += one.more;
+  }
+  put("<!-- more data -->", data.more);
+  put("<!-- data -->", data.first);
+  return html;
+}
+
+}  // namespace lv::report

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace lv::report {
+
+/// A case's work folder and how far its run has come.
+struct PageCase {
+  std::filesystem::path work;
+  bool complete = true;
+  std::vector<std::string> state;  ///< what is unfinished or out of date, in sentences
+};
+
+/// One self-contained page that shows one case, or two side by side, from what their work folders
+/// hold (docs/report.md says where each number comes from). What is not there is shown as missing.
+/// Throws RunError naming a file that cannot be read.
+[[nodiscard]] std::string page(const std::vector<PageCase>& cases, const std::string& version);
+
+/// A script for ParaView that opens the wall and the blood of a case with colours and a time axis.
+/// `series` is the folder with wall.pvd and blood.pvd, relative to the script's.
+[[nodiscard]] std::string paraview_script(const std::filesystem::path& series);
+
+}  // namespace lv::report

@@ -1,0 +1,88 @@
+#include "lv/report/page.hpp"
+
+#include "lv/base/table.hpp"
+#include "lv/report/bundle.hpp"
+#include "lv/report/modes.hpp"
+#include "lv/report/packing.hpp"
+
+#include "support/temporary_folder.hpp"
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <filesystem>
+
+using namespace lv;
+using report::Modes;
+using report::NodalSeries;
+
+namespace {
+
+NodalSeries travelling_wave(int times, int places) {
+  NodalSeries series(times);
+  for (int t = 0; t < times; ++t)
+    for (int i = 0; i < places; ++i)
+      series[t].push_back(static_cast<float>(100.0 + 3.0 * std::sin(0.05 * i - 0.2 * t) + 0.01 * i));
+  return series;
+}
+
+double value(const Modes& m, std::size_t t, std::size_t i) {
+  double sum = m.offset;
+  for (std::size_t k = 0; k < m.shapes.size(); ++k)
+    sum += m.courses[k][t] * m.step * m.shapes[k][i];
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("modes repeat a series within the tolerance, and say how closely", "[report]") {
+  const NodalSeries series = travelling_wave(30, 500);
+  for (const double tolerance : {0.1, 0.001}) {
+    const Modes m = report::modes(series, tolerance);
+    double largest = 0.0;
+    for (std::size_t t = 0; t < series.size(); ++t)
+      for (std::size_t i = 0; i < series[t].size(); ++i)
+        largest = std::max(largest, std::abs(value(m, t, i) - series[t][i]));
+    CHECK(largest <= tolerance);
+    CHECK(m.largest_error == Approx(largest).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("a wave that travels needs two shapes, and a slope one more", "[report]") {
+  CHECK(report::modes(travelling_wave(30, 500), 0.01).shapes.size() == 3);
+  CHECK(report::modes(NodalSeries(4, std::vector<float>(10, 0.0F)), 0.01).shapes.empty());
+}
+
+TEST_CASE("packed numbers are small where neighbours are alike", "[report]") {
+  std::vector<std::int16_t> slope(10000);
+  for (std::size_t i = 0; i < slope.size(); ++i)
+    slope[i] = static_cast<std::int16_t>(7 * i);  // wraps
+  CHECK(report::packed(slope).size() < 300);
+  // zlib and base64 of the two bytes 1, 0
+  CHECK(report::packed(std::vector<std::int16_t>{1}).substr(0, 3) == "eNp");
+}
+
+TEST_CASE("the program carries a page with a place for data", "[report]") {
+  const std::string page(report::page_bundle());
+  CHECK(page.starts_with("<!doctype html>"));
+  CHECK(page.find("<!-- data -->") != std::string::npos);
+  CHECK(page.find("http-equiv") == std::string::npos);
+}
+
+TEST_CASE("a page of an empty work folder has its state and no wall", "[report]") {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path work = folder / "work";
+  std::filesystem::create_directories(work / "04_results");
+  write_file(work / "04_results" / "rotation.csv", "slice\n<1>\n");
+  const std::string page = report::page({{work, false, {"03_beat is unfinished."}}}, "1.2.3");
+  CHECK(page.find("\"complete\":false") != std::string::npos);
+  CHECK(page.find("03_beat is unfinished.") != std::string::npos);
+  CHECK(page.find("\"version\":\"1.2.3\"") != std::string::npos);
+  CHECK(page.find("\\u003c1>") != std::string::npos);  // no file ends the script element
+  CHECK(page.find("\"wall\":") == std::string::npos);
+}
+
+TEST_CASE("the script for ParaView names the series beside it", "[report]") {
+  const std::string script = report::paraview_script("../03_beat");
+  CHECK(script.find("os.path.join(here, \"../03_beat\")") != std::string::npos);
+  CHECK(script.find("{time:.3f}") != std::string::npos);
+}

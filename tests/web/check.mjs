@@ -1,0 +1,329 @@
+// The page of a run in a real browser, opened from a file without a network.
+// node check.mjs VENTRICLE [--work WORK] [--screenshots FOLDER]   exit code 77: skipped
+import { execFileSync } from "node:child_process";
+import { cpSync, existsSync, mkdirSync, mkdtempSync, readFileSync, renameSync, rmSync, statSync } from "node:fs";
+import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import { join, resolve } from "node:path";
+import { fileURLToPath, pathToFileURL } from "node:url";
+
+const root = fileURLToPath(new URL("../..", import.meta.url));
+const program = resolve(process.argv[2]);
+const option = (name) => (process.argv.includes(name) ? resolve(process.argv[process.argv.indexOf(name) + 1]) : undefined);
+const screenshots = option("--screenshots");
+
+const skip = (why) => { console.log(`skipped: ${why}`); process.exit(77); };
+const chromium = process.env.CHROMIUM ?? "/usr/bin/chromium";
+if (!existsSync(chromium)) skip(`${chromium} is not there (apt-get install chromium, or set CHROMIUM)`);
+if (!existsSync(join(root, "web/node_modules/playwright-core"))) skip("playwright-core is not there (cd web && npm ci)");
+const require = createRequire(join(root, "web/"));
+const playwright = require("playwright-core");
+
+let failed = 0;
+function check(claim, holds, detail = "") {
+  console.log(`${holds ? "pass" : "FAIL"}  ${claim}${!holds && detail !== "" ? `: ${detail}` : ""}`);
+  if (!holds) ++failed;
+}
+const close = (a, b, tolerance) => (Number.isNaN(a) && Number.isNaN(b)) || Math.abs(a - b) <= tolerance * Math.max(Math.abs(b), 1e-12);
+const number = (text) => (text.trim() === "–" ? NaN : parseFloat(text.replace("−", "-")));
+
+function csv(file) {
+  const [head, ...rows] = readFileSync(file, "utf8").trim().split("\n").map((line) => line.split(","));
+  return rows.map((row) => Object.fromEntries(head.map((name, i) => [name, row[i] === "" ? NaN : row[i]])));
+}
+
+const folder = mkdtempSync(join(tmpdir(), "ventricle_page_"));
+const work = option("--work") ?? join(folder, "small.work");
+const ventricle = (...args) => execFileSync(program, args, { cwd: folder, stdio: "pipe" });
+
+function makePages() {
+  if (!existsSync(work)) ventricle("run", join(root, "tests/regress/small.toml"), "--work", work, "--ranks", "1");
+  ventricle("report", work, "--output", "page.html");
+  ventricle("compare", work, work, "--output", "compare.html");
+  const half = join(folder, "half.work");
+  cpSync(work, half, { recursive: true });
+  for (const stage of ["04_results", "05_report"]) rmSync(join(half, stage), { recursive: true, force: true });
+  if (existsSync(join(half, "03_beat"))) renameSync(join(half, "03_beat"), join(half, "03_beat.part"));
+  ventricle("report", half, "--output", "half.html");
+  rmSync(join(half, "03_beat.part"), { recursive: true, force: true });
+  ventricle("report", half, "--output", "mesh.html");
+}
+
+const browser = await playwright.chromium.launch({ executablePath: chromium, args: ["--no-sandbox", "--use-gl=angle",
+  "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-background-networking", "--disable-component-update",
+  "--disable-sync", "--no-first-run"] });
+
+/** Opens a page and watches what it says and asks for. */
+async function open(file, viewport = { width: 1200, height: 900 }) {
+  const context = await browser.newContext({ viewport, acceptDownloads: true, offline: true });
+  const page = await context.newPage();
+  const said = [];
+  const asked = [];
+  page.on("console", (message) => ["error", "warning"].includes(message.type()) && !/GPU stall|swiftshader/i.test(message.text()) && said.push(message.text()));
+  page.on("pageerror", (error) => said.push(error.stack));
+  page.on("request", (request) => asked.push(request.url()));
+  await page.goto(pathToFileURL(join(folder, file)).href);
+  await page.waitForFunction(() => document.body.dataset.ready, null, { timeout: 120_000 });
+  await page.evaluate(() => document.getElementById("flow").scrollIntoView());
+  await page.waitForFunction(() => document.querySelector("#flow canvas, #flow .missing"), null, { timeout: 60_000 });
+  return { page, said, asked, close: () => context.close() };
+}
+
+const settled = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done, 350)  /* longer than the view takes to come to rest */))));
+
+/** A short text that stands for a canvas's pixels, with the share of them that are not white and the number of colours. */
+async function pixels(page, selector, nth = 0) {
+  await settled(page);
+  return page.locator(selector).nth(nth).evaluate((canvas) => {
+    const small = document.createElement("canvas");
+    [small.width, small.height] = [160, 110];
+    const context = small.getContext("2d");
+    context.drawImage(canvas, 0, 0, 160, 110);
+    const { data } = context.getImageData(0, 0, 160, 110);
+    let drawn = 0;
+    let sum = 0;
+    const colours = new Set();
+    for (let i = 0; i < data.length; i += 4) {
+      if (data[i] + data[i + 1] + data[i + 2] < 750) ++drawn;
+      colours.add((data[i] << 16) | (data[i + 1] << 8) | data[i + 2]);
+      for (let d = 0; d < 3; ++d) sum = (sum * 31 + data[i + d]) % 4294967291;
+    }
+    return { print: sum, drawn: drawn / 17600, colours: colours.size };
+  });
+}
+
+async function setSlider(page, selector, value) {
+  await page.locator(selector).evaluate((input, to) => { input.value = to; input.dispatchEvent(new Event("input")); }, value);
+}
+
+async function checkDrawn(page) {
+  const wall = await pixels(page, "canvas.wall");
+  check("the wall is drawn", wall.drawn > 0.08 && wall.colours > 50, JSON.stringify(wall));
+  const flow = await pixels(page, "canvas.flow");
+  check("the flow is drawn", flow.drawn > 0.5 && flow.colours > 50, JSON.stringify(flow));
+  const charts = await page.locator("svg.chart").evaluateAll((all) => all.map((one) =>
+    Math.min(...[...one.querySelectorAll("path")].map((path) => path.getAttribute("d").length))));
+  check("all charts have their lines", charts.length === 7 && charts.every((length) => length > 40), charts);
+  const regions = await page.locator("svg.bullseye").evaluateAll((all) => all.map((one) => one.querySelectorAll("[data-index]").length));
+  check("bull's-eyes have 38 and 17 regions at both states", regions.join() === "38,17,38,17", regions);
+  const text = await page.locator("body").innerText();
+  check("nothing reads NaN or undefined", !/NaN|undefined|\[object/.test(text), text.match(/.{30}(NaN|undefined|\[object).{20}/)?.[0]);
+}
+
+async function checkControls(page) {
+  let before = await pixels(page, "canvas.wall");
+  const changed = async (claim, act) => {
+    await act();
+    const after = await pixels(page, "canvas.wall");
+    check(claim, after.print !== before.print && after.drawn > 0.03, JSON.stringify(after));
+    before = after;
+  };
+  await changed("the time slider moves the wall", () => setSlider(page, "#time", 0));
+  await changed("and back", () => setSlider(page, "#time", 1000));
+  await changed("fibres are drawn", () => page.check("#fibres"));
+  await changed("another quantity has other colours", () => page.selectOption("#wall select >> nth=0", "fibre_strain"));
+  await changed("the plane turns", () => setSlider(page, "#wall .controls input[type=range] >> nth=0", 60));
+  await changed("a short-axis cut", () => page.selectOption("#wall select >> nth=1", "short"));
+  await changed("no cut", () => page.selectOption("#wall select >> nth=1", "none"));
+  await changed("a view by name", () => page.getByRole("button", { name: "from the apex" }).click());
+  await changed("the keyboard turns the wall", async () => { await page.focus("canvas.wall"); await page.keyboard.press("ArrowUp"); await page.keyboard.press("ArrowLeft"); });
+  await changed("the infarct can be shown", () => page.selectOption("#wall select >> nth=0", "infarct"));
+  await page.uncheck("#fibres");
+  await page.selectOption("#wall select >> nth=0", "active_tension");
+  await page.selectOption("#wall select >> nth=1", "long");
+  await setSlider(page, "#wall .controls input[type=range] >> nth=0", 0);
+  await page.getByRole("button", { name: "anterior", exact: true }).first().click();
+  await settled(page);
+}
+
+async function checkPicking(page) {
+  await page.locator("canvas.wall").scrollIntoViewIfNeeded();
+  const box = await page.locator("canvas.wall").boundingBox();
+  const middle = [box.x + box.width / 2, box.y + box.height * 0.55];
+  await page.mouse.move(middle[0] + 3, middle[1]);
+  await page.mouse.move(...middle);
+  await page.waitForTimeout(300);
+  const read = await page.locator("#wall .read").innerText();
+  const place = read.match(/here: ([\d.−]+); segment (\d+) (.*), slice and sector (\d) (\w+)/);
+  check("pointing at the wall reads a value, a segment, a slice and a sector", place !== null, read);
+  const marked = () => page.locator("svg.bullseye").evaluateAll((all) =>
+    all.map((one) => [...one.querySelectorAll("path.live")].every((path) => path.getAttribute("d"))));
+  check("and marks the segment in the bull's-eyes", (await marked()).join() === "false,true,false,true", await marked());
+  check("and its numbers are read out", (await page.locator("#regions .read").innerText()).includes(place?.[3] ?? "?"));
+  await page.mouse.move(5, 5);
+  await settled(page);
+  check("leaving the wall lets go", !(await marked()).some(Boolean), await marked());
+  const before = await pixels(page, "canvas.wall");
+  await page.locator("svg.bullseye >> nth=2").locator("[data-index='7']").hover({ force: true });
+  const after = await pixels(page, "canvas.wall");
+  check("pointing at a bull's-eye marks the wall", before.print !== after.print);
+  await page.locator("svg.bullseye >> nth=3").locator("[data-index='9']").focus();
+  await page.keyboard.press("Enter");
+  check("the keyboard keeps a region marked", (await marked()).join() === "false,true,false,true", await marked());
+  await page.keyboard.press("Enter");
+}
+
+async function checkNumbers(page) {
+  const summary = JSON.parse(readFileSync(join(work, "04_results/summary.json"), "utf8"));
+  const expected = { edv_ml: summary.edv_ml, esv_ml: summary.esv_ml, ejection_fraction_percent: summary.ejection_fraction_percent,
+    fibre_stress: summary.whole_wall.end_systole.fibre_stress.mean, active_tension: summary.whole_wall.end_systole.active_tension.mean };
+  for (const [key, value] of Object.entries(expected)) {
+    const text = await page.locator(`dd[data-key=${key}]`).innerText();
+    check(`${key} is summary.json's`, close(number(text), value, 0.005), `${text} ${value}`);
+  }
+  const rows = csv(join(work, "04_results/regions.csv"));
+  const regional = (state, scheme, quantity) => rows.filter((r) => r.state === state && r.scheme === scheme && r.quantity === quantity);
+  let wrong = [];
+  for (const quantity of ["active_tension", "fibre_stress", "radial_strain", "J"]) {
+    await page.selectOption("#wall select >> nth=0", quantity);
+    await settled(page);
+    const shown = await page.locator("svg.bullseye").evaluateAll((all) => all.map((one) =>
+      [...one.querySelectorAll("[data-index]")].map((path) => path.getAttribute("aria-label"))));
+    const plots = ["end_diastole", "end_systole"].flatMap((state) => ["sector", "aha17"].map((scheme) => regional(state, scheme, quantity)));
+    plots.forEach((plot, p) => plot.forEach((row, i) => {
+      const [name, numbers] = shown[p][i].split(": ");
+      const [mean, sd] = numbers.split(" ± ").map(number);
+      if (name !== row.region || !close(mean, Number(row.mean), 0.006) || !close(sd, Number(row.sd), 0.006))
+        wrong.push(`${shown[p][i]} instead of ${row.region} ${row.mean} ${row.sd}`);
+    }));
+    check(`bull's-eyes of ${quantity} are regions.csv's`, plots.flat().length === 110 && wrong.length === 0, wrong.slice(0, 3).join("; "));
+    wrong = [];
+  }
+  const thirds = await page.locator("#normal tbody tr").evaluateAll((all) => all.map((row) => [...row.children].map((cell) => cell.textContent)));
+  const fibre = ["basal", "middle", "apical"].map((third) => Number(rows.find((r) => r.state === "end_systole" && r.region === third && r.quantity === "fibre_strain").mean));
+  check("fibre strain per third is regions.csv's", fibre.every((mean, i) => close(number(thirds[0][i + 1].split(" ± ")[0]), mean, 0.006)), thirds[0]);
+  const turned = csv(join(work, "04_results/rotation.csv")).map((r) => Number(r.end_diastole_to_end_systole_deg));
+  const shownTurn = await page.locator("#rotation tbody tr td:nth-child(2)").allInnerTexts();
+  check("rotation is rotation.csv's", turned.length === 7 && turned.every((deg, i) => close(number(shownTurn[i]), deg, 0.006)), shownTurn);
+}
+
+async function checkDownloads(page) {
+  const buttons = page.locator("button.save");
+  const kinds = {};
+  const wrong = [];
+  for (let i = 0; i < (await buttons.count()); ++i) {
+    const [download] = await Promise.all([page.waitForEvent("download"), buttons.nth(i).evaluate((button) => button.click())]);
+    const name = download.suggestedFilename();
+    const contents = readFileSync(await download.path());
+    const kind = name.slice(name.lastIndexOf(".") + 1);
+    kinds[kind] = (kinds[kind] ?? 0) + 1;
+    const good = kind === "png" ? contents.subarray(1, 4).toString() === "PNG" && contents.length > 3000
+      : kind === "svg" ? /^<svg[^>]*xmlns/.test(contents) && contents.length > 1000
+      : kind === "csv" ? contents.toString().split("\n").length > 2 : JSON.parse(contents).case !== undefined;
+    if (!good) wrong.push(name);
+    const original = { "regions.csv": "04_results", "curves.csv": "03_beat", "summary.json": "04_results" };
+    for (const [file, stage] of Object.entries(original))
+      if (name.endsWith(`-${file}`) && !name.includes("-whole") && !contents.equals(readFileSync(join(work, stage, file)))) wrong.push(`${name} differs`);
+  }
+  check("every save button saves what it says", wrong.length === 0 && kinds.png > 10 && kinds.svg > 9 && kinds.csv > 8, JSON.stringify({ kinds, wrong }));
+}
+
+async function checkSpeed(page) {
+  const session = await browser.newBrowserCDPSession();
+  const cpu = async () => (await session.send("SystemInfo.getProcessInfo")).processInfo.reduce((sum, p) => sum + p.cpuTime, 0);
+  await page.locator("canvas.wall").scrollIntoViewIfNeeded();
+  const before = await cpu();
+  const result = await page.evaluate(async () => {
+    const slider = document.getElementById("time");
+    const count = Number(slider.max) + 1;
+    const frame = () => new Promise((done) => requestAnimationFrame(done));
+    let script = 0;
+    const start = performance.now();
+    for (let i = 0; i < 60; ++i) {
+      const t = performance.now();
+      slider.value = i % count;
+      slider.dispatchEvent(new Event("input"));
+      script += performance.now() - t;
+      await frame();
+    }
+    return { fps: 60e3 / (performance.now() - start), script: script / 60, count };
+  });
+  const spent = (await cpu()) - before;
+  console.log(`info  scrubbing 60 moments (of ${result.count}): ${result.fps.toFixed(1)} frames per second, software rendering; ` +
+    `${result.script.toFixed(1)} ms of script and ${(1000 * spent / 60).toFixed(1)} ms of processor time a frame`);
+  check("scrubbing is not slower than 4 frames per second, software rendering on a busy machine", result.fps > 4, result.fps);
+}
+
+async function checkPhone() {
+  const { page, close: done } = await open("page.html", { width: 390, height: 800 });
+  const width = await page.evaluate(() => document.documentElement.scrollWidth);
+  check("a phone's width is enough", width <= 391, width);
+  if (screenshots) await page.screenshot({ path: join(screenshots, "phone.png") });
+  await done();
+}
+
+async function checkHalf() {
+  const { page, said, close: done } = await open("half.html");
+  const state = await page.locator(".state").innerText();
+  check("an unfinished run says so", /not complete/.test(state) && /03_beat is unfinished/.test(state) && /04_results has not been made/.test(state), state);
+  check("and shows the frames that there are", (await pixels(page, "canvas.wall")).drawn > 0.08);
+  check("and says what is missing", (await page.locator(".missing").count()) >= 5);
+  const text = await page.locator("body").innerText();
+  check("and makes up nothing", !/NaN|undefined/.test(text), text.match(/.{30}(NaN|undefined).{20}/)?.[0]);
+  check("and no error is reported", said.length === 0, said.join("\n"));
+  if (screenshots) await page.screenshot({ path: join(screenshots, "unfinished.png") });
+  await done();
+  const mesh = await open("mesh.html");
+  check("a run with a mesh alone shows it", (await pixels(mesh.page, "canvas.wall")).drawn > 0.08 && mesh.said.length === 0, mesh.said.join("\n"));
+  await mesh.close();
+}
+
+async function checkCompare() {
+  const { page, said, asked, close: done } = await open("compare.html", { width: 1400, height: 900 });
+  check("two cases: both walls are drawn", (await pixels(page, "canvas.wall", 0)).drawn > 0.05 && (await pixels(page, "canvas.wall", 1)).drawn > 0.05);
+  const before = [await pixels(page, "canvas.wall", 0), await pixels(page, "canvas.wall", 1)];
+  await setSlider(page, "#time", 40);
+  const later = [await pixels(page, "canvas.wall", 0), await pixels(page, "canvas.wall", 1)];
+  check("one slider moves both", later.every((now, i) => now.print !== before[i].print));
+  await page.focus("canvas.wall >> nth=0");
+  await page.keyboard.press("ArrowLeft");
+  const turned = await pixels(page, "canvas.wall", 1);
+  check("turning one turns the other", turned.print !== later[1].print);
+  check("no error, no network", said.length === 0 && asked.every((url) => /^(file|blob|data):/.test(url)), said.join("\n"));
+  if (screenshots) for (const id of ["wall", "regions", "curves", "flow"])
+    await page.locator(`#${id}`).screenshot({ path: join(screenshots, `compare_${id}.png`) });
+  await done();
+}
+
+/** The page's muscle against closed-form numbers (docs/report.md). */
+async function checkMuscle() {
+  const { build } = require("esbuild");
+  const { outputFiles } = await build({ entryPoints: [join(root, "web/src/muscle.ts")], bundle: true, write: false, format: "esm" });
+  const { holzapfelOgden, guccione, neoHookean, publishedLaws } = await import(`data:text/javascript,${encodeURIComponent(outputFiles[0].text)}`);
+  const healthy = holzapfelOgden(0.24, 5.08, 1.46, 4.15);
+  for (const [stretch, stress] of [[1.05, 0.38206637], [1.1, 0.97431794], [1.2, 4.38200599]])
+    check(`healthy muscle at a stretch of ${stretch}`, close(healthy(stretch), stress, 1e-7), healthy(stretch));
+  check("excised muscle at a stretch of 1.1", close(publishedLaws[2].law(1.1), 19.05427, 1e-5), publishedLaws[2].law(1.1));
+  const energy = (l) => (2 / 2) * (Math.exp(8 * (0.5 * (l * l - 1)) ** 2 + 2 * 2 * (0.5 * (1 / l - 1)) ** 2) - 1);
+  const slope = (energy(1.1 + 1e-6) - energy(1.1 - 1e-6)) / 2e-6;
+  check("the Guccione law is the derivative of its energy", close(guccione(2, 8, 2)(1.1), 1.1 * slope, 1e-7));
+  check("neo-Hookean muscle", close(neoHookean(1)(1.1), 1.21 - 1 / 1.1, 1e-12));
+}
+
+makePages();
+if (screenshots) mkdirSync(screenshots, { recursive: true });
+const opened = await open("page.html");
+const megabytes = statSync(join(folder, "page.html")).size / 1e6;
+console.log(`info  the page has ${megabytes.toFixed(2)} MB; its first view is there ${await opened.page.evaluate(() => document.body.dataset.first)} ms and the wall ` +
+  `${await opened.page.evaluate(() => document.body.dataset.ready)} ms after its start`);
+check("the page is smaller than 15 MB", megabytes < 15, megabytes);
+await checkDrawn(opened.page);
+if (screenshots) for (const id of ["summary", "wall", "regions", "curves", "rotation", "flow", "muscle", "normal", "zones", "input"])
+  await opened.page.locator(`#${id}`).screenshot({ path: join(screenshots, `${id}.png`) });
+await checkControls(opened.page);
+await checkPicking(opened.page);
+await checkNumbers(opened.page);
+await checkDownloads(opened.page);
+await checkSpeed(opened.page);
+check("it prints", (await opened.page.pdf()).length > 30_000);
+check("no error is reported", opened.said.length === 0, opened.said.join("\n"));
+check("nothing is asked from a network", opened.asked.every((url) => /^(file|blob|data):/.test(url)), opened.asked.join(" "));
+await opened.close();
+await checkPhone();
+await checkHalf();
+await checkCompare();
+await checkMuscle();
+await browser.close();
+rmSync(folder, { recursive: true, force: true });
+console.log(`${failed} failed`);
+process.exit(failed ? 1 : 0);

@@ -1,0 +1,207 @@
+// What the program wrote into the page, decoded.
+
+export type Row = Record<string, string>;
+
+/** offset + sum_k course_k(t) step shape_k(i); see src/lv/report/modes.hpp. */
+interface ModesJson { offset: number; step: number; largest_error: number; courses: number[][]; shapes: string[]; min?: number; max?: number }
+interface Packed { step: number; values: string }
+
+interface WallJson {
+  nodes_per_cell: number;
+  nodes: number;
+  times: number[];
+  cells: string;
+  skin: string;
+  skin_cells: string;
+  undeformed: Packed;
+  f0?: Packed;
+  infarct?: Packed;
+  slice?: string;
+  sector?: string;
+  aha17?: string;
+  displacement: ModesJson;
+  quantities: Record<string, ModesJson>;
+}
+
+interface FlowJson {
+  cells: [number, number];
+  lower: [number, number];
+  spacing: [number, number];
+  times: number[];
+  velocity: { step: number; frames: string[] };
+  pressure: { step: number; frames: string[] };
+}
+
+interface CaseJson {
+  folder: string;
+  complete: boolean;
+  state: string[];
+  files: Record<string, string>;
+  end_diastole_s?: number;
+  wall?: WallJson;
+  flow?: FlowJson;
+}
+
+function text(id: string): string {
+  return document.getElementById(id)!.textContent!;
+}
+
+const parsed = new Promise((done) => document.addEventListener("DOMContentLoaded", done));
+
+/** Undoes src/lv/report/packing.hpp. */
+async function unpacked(id: string, bytes: 2 | 4): Promise<Int16Array | Int32Array> {
+  // what the first view does not need stands after the script
+  if (!document.getElementById(id)) await parsed;
+  const letters = atob(text(id));
+  const packed = new Uint8Array(letters.length);
+  for (let i = 0; i < letters.length; ++i) packed[i] = letters.charCodeAt(i);
+  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
+  const planes = new Uint8Array(await new Response(stream).arrayBuffer());
+  const count = planes.length / bytes;
+  const values = bytes === 2 ? new Int16Array(count) : new Int32Array(count);
+  let sum = 0;
+  for (let i = 0; i < count; ++i) {
+    let difference = planes[i] | (planes[count + i] << 8);
+    if (bytes === 4) difference |= (planes[2 * count + i] << 16) | (planes[3 * count + i] << 24);
+    values[i] = sum = (sum + difference) | 0;
+  }
+  return values;
+}
+
+export const shorts = (id: string) => unpacked(id, 2) as Promise<Int16Array>;
+const wholes = (id: string) => unpacked(id, 4) as Promise<Int32Array>;
+
+async function scaled(packed: Packed): Promise<Float32Array> {
+  return Float32Array.from(await shorts(packed.values), (n) => n * packed.step);
+}
+
+/** A field over time. */
+export class Series {
+  private constructor(private json: ModesJson, private shapes: Int16Array[], readonly size: number) {}
+
+  static async read(json: ModesJson, size: number): Promise<Series> {
+    return new Series(json, await Promise.all(json.shapes.map(shorts)), size);
+  }
+
+  /** The field at a frame, added to `out`. */
+  addTo(out: Float32Array, frame: number): Float32Array {
+    const { offset } = this.json;
+    for (let i = 0; i < out.length; ++i) out[i] += offset;
+    this.shapes.forEach((shape, k) => {
+      const factor = this.json.courses[k][frame] * this.json.step;
+      for (let i = 0; i < shape.length; ++i) out[i] += factor * shape[i];
+    });
+    return out;
+  }
+}
+
+/** Regions a cell belongs to, in the words of regions.csv. */
+export type Scheme = "sector" | "aha17";
+export interface Selection { scheme: Scheme; index: number }
+
+export const sectorsPerRing: Record<Scheme, number[]> = { sector: [6, 6, 6, 6, 6, 4, 4], aha17: [6, 6, 4, 1] };
+
+export class Wall {
+  private constructor(
+    private json: WallJson, readonly cells: Int32Array, readonly skin: Int32Array, readonly skinCells: Int32Array,
+    readonly undeformed: Float32Array, readonly infarct: Float32Array | undefined,
+    private displacement: Series, private regions: Partial<Record<Scheme, Int16Array>>) {}
+
+  static async read(json: WallJson): Promise<Wall> {
+    const [cells, skin, skinCells, undeformed, infarct, displacement, slice, sector, aha17] = await Promise.all([
+      wholes(json.cells), wholes(json.skin), wholes(json.skin_cells), scaled(json.undeformed),
+      json.infarct && scaled(json.infarct),
+      Series.read(json.displacement, 3 * json.nodes),
+      json.slice ? shorts(json.slice) : undefined, json.sector ? shorts(json.sector) : undefined,
+      json.aha17 ? shorts(json.aha17) : undefined]);
+    const regions: Partial<Record<Scheme, Int16Array>> = {};
+    if (slice && sector) {
+      const start = [0, 6, 12, 18, 24, 30, 34];
+      regions.sector = slice.map((s, c) => start[s - 1] + sector[c] - 1);
+    }
+    if (aha17) regions.aha17 = aha17.map((a) => a - 1);
+    return new Wall(json, cells, skin, skinCells, undeformed, infarct, displacement, regions);
+  }
+
+  get nodes(): number { return this.json.nodes; }
+  get times(): number[] { return this.json.times; }
+  get nodesPerCell(): number { return this.json.nodes_per_cell; }
+  get nodesPerFace(): number { return this.nodesPerCell === 8 ? 4 : 3; }
+  get quantities(): string[] { return Object.keys(this.json.quantities); }
+
+  range(quantity: string): [number, number] {
+    const { min, max } = this.json.quantities[quantity];
+    return [min!, max!];
+  }
+
+  /** x, then y, then z of the nodes at a frame [mm]. */
+  positions(frame: number): Float32Array {
+    return this.displacement.addTo(this.undeformed.slice(), frame);
+  }
+
+  series(quantity: string): Promise<Series> {
+    return Series.read(this.json.quantities[quantity], this.nodes);
+  }
+
+  /** Fibre directions of the cells, by component; undefined when there are none. */
+  async fibres(): Promise<Float32Array | undefined> { return this.json.f0 && scaled(this.json.f0); }
+
+  /** Number of the region that each cell lies in, from 0. */
+  region(scheme: Scheme): Int16Array | undefined { return this.regions[scheme]; }
+}
+
+export class Case {
+  readonly regions: Row[];
+  name: string;
+  wall?: Wall;  // once it is loaded
+  private constructor(readonly json: CaseJson, readonly summary: any) {
+    this.name = summary?.case ?? json.folder;
+    this.regions = csv(json.files["regions.csv"]);
+  }
+
+  static read(number: number): Case {
+    const json: CaseJson = JSON.parse(text(`case${number}`));
+    const summary = json.files["summary.json"] ? JSON.parse(json.files["summary.json"]) : undefined;
+    return new Case(json, summary);
+  }
+
+  async loadWall(): Promise<void> { this.wall = this.json.wall && (await Wall.read(this.json.wall)); }
+
+  get flow(): FlowJson | undefined { return this.json.flow; }
+  table(file: string): Row[] { return csv(this.json.files[file]); }
+
+  /** A row of regions.csv. */
+  row(state: string, scheme: string, region: string, quantity: string): Row | undefined {
+    return this.regions.find((r) =>
+      r.state === state && r.scheme === scheme && r.region === region && r.quantity === quantity);
+  }
+
+  /** Names of a scheme's regions in their order. */
+  regionNames(scheme: string): string[] {
+    return [...new Set(this.regions.filter((r) => r.scheme === scheme).map((r) => r.region))];
+  }
+
+  /** The parameter's text as a case file would give it. */
+  parameter(name: string): string | undefined {
+    const value = this.summary?.parameters?.[name];
+    return value === undefined ? undefined : String(value).replace(/^"|"$/g, "");
+  }
+
+  /** The number in front of its unit. */
+  number(name: string): number { return parseFloat(this.parameter(name) ?? "NaN"); }
+}
+
+export function csv(text: string | undefined): Row[] {
+  if (!text) return [];
+  const [head, ...lines] = text.trim().split("\n").map((line) => line.split(","));
+  return lines.map((fields) => Object.fromEntries(head.map((name, i) => [name, fields[i] ?? ""])));
+}
+
+/** NaN for an empty field: missing, never zero. */
+export function value(field: string | undefined): number {
+  return field === undefined || field === "" ? NaN : Number(field);
+}
+
+export interface About { version: string; cases: number }
+export function about(): About { return JSON.parse(text("about")); }
+export type { FlowJson };
