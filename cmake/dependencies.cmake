@@ -23,3 +23,10 @@ find_library(GMSH_LIBRARY gmsh REQUIRED)
 add_library(gmsh UNKNOWN IMPORTED)
 set_target_properties(gmsh PROPERTIES IMPORTED_LOCATION ${GMSH_LIBRARY} INTERFACE_INCLUDE_DIRECTORIES ${GMSH_INCLUDE_DIR})
 find_package(Boost 1.74 REQUIRED)  # headers alone: the R-tree
+
+# deal.II's own set-up macro would set the language standard and optimisation of everything: only its library and headers.
+find_package(deal.II 9.4 REQUIRED)
+add_library(deal_ii INTERFACE)
+target_include_directories(deal_ii SYSTEM INTERFACE ${DEAL_II_INCLUDE_DIRS})
+target_link_libraries(deal_ii INTERFACE ${DEAL_II_TARGET_RELEASE})
+pkg_check_modules(PETSC REQUIRED IMPORTED_TARGET PETSc)

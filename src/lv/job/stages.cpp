@@ -216,6 +216,7 @@ void write_mesh_result(const MeshResult& result, const std::filesystem::path& fo
   const mesh::Mesh& m = result.mesh;
   Archive archive;
   archive.set("kind", {m.kind == mesh::CellKind::hexahedron ? 0.0 : 1.0});
+  archive.set("order", {static_cast<double>(m.order)});
   archive.set("nodes", {m.nodes.front().data(), m.nodes.front().data() + 3 * m.nodes.size()});
   archive.set("cells", as_numbers(m.cells));
   archive.set("transmural", m.transmural);
@@ -245,6 +246,7 @@ MeshResult read_mesh_result(const std::filesystem::path& folder) {
   MeshResult result;
   mesh::Mesh& m = result.mesh;
   m.kind = archive.number("kind") == 0.0 ? mesh::CellKind::hexahedron : mesh::CellKind::tetrahedron;
+  m.order = static_cast<int>(archive.number("order"));
   const auto& nodes = archive.get("nodes");
   for (std::size_t a = 0; a + 2 < nodes.size(); a += 3)
     m.nodes.emplace_back(nodes[a], nodes[a + 1], nodes[a + 2]);

@@ -37,6 +37,10 @@ struct Mesh {
   std::vector<Vec3> nodes;
   std::vector<int> cells;  ///< nodes of cell after cell
   Surface endo, epi, base;
+  /// 1: nothing more than the cells. 2: eight consecutive cells are the parts of one quadratic
+  /// element, and four consecutive faces those of its side, in the order of refine()
+  /// (quadratic.hpp).
+  int order = 1;
   std::vector<double> transmural;  ///< per node: 0 on the endocardium, 1 on the epicardium
   std::vector<double> infarct;     ///< per node: M(X) of (2.11), 0 in healthy muscle
 

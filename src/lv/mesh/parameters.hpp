@@ -8,6 +8,8 @@ namespace lv::mesh {
 struct WallMeshParameters {
   double edge_length = 1.4;  ///< target length of element edges [mm]
   int layers = 0;            ///< elements through the wall; 0: as the edge length asks, at least 3
+  int order =
+      1;  ///< of the mesh; 2: even numbers of elements, which hang together as quadratic ones
 };
 
 /// How the sides of the wall are recognised in a file.

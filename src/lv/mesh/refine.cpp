@@ -13,6 +13,7 @@ class Refiner {
  public:
   explicit Refiner(const Mesh& coarse) : coarse_(coarse) {
     fine_.kind = coarse.kind;
+    fine_.order = 2;
     fine_.nodes = coarse.nodes;
     fine_.transmural = coarse.transmural;
     fine_.infarct = coarse.infarct;

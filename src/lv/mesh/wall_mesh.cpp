@@ -76,6 +76,10 @@ Counts count_elements(const Meridian& m, const WallMeshParameters& p) {
       std::max(2, static_cast<int>(std::lround((m.length.back() - 1.1 * c.patch) / p.edge_length)));
   c.layers = p.layers > 0 ? p.layers
                           : std::max(3, static_cast<int>(std::lround(m.thickness / p.edge_length)));
+  if (p.order == 2) {
+    c.rows += c.rows % 2;
+    c.layers += c.layers % 2;
+  }
   return c;
 }
 
@@ -93,7 +97,7 @@ struct QuadMesh {
 
 class QuadMesher {
  public:
-  QuadMesher(const Meridian& m, const Counts& c) : m_(m), c_(c) {
+  QuadMesher(const Meridian& m, const Counts& c, int order) : m_(m), c_(c), order_(order) {
     // On the sphere the middle of a side of the cube's face lies 45 degrees from the pole.
     offset_ = std::log(std::tan(pi / 8.0)) - interpolate(m.length, m.latitude, c.patch);
   }
@@ -105,10 +109,33 @@ class QuadMesher {
     for (int row = 1; row <= c_.rows; ++row)
       ring = add_row(start, ring, row);
     mesh_.base_ring = ring;
+    if (order_ == 2)
+      mesh_.quads = grouped(mesh_.quads);
     return std::move(mesh_);
   }
 
  private:
+  /// The quadrilaterals in groups of four, the quarters of one: first the two along a
+  /// quadrilateral's first side, then the two beyond. Even counts only.
+  [[nodiscard]] std::vector<std::array<int, 4>> grouped(
+      const std::vector<std::array<int, 4>>& quads) const {
+    std::vector<std::array<int, 4>> result;
+    const int n = c_.side;
+    for (int j = 0; j < n; j += 2)
+      for (int i = 0; i < n; i += 2)
+        for (const int q : {j * n + i, (j + 1) * n + i, j * n + i + 1, (j + 1) * n + i + 1})
+          result.push_back(quads[q]);
+    const int ring = 4 * n;
+    for (int row = 0; row < c_.rows; row += 2) {
+      for (int i = 0; i < ring; i += 2) {
+        const int first = n * n + row * ring + i;
+        for (const int q : {first, first + 1, first + ring, first + ring + 1})
+          result.push_back(quads[q]);
+      }
+    }
+    return result;
+  }
+
   /// The wall coordinate at angle `phi` from the sphere's pole.
   [[nodiscard]] double u_at(double phi) const {
     if (phi <= 0.0)
@@ -169,56 +196,119 @@ class QuadMesher {
 
   const Meridian& m_;
   Counts c_;
+  int order_;
   double offset_ = 0.0;
   QuadMesh mesh_;
 };
 
-/// Stacks the quadrilaterals through the wall.
-Mesh extrude(const QuadMesh& quads, const WallMap& wall, int layers) {
-  Mesh mesh;
-  const int per_layer = static_cast<int>(quads.points.size());
-  for (int l = 0; l <= layers; ++l) {
-    const double t = static_cast<double>(l) / layers;
-    for (const SurfacePoint& p : quads.points) {
-      mesh.nodes.push_back(wall(p.u, p.theta, t));
-      mesh.transmural.push_back(t);
-    }
-  }
-  for (const int p : quads.base_ring)
-    for (int l = 0; l <= layers; ++l)
-      mesh.nodes[static_cast<std::size_t>(l) * per_layer + p].z() = 0.0;  // rounding off
+/// Nine points of a quadratic side, row after row; its first direction is along a row.
+using Lattice = std::array<int, 9>;
 
-  for (int l = 0; l < layers; ++l)
-    for (const auto& q : quads.quads)
-      for (const int layer : {l, l + 1})
-        for (const int p : q)
-          mesh.cells.push_back(layer * per_layer + p);
-
-  for (const auto& q : quads.quads) {
-    for (int i = 3; i >= 0; --i)
-      mesh.endo.nodes.push_back(q[i]);
-    for (const int p : q)
-      mesh.epi.nodes.push_back(layers * per_layer + p);
-  }
-  const std::size_t n = quads.base_ring.size();
-  for (int l = 0; l < layers; ++l) {
-    for (std::size_t i = 0; i < n; ++i) {
-      const int p = quads.base_ring[i];
-      const int q = quads.base_ring[(i + 1) % n];
-      mesh.base.nodes.insert(mesh.base.nodes.end(), {l * per_layer + p, (l + 1) * per_layer + p,
-                                                     (l + 1) * per_layer + q, l * per_layer + q});
-    }
-  }
-  mesh.infarct.assign(mesh.nodes.size(), 0.0);
-  return mesh;
+/// The points of four quadrilaterals as QuadMesher groups them.
+Lattice lattice(const std::array<int, 4>* q) {
+  return {q[0][0], q[0][1], q[1][1], q[0][3], q[0][2], q[1][2], q[2][3], q[2][2], q[3][2]};
 }
+
+/// The four quarters of a side, as refine() orders them; `mirrored` turns the normal round.
+void add_side(const Lattice& p, bool mirrored, std::vector<int>& faces) {
+  const std::array<int, 8> straight{0, 1, 2, 5, 8, 7, 6, 3};  // corners and middles in turn
+  const std::array<int, 8> other{0, 3, 6, 7, 8, 5, 2, 1};
+  const auto& round = mirrored ? other : straight;
+  for (int i = 0; i < 4; ++i)
+    for (const int at : {round[2 * i], round[2 * i + 1], 4, round[(2 * i + 7) % 8]})
+      faces.push_back(p[at]);
+}
+
+/// Stacks the quadrilaterals through the wall.
+class Extrusion {
+ public:
+  Extrusion(const QuadMesh& quads, const WallMap& wall, int layers, int order)
+      : quads_(quads), layers_(layers), per_layer_(static_cast<int>(quads.points.size())) {
+    mesh_.order = order;
+    add_nodes(wall);
+    order == 2 ? add_quadratic() : add_linear();
+    mesh_.infarct.assign(mesh_.nodes.size(), 0.0);
+  }
+
+  Mesh mesh() { return std::move(mesh_); }
+
+ private:
+  [[nodiscard]] int node(int layer, int point) const { return layer * per_layer_ + point; }
+  [[nodiscard]] int ring_node(int layer, std::size_t i) const {
+    return node(layer, quads_.base_ring[i % quads_.base_ring.size()]);
+  }
+
+  void add_nodes(const WallMap& wall) {
+    for (int l = 0; l <= layers_; ++l) {
+      const double t = static_cast<double>(l) / layers_;
+      for (const SurfacePoint& p : quads_.points) {
+        mesh_.nodes.push_back(wall(p.u, p.theta, t));
+        mesh_.transmural.push_back(t);
+      }
+    }
+    for (const int p : quads_.base_ring)
+      for (int l = 0; l <= layers_; ++l)
+        mesh_.nodes[node(l, p)].z() = 0.0;  // rounding off
+  }
+
+  void add_cell(const std::array<int, 4>& quad, int layer) {
+    for (const int l : {layer, layer + 1})
+      for (const int p : quad)
+        mesh_.cells.push_back(node(l, p));
+  }
+
+  void add_linear() {
+    for (int l = 0; l < layers_; ++l)
+      for (const auto& q : quads_.quads)
+        add_cell(q, l);
+    for (const auto& q : quads_.quads) {
+      for (int i = 3; i >= 0; --i)
+        mesh_.endo.nodes.push_back(q[i]);
+      for (const int p : q)
+        mesh_.epi.nodes.push_back(node(layers_, p));
+    }
+    for (int l = 0; l < layers_; ++l)
+      for (std::size_t i = 0; i < quads_.base_ring.size(); ++i)
+        mesh_.base.nodes.insert(
+            mesh_.base.nodes.end(),
+            {ring_node(l, i), ring_node(l + 1, i), ring_node(l + 1, i + 1), ring_node(l, i + 1)});
+  }
+
+  void add_quadratic() {
+    for (int l = 0; l < layers_; l += 2)
+      for (std::size_t first = 0; first < quads_.quads.size(); first += 4)
+        for (const int layer : {l, l + 1})
+          for (std::size_t q = first; q < first + 4; ++q)
+            add_cell(quads_.quads[q], layer);
+    for (std::size_t first = 0; first < quads_.quads.size(); first += 4) {
+      Lattice side = lattice(&quads_.quads[first]);
+      add_side(side, true, mesh_.endo.nodes);
+      for (int& p : side)
+        p = node(layers_, p);
+      add_side(side, false, mesh_.epi.nodes);
+    }
+    for (int l = 0; l < layers_; l += 2) {
+      for (std::size_t i = 0; i < quads_.base_ring.size(); i += 2) {
+        Lattice side{};
+        for (int k = 0; k < 9; ++k)
+          side[k] = ring_node(l + k % 3, i + k / 3);
+        add_side(side, false, mesh_.base.nodes);
+      }
+    }
+  }
+
+  const QuadMesh& quads_;
+  int layers_, per_layer_;
+  Mesh mesh_;
+};
 
 }  // namespace
 
 Mesh wall_mesh(const WallMap& wall, const WallMeshParameters& parameters) {
   const Meridian meridian = mean_meridian(wall);
   const Counts counts = count_elements(meridian, parameters);
-  return extrude(QuadMesher(meridian, counts).mesh(), wall, counts.layers);
+  const QuadMesh quads = QuadMesher(meridian, counts, parameters.order).mesh();
+  return Extrusion(quads, wall, counts.layers, parameters.order).mesh();
 }
 
 }  // namespace lv::mesh

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "lv/mesh/mesh.hpp"
+
+#include <span>
+#include <vector>
+
+/// The quadratic elements of a mesh of order 2.
+namespace lv::mesh {
+
+/// Nodes of an element or a side of the given order, and how many there are of it.
+struct ElementNodes {
+  int nodes_per_element = 0;
+  std::vector<int> nodes;  ///< element after element
+
+  [[nodiscard]] int size() const { return static_cast<int>(nodes.size()) / nodes_per_element; }
+  [[nodiscard]] std::span<const int> element(int e) const {
+    return {nodes.data() + static_cast<std::ptrdiff_t>(e) * nodes_per_element,
+            static_cast<std::size_t>(nodes_per_element)};
+  }
+};
+
+/// The elements of a mesh as finite elements of its order.
+///
+///   hexahedra:  the (order + 1)^3 lattice, the first direction running fastest;
+///   tetrahedra: the four corners, then the middles of the edges 01 12 20 03 13 23 (order 2).
+[[nodiscard]] ElementNodes elements(const Mesh& mesh);
+
+/// The sides of those elements on a surface of the mesh, normals out of the wall.
+///
+///   quadrilaterals: the (order + 1)^2 lattice, the first direction running fastest;
+///   triangles:      the three corners, then the middles of the edges 01 12 20 (order 2).
+[[nodiscard]] ElementNodes sides(const Mesh& mesh, const Surface& surface);
+
+}  // namespace lv::mesh
