@@ -64,6 +64,7 @@ struct Case {
   material::Volumetric volumetric;
   solid::VolumetricPoints volumetric_points = solid::VolumetricPoints::mean;
   material::NiedererHunterSmith active;
+  mesh::InfarctParameters scar;  ///< where the infarct is
   material::InfarctScaling infarct;
   fluid::Blood blood;
   Box box;
@@ -77,6 +78,12 @@ struct Case {
   std::map<std::string, std::string>
       origin;  ///< parameter -> "file:line" where the case file sets it
 };
+
+/// A file named in a case file; relative names are relative to the case file.
+[[nodiscard]] std::filesystem::path beside(const Case& c, const std::string& name);
+
+/// The line of the case file that sets a parameter, else the file.
+[[nodiscard]] std::string place_of(const Case& c, const std::string& parameter);
 
 [[nodiscard]] solid::WallMaterial wall_material(const Case& c);
 

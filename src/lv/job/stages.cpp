@@ -1,9 +1,11 @@
 #include "lv/job/stages.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/log.hpp"
 #include "lv/base/parallel.hpp"
 #include "lv/base/table.hpp"
 #include "lv/heartbeat/archive.hpp"
+#include "lv/job/infarct.hpp"
 #include "lv/job/parameters.hpp"
 #include "lv/job/run.hpp"
 #include "lv/mesh/quality.hpp"
@@ -147,12 +149,6 @@ report::RunFacts run_facts(const Case& c, const MeshResult& mesh, const BeatResu
   return facts;
 }
 
-/// The line of the case file that sets a parameter, else the file.
-std::string place_of(const Case& c, const std::string& parameter) {
-  const auto set_at = c.origin.find(parameter);
-  return set_at == c.origin.end() ? c.file.string() : set_at->second;
-}
-
 /// The undeformed wall with the kernel's reach, three cells, must fit in the box.
 void check_box(const Case& c, const mesh::Mesh& m) {
   const fluid::Grid grid = model_parameters(c, m).grid;
@@ -208,6 +204,7 @@ MeshResult make_mesh(const Case& c, const Shape& shape) {
   result.mesh = shape.given ? *shape.given : mesh::wall_mesh(shape.wall, c.mesh);
   check_box(c, result.mesh);
   check_spacing(c, result.mesh);
+  result.mesh.infarct = infarct_extent(c, shape, result.mesh);
   result.regions = mesh::divide(result.mesh, c.regions);
   return result;
 }
@@ -239,6 +236,10 @@ void show_mesh(const MeshResult& result, const Case& c, const std::filesystem::p
   report::quality_table(mesh::quality(m)).write_csv(folder / "quality.csv");
   report::write(report::mesh_figure(m), folder / "mesh.png");
   report::write(report::fibre_figure(m, undeformed), folder / "fibres.png");
+  if (const std::string infarct = describe_infarct(c, m); !infarct.empty()) {
+    log::info("{}", infarct);
+    report::write(report::infarct_figure(m), folder / "infarct.png");
+  }
 }
 
 MeshResult read_mesh_result(const std::filesystem::path& folder) {
