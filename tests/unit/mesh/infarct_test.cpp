@@ -77,7 +77,9 @@ DescribedInfarct everything() {
 
 /// The skin of the flagged cells as triangles.
 std::vector<std::array<Vec3, 3>> skin(const Mesh& mesh, const Infarcted& infarcted) {
-  Mesh part{.kind = mesh.kind, .nodes = mesh.nodes};
+  Mesh part;
+  part.kind = mesh.kind;
+  part.nodes = mesh.nodes;
   for (int c = 0; c < mesh.cell_count(); ++c)
     if (infarcted[c])
       part.cells.insert(part.cells.end(), mesh.cell(c).begin(), mesh.cell(c).end());
@@ -355,7 +357,9 @@ TEST_CASE("an imported mesh knows its set of infarcted elements", "[unit][mesh]"
          {std::pair{".inp", abaqus}, {".vtk", vtk}, {".msh", test::gmsh22_text(mesh, infarcted)}}) {
       INFO(ending);
       const test::TemporaryFile file(ending, text);
-      mesh::ImportParameters parameters{.file = file.path(), .sides = mesh::SideSource::geometry};
+      mesh::ImportParameters parameters;
+      parameters.file = file.path();
+      parameters.sides = mesh::SideSource::geometry;
       CHECK(mesh::import_mesh(parameters).infarcted.empty());
       parameters.infarct_set = "scar";
       CHECK((mesh::import_mesh(parameters).infarcted == infarcted));
