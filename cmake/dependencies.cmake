@@ -12,7 +12,7 @@ add_library(xsimd_headers INTERFACE)
 target_include_directories(xsimd_headers SYSTEM INTERFACE ${XSIMD_INCLUDE_DIR})
 find_package(fmt 9 REQUIRED)
 find_package(spdlog 1.10 REQUIRED)
-find_package(VTK 9.1 REQUIRED COMPONENTS CommonCore CommonDataModel IOCore IOXML IOLegacy)
+find_package(VTK 9.1 REQUIRED COMPONENTS CommonCore CommonDataModel IOCore IOGeometry IOLegacy IOPLY IOXML)
 
 # OpenMPI's retired C++ interface is neither used nor linked.
 target_compile_definitions(PkgConfig::MPI INTERFACE OMPI_SKIP_MPICXX)

@@ -17,11 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A file named in a case file; relative names are relative to the case file.
-fs::path beside(const Case& c, const std::string& name) {
-  return c.file.parent_path() / name;
-}
-
 geometry::ContourFiles contour_files(const Case& c) {
   const ContourAnatomy& a = c.anatomy.contours;
   if (a.short_axis.empty())
@@ -52,10 +47,15 @@ Shape from_mesh(const Case& c) {
   if (import.file.empty())
     throw InputError(c.file.string(), "anatomy.mesh.file is not set", "Name the mesh's file");
   import.file = beside(c, import.file).string();
+  if (c.scar.source == mesh::InfarctSource::elements)
+    import.infarct_set = c.scar.set;
   mesh::ImportedMesh imported = mesh::import_mesh(import);
-  for (int i = 0; i < c.anatomy.mesh.refinements; ++i)
+  for (int i = 0; i < c.anatomy.mesh.refinements; ++i) {
     imported.mesh = mesh::refine(imported.mesh);
+    imported.infarcted = mesh::refine_flags(imported.infarcted);
+  }
   Shape shape;
+  shape.infarcted = std::move(imported.infarcted);
   shape.given = std::move(imported.mesh);
   shape.frame = imported.frame;
   shape.notes = imported.notes;

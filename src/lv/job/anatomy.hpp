@@ -15,6 +15,7 @@ namespace lv::job {
 struct Shape {
   mesh::WallMap wall;               ///< empty for a mesh from elsewhere
   std::optional<mesh::Mesh> given;  ///< that mesh
+  std::vector<bool> infarcted;      ///< its elements in infarct.elements.set, if that is the source
   geometry::Frame frame;
   std::optional<geometry::FitReport> fit;  ///< for contours
   std::vector<std::string> notes;          ///< what was assumed or changed

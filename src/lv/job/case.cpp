@@ -8,6 +8,15 @@ constexpr double quasi_static_base = 1e6;
 
 }  // namespace
 
+std::filesystem::path beside(const Case& c, const std::string& name) {
+  return c.file.parent_path() / name;
+}
+
+std::string place_of(const Case& c, const std::string& parameter) {
+  const auto set_at = c.origin.find(parameter);
+  return set_at == c.origin.end() ? c.file.string() : set_at->second;
+}
+
 solid::WallMaterial wall_material(const Case& c) {
   solid::WallMaterial material;
   switch (c.passive.law) {

@@ -79,6 +79,7 @@ struct Case {
   material::ActiveForm active_form = material::ActiveForm::niederer;
   double prescribed_tension = 60.0;  ///< for the other forms [kPa]
   material::NiedererHunterSmith active;
+  mesh::InfarctParameters scar;  ///< where the infarct is
   material::InfarctScaling infarct;
   fluid::Blood blood;
   Box box;
@@ -94,6 +95,12 @@ struct Case {
   std::map<std::string, std::string>
       origin;  ///< parameter -> "file:line" where the case file sets it
 };
+
+/// A file named in a case file; relative names are relative to the case file.
+[[nodiscard]] std::filesystem::path beside(const Case& c, const std::string& name);
+
+/// The line of the case file that sets a parameter, else the file.
+[[nodiscard]] std::string place_of(const Case& c, const std::string& parameter);
 
 /// Passive and active law as the walls of both engines know them.
 [[nodiscard]] solid::WallMaterial wall_material(const Case& c);

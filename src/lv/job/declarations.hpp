@@ -254,6 +254,26 @@ class Declarations {
         });
   }
 
+  template <class Member>
+  void whole_list(const std::string& key, const Member& member, const std::string& help) {
+    const std::string rule = "a list of whole numbers, at least one";
+    add(
+        key, "list of whole numbers", "", rule, help, "",
+        [=](const Case& c) {
+          return fmt::format("[{}]", fmt::join(member(const_cast<Case&>(c)), ", "));
+        },
+        [=](Case& c, const toml::node& node) {
+          const toml::array* array = node.as_array();
+          if (array == nullptr || array->empty() || !array->is_homogeneous<std::int64_t>())
+            throw std::invalid_argument(fmt::format("must be {}", rule));
+          member(c).clear();
+          for (const toml::node& value : *array) {
+            check_range(number_of(value), between(-2e9, 2e9), "");
+            member(c).push_back(static_cast<int>(*value.value<std::int64_t>()));
+          }
+        });
+  }
+
  private:
   void add(const std::string& key, const std::string& type, const std::string& unit,
            const std::string& rule, const std::string& help, const std::string& equation,

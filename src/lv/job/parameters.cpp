@@ -138,6 +138,54 @@ void declare_mesh(Declarations& d) {
              "Fig. 3");
 }
 
+void declare_infarct(Declarations& d) {
+  d.table = "infarct";
+  d.choice("source", LV_AT(scar.source),
+           {"mesh", "none", "described", "elements", "surface", "labels"},
+           "where the infarct comes from: the mesh file's point array of M (no infarct if it has "
+           "none), nowhere, or one of the tables below; an element is infarcted if its centre is",
+           "2.11");
+  d.quantity("border", LV_AT(scar.border), "mm", {.low = 0.0, .high = 100.0, .low_included = false},
+             "width of the border zone, over which M falls from 1 to 0", "2.11");
+  d.quantity("length_unit", LV_AT(scar.length_unit), "mm", positive,
+             "length of the unit of surface.file or labels.file");
+  d.table = "infarct.described";
+  const Range height = between(0.0, 1.0);
+  d.quantity("angle", LV_AT(scar.described.angle), "deg", between(-360.0, 360.0),
+             "direction of the sector's middle about the long axis, from the middle of the septum "
+             "towards the anterior wall; 30 deg is antero-septal",
+             "2.2");
+  d.quantity("width", LV_AT(scar.described.width), "deg", between(0.0, 360.0),
+             "angle that the sector spans");
+  d.number("bottom", LV_AT(scar.described.bottom), height,
+           "height at which the sector begins, from 0 at the apex to 1 at the base");
+  d.number("top", LV_AT(scar.described.top), height, "height at which the sector ends");
+  d.number("apex", LV_AT(scar.described.apex), height,
+           "below this height the wall is infarcted all round");
+  d.number("transmurality", LV_AT(scar.described.transmurality),
+           {.low = 0.0, .high = 1.0, .low_included = false},
+           "part of the wall's thickness that is infarcted, from the endocardium");
+  d.table = "infarct.elements";
+  d.text("set", LV_AT(scar.set),
+         "set of elements in anatomy.mesh.file: an ABAQUS *Elset, the name or number of a Gmsh "
+         "physical volume, or a VTK cell array that is 1 in the infarct and 0 elsewhere");
+  d.table = "infarct.surface";
+  d.text(
+      "file", LV_AT(scar.surface),
+      "closed surface in image space (a mesh's own coordinates): .stl, .ply, .vtp or .vtk; names "
+      "are relative to the case file");
+  d.table = "infarct.labels";
+  d.text("file", LV_AT(scar.labels),
+         "labelled volume in image space: .vti or .vtk (structured points)");
+  d.text("array", LV_AT(scar.array),
+         "array of labels, at points (centres of voxels) or in cells; empty: the only one");
+  d.whole_list("scar", LV_AT(scar.scar), "the labels that mean scar");
+  d.stage = Stage::beat;
+  d.table = "infarct";
+  d.number("stiffening", LV_AT(infarct.stiffening), not_negative,
+           "an infarct of extent M is (1 + stiffening M) times as stiff", "2.23");
+}
+
 void declare_passive(Declarations& d) {
   d.table = "passive";
   d.choice("law", LV_AT(passive.law), {"holzapfel_ogden", "guccione", "neo_hookean"},
@@ -171,9 +219,6 @@ void declare_passive(Declarations& d) {
            "where the penalty is integrated: at all points of an element, or from mean dilatations "
            "(of a hexahedron, around a node of tetrahedra), which do not lock",
            "2.20");
-  d.table = "infarct";
-  d.number("stiffening", LV_AT(infarct.stiffening), not_negative,
-           "an infarct of extent M is (1 + stiffening M) times as stiff", "2.23");
 }
 
 void declare_active(Declarations& d) {
@@ -255,8 +300,6 @@ void declare_engine(Declarations& d) {
   d.number("points_per_cell", LV_AT(coupling.points_per_cell), between(0.5, 8.0),
            "Gauss points per mesh width (quadrature coupling)", "2.5");
   d.table = "quasi_static";
-  d.choice("linear_solver", LV_AT(quasi_static.solver.linear_solver), {"direct", "iterative"},
-           "MUMPS, or flexible GMRES with multigrid for meshes whose factors do not fit in memory");
   d.quantity(
       "stabilisation", LV_AT(quasi_static.stabilisation.beta_s), "kPa", not_negative,
       "volumetric stiffness at every quadrature point, which keeps elements from buckling inside; "
@@ -342,7 +385,7 @@ std::vector<Parameter> declare_all() {
   declare_contours(d);
   declare_given_mesh(d);
   declare_mesh(d);
-  d.stage = Stage::beat;
+  declare_infarct(d);
   declare_passive(d);
   declare_active(d);
   declare_engine(d);
@@ -379,7 +422,13 @@ const std::vector<Section>& sections() {
       {"passive.guccione", "Guccione law (law = \"guccione\")"},
       {"passive.neo_hookean", "Neo-Hookean law (law = \"neo_hookean\")"},
       {"volumetric", "Incompressibility in Lagrangian form"},
-      {"infarct", "What an infarct does to the muscle; its extent M comes with the mesh"},
+      {"infarct", "The infarct: its extent M and what it does to the muscle"},
+      {"infarct.described",
+       "An idealised infarct (source = \"described\"): a sector of the wall and the apex all "
+       "round"},
+      {"infarct.elements", "Elements of an imported mesh (source = \"elements\")"},
+      {"infarct.surface", "What a closed surface encloses (source = \"surface\")"},
+      {"infarct.labels", "Voxels of a segmented image (source = \"labels\")"},
       {"active",
        "Active tension; all but law and tension belong to the law of Niederer, Hunter and Smith"},
       {"calcium", "Intracellular calcium, the same everywhere"},

@@ -86,6 +86,14 @@ class CaseReader {
          "must be between -endo_length and endo_length");
     rule(case_.passive.law == PassiveLaw::holzapfel_ogden || case_.origin.count("passive.C_a") == 0,
          "passive.C_a", "scales the Holzapfel-Ogden law alone; passive.law is another");
+    const mesh::InfarctParameters& scar = case_.scar;
+    rule(scar.described.bottom <= scar.described.top, "infarct.described.bottom",
+         "must not be larger than top");
+    const bool elements = scar.source == mesh::InfarctSource::elements;
+    rule(!elements || case_.anatomy.source == AnatomySource::mesh, "infarct.source",
+         "can be \"elements\" only with anatomy.source = \"mesh\"");
+    rule(!elements || !scar.set.empty(), "infarct.source",
+         "is \"elements\", but infarct.elements.set is not set");
     const auto& A = case_.active.A;
     rule(A[0] + A[1] + A[2] > 0.0, "active.A_1", "and A_2 and A_3 must have a positive sum");
     const heartbeat::Protocol& p = case_.protocol;

@@ -7,6 +7,7 @@
 #include "lv/base/parallel.hpp"
 #include "lv/base/table.hpp"
 #include "lv/bench/bench.hpp"
+#include "lv/job/infarct.hpp"
 #include "lv/job/parameters.hpp"
 #include "lv/job/stages.hpp"
 #include "lv/job/workspace.hpp"
@@ -76,6 +77,8 @@ class Pipeline {
         ingredients.merge(anatomy_files(case_));
       else
         ingredients["result of " + stage_names[s - 1]] = upstream;
+      if (static_cast<Stage>(s) == Stage::mesh)
+        ingredients.merge(infarct_files(case_));
       upstream = fingerprint(ingredients);
       run_stage(s, std::move(ingredients));
     }
@@ -226,6 +229,8 @@ std::string validate(const Case& c) {
       q.cells, q.nodes, q.edge_length.mean, q.worst_cell, q.worst_place.x(), q.worst_place.y(),
       q.worst_place.z(), q.scaled_jacobian.min, p.grid.cells[0], p.grid.cells[1], p.grid.cells[2],
       p.grid.spacing.minCoeff());
+  if (const std::string infarct = describe_infarct(c, m); !infarct.empty())
+    text += fmt::format("  {}\n", infarct);
   const double seconds = trial_step(c, m, p);
   const double shortest = c.protocol.filling_ramp + c.protocol.filling_window +
                           c.protocol.contraction_ramp + c.protocol.contraction_window;

@@ -1,10 +1,12 @@
 #include "lv/job/stages.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/log.hpp"
 #include "lv/base/parallel.hpp"
 #include "lv/base/table.hpp"
 #include "lv/heartbeat/archive.hpp"
 #include "lv/heartbeat/quasi_static_beat.hpp"
+#include "lv/job/infarct.hpp"
 #include "lv/job/parameters.hpp"
 #include "lv/job/run.hpp"
 #include "lv/mesh/quality.hpp"
@@ -150,12 +152,6 @@ report::RunFacts run_facts(const Case& c, const MeshResult& mesh, const BeatResu
   return facts;
 }
 
-/// The line of the case file that sets a parameter, else the file.
-std::string place_of(const Case& c, const std::string& parameter) {
-  const auto set_at = c.origin.find(parameter);
-  return set_at == c.origin.end() ? c.file.string() : set_at->second;
-}
-
 /// The undeformed wall with the kernel's reach, three cells, must fit in the box.
 void check_box(const Case& c, const mesh::Mesh& m) {
   const fluid::Grid grid = model_parameters(c, m).grid;
@@ -209,6 +205,7 @@ void draw(const mesh::Mesh& mesh, const heartbeat::Beat& beat, const analysis::B
 MeshResult make_mesh(const Case& c, const Shape& shape) {
   MeshResult result;
   result.mesh = shape.given ? *shape.given : mesh::wall_mesh(shape.wall, mesh_parameters(c));
+  result.mesh.infarct = infarct_extent(c, shape, result.mesh);
   if (c.engine == Engine::immersed) {
     check_box(c, result.mesh);
     check_spacing(c, result.mesh);
@@ -247,6 +244,10 @@ void show_mesh(const MeshResult& result, const Case& c, const std::filesystem::p
   report::quality_table(mesh::quality(m)).write_csv(folder / "quality.csv");
   report::write(report::mesh_figure(m), folder / "mesh.png");
   report::write(report::fibre_figure(m, undeformed), folder / "fibres.png");
+  if (const std::string infarct = describe_infarct(c, m); !infarct.empty()) {
+    log::info("{}", infarct);
+    report::write(report::infarct_figure(m), folder / "infarct.png");
+  }
 }
 
 MeshResult read_mesh_result(const std::filesystem::path& folder) {

@@ -75,8 +75,9 @@ void fail_missing_tag(const std::string& file, const std::string& what, const st
   const std::string suggestion =
       nearest.empty() ? "Name one of them" : fmt::format("Did you mean \"{}\"?", nearest);
   if (tags.empty())
-    throw InputError(file, fmt::format("has no {} \"{}\", nor any other", what, tag),
-                     "Tag the sides of the wall, or let the sides be found by geometry");
+    throw InputError(
+        file, fmt::format("has no {} \"{}\", nor any other", what, tag),
+        "Tag it in the program that made the mesh; sides can also be found by geometry");
   throw InputError(file, fmt::format("has no {} \"{}\"; it has {}", what, tag, list(tags)),
                    suggestion);
 }

@@ -29,6 +29,7 @@ struct ForeignMesh {
   Mesh mesh;          ///< kind, nodes, cells, and M(X) if the file has it
   double unit = 1.0;  ///< length of the file's unit, by which the nodes have been scaled
   std::vector<ForeignSide> sides;  ///< endocardium, epicardium, base; none if found by geometry
+  std::vector<bool> infarcted;     ///< per cell; empty if no set of infarcted cells was asked for
   std::vector<std::int64_t> node_numbers, cell_numbers;  ///< as the file counts
   std::vector<std::string> files;                        ///< the file and those it includes
   std::vector<FileLine> node_lines, cell_lines;          ///< empty where the reader knows none

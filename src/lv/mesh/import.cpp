@@ -330,6 +330,7 @@ ImportedMesh to_model(ForeignMesh&& foreign, const Sides& sides, const Plane& ba
   for (const int node : sides[2].nodes)
     imported.mesh.nodes[node].z() = 0.0;  // rounding off
   imported.mesh.transmural = transmural_by_distance(imported.mesh);
+  imported.infarcted = std::move(foreign.infarcted);
   imported.node_numbers = std::move(foreign.node_numbers);
   imported.cell_numbers = std::move(foreign.cell_numbers);
   imported.notes = std::move(foreign.notes);

@@ -19,6 +19,7 @@ struct ImportedMesh {
   /// edge.
   geometry::Frame frame;
 
+  std::vector<bool> infarcted;             ///< per cell; empty unless the parameters name a set
   std::vector<std::int64_t> node_numbers;  ///< of the nodes in the file
   std::vector<std::int64_t> cell_numbers;  ///< of the cells in the file
   std::vector<std::string> notes;          ///< what was changed on the way, for the log

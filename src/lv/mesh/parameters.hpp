@@ -1,6 +1,8 @@
 #pragma once
 
+#include <numbers>
 #include <string>
+#include <vector>
 
 namespace lv::mesh {
 
@@ -35,9 +37,49 @@ struct ImportParameters {
   std::string base = "base";    ///< tag of the base
   std::string side_array;       ///< VTK: cell-data array with the sides' numbers
   std::string infarct_array;    ///< VTK: point array of M(X); empty: "infarct", if the file has it
+  std::string infarct_set;      ///< infarcted elements: an ABAQUS *Elset, the name or number of a
+                                ///< Gmsh physical volume, a VTK cell array that is 1 on them and 0
+                                ///< elsewhere; empty: none are asked for
   double base_tolerance = 0.1;  ///< largest distance of the base's nodes from their plane [mm]
   double shortest = 20.0;       ///< smallest believable extent of a wall [mm]
   double longest = 200.0;       ///< largest believable extent of a wall [mm]
+};
+
+/// Where the extent of the infarct, M(X), comes from.
+enum class InfarctSource {
+  mesh,       ///< M at the nodes of an imported mesh; 0 if it brings none
+  none,       ///< no infarct
+  described,  ///< an idealised description
+  elements,   ///< a set of elements of an imported mesh
+  surface,    ///< a closed surface in image space
+  labels      ///< a labelled volume in image space
+};
+
+/// An idealised infarct in the wall's own directions: a sector of the wall and the apex all round,
+/// from the endocardium outwards. Heights are fractions of the wall's length, 0 at the apex of the
+/// epicardium and 1 at the base. The defaults are antero-septal and apical.
+struct DescribedInfarct {
+  double angle = std::numbers::pi / 6.0;  ///< of the sector's middle about the long axis, from
+                                          ///< the middle of the septum towards the anterior
+                                          ///< wall [rad]
+  double width = 2.0 * std::numbers::pi / 3.0;  ///< of the sector [rad]
+  double bottom = 0.0;                          ///< height at which the sector begins
+  double top = 0.7;                             ///< height at which it ends
+  double apex = 0.3;           ///< below this height the wall is infarcted all round
+  double transmurality = 1.0;  ///< transmural coordinate that the infarct reaches
+};
+
+/// The infarct and its border zone. Files as the case file names them.
+struct InfarctParameters {
+  InfarctSource source = InfarctSource::mesh;
+  double border = 10.0;  ///< width of the border zone, l^bz of (2.11) [mm]
+  DescribedInfarct described;
+  std::string set;           ///< of elements; see ImportParameters::infarct_set
+  std::string surface;       ///< .stl, .ply, .vtp or .vtk
+  std::string labels;        ///< .vti or .vtk
+  std::string array;         ///< of labels; empty: the file's only array
+  std::vector<int> scar{1};  ///< the labels that mean scar
+  double length_unit = 1.0;  ///< of the surface's or labels' file [mm]
 };
 
 }  // namespace lv::mesh

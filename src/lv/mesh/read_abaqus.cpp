@@ -137,6 +137,23 @@ ForeignSide find_side(const AbaqusModel& model, const std::string& tag) {
   fail_missing_tag(model.files.front(), "*Surface, *Elset or *Nset", tag, all_tags(model));
 }
 
+/// Marks the volume elements of a set.
+std::vector<bool> find_infarcted(const AbaqusModel& model, const std::string& set) {
+  const auto found = model.element_sets.find(upper_case(set));
+  if (found == model.element_sets.end()) {
+    std::vector<std::string> names;
+    for (const auto& [name, members] : model.element_sets)
+      names.push_back(name);
+    fail_missing_tag(model.files.front(), "*Elset", set, names);
+  }
+  const std::set<Number> members(found->second.begin(), found->second.end());
+  std::vector<bool> infarcted;
+  for (const AbaqusModel::Element& element : model.elements)
+    if (element.type.use == Use::volume)
+      infarcted.push_back(members.contains(element.number));
+  return infarcted;
+}
+
 }  // namespace
 
 ForeignMesh read_abaqus(const ImportParameters& parameters) {
@@ -145,6 +162,8 @@ ForeignMesh read_abaqus(const ImportParameters& parameters) {
   if (parameters.sides == SideSource::tags)
     for (const std::string& tag : side_tags(parameters))
       foreign.sides.push_back(find_side(model, tag));
+  if (!parameters.infarct_set.empty())
+    foreign.infarcted = find_infarcted(model, parameters.infarct_set);
   return foreign;
 }
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <fstream>
 #include <numeric>
+#include <set>
 #include <unordered_map>
 
 namespace lv::mesh {
@@ -156,27 +157,29 @@ void add_cells(ForeignMesh& foreign, const NodeIndex& index) {
   }
 }
 
-struct PhysicalSurface {
-  int number;
-  std::string name;
-};
-
-std::vector<PhysicalSurface> physical_surfaces() {
+/// The entities of the physical group of that name or number. `what` names such a group.
+std::vector<int> entities_of_group(const std::string& file, int dimension, const char* what,
+                                   const std::string& tag) {
   gmsh::vectorpair groups;
-  gmsh::model::getPhysicalGroups(groups, 2);
-  std::vector<PhysicalSurface> surfaces;
-  for (const auto& [dimension, number] : groups) {
-    surfaces.push_back({number, ""});
-    gmsh::model::getPhysicalName(dimension, number, surfaces.back().name);
+  gmsh::model::getPhysicalGroups(groups, dimension);
+  std::vector<std::string> tags;
+  for (const auto& group : groups) {
+    const std::string number = fmt::format("{}", group.second);
+    std::string name;
+    gmsh::model::getPhysicalName(dimension, group.second, name);
+    if (tag == name || tag == number) {
+      std::vector<int> entities;
+      gmsh::model::getEntitiesForPhysicalGroup(dimension, group.second, entities);
+      return entities;
+    }
+    tags.push_back(name.empty() ? number : name);
   }
-  return surfaces;
+  fail_missing_tag(file, what, tag, tags);
 }
 
-ForeignSide side_of_group(int number, const NodeIndex& index) {
+ForeignSide find_side(const std::string& file, const std::string& tag, const NodeIndex& index) {
   ForeignSide side;
-  std::vector<int> entities;
-  gmsh::model::getEntitiesForPhysicalGroup(2, number, entities);
-  for (const int entity : entities) {
+  for (const int entity : entities_of_group(file, 2, "physical surface", tag)) {
     for (const Elements& e : elements_of(2, entity)) {
       if (e.type != triangle && e.type != quadrilateral)
         continue;
@@ -191,16 +194,16 @@ ForeignSide side_of_group(int number, const NodeIndex& index) {
   return side;
 }
 
-ForeignSide find_side(const std::string& file, const std::string& tag, const NodeIndex& index) {
-  const auto surfaces = physical_surfaces();
-  std::vector<std::string> tags;
-  for (const PhysicalSurface& surface : surfaces) {
-    const std::string number = fmt::format("{}", surface.number);
-    if (tag == surface.name || tag == number)
-      return side_of_group(surface.number, index);
-    tags.push_back(surface.name.empty() ? number : surface.name);
-  }
-  fail_missing_tag(file, "physical surface", tag, tags);
+/// Marks the cells of a physical volume.
+std::vector<bool> find_infarcted(const ForeignMesh& foreign, const std::string& tag) {
+  std::set<std::size_t> members;
+  for (const int entity : entities_of_group(foreign.files.front(), 3, "physical volume", tag))
+    for (const Elements& e : elements_of(3, entity))
+      members.insert(e.tags.begin(), e.tags.end());
+  std::vector<bool> infarcted;
+  for (const std::int64_t number : foreign.cell_numbers)
+    infarcted.push_back(members.contains(static_cast<std::size_t>(number)));
+  return infarcted;
 }
 
 }  // namespace
@@ -216,6 +219,8 @@ ForeignMesh read_gmsh(const ImportParameters& parameters) {
   if (parameters.sides == SideSource::tags)
     for (const std::string& tag : side_tags(parameters))
       foreign.sides.push_back(find_side(parameters.file, tag, index));
+  if (!parameters.infarct_set.empty())
+    foreign.infarcted = find_infarcted(foreign, parameters.infarct_set);
   return foreign;
 }
 

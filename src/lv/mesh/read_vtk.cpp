@@ -1,6 +1,7 @@
 #include "lv/mesh/read_vtk.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/mesh/vtk_messages.hpp"
 
 #include <fmt/format.h>
 #include <vtkCellData.h>
@@ -8,10 +9,7 @@
 #include <vtkCellTypes.h>
 #include <vtkDataArray.h>
 #include <vtkIdList.h>
-#include <vtkLogger.h>
 #include <vtkNew.h>
-#include <vtkObjectFactory.h>
-#include <vtkOutputWindow.h>
 #include <vtkPointData.h>
 #include <vtkSmartPointer.h>
 #include <vtkUnstructuredGrid.h>
@@ -24,48 +22,6 @@
 
 namespace lv::mesh {
 namespace {
-
-/// Keeps VTK's messages instead of printing them.
-class MessageWindow : public vtkOutputWindow {
- public:
-  static MessageWindow* New();  // NOLINT(readability-identifier-naming): VTK's name
-  // NOLINTNEXTLINE(readability-identifier-naming): VTK's name
-  void DisplayText(const char* text) override { messages += text; }
-
-  std::string messages;
-};
-vtkStandardNewMacro(MessageWindow);
-
-/// VTK's messages while it lives.
-class Messages {
- public:
-  Messages()
-      : window_before_(vtkOutputWindow::GetInstance()),
-        verbosity_before_(vtkLogger::GetCurrentVerbosityCutoff()) {
-    vtkOutputWindow::SetInstance(window_);
-    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
-  }
-  ~Messages() {
-    vtkLogger::SetStderrVerbosity(verbosity_before_);
-    vtkOutputWindow::SetInstance(window_before_);
-  }
-  Messages(const Messages&) = delete;
-  Messages& operator=(const Messages&) = delete;
-
-  /// "ERROR: In file.cxx, line 1\nvtkClass (0x1): what happened" -> "what happened"
-  [[nodiscard]] std::string first() const {
-    const auto start = window_->messages.find("): ");
-    if (start == std::string::npos)
-      return window_->messages;
-    const auto end = window_->messages.find('\n', start);
-    return window_->messages.substr(start + 3, end - start - 3);
-  }
-
- private:
-  vtkSmartPointer<vtkOutputWindow> window_before_;
-  vtkLogger::Verbosity verbosity_before_;
-  vtkNew<MessageWindow> window_;
-};
 
 bool is_legacy(const std::string& file) {
   return !file.ends_with('u') && !file.ends_with('U');
@@ -94,7 +50,7 @@ vtkSmartPointer<vtkUnstructuredGrid> read_xml(const std::string& file) {
 }
 
 vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::string& file) {
-  const Messages messages;
+  const VtkMessages messages;
   const auto grid = is_legacy(file) ? read_legacy(file) : read_xml(file);
   if (const std::string message = messages.first(); !message.empty())
     throw InputError(file, fmt::format("cannot be read: {}", message),
@@ -265,6 +221,24 @@ std::vector<double> read_infarct(const ImportParameters& parameters, vtkUnstruct
   return M;
 }
 
+/// The volume cells at which a cell array of zeros and ones is one.
+std::vector<bool> read_infarcted(const ImportParameters& parameters, vtkUnstructuredGrid& grid) {
+  const std::string& name = parameters.infarct_set;
+  vtkDataArray& array = find_array(parameters.file, *grid.GetCellData(), "cell array", name);
+  std::vector<bool> infarcted;
+  for (vtkIdType c = 0; c < array.GetNumberOfTuples(); ++c) {
+    if (dimension(grid.GetCellType(c)) != 3)
+      continue;
+    const double value = array.GetTuple1(c);
+    if (value != 0.0 && value != 1.0)
+      throw InputError(parameters.file,
+                       fmt::format("cell array \"{}\" is {} at cell {}", name, value, c),
+                       "It must be 1 in the infarct and 0 elsewhere");
+    infarcted.push_back(value == 1.0);
+  }
+  return infarcted;
+}
+
 }  // namespace
 
 ForeignMesh read_vtk(const ImportParameters& parameters) {
@@ -273,6 +247,8 @@ ForeignMesh read_vtk(const ImportParameters& parameters) {
   if (parameters.sides == SideSource::tags)
     foreign.sides = read_sides(parameters, *grid);
   foreign.mesh.infarct = read_infarct(parameters, *grid);
+  if (!parameters.infarct_set.empty())
+    foreign.infarcted = read_infarcted(parameters, *grid);
   return foreign;
 }
 

@@ -152,4 +152,11 @@ Mesh refine(const Mesh& mesh) {
   return Refiner(mesh).refine();
 }
 
+std::vector<bool> refine_flags(const std::vector<bool>& cells) {
+  std::vector<bool> fine;
+  for (const bool flag : cells)
+    fine.insert(fine.end(), 8, flag);
+  return fine;
+}
+
 }  // namespace lv::mesh

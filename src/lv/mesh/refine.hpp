@@ -10,4 +10,7 @@ namespace lv::mesh {
 /// shortest diagonal. The result is of order 2: its cells hang together as quadratic elements.
 [[nodiscard]] Mesh refine(const Mesh& mesh);
 
+/// A flag per cell, handed on to the eight cells that refine() makes of it.
+[[nodiscard]] std::vector<bool> refine_flags(const std::vector<bool>& cells);
+
 }  // namespace lv::mesh

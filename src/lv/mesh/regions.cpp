@@ -60,6 +60,22 @@ std::vector<Vec3> cavity_centres(const Mesh& mesh, int slabs, const SlabOf& slab
   return centres;
 }
 
+/// The seven short-axis planes, from the base on.
+struct SlicePlanes {
+  double spacing;
+
+  SlicePlanes(const Mesh& mesh, const RegionParameters& parameters)
+      : spacing(parameters.slice_spacing > 0.0 ? parameters.slice_spacing
+                                               : -lowest(mesh, mesh.epi) / (slice_count - 0.5)) {}
+
+  [[nodiscard]] int nearest(double z) const {
+    return std::clamp(static_cast<int>(std::lround(-z / spacing)), 0, slice_count - 1);
+  }
+  [[nodiscard]] std::vector<Vec3> centres(const Mesh& mesh) const {
+    return cavity_centres(mesh, slice_count, [this](double z) { return nearest(z); });
+  }
+};
+
 double angle_about(const Vec3& centre, const Vec3& x) {
   return std::atan2(x.y() - centre.y(), x.x() - centre.x());
 }
@@ -73,23 +89,28 @@ int aha_segment(int third, double angle, double septum) {
 
 }  // namespace
 
-Regions divide(const Mesh& mesh, const RegionParameters& parameters) {
-  const double length = -lowest(mesh, mesh.epi);
-  const double cavity_length = -lowest(mesh, mesh.endo);
-  const double spacing =
-      parameters.slice_spacing > 0.0 ? parameters.slice_spacing : length / (slice_count - 0.5);
-  const SlabOf plane_of = [&](double z) {
-    return std::clamp(static_cast<int>(std::lround(-z / spacing)), 0, slice_count - 1);
+std::function<Vec3(double z)> cavity_axis(const Mesh& mesh, const RegionParameters& parameters) {
+  const SlicePlanes planes(mesh, parameters);
+  return [spacing = planes.spacing, centres = planes.centres(mesh)](double z) {
+    const double place = std::clamp(-z / spacing, 0.0, slice_count - 1.0);
+    const int above = std::min(static_cast<int>(place), slice_count - 2);
+    const double s = place - above;
+    return Vec3((1.0 - s) * centres[above] + s * centres[above + 1]);
   };
+}
+
+Regions divide(const Mesh& mesh, const RegionParameters& parameters) {
+  const double cavity_length = -lowest(mesh, mesh.endo);
+  const SlicePlanes planes(mesh, parameters);
   const SlabOf third_of = [&](double z) {
     return std::clamp(static_cast<int>(std::floor(-3.0 * z / cavity_length)), 0, 3);
   };
-  const std::vector<Vec3> plane_centres = cavity_centres(mesh, slice_count, plane_of);
+  const std::vector<Vec3> plane_centres = planes.centres(mesh);
   const std::vector<Vec3> third_centres = cavity_centres(mesh, 4, third_of);
   Regions regions;
   for (int c = 0; c < mesh.cell_count(); ++c) {
     const Vec3 x = centre(mesh, c);
-    const int plane = plane_of(x.z());
+    const int plane = planes.nearest(x.z());
     const int third = third_of(x.z());
     regions.slice.push_back(plane + 1);
     regions.sector.push_back(sector_at(angle_about(plane_centres[plane], x),

@@ -2,6 +2,7 @@
 
 #include "lv/mesh/mesh.hpp"
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,11 @@ inline constexpr int slice_count = 7;
 [[nodiscard]] constexpr int sectors_of_slice(int slice) {
   return slice <= 5 ? 6 : 4;
 }
+
+/// The line about which sectors are counted, as a function of z: through the middles of the cavity
+/// near the seven planes, straight between them.
+[[nodiscard]] std::function<Vec3(double z)> cavity_axis(const Mesh& mesh,
+                                                        const RegionParameters& parameters);
 
 [[nodiscard]] Regions divide(const Mesh& mesh, const RegionParameters& parameters);
 

@@ -36,7 +36,7 @@ Engine::Engine(const mesh::Mesh& mesh, const mesh::FibreRule& fibres, const Musc
                const Parameters& parameters)
     : parameters_(parameters),
       equations_(mesh, fibres, muscle),
-      newton_(equations_, parameters.linear_solver, parameters.newton),
+      newton_(equations_, parameters.newton),
       cavity_(mesh),
       state_(equations_.rest()) {}
 

@@ -11,7 +11,6 @@ namespace lv::quasi_static {
 
 /// Parameters of the quasi-static engine.
 struct Parameters {
-  LinearSolver linear_solver = LinearSolver::direct;
   NewtonParameters newton;
   double first_step = 0.1;      ///< of the way from one load to the next [-]
   double smallest_step = 1e-4;  ///< before the engine gives up [-]

@@ -102,17 +102,12 @@ class ElementTangent {
   const Eigen::MatrixXd& compute(const std::vector<Point>& points, const ElementState& s,
                                  const Constitution& law, const Eigen::MatrixXd& pressure_shapes) {
     K_.setZero();
-    schur_.setZero(m_, m_);
     for (std::size_t q = 0; q < points.size(); ++q)
       add_point(points[q], static_cast<Eigen::Index>(q), s, law, pressure_shapes);
     multiply();
     K_.bottomLeftCorner(m_, 3 * n_) = K_.topRightCorner(3 * n_, m_).transpose();
     return K_;
   }
-
-  /// Of the last element, - int q_m q_n / mu dX with a mean stiffness mu [mm^3/kPa]: about
-  /// - B A^{-1} B^T.
-  [[nodiscard]] const Eigen::MatrixXd& schur() const { return schur_; }
 
  private:
   using Index = Eigen::Index;
@@ -123,8 +118,6 @@ class ElementTangent {
     const Eigen::VectorXd N = pressure_shapes.row(q);
     const Tangent<double> C =
         point.volume * (law.tangent(F, point.infarct) + N.dot(s.p) * cofactor_tangent(F));
-    const double mu = C.trace() / (9.0 * point.volume);
-    schur_ -= (point.volume / mu) * N * N.transpose();
     gradients_.middleRows(3 * q, 3) = point.gradient;
     for (int i = 0; i < 3; ++i) {
       for (int k = 0; k < 3; ++k) {
@@ -156,7 +149,7 @@ class ElementTangent {
   Index n_, m_;
   Eigen::MatrixXd gradients_;              ///< G, of all points
   std::array<Eigen::MatrixXd, 9> fluxes_;  ///< C_ik G
-  Eigen::MatrixXd product_, K_, schur_;
+  Eigen::MatrixXd product_, K_;
 };
 
 std::vector<int> unknowns(const ReferenceWall& wall, int e, int node_count) {
@@ -267,7 +260,6 @@ void Equations::tangent(const State& state, const Loads& loads, SparseMatrix& K)
     K.add(unknowns(wall_, e, node_count()),
           element.compute(wall_.points[i], gather(wall_, e, state), law,
                           wall_.pressure_shapes.value));
-    K.add_schur(wall_.pressures.element(e), element.schur());
   }
   for_sides(state, [&](std::span<const int> nodes, const Eigen::Matrix3Xd& x) {
     const auto n = static_cast<Eigen::Index>(nodes.size());

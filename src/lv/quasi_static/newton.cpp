@@ -127,8 +127,8 @@ class Newton::Attempt {
   NewtonReport report_;
 };
 
-Newton::Newton(const Equations& equations, LinearSolver solver, const NewtonParameters& parameters)
-    : equations_(equations), parameters_(parameters), tangent_(equations.pattern(), solver) {}
+Newton::Newton(const Equations& equations, const NewtonParameters& parameters)
+    : equations_(equations), parameters_(parameters), tangent_(equations.pattern()) {}
 
 NewtonReport Newton::solve(State& state, const Loads& loads) {
   try {

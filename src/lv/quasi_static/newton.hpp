@@ -31,7 +31,7 @@ class NoConvergence : public std::runtime_error {
 class Newton {
  public:
   /// The equations must outlive this object.
-  Newton(const Equations& equations, LinearSolver solver, const NewtonParameters& parameters);
+  Newton(const Equations& equations, const NewtonParameters& parameters);
 
   /// Brings `state` to equilibrium under `loads`. Throws NoConvergence, with `state` as it was.
   /// Collective.

@@ -54,24 +54,20 @@ class Numbering {
       const auto of_nodes = parallel::share(nodes, r, ranks);
       for (int u = 3 * of_nodes.begin; u < 3 * of_nodes.end; ++u)
         numbers_[u] = next++;
-      const int middle = next;
       const auto of_pressures = parallel::share(pattern.pressures, r, ranks);
       for (int p = of_pressures.begin; p < of_pressures.end; ++p)
         numbers_[pattern.displacements() + p] = next++;
-      if (r == parallel::rank()) {
-        displacements = {begin, middle};
-        pressures = {middle, next};
-      }
+      if (r == parallel::rank())
+        mine_ = {begin, next};
     }
   }
 
   [[nodiscard]] PetscInt operator[](int unknown) const { return numbers_[unknown]; }
-  [[nodiscard]] PetscInt begin() const { return displacements.begin; }
-  [[nodiscard]] PetscInt end() const { return pressures.end; }
-
-  parallel::Range displacements, pressures;  ///< of this rank, in PETSc's numbers
+  [[nodiscard]] PetscInt begin() const { return mine_.begin; }
+  [[nodiscard]] PetscInt end() const { return mine_.end; }
 
  private:
+  parallel::Range mine_;  ///< of this rank
   std::vector<PetscInt> numbers_;
 };
 
@@ -108,12 +104,12 @@ RowLengths row_lengths(const Pattern& pattern, const Numbering& numbers) {
 
 class SparseMatrix::Implementation {
  public:
-  Implementation(const Pattern& pattern, LinearSolver solver) : solver_(solver), numbers_(pattern) {
+  explicit Implementation(const Pattern& pattern) : numbers_(pattern) {
     make_matrix(pattern);
     check(MatCreateVecs(K_, &x_, &b_));
     check(VecScatterCreateToAll(x_, &to_all_, &everything_));
     check(KSPCreate(PETSC_COMM_WORLD, &ksp_));
-    solver == LinearSolver::direct ? configure_direct() : configure_iterative(pattern);
+    configure();
   }
   ~Implementation() {
     KSPDestroy(&ksp_);
@@ -121,39 +117,23 @@ class SparseMatrix::Implementation {
     VecDestroy(&everything_);
     VecDestroy(&x_);
     VecDestroy(&b_);
-    MatDestroy(&schur_);
     MatDestroy(&K_);
   }
   Implementation(const Implementation&) = delete;
   Implementation& operator=(const Implementation&) = delete;
 
-  void set_zero() {
-    check(MatZeroEntries(K_));
-    if (schur_ != nullptr)
-      check(MatZeroEntries(schur_));
-  }
+  void set_zero() { check(MatZeroEntries(K_)); }
 
   void add(std::span<const int> unknowns, const Eigen::MatrixXd& block) {
     at_.clear();
     for (const int u : unknowns)
       at_.push_back(numbers_[u]);
-    insert(K_, block);
-  }
-
-  void add_schur(std::span<const int> pressures, const Eigen::MatrixXd& block) {
-    if (schur_ == nullptr)
-      return;
-    at_.assign(pressures.begin(), pressures.end());  // ranks own runs of pressures, in order
-    insert(schur_, block);
+    insert(block);
   }
 
   void finish() {
-    for (Mat matrix : {K_, schur_}) {
-      if (matrix == nullptr)
-        continue;
-      check(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY));
-      check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
-    }
+    check(MatAssemblyBegin(K_, MAT_FINAL_ASSEMBLY));
+    check(MatAssemblyEnd(K_, MAT_FINAL_ASSEMBLY));
     check(KSPSetOperators(ksp_, K_, K_));
   }
 
@@ -165,9 +145,7 @@ class SparseMatrix::Implementation {
     if (reason < 0)
       throw RunError(
           fmt::format("The linear equations could not be solved ({})", KSPConvergedReasons[reason]),
-          solver_ == LinearSolver::direct
-              ? "A wall that nothing holds is the usual reason: look at the base"
-              : "Set quasi_static.linear_solver = \"direct\"");
+          "A wall that nothing holds is the usual reason: look at the base");
     check(VecScatterBegin(to_all_, x_, everything_, INSERT_VALUES, SCATTER_FORWARD));
     check(VecScatterEnd(to_all_, x_, everything_, INSERT_VALUES, SCATTER_FORWARD));
     const PetscScalar* values = nullptr;
@@ -180,10 +158,10 @@ class SparseMatrix::Implementation {
   }
 
  private:
-  void insert(Mat matrix, const Eigen::MatrixXd& block) {
+  void insert(const Eigen::MatrixXd& block) {
     const auto n = static_cast<PetscInt>(at_.size());
     row_major_ = block;
-    check(MatSetValues(matrix, n, at_.data(), n, at_.data(), row_major_.data(), ADD_VALUES));
+    check(MatSetValues(K_, n, at_.data(), n, at_.data(), row_major_.data(), ADD_VALUES));
   }
 
   void set_right_hand_side(std::span<const double> b) {
@@ -207,7 +185,7 @@ class SparseMatrix::Implementation {
     check(MatMPIAIJSetPreallocation(K_, 0, lengths.own.data(), 0, lengths.other.data()));
   }
 
-  void configure_direct() {
+  void configure() {
     check(KSPSetType(ksp_, KSPPREONLY));
     PC pc = nullptr;
     check(KSPGetPC(ksp_, &pc));
@@ -220,69 +198,9 @@ class SparseMatrix::Implementation {
     check(MatMumpsSetIcntl(factor, 14, 60));  // room for pivots that move, in per cent
   }
 
-  void configure_iterative(const Pattern& pattern) {
-    const PetscInt local = numbers_.pressures.size();
-    check(MatCreateAIJ(PETSC_COMM_WORLD, local, local, pattern.pressures, pattern.pressures, 40,
-                       nullptr, 40, nullptr, &schur_));
-    check(MatSetOption(schur_, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_FALSE));
-    check(KSPSetType(ksp_, KSPFGMRES));
-    check(KSPGMRESSetRestart(ksp_, 200));
-    check(KSPSetTolerances(ksp_, 1e-6, PETSC_DEFAULT, PETSC_DEFAULT, 600));
-    PC pc = nullptr;
-    check(KSPGetPC(ksp_, &pc));
-    check(PCSetType(pc, PCFIELDSPLIT));
-    const IS displacements = index_set(numbers_.displacements);
-    attach_rigid_motions(displacements, pattern);
-    check(PCFieldSplitSetIS(pc, "displacement", displacements));
-    const IS pressures = index_set(numbers_.pressures);
-    check(PCFieldSplitSetIS(pc, "pressure", pressures));
-    check(PCFieldSplitSetType(pc, PC_COMPOSITE_SCHUR));
-    check(PCFieldSplitSetSchurFactType(pc, PC_FIELDSPLIT_SCHUR_FACT_UPPER));
-    check(PCFieldSplitSetSchurPre(pc, PC_FIELDSPLIT_SCHUR_PRE_USER, schur_));
-    for (const auto& [option, value] : {std::pair{"-fieldsplit_displacement_ksp_type", "preonly"},
-                                        std::pair{"-fieldsplit_displacement_pc_type", "gamg"},
-                                        std::pair{"-fieldsplit_pressure_ksp_type", "preonly"},
-                                        std::pair{"-fieldsplit_pressure_pc_type", "bjacobi"}})
-      check(PetscOptionsSetValue(nullptr, option, value));
-    check(KSPSetFromOptions(ksp_));
-  }
-
-  static IS index_set(const parallel::Range& range) {
-    IS set = nullptr;
-    check(ISCreateStride(PETSC_COMM_WORLD, range.size(), range.begin, 1, &set));
-    return set;
-  }
-
-  /// Multigrid is told what rigid motions look like: they cost no energy.
-  void attach_rigid_motions(IS displacements, const Pattern& pattern) const {
-    check(ISSetBlockSize(displacements, 3));
-    Vec coordinates = nullptr;
-    check(VecCreate(PETSC_COMM_WORLD, &coordinates));
-    check(VecSetBlockSize(coordinates, 3));
-    check(VecSetSizes(coordinates, numbers_.displacements.size(), pattern.displacements()));
-    check(VecSetFromOptions(coordinates));
-    PetscScalar* mine = nullptr;
-    check(VecGetArray(coordinates, &mine));
-    const auto nodes =
-        parallel::share(static_cast<int>(pattern.nodes.size()), parallel::rank(), parallel::size());
-    for (int a = nodes.begin; a < nodes.end; ++a)
-      for (int i = 0; i < 3; ++i)
-        *mine++ = pattern.nodes[a][i];
-    mine -= 3 * nodes.size();
-    check(VecRestoreArray(coordinates, &mine));
-    MatNullSpace motions = nullptr;
-    check(MatNullSpaceCreateRigidBody(coordinates, &motions));
-    check(PetscObjectCompose(reinterpret_cast<PetscObject>(displacements), "nearnullspace",
-                             reinterpret_cast<PetscObject>(motions)));
-    check(MatNullSpaceDestroy(&motions));
-    check(VecDestroy(&coordinates));
-  }
-
   Petsc petsc_;
-  LinearSolver solver_;
   Numbering numbers_;
   Mat K_ = nullptr;
-  Mat schur_ = nullptr;
   KSP ksp_ = nullptr;
   Vec x_ = nullptr, b_ = nullptr, everything_ = nullptr;
   VecScatter to_all_ = nullptr;
@@ -290,8 +208,8 @@ class SparseMatrix::Implementation {
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> row_major_;
 };
 
-SparseMatrix::SparseMatrix(const Pattern& pattern, LinearSolver solver)
-    : implementation_(std::make_unique<Implementation>(pattern, solver)) {}
+SparseMatrix::SparseMatrix(const Pattern& pattern)
+    : implementation_(std::make_unique<Implementation>(pattern)) {}
 SparseMatrix::~SparseMatrix() = default;
 SparseMatrix::SparseMatrix(SparseMatrix&&) noexcept = default;
 SparseMatrix& SparseMatrix::operator=(SparseMatrix&&) noexcept = default;
@@ -302,10 +220,6 @@ void SparseMatrix::set_zero() {
 
 void SparseMatrix::add(std::span<const int> unknowns, const Eigen::MatrixXd& block) {
   implementation_->add(unknowns, block);
-}
-
-void SparseMatrix::add_schur(std::span<const int> pressures, const Eigen::MatrixXd& block) {
-  implementation_->add_schur(pressures, block);
 }
 
 void SparseMatrix::finish() {

@@ -12,13 +12,6 @@
 /// Sparse linear algebra by PETSc; its headers stay in sparse.cpp.
 namespace lv::quasi_static {
 
-/// How linear systems are solved.
-enum class LinearSolver {
-  direct,    ///< LU by MUMPS
-  iterative  ///< flexible GMRES; algebraic multigrid for the displacement, and the Schur complement
-             ///< of the pressure as a scaled mass matrix
-};
-
 /// Which unknowns there are and which meet in an element: the displacement of node a along i is
 /// 3 a + i, pressures follow.
 struct Pattern {
@@ -30,10 +23,10 @@ struct Pattern {
   [[nodiscard]] int size() const { return displacements() + pressures; }
 };
 
-/// A square matrix, its rows shared by the ranks, and the solution of systems with it.
+/// A square matrix, its rows shared by the ranks, and the solution of systems with it by MUMPS.
 class SparseMatrix {
  public:
-  SparseMatrix(const Pattern& pattern, LinearSolver solver);
+  explicit SparseMatrix(const Pattern& pattern);
   ~SparseMatrix();
   SparseMatrix(SparseMatrix&&) noexcept;
   SparseMatrix& operator=(SparseMatrix&&) noexcept;
@@ -43,14 +36,11 @@ class SparseMatrix {
   /// Adds a dense block.
   void add(std::span<const int> unknowns, const Eigen::MatrixXd& block);
 
-  /// Adds to the approximate Schur complement of the pressures, which the iterative solver needs.
-  void add_schur(std::span<const int> pressures, const Eigen::MatrixXd& block);
-
   /// All ranks have added all. Collective.
   void finish();
 
   /// Solves K x = b; b and x complete on every rank. The factorisation is kept until the matrix
-  /// changes. Throws RunError when the matrix is singular or the iteration does not converge.
+  /// changes. Throws RunError when the matrix is singular.
   /// Collective.
   [[nodiscard]] std::vector<double> solve(std::span<const double> b);
 

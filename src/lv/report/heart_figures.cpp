@@ -6,10 +6,12 @@
 #include "lv/report/sticks.hpp"
 #include "lv/report/wall_surface.hpp"
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace lv::report {
 namespace {
@@ -52,6 +54,23 @@ ColourScale scale_of(std::vector<double> values, const ColourMap& map = sequenti
   const double high = std::max(at(0.99), low + 1e-6);
   const double step = std::pow(10.0, std::floor(std::log10(high - low))) / 2.0;
   return {map, step * std::floor(low / step), step * std::ceil(high / step)};
+}
+
+/// The points turned about the long axis by an angle [rad].
+std::vector<Vec3> turned(std::span<const Vec3> points, double angle) {
+  const Mat3 R = Eigen::AngleAxisd(angle, Vec3::UnitZ()).toRotationMatrix();
+  std::vector<Vec3> result;
+  for (const Vec3& x : points)
+    result.emplace_back(R * x);
+  return result;
+}
+
+/// Angle about the long axis of the infarct's middle, from x towards y.
+double infarct_direction(const Mesh& mesh) {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t a = 0; a < mesh.nodes.size(); ++a)
+    sum += mesh.infarct[a] * mesh.nodes[a];
+  return std::atan2(sum.y(), sum.x());
 }
 
 Item painted(const WallPatch& patch, const std::vector<double>& nodal, const ColourScale& scale) {
@@ -193,6 +212,27 @@ Figure fibre_figure(const Mesh& mesh, const std::vector<CellFields>& undeformed)
           .columns = 3,
           .title = "fibres",
           .colour_bar = ColourBar{"helix angle [deg], the paper's sign", scale}};
+}
+
+Figure infarct_figure(const Mesh& mesh) {
+  constexpr double quarter = 0.5 * std::numbers::pi;
+  const ColourScale scale{sequential(), 0.0, 1.0};
+  const double to_front = -quarter - infarct_direction(mesh);  // the viewer stands at -y
+  const auto front = turned(mesh.nodes, to_front);
+  Scene outside;
+  for (const mesh::Surface* side : {&mesh.epi, &mesh.endo, &mesh.base})
+    outside.items.push_back(painted(wall_surface(mesh, front, *side), mesh.infarct, scale));
+  const Camera camera = fitted(outside, from_the_side);
+  const auto open = [&](const std::string& title, double turn) {
+    return open_wall_panel(title, mesh, turned(mesh.nodes, to_front + turn), mesh.infarct, scale,
+                           camera);
+  };
+  return {.panels = {{.title = "from outside", .content = Picture{outside, camera}},
+                     open("from inside", 2.0 * quarter),
+                     open("section", quarter)},
+          .columns = 3,
+          .title = "infarct",
+          .colour_bar = ColourBar{"extent M: 1 infarct, 0 remote muscle", scale}};
 }
 
 Figure states_figure(const Mesh& mesh, const heartbeat::Beat& beat,

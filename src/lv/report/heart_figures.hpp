@@ -14,6 +14,10 @@ namespace lv::report {
 [[nodiscard]] Figure fibre_figure(const mesh::Mesh& mesh,
                                   const std::vector<analysis::CellFields>& undeformed);
 
+/// The extent of the infarct, M, on the undeformed wall: from outside, from inside, and in a
+/// long-axis section through the infarct's middle.
+[[nodiscard]] Figure infarct_figure(const mesh::Mesh& mesh);
+
 /// The wall cut open at early diastole, end-diastole and end-systole, coloured by the fibre
 /// stretch, all by one camera.
 [[nodiscard]] Figure states_figure(const mesh::Mesh& mesh, const heartbeat::Beat& beat,

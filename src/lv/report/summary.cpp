@@ -5,11 +5,14 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace lv::report {
 namespace {
 
+using analysis::RegionalValue;
 using analysis::Results;
 using analysis::Shape;
 using analysis::Statistics;
@@ -40,12 +43,62 @@ Json statistics_json(const Statistics& s, const std::string& unit) {
           {"p50", number(s.p50)},   {"p99", number(s.p99)}, {"unit", unit}};
 }
 
-Json whole_wall(const Results& results, const std::string& state) {
+Json region_json(const Results& results, const std::string& state, const std::string& region) {
   Json json;
   for (const auto& r : results.regional)
-    if (r.state == state && r.scheme == "whole")
+    if (r.state == state && r.region == region)
       json[r.quantity] = statistics_json(r.statistics, r.unit);
   return json;
+}
+
+/// The zones of an infarcted wall, in the paper's sections 3.3-3.4 U^in, U^bz and U^un.
+constexpr std::array zones{"infarct", "border", "remote"};
+
+bool has_zones(const Results& results) {
+  return std::any_of(results.regional.begin(), results.regional.end(),
+                     [](const RegionalValue& r) { return r.scheme == "zone"; });
+}
+
+const RegionalValue& at_end_systole(const Results& results, const std::string& region,
+                                    const std::string& quantity) {
+  return *std::find_if(
+      results.regional.begin(), results.regional.end(), [&](const RegionalValue& r) {
+        return r.state == "end_systole" && r.region == region && r.quantity == quantity;
+      });
+}
+
+Json zones_json(const Results& results) {
+  Json json;
+  for (const char* zone : zones)
+    json[zone] = {{"volume_ml", number(1e-3 * at_end_systole(results, zone, "J").volume)},
+                  {"end_diastole", region_json(results, "end_diastole", zone)},
+                  {"end_systole", region_json(results, "end_systole", zone)}};
+  return json;
+}
+
+/// Tension, stress and strains at end-systole in each zone, as the paper's sections 3.3-3.4 give
+/// them.
+std::string zones_text(const Results& results) {
+  const auto in_zones = [&](const auto& cell) {
+    std::string cells;
+    for (const char* zone : zones)
+      cells += fmt::format("{:>18}", cell(zone));
+    return cells + "\n";
+  };
+  std::string text = fmt::format("  {:<24}{}", "at end-systole",
+                                 in_zones([](const char* zone) { return std::string(zone); }));
+  text +=
+      fmt::format("  {:<24}{}", "volume (ml)", in_zones([&](const char* zone) {
+                    return fmt::format("{:.2f}", 1e-3 * at_end_systole(results, zone, "J").volume);
+                  }));
+  for (const char* quantity : {"active_tension", "fibre_stress", "fibre_strain",
+                               "circumferential_strain", "longitudinal_strain", "radial_strain"})
+    text +=
+        fmt::format("  {:<24}{}", quantity, in_zones([&](const char* zone) {
+                      const auto& v = at_end_systole(results, zone, quantity);
+                      return fmt::format("{:.3f} +- {:.3f}", v.statistics.mean, v.statistics.sd);
+                    }));
+  return text + "\n";
 }
 
 Json pairs(const std::vector<std::pair<std::string, std::string>>& list) {
@@ -100,8 +153,10 @@ std::string summary_json(const RunFacts& facts, const heartbeat::Beat& beat, con
   json["strain"] =
       "Green-Lagrange; at end-systole relative to end-diastole, at end-diastole relative to early "
       "diastole";
-  json["whole_wall"] = {{"end_diastole", whole_wall(r, "end_diastole")},
-                        {"end_systole", whole_wall(r, "end_systole")}};
+  json["whole_wall"] = {{"end_diastole", region_json(r, "end_diastole", "wall")},
+                        {"end_systole", region_json(r, "end_systole", "wall")}};
+  if (has_zones(r))
+    json["zones"] = zones_json(r);
   json["fibre_shortening_percent"] = number(100.0 * r.fibre_shortening);
   for (const auto& slice : r.rotation)
     json["rotation"].push_back(
@@ -144,6 +199,8 @@ std::string summary_text(const RunFacts& facts, const heartbeat::Beat& beat, con
       text += fmt::format("  {:<34}{:>9.3f} +- {:.3f}{}\n", v.quantity, v.statistics.mean,
                           v.statistics.sd, v.unit == "1" ? "" : " " + v.unit);
   text += "\n";
+  if (has_zones(r))
+    text += zones_text(r);
   for (const Observation& o : observations(r))
     text += fmt::format("  {:<22}{:>9.2f} {:<4} {:<44} {}\n", o.name, o.value, o.unit, o.rule,
                         o.holds ? "yes" : "NO");

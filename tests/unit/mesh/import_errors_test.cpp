@@ -238,7 +238,7 @@ TEST_CASE("a missing tag lists those that exist and suggests the nearest", "[uni
   CHECK_THAT(message(".vtu", test::vtu_text(hexahedra(), VtkTags::surface_cells), parameters),
              has("has no surface cell whose \"side\" is \"7\"; it has 1, 2, 3"));
   CHECK_THAT(message(".inp", test::abaqus_text(hexahedra(), AbaqusTags::none)),
-             has("has no *Surface, *Elset or *Nset \"endo\", nor any other. Tag the sides"));
+             has("has no *Surface, *Elset or *Nset \"endo\", nor any other. Tag it"));
 }
 
 TEST_CASE("sides that overlap, leave gaps or lie inside are refused with the place",

@@ -126,7 +126,7 @@ struct GmshElement {
   std::string nodes;
 };
 
-std::vector<GmshElement> gmsh_elements(const Mesh& mesh) {
+std::vector<GmshElement> gmsh_elements(const Mesh& mesh, const std::vector<bool>& scar = {}) {
   const bool hexahedra = mesh.kind == CellKind::hexahedron;
   std::vector<GmshElement> elements;
   int number = 1;
@@ -135,12 +135,14 @@ std::vector<GmshElement> gmsh_elements(const Mesh& mesh) {
       elements.push_back(
           {number++, hexahedra ? 3 : 2, s + 1, from_one(sides(mesh)[s]->face(f), " ")});
   for (int c = 0; c < mesh.cell_count(); ++c)
-    elements.push_back({number++, hexahedra ? 5 : 4, 1, from_one(mesh.cell(c), " ")});
+    elements.push_back({number++, hexahedra ? 5 : 4, !scar.empty() && scar[c] ? 2 : 1,
+                        from_one(mesh.cell(c), " ")});
   return elements;
 }
 
 constexpr const char* physical_names =
-    "$PhysicalNames\n4\n2 1 \"endo\"\n2 2 \"epi\"\n2 3 \"base\"\n3 1 \"wall\"\n$EndPhysicalNames\n";
+    "$PhysicalNames\n5\n2 1 \"endo\"\n2 2 \"epi\"\n2 3 \"base\"\n3 1 \"wall\"\n3 2 "
+    "\"scar\"\n$EndPhysicalNames\n";
 
 std::string gmsh41_entities() {
   std::string text = "$Entities\n0 0 3 1\n";
@@ -261,13 +263,13 @@ std::string vtu_text(const Mesh& mesh, VtkTags tags) {
       cell_data);
 }
 
-std::string gmsh22_text(const Mesh& mesh) {
+std::string gmsh22_text(const Mesh& mesh, const std::vector<bool>& scar) {
   std::string text = fmt::format("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n{}$Nodes\n{}\n",
                                  physical_names, mesh.nodes.size());
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i)
     text += fmt::format("{} {} {} {}\n", i + 1, mesh.nodes[i].x(), mesh.nodes[i].y(),
                         mesh.nodes[i].z());
-  const auto elements = gmsh_elements(mesh);
+  const auto elements = gmsh_elements(mesh, scar);
   text += fmt::format("$EndNodes\n$Elements\n{}\n", elements.size());
   for (const GmshElement& e : elements)
     text += fmt::format("{} {} 2 {} {} {}\n", e.number, e.type, e.entity, e.entity, e.nodes);

@@ -40,8 +40,9 @@ enum class VtkTags { none, surface_cells, point_arrays };
 [[nodiscard]] std::string vtk_text(const mesh::Mesh& mesh, VtkTags tags);
 [[nodiscard]] std::string vtu_text(const mesh::Mesh& mesh, VtkTags tags);
 
-/// Gmsh files with the physical surfaces "endo" (1), "epi" (2), "base" (3).
-[[nodiscard]] std::string gmsh22_text(const mesh::Mesh& mesh);
+/// Gmsh files with the physical surfaces "endo" (1), "epi" (2), "base" (3), and the volumes "wall"
+/// (1) and, for the flagged cells, "scar" (2).
+[[nodiscard]] std::string gmsh22_text(const mesh::Mesh& mesh, const std::vector<bool>& scar = {});
 [[nodiscard]] std::string gmsh41_text(const mesh::Mesh& mesh);
 
 }  // namespace lv::test

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "lv/base/tensor.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace lv::mesh {
+
+/// An image whose voxels carry whole numbers that mean something: a VTK image with an array of
+/// labels at its points, which are then the centres of voxels, or in its cells.
+class LabelVolume {
+ public:
+  /// Reads a .vti or a legacy .vtk file (structured points). An empty `array` means the file's only
+  /// one; `unit` is the length of the file's unit [mm]. Throws InputError where the file cannot be
+  /// read, the array is missing, or a voxel has no whole number.
+  LabelVolume(const std::string& file, const std::string& array, double unit);
+  ~LabelVolume();
+  LabelVolume(LabelVolume&&) noexcept;
+  LabelVolume& operator=(LabelVolume&&) noexcept;
+
+  /// All labels that occur, ascending.
+  [[nodiscard]] const std::vector<int>& labels() const { return labels_; }
+
+  /// Whether x [mm] lies in a voxel with one of these labels; false outside the image.
+  [[nodiscard]] bool has(const Vec3& x, const std::vector<int>& labels) const;
+
+  /// Corners of the box around the image [mm].
+  [[nodiscard]] Vec3 lower() const;
+  [[nodiscard]] Vec3 upper() const;
+
+ private:
+  struct Image;
+  std::unique_ptr<Image> image_;
+  std::vector<int> labels_;
+};
+
+}  // namespace lv::mesh

@@ -1,0 +1,110 @@
+#include "lv/job/infarct.hpp"
+
+#include "lv/mesh/infarct.hpp"
+
+#include "mesh/mesh_files.hpp"
+#include "support/temporary_folder.hpp"
+#include <Eigen/Geometry>
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+namespace {
+
+using namespace lv;
+using mesh::InfarctSource;
+
+// An image space in which the ventricle lies askew, and a box of scar in it.
+const geometry::Frame frame{
+    Eigen::AngleAxisd(0.7, Vec3(1.0, 2.0, -1.0).normalized()).toRotationMatrix(),
+    Vec3(120.0, -35.0, 410.0)};
+const Vec3 lower(100.3, -60.2, 370.1);
+const Vec3 upper(135.1, -35.7, 405.6);
+
+bool in_box(const Vec3& x) {
+  return (x.array() > lower.array()).all() && (x.array() < upper.array()).all();
+}
+
+/// The box as six faces.
+std::string box_surface() {
+  std::string corners;
+  for (int i = 0; i < 8; ++i)
+    corners +=
+        fmt::format("{} {} {}\n", (i & 1) != 0 ? upper.x() : lower.x(),
+                    (i & 2) != 0 ? upper.y() : lower.y(), (i & 4) != 0 ? upper.z() : lower.z());
+  return fmt::format(
+      "# vtk DataFile Version 3.0\nbox\nASCII\nDATASET POLYDATA\nPOINTS 8 double\n{}POLYGONS 6 "
+      "30\n4 0 2 3 1\n4 4 5 7 6\n4 0 1 5 4\n4 1 3 7 5\n4 3 2 6 7\n4 2 0 4 6\n",
+      corners);
+}
+
+/// The box as voxels of 1 mm with the label 2 in a picture of the whole wall.
+std::string box_labels() {
+  constexpr int n = 160;
+  const Vec3 origin(40.0, -115.0, 330.0);
+  std::string values;
+  for (int k = 0; k < n; ++k)
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i)
+        values += in_box(origin + Vec3(i, j, k)) ? "2 " : "0 ";
+  return fmt::format(
+      "# vtk DataFile Version 3.0\nbox\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS {} {} {}\n"
+      "ORIGIN {} {} {}\nSPACING 1 1 1\nPOINT_DATA {}\nSCALARS tissue int 1\nLOOKUP_TABLE "
+      "default\n{}\n",
+      n, n, n, origin.x(), origin.y(), origin.z(), n * n * n, values);
+}
+
+double longest_diagonal(const mesh::Mesh& mesh) {
+  double longest = 0.0;
+  for (int c = 0; c < mesh.cell_count(); ++c)
+    for (const int a : mesh.cell(c))
+      for (const int b : mesh.cell(c))
+        longest = std::max(longest, (mesh.nodes[a] - mesh.nodes[b]).norm());
+  return longest;
+}
+
+}  // namespace
+
+TEST_CASE("a surface and a labelled volume in image space mean the region that they were made from",
+          "[unit][job]") {
+  const mesh::Mesh wall = test::ellipsoid_mesh({}, 4.0);
+  const auto box = [](const Vec3& X) { return in_box(frame.to_image(X)); };
+  const auto expected = mesh::infarct_field(wall, mesh::infarcted_where(wall, box), 10.0);
+  const test::TemporaryFolder folder;
+  test::write_bytes(folder / "surface.vtk", box_surface());
+  test::write_bytes(folder / "labels.vtk", box_labels());
+  job::Case c;
+  c.file = folder / "case.toml";
+  job::Shape shape;
+  shape.frame = frame;
+  c.scar.source = InfarctSource::surface;
+  c.scar.surface = "surface.vtk";
+  CHECK((job::infarct_extent(c, shape, wall) == expected));
+  c.scar.source = InfarctSource::labels;
+  c.scar.labels = "labels.vtk";
+  c.scar.scar = {2};
+  const auto M = job::infarct_extent(c, shape, wall);
+  double furthest = 0.0;
+  for (std::size_t a = 0; a < M.size(); ++a)
+    furthest = std::max(furthest, 10.0 * std::abs(M[a] - expected[a]));
+  // an element whose centre lies between voxels may change sides, and its far node with it
+  CHECK(furthest < longest_diagonal(wall));
+  CHECK(furthest > 0.0);
+}
+
+TEST_CASE("the infarct's file is among what the mesh depends on", "[unit][job]") {
+  const test::TemporaryFolder folder;
+  test::write_bytes(folder / "surface.vtk", "one");
+  job::Case c;
+  c.file = folder / "case.toml";
+  c.scar.surface = "surface.vtk";
+  CHECK(job::infarct_files(c).empty());  // the source is the mesh
+  c.scar.source = InfarctSource::surface;
+  const auto before = job::infarct_files(c);
+  test::write_bytes(folder / "surface.vtk", "two");
+  CHECK(before != job::infarct_files(c));
+}
+
+TEST_CASE("without an infarct nothing is said of it", "[unit][job]") {
+  const job::Case c;
+  CHECK(job::describe_infarct(c, test::coarse_mesh(mesh::CellKind::tetrahedron)).empty());
+}

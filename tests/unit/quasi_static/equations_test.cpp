@@ -1,0 +1,130 @@
+#include "lv/base/check.hpp"
+#include "lv/geometry/ellipsoid.hpp"
+#include "lv/mesh/refine.hpp"
+#include "lv/mesh/surface.hpp"
+#include "lv/mesh/wall_mesh.hpp"
+#include "lv/quasi_static/engine.hpp"
+
+#include "support/block_mesh.hpp"
+#include "support/random_values.hpp"
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <set>
+
+namespace {
+
+using namespace lv;
+using mesh::CellKind;
+using mesh::Mesh;
+using quasi_static::Contractility;
+using quasi_static::Equations;
+using quasi_static::Loads;
+using quasi_static::Muscle;
+using quasi_static::State;
+
+/// One mesh of every kind of element.
+std::vector<Mesh> meshes() {
+  return {test::block_mesh(CellKind::hexahedron, 2),
+          mesh::refine(test::block_mesh(CellKind::hexahedron, 2)),
+          mesh::refine(test::block_mesh(CellKind::tetrahedron, 1))};
+}
+
+/// Contracting muscle of the paper on a base that is held.
+Muscle muscle() {
+  const material::NiedererHunterSmith active;
+  return {{}, Contractility(active, 0.01, 1.0), {solid::BasalSupport::Kind::fixed, 50.0}};
+}
+
+State displaced(const State& from, std::span<const double> by, double scale) {
+  State to = from;
+  for (std::size_t k = 0; k < 3 * to.positions.size(); ++k)
+    to.positions[k / 3][static_cast<int>(k % 3)] += scale * by[k];
+  for (std::size_t m = 0; m < to.pressures.size(); ++m)
+    to.pressures[m] += scale * by[3 * to.positions.size() + m];
+  return to;
+}
+
+/// A state near no symmetry and far from rest.
+State some_state(const Equations& equations, test::RandomValues& random) {
+  State s = equations.rest();
+  Mat3 F;
+  F << 1.08, 0.05, -0.02, 0.13, 0.98, 0.04, -0.01, 0.10, 0.97;
+  for (Vec3& x : s.positions)
+    x = F * x + 0.01 * random.vector();
+  for (double& p : s.pressures)
+    p = random();
+  return s;
+}
+
+}  // namespace
+
+TEST_CASE("the tangent is the derivative of the residual", "[unit][quasi_static]") {
+  const Loads loads{1.3, 0.7};
+  for (const Mesh& mesh : meshes()) {
+    const Equations equations(mesh, {}, muscle());
+    test::RandomValues random(3);
+    const State state = some_state(equations, random);
+    std::vector<double> direction(equations.size());
+    for (double& d : direction)
+      d = random();
+    constexpr double h = 1e-5;
+    const auto ahead = equations.residual(displaced(state, direction, h), loads);
+    const auto behind = equations.residual(displaced(state, direction, -h), loads);
+    REQUIRE_FALSE(ahead.empty());
+    REQUIRE_FALSE(behind.empty());
+    std::vector<double> slope(ahead.size());
+    for (std::size_t k = 0; k < slope.size(); ++k)
+      slope[k] = (ahead[k] - behind[k]) / (2.0 * h);
+
+    quasi_static::SparseMatrix K(equations.pattern());
+    equations.tangent(state, loads, K);
+    const auto found = K.solve(slope);
+    double error = 0.0;
+    for (std::size_t k = 0; k < found.size(); ++k)
+      error = std::max(error, std::abs(found[k] - direction[k]));
+    CHECK(error < 1e-5);
+  }
+}
+
+TEST_CASE("an isochoric uniform deformation is in balance inside the wall",
+          "[unit][quasi_static]") {
+  Mat3 F;
+  F << 1.2, 0.1, 0.0, 0.0, 1.0 / 1.2, 0.05, 0.0, 0.0, 1.0;
+  for (const Mesh& mesh : meshes()) {
+    solid::WallMaterial rubber;
+    rubber.passive = material::NeoHookean{3.0};
+    const Equations equations(mesh, {}, {rubber, Contractility(0.0), {}});
+    State state = equations.rest();
+    state.positions = test::moved(mesh.nodes, F);
+    const auto R = equations.residual(state, {});
+    std::set<int> outside;
+    for (const int node : mesh::surface_nodes(mesh::boundary(mesh)))
+      outside.insert(node);
+    for (int a = 0; a < equations.node_count(); ++a)
+      for (int i = 0; i < 3; ++i)
+        if (outside.count(a) == 0)
+          CHECK(std::abs(R[3 * a + i]) < 1e-12);
+    for (int k = 3 * equations.node_count(); k < equations.size(); ++k)
+      CHECK(std::abs(R[k]) < 1e-12);  // J = 1
+  }
+}
+
+TEST_CASE("quadratic elements fill the wall and follow its surfaces", "[unit][quasi_static]") {
+  const geometry::Ellipsoid ellipsoid;
+  const auto wall = [&](double u, double theta, double t) { return ellipsoid.point(u, theta, t); };
+  const Mesh mesh = mesh::wall_mesh(wall, {.edge_length = 4.0, .order = 2});
+  CHECK(mesh.cell_count() % 8 == 0);
+  const auto reference = quasi_static::reference_wall(mesh, {});
+  double volume = 0.0;
+  for (const auto& element : reference.points)
+    for (const auto& point : element)
+      volume += point.volume;
+  CHECK(volume == Approx(114240.0).epsilon(1e-3));
+  CHECK(solid::Cavity(mesh).volume(mesh.nodes) == Approx(70790.0).epsilon(1e-3));
+}
+
+TEST_CASE("linear tetrahedra are refused", "[unit][quasi_static]") {
+  const Mesh mesh = test::block_mesh(CellKind::tetrahedron, 1);
+  CHECK_THROWS_AS(quasi_static::reference_wall(mesh, {}), InputError);
+}
