@@ -21,7 +21,8 @@ NodalSeries travelling_wave(int times, int places) {
   NodalSeries series(times);
   for (int t = 0; t < times; ++t)
     for (int i = 0; i < places; ++i)
-      series[t].push_back(static_cast<float>(100.0 + 3.0 * std::sin(0.05 * i - 0.2 * t) + 0.01 * i));
+      series[t].push_back(
+          static_cast<float>(100.0 + 3.0 * std::sin(0.05 * i - 0.2 * t) + 0.01 * i));
   return series;
 }
 
