@@ -134,6 +134,16 @@ int write_page(const Command& command, const std::string& name, int argc, char**
   return 0;
 }
 
+/// Options of the commands that compute in a work folder.
+void add_run_options(CLI::App& app, Command& command) {
+  app.add_option("CASE", command.case_file, "the case file")->required();
+  app.add_option("--work", command.run.work,
+                 "work folder (default: the case file's name with .work)");
+  app.add_flag("--explain", command.run.explain, "say why each stage runs or does not");
+  app.add_option("--ranks", command.ranks, "MPI ranks (default: the number of cores, at most 8)")
+      ->check(CLI::PositiveNumber);
+}
+
 void add_verify(CLI::App& app, Command& command) {
   auto* verify = app.add_subcommand("verify", "solve problems with known answers and compare");
   verify->add_option("NAME", command.verify.names, "problems (default: all but the nightly ones)");
@@ -158,13 +168,13 @@ int dispatch(int argc, char** argv) {
 
   auto* run =
       app.add_subcommand("run", "run all stages of a case, skipping those that are up to date");
-  run->add_option("CASE", command.case_file, "the case file")->required();
-  run->add_option("--work", command.run.work,
-                  "work folder (default: the case file's name with .work)");
-  run->add_option("--until", command.until, "last stage: anatomy, mesh, beat, results or report");
-  run->add_flag("--explain", command.run.explain, "say why each stage runs or does not");
-  run->add_option("--ranks", command.ranks, "MPI ranks (default: the number of cores, at most 8)")
-      ->check(CLI::PositiveNumber);
+  add_run_options(*run, command);
+  run->add_option("--until", command.until,
+                  "last stage: anatomy, mesh, calibrate, beat, results or report");
+
+  auto* fit =
+      app.add_subcommand("calibrate", "fit parameters to measured volumes, as the case asks");
+  add_run_options(*fit, command);
 
   add_verify(app, command);
   add_page(app, command, "report", "write one page that shows a run, finished or not", 1);
@@ -196,7 +206,9 @@ int dispatch(int argc, char** argv) {
     write_new_case(command.new_file);
   if (*check)
     return validate(command, argc, argv);
-  if (*run)
+  if (*fit)
+    command.until = "calibrate";
+  if (*run || *fit)
     return run_parallel(command, argc, argv);
   if (*time)
     return bench(command, argc, argv);

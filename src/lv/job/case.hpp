@@ -1,5 +1,6 @@
 #pragma once
 
+#include "lv/calibrate/fit.hpp"
 #include "lv/geometry/ellipsoid.hpp"
 #include "lv/geometry/parameters.hpp"
 #include "lv/heartbeat/parameters.hpp"
@@ -65,6 +66,20 @@ struct QuasiStatic {
   quasi_static::Parameters solver;
 };
 
+/// Which parameters are fitted to which measured volumes, at the pressures of the protocol.
+struct Calibration {
+  calibrate::Passive passive = calibrate::Passive::none;
+  bool active = false;
+  double edv = 0.0, esv = 0.0;  ///< 0: not measured [mm^3]
+  double tolerance = 0.01;      ///< of the volumes, as a fraction
+  calibrate::Range stiffness{0.05, 50.0};
+  calibrate::Range exponent{0.2, 5.0};
+  calibrate::Range T_scale{0.1, 20.0};
+  bool confirm = false;  ///< with the immersed engine
+
+  [[nodiscard]] bool asked() const { return passive != calibrate::Passive::none || active; }
+};
+
 /// All that a case file says, checked once and constant from then on. Member initialisers are the
 /// defaults; names, units, ranges and meanings are in parameters.cpp.
 struct Case {
@@ -87,6 +102,7 @@ struct Case {
   solid::BasalSupport base;
   Engine engine = Engine::immersed;
   QuasiStatic quasi_static;
+  Calibration calibration;
   heartbeat::Protocol protocol;
   heartbeat::StepControl time;
   heartbeat::OutputSchedule output;

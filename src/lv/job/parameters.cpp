@@ -299,6 +299,7 @@ void declare_engine(Declarations& d) {
            "2.5");
   d.number("points_per_cell", LV_AT(coupling.points_per_cell), between(0.5, 8.0),
            "Gauss points per mesh width (quadrature coupling)", "2.5");
+  d.stage = Stage::calibrate;
   d.table = "quasi_static";
   d.quantity(
       "stabilisation", LV_AT(quasi_static.stabilisation.beta_s), "kPa", not_negative,
@@ -314,20 +315,49 @@ void declare_engine(Declarations& d) {
       "the basal plane is held along the axis and around it and moves freely outwards, or is held "
       "altogether",
       "2.4");
+  d.stage = Stage::beat;
   d.quantity("stiffness", LV_AT(base.stiffness), "kPa/mm", positive,
              "springs per area that hold the basal plane (immersed engine; the quasi-static engine "
              "holds it rigidly)",
              "2.4");
 }
 
+void declare_calibration(Declarations& d) {
+  d.table = "calibrate";
+  d.choice("passive", LV_AT(calibration.passive), {"none", "C_a", "scale", "scale_and_exponent"},
+           "what is fitted to edv: C_a; a factor of a, a_f, a_s and a_fs; or that and a factor of "
+           "the exponents b, to the Klotz curve besides",
+           "2.25");
+  d.flag("active", LV_AT(calibration.active), "whether active.T_scale is fitted to esv");
+  const Range volume = between(0.0, 2000.0);
+  d.quantity("edv", LV_AT(calibration.edv), "ml", volume,
+             "measured volume at protocol.ed_pressure; 0: none", "3.1");
+  d.quantity("esv", LV_AT(calibration.esv), "ml", volume,
+             "measured volume at protocol.es_pressure; 0: none", "3.1");
+  d.number("tolerance", LV_AT(calibration.tolerance), between(1e-5, 0.5),
+           "volumes of the fitted model are right within this fraction; the paper: 0.05", "3.1");
+  d.number("stiffness_min", LV_AT(calibration.stiffness.low), positive, "least C_a or factor");
+  d.number("stiffness_max", LV_AT(calibration.stiffness.high), positive, "largest C_a or factor");
+  d.number("exponent_min", LV_AT(calibration.exponent.low), positive, "least factor of the b");
+  d.number("exponent_max", LV_AT(calibration.exponent.high), positive, "largest factor of the b");
+  d.number("T_scale_min", LV_AT(calibration.T_scale.low), positive, "least T_scale");
+  d.number("T_scale_max", LV_AT(calibration.T_scale.high), positive, "largest T_scale");
+  d.stage = Stage::beat;
+  d.flag("confirm", LV_AT(calibration.confirm),
+         "if the immersed engine's volumes are off by more than the tolerance, correct the "
+         "parameters and run the beat again, at most twice");
+}
+
 void declare_protocol(Declarations& d) {
   d.table = "protocol";
   const Range pressure = between(-50.0, 500.0);
+  d.stage = Stage::calibrate;
   const Range seconds{.low = 0.0, .high = 100.0, .low_included = false};
   d.quantity("ed_pressure", LV_AT(protocol.ed_pressure), "mmHg", pressure, "end-diastolic pressure",
              "2.4");
   d.quantity("es_pressure", LV_AT(protocol.es_pressure), "mmHg", pressure, "end-systolic pressure",
              "2.4");
+  d.stage = Stage::beat;
   d.quantity("filling_ramp", LV_AT(protocol.filling_ramp), "s", seconds,
              "time in which the pressure rises to ed_pressure");
   d.number("filling_tolerance", LV_AT(protocol.filling_tolerance), between(1e-6, 0.5),
@@ -386,8 +416,11 @@ std::vector<Parameter> declare_all() {
   declare_given_mesh(d);
   declare_mesh(d);
   declare_infarct(d);
+  d.stage = Stage::calibrate;
   declare_passive(d);
   declare_active(d);
+  declare_calibration(d);
+  d.stage = Stage::beat;
   declare_engine(d);
   declare_protocol(d);
   declare_output(d);
@@ -436,6 +469,9 @@ const std::vector<Section>& sections() {
       {"box", "The box of blood around the ventricle and its grid"},
       {"coupling", "How the wall's finite elements meet the grid"},
       {"base", "How the basal plane is held"},
+      {"calibrate",
+       "Fitting of passive and active parameters to measured volumes, with the quasi-static "
+       "engine"},
       {"protocol", "Pressures, timings and the ends of the phases"},
       {"time", "Time steps"},
       {"output", "What is kept, and how often"}};

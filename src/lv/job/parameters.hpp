@@ -10,8 +10,8 @@
 
 namespace lv::job {
 
-/// The stage whose result a parameter changes.
-enum class Stage { anatomy, mesh, beat, results, report };
+/// The first stage whose result a parameter changes.
+enum class Stage { anatomy, mesh, calibrate, beat, results, report };
 
 /// One parameter of a case file, declared once, in parameters.cpp.
 struct Parameter {

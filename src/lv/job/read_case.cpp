@@ -103,6 +103,36 @@ class CaseReader {
          "protocol.contraction_longest",
          "must leave time for contraction_ramp and contraction_window");
     rule(p.calcium.Ca_max > p.calcium.Ca_0, "calcium.Ca_max", "must be larger than Ca_0");
+    check_calibration();
+  }
+
+  void check_calibration() {
+    const Calibration& k = case_.calibration;
+    const bool passive = k.passive != calibrate::Passive::none;
+    for (const char* name : {"calibrate.edv", "calibrate.esv", "calibrate.confirm"})
+      rule(k.asked() || case_.origin.count(name) == 0, name,
+           "says nothing without a fit; set calibrate.passive or calibrate.active");
+    rule(!passive || k.edv > 0.0, "calibrate.passive", "needs the measured volume calibrate.edv");
+    rule(!k.active || k.esv > 0.0, "calibrate.active", "needs the measured volume calibrate.esv");
+    rule(passive || k.edv == 0.0 || !k.asked(), "calibrate.edv",
+         "is fitted by nothing; set calibrate.passive");
+    rule(k.active || k.esv == 0.0 || !k.asked(), "calibrate.esv",
+         "is fitted by nothing; set calibrate.active = true");
+    rule(k.edv == 0.0 || k.esv < k.edv, "calibrate.esv", "must be less than edv");
+    rule(!passive || case_.passive.law == PassiveLaw::holzapfel_ogden, "calibrate.passive",
+         "fits the Holzapfel-Ogden law alone; passive.law is another");
+    rule(!passive || case_.protocol.ed_pressure > 0.0, "protocol.ed_pressure",
+         "must be above zero for a passive fit");
+    rule(!k.active || case_.active_form == material::ActiveForm::niederer, "calibrate.active",
+         "fits T_scale of active.law = \"niederer\"; the case has another");
+    rule(!k.confirm || case_.engine == Engine::immersed, "calibrate.confirm",
+         "is done with engine = \"immersed\"; the case has the engine that the fit uses");
+    rule(k.stiffness.low < k.stiffness.high, "calibrate.stiffness_max",
+         "must be larger than stiffness_min");
+    rule(k.exponent.low < k.exponent.high, "calibrate.exponent_max",
+         "must be larger than exponent_min");
+    rule(k.T_scale.low < k.T_scale.high, "calibrate.T_scale_max",
+         "must be larger than T_scale_min");
   }
 
   void rule(bool holds, const std::string& name, const std::string& what) {

@@ -7,6 +7,7 @@
 #include "lv/base/parallel.hpp"
 #include "lv/base/table.hpp"
 #include "lv/bench/bench.hpp"
+#include "lv/job/calibration.hpp"
 #include "lv/job/infarct.hpp"
 #include "lv/job/parameters.hpp"
 #include "lv/job/stages.hpp"
@@ -70,16 +71,18 @@ class Pipeline {
     log::to_file(work_ / "log.txt");
     log::info("{}: ventricle {} on {} rank{}, results in {}", case_.name, version(),
               parallel::size(), parallel::size() == 1 ? "" : "s", work_.string());
-    std::string upstream;
+    Ingredients carried = anatomy_files(case_);  // to the next stage that runs
     for (std::size_t s = 0; s <= last_; ++s) {
       Ingredients ingredients = own_ingredients(case_, static_cast<Stage>(s));
-      if (s == 0)
-        ingredients.merge(anatomy_files(case_));
-      else
-        ingredients["result of " + stage_names[s - 1]] = upstream;
+      ingredients.merge(carried);
       if (static_cast<Stage>(s) == Stage::mesh)
         ingredients.merge(infarct_files(case_));
-      upstream = fingerprint(ingredients);
+      if (static_cast<Stage>(s) == Stage::calibrate && !case_.calibration.asked()) {
+        std::erase_if(ingredients, [](const auto& i) { return i.first.starts_with("calibrate."); });
+        carried = std::move(ingredients);
+        continue;
+      }
+      carried = {{"result of " + stage_names[s], fingerprint(ingredients)}};
       run_stage(s, std::move(ingredients));
     }
   }
@@ -88,6 +91,9 @@ class Pipeline {
   [[nodiscard]] std::size_t last_stage() const {
     if (!options_.until)
       return stage_names.size() - 1;
+    if (*options_.until == "calibrate" && !case_.calibration.asked())
+      throw InputError(case_.file.string(), "asks for no calibration",
+                       "Set calibrate.passive or calibrate.active, and the measured volumes");
     const auto found = std::find(stage_names.begin(), stage_names.end(), *options_.until);
     if (found == stage_names.end()) {
       const std::string nearest = nearest_name(*options_.until, stage_names);
@@ -98,14 +104,14 @@ class Pipeline {
     return static_cast<std::size_t>(found - stage_names.begin());
   }
 
-  [[nodiscard]] std::filesystem::path folder(std::size_t stage) const {
-    return work_ / stage_folder(stage);
+  [[nodiscard]] std::filesystem::path folder(Stage stage) const {
+    return work_ / stage_folder(static_cast<std::size_t>(stage));
   }
 
   void run_stage(std::size_t s, Ingredients ingredients) {
     if (parallel::any(interrupt::requested()))
       throw heartbeat::Interrupted("stopped; run the same command again to go on");
-    const StageFolder stage(work_, folder(s).filename().string(), std::move(ingredients));
+    const StageFolder stage(work_, stage_folder(s), std::move(ingredients));
     if (root_says(stage.up_to_date())) {
       if (options_.explain)
         log::info("{} is up to date: nothing it depends on has changed", stage_names[s]);
@@ -131,17 +137,26 @@ class Pipeline {
         on_root([&] { write_mesh_result(make_mesh(case_, make_anatomy(case_)), part); });
         show_mesh(read_mesh_result(part), case_, part);
         break;
+      case Stage::calibrate: {
+        const Case fitting = for_calibration(case_);
+        on_root([&] { write_mesh_result(make_mesh(fitting, make_anatomy(fitting)), part); });
+        make_calibration(fitting, read_mesh_result(part), part);
+        break;
+      }
       case Stage::beat:
         run_beat(part);
         break;
       case Stage::results:
-        text_ = make_results(case_, read_mesh_result(folder(1)), read_beat(folder(2)), part);
+        text_ =
+            make_results(fitted_case(folder(Stage::beat)), read_mesh_result(folder(Stage::mesh)),
+                         read_beat(folder(Stage::beat)), part);
         on_root([&] { write_file(part / "summary.txt", text_); });
         break;
       case Stage::report:
         on_root([&] {
           write_page({work_}, part / "report.html");
-          write_file(part / "paraview.py", report::paraview_script("../" + stage_folder(2)));
+          write_file(part / "paraview.py",
+                     report::paraview_script("../" + folder(Stage::beat).filename().string()));
         });
         break;
     }
@@ -150,20 +165,46 @@ class Pipeline {
   void run_beat(const std::filesystem::path& part) {
     if (root_says(std::filesystem::exists(part / beat_name)))
       return;  // finished, but the folder had not got its name yet
-    const heartbeat::Beat beat = make_beat(case_, read_mesh_result(folder(1)), part);
+    const MeshResult mesh = read_mesh_result(folder(Stage::mesh));
+    heartbeat::Beat beat;
+    bool again = false;
+    do {
+      beat = make_beat(fitted_case(part), mesh, part);
+      log::info("beat: {} steps in {}", beat.steps, log::duration(beat.wall_clock));
+      on_root(
+          [&] { again = case_.calibration.asked() && correct(case_, calibration(), beat, part); });
+    } while (root_says(again));
     on_root([&] {
       write_beat(beat, part);
       std::filesystem::remove(part / heartbeat::checkpoint_name);
     });
-    log::info("beat: {} steps in {}", beat.steps, log::duration(beat.wall_clock));
   }
 
-  /// After the last stage, its numbers.
+  [[nodiscard]] std::filesystem::path calibration() const { return folder(Stage::calibrate); }
+
+  /// The case with the parameters in use: its own, a calibration's, or those of a beat that
+  /// corrects it.
+  [[nodiscard]] Case fitted_case(const std::filesystem::path& beat) const {
+    if (!case_.calibration.asked())
+      return case_;
+    const auto corrected = beat / confirmation_name;
+    return calibrated(
+        case_, std::filesystem::exists(corrected) ? corrected : calibration() / calibration_name);
+  }
+
+  /// What a user looks at first.
   void show(std::size_t s) const {
-    if (static_cast<Stage>(s) == Stage::results && parallel::is_root())
-      fmt::print("\n{}\nresults in {}\n", read_file(folder(3) / "summary.txt"), folder(3).string());
-    if (static_cast<Stage>(s) == Stage::report && parallel::is_root())
-      fmt::print("page: {}\n", (folder(4) / "report.html").string());
+    if (!parallel::is_root())
+      return;
+    const auto stage = static_cast<Stage>(s);
+    if (stage == Stage::calibrate)
+      fmt::print("\n{}\nparameters in {}\n\n", read_file(folder(stage) / "calibration.txt"),
+                 (folder(stage) / "calibrated.toml").string());
+    if (stage == Stage::results)
+      fmt::print("\n{}\nresults in {}\n", read_file(folder(stage) / "summary.txt"),
+                 folder(stage).string());
+    if (stage == Stage::report)
+      fmt::print("page: {}\n", (folder(stage) / "report.html").string());
   }
 
   const Case& case_;

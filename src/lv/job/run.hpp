@@ -11,7 +11,7 @@ namespace lv::job {
 
 struct RunOptions {
   std::filesystem::path work;        ///< work folder; empty: the case file's name with .work
-  std::optional<std::string> until;  ///< last stage to run: anatomy, mesh, beat, results or report
+  std::optional<std::string> until;  ///< last stage to run, by its name
   bool explain = false;              ///< say why each stage runs or does not
 };
 
@@ -20,6 +20,7 @@ struct RunOptions {
 ///
 ///   anatomy   the surfaces of the wall                    01_anatomy/
 ///   mesh      elements, fibres, regions, quality          02_mesh/
+///   calibrate parameters from measured volumes            02b_calibrate/, for cases that ask for it
 ///   beat      filling and contraction                     03_beat/
 ///   results   tables, summary, pictures                   04_results/
 ///   report    the page, a script for ParaView             05_report/

@@ -14,6 +14,7 @@
 
 #include <cerrno>
 #include <fstream>
+#include <optional>
 #include <sstream>
 
 namespace lv::job {
@@ -53,12 +54,15 @@ void move(const std::filesystem::path& from, const std::filesystem::path& to) {
         "Check the folder's permissions, or name another one with --work");
 }
 
-/// Whether a stage's record names the upstream stage as it is now.
-bool made_from(const std::filesystem::path& folder, const std::string& upstream,
-               const std::filesystem::path& upstream_folder) {
-  const Ingredients record = recorded(folder);
-  const auto entry = record.find("result of " + upstream);
-  return entry == record.end() || entry->second == fingerprint(recorded(upstream_folder));
+/// The earlier stage that a stage's record names as other than it is now, if any.
+std::optional<std::size_t> outdated_source(const std::filesystem::path& work, std::size_t stage) {
+  const Ingredients record = recorded(work / stage_folder(stage));
+  for (std::size_t s = 0; s < stage; ++s) {
+    const auto entry = record.find("result of " + stage_names[s]);
+    if (entry != record.end() && entry->second != fingerprint(recorded(work / stage_folder(s))))
+      return s;
+  }
+  return {};
 }
 
 /// Of a text file; empty when there is none.
@@ -73,7 +77,9 @@ std::string last_line(const std::filesystem::path& file) {
 }  // namespace
 
 std::string stage_folder(std::size_t stage) {
-  return fmt::format("{:02d}_{}", stage + 1, stage_names.at(stage));
+  static const std::array<std::string, stage_names.size()> numbers{"01", "02", "02b",
+                                                                   "03", "04", "05"};
+  return numbers.at(stage) + "_" + stage_names.at(stage);
 }
 
 std::string fingerprint(const Ingredients& ingredients) {
@@ -161,11 +167,11 @@ std::vector<std::string> state_of(const std::filesystem::path& work) {
           stage_folder(s)));
     else if (begun)
       state.push_back(fmt::format("{} is unfinished.", stage_folder(s)));
-    else if (!whole)
+    else if (!whole && static_cast<Stage>(s) != Stage::calibrate)  // which few cases ask for
       state.push_back(fmt::format("{} has not been made.", stage_folder(s)));
-    else if (s > 0 && !made_from(folder, stage_names[s - 1], work / stage_folder(s - 1)))
+    else if (const auto source = outdated_source(work, s))
       state.push_back(fmt::format("{} was made from another {} than the one that is there.",
-                                  stage_folder(s), stage_folder(s - 1)));
+                                  stage_folder(s), stage_folder(*source)));
   }
   if (found == 0)
     throw InputError(work.string(), "holds no results of a run",

@@ -30,6 +30,7 @@ void no_locking(Findings& found);
 void land2015_problem1(Findings& found);
 void land2015_problem2(Findings& found);
 void land2015_problem3(Findings& found);
+void calibration_twin(Findings& found);
 
 // the whole engine
 void rank_independence(Findings& found);

@@ -1,0 +1,121 @@
+#include "lv/calibrate/bracket.hpp"
+
+#include "lv/base/check.hpp"
+
+#include <boost/math/tools/toms748_solve.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace lv::calibrate {
+namespace {
+
+constexpr double first_factor = 1.5;  // of the step from the start
+constexpr double shortest = 1e-3;     // step, of the unknown's logarithm
+constexpr double narrowest = 1e-9;    // bracket, of the unknown's logarithm
+constexpr std::uintmax_t most_trials = 60;
+
+class Search {
+ public:
+  Search(const std::function<double(double)>& volume, const Unknown& unknown, const Target& target,
+         double accuracy)
+      : volume_(volume),
+        unknown_(unknown),
+        target_(target),
+        accuracy_(accuracy),
+        low_(std::log(unknown.range.low)),
+        high_(std::log(unknown.range.high)) {}
+
+  double run() {
+    double a = std::clamp(std::log(unknown_.start), low_, high_);
+    double f_a = misfit(a);
+    if (f_a == 0.0)
+      return std::exp(a);
+    const double away = f_a > 0.0 ? 1.0 : -1.0;  // a cavity too large asks for more of the unknown
+    double step = std::log(first_factor);
+    while (true) {
+      const double b = std::clamp(a + away * step, low_, high_);
+      if (std::abs(b - a) < shortest)
+        refuse();
+      const std::optional<double> f_b = misfit_if_any(b);
+      if (!f_b) {
+        step *= 0.25;
+        continue;
+      }
+      if (f_a * *f_b <= 0.0)
+        return std::exp(away > 0.0 ? between(a, b, f_a, *f_b) : between(b, a, *f_b, f_a));
+      a = b;
+      f_a = *f_b;
+      step *= 2.0;
+    }
+  }
+
+ private:
+  /// ln(V/V_target), and zero where that is small enough, which ends the search.
+  double misfit(double log_x) {
+    const double f = std::log(volume_(std::exp(log_x)) / target_.volume);
+    return std::abs(f) <= accuracy_ ? 0.0 : f;
+  }
+
+  /// Nothing where the model has no equilibrium.
+  std::optional<double> misfit_if_any(double log_x) {
+    try {
+      return misfit(log_x);
+    } catch (const RunError&) {
+      return {};
+    }
+  }
+
+  double between(double a, double b, double f_a, double f_b) {
+    if (f_a == 0.0 || f_b == 0.0)
+      return f_a == 0.0 ? a : b;
+    std::uintmax_t trials = most_trials;
+    const auto [x, y] = boost::math::tools::toms748_solve(
+        [this](double log_x) { return misfit(log_x); }, a, b, f_a, f_b,
+        [](double l, double r) { return r - l < narrowest; }, trials);
+    if (x != y)
+      throw RunError(fmt::format("The volume jumps between {0} = {1:.9g} and {2:.9g}",
+                                 unknown_.name, std::exp(x), std::exp(y)),
+                     "Lower quasi_static.tolerance, or raise calibrate.tolerance");
+    return x;
+  }
+
+  [[noreturn]] void refuse() const {
+    const Range& r = unknown_.range;
+    throw InputError(
+        target_.origin,
+        fmt::format("{:.2f} ml cannot be reached: the model's volume is {} at {} = {:g} and {} at "
+                    "{:g}, the ends of its range",
+                    1e-3 * target_.volume, volume_at(r.low), unknown_.name, r.low,
+                    volume_at(r.high), r.high),
+        fmt::format("Check this volume and its pressure, and the shape at early diastole; or widen "
+                    "the range of {} in [calibrate]",
+                    unknown_.name));
+  }
+
+  [[nodiscard]] std::string volume_at(double x) const {
+    try {
+      return fmt::format("{:.2f} ml", 1e-3 * volume_(x));
+    } catch (const RunError&) {
+      return "unknown (no equilibrium)";
+    }
+  }
+
+  const std::function<double(double)>& volume_;
+  const Unknown& unknown_;
+  const Target& target_;
+  double accuracy_;
+  double low_, high_;
+};
+
+}  // namespace
+
+double find_root(const std::function<double(double)>& volume, const Unknown& unknown,
+                 const Target& target, double accuracy) {
+  LV_CHECK(unknown.range.low > 0.0 && unknown.range.low < unknown.range.high);
+  return Search(volume, unknown, target, accuracy).run();
+}
+
+}  // namespace lv::calibrate

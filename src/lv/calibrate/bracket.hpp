@@ -1,0 +1,36 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+namespace lv::calibrate {
+
+/// Allowed values of a parameter, above zero.
+struct Range {
+  double low = 0.0;
+  double high = 0.0;
+};
+
+/// A parameter on which a volume depends.
+struct Unknown {
+  std::string name;
+  double start = 1.0;
+  Range range;
+};
+
+/// A measured volume.
+struct Target {
+  double volume = 0.0;  ///< [mm^3]
+  std::string origin;   ///< where it was set, for messages
+};
+
+/// The value of the unknown at which a volume that falls with it is the target's, within
+/// `accuracy` as a fraction. The root is bracketed by growing steps from the start, then found by
+/// TOMS 748 (Alefeld, Potra & Shi, ACM Trans. Math. Softw. 21:327, 1995), both in the unknown's
+/// logarithm.
+///
+/// Throws InputError with the volumes at both ends of the range when the target is beyond them.
+[[nodiscard]] double find_root(const std::function<double(double)>& volume, const Unknown& unknown,
+                               const Target& target, double accuracy);
+
+}  // namespace lv::calibrate

@@ -1,0 +1,66 @@
+#pragma once
+
+#include "lv/calibrate/bracket.hpp"
+#include "lv/calibrate/model.hpp"
+#include "lv/calibrate/sensitivity.hpp"
+
+#include <string>
+#include <vector>
+
+namespace lv::calibrate {
+
+/// What of the passive muscle is fitted to the end-diastolic volume.
+enum class Passive {
+  none,
+  C_a,                ///< the paper's way for a patient (2.25)
+  scale,              ///< all stiffnesses by one factor
+  scale_and_exponent  ///< all exponents by another besides, to the normalised Klotz curve
+};
+
+/// What a calibration is to do. Ranges are of the parameters themselves.
+struct Plan {
+  Passive passive = Passive::none;
+  bool active = false;                          ///< T_scale, to the end-systolic volume
+  double ed_pressure = 0.0, es_pressure = 0.0;  ///< [kPa]
+  Target edv, esv;
+  double unloaded_volume = 0.0;  ///< of the cavity at early diastole [mm^3]
+  double tolerance = 0.01;       ///< of the volumes, as a fraction
+  Range stiffness;               ///< of C_a or scale
+  Range exponent, T_scale;
+};
+
+/// One equilibrium of the search.
+struct Evaluation {
+  std::string purpose;  ///< which fit asked for it
+  Parameters parameters;
+  quasi_static::Loads loads;
+  double volume = 0.0;  ///< [mm^3]
+};
+
+struct Fit {
+  Parameters parameters;
+  double edv = 0.0, esv = 0.0;  ///< of the model with these parameters [mm^3]
+  std::vector<Observation> observations;
+  std::vector<double> volumes;  ///< of the model at the observations [mm^3]
+  Sensitivity sensitivity;
+  std::vector<Evaluation> history;
+};
+
+/// Fits the passive parameters to the end-diastolic volume, then T_scale to the end-systolic one
+/// (section 3.1), and finds out how sure the values are.
+///
+/// C_a, scale and T_scale are bracketed (find_root). Scale and exponent minimise, by damped
+/// Gauss-Newton steps in their logarithms,
+///
+///   sum_k [w_k (V(p_k)/V_k - 1)]^2,   V_k = V_0 + (EDV - V_0) (p_k/p_ED)^(1/B_n)
+///
+/// at p_k/p_ED = 1/4, 1/2, 1 and 2: the Klotz curve in normalised form through the measured point
+/// and the model's own volume without load, since the shape at early diastole, not the formula for
+/// V_0, is where the model starts. The weight of the measured point is 20 times that of the curve,
+/// which is a mean over hearts.
+///
+/// Throws InputError for a volume out of reach and RunError when a fitted model misses the measured
+/// volumes by more than the tolerance.
+[[nodiscard]] Fit fit(const Model& model, const Parameters& start, const Plan& plan);
+
+}  // namespace lv::calibrate

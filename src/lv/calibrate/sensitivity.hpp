@@ -1,0 +1,46 @@
+#pragma once
+
+#include "lv/calibrate/model.hpp"
+
+#include <Eigen/Core>
+
+#include <string>
+#include <vector>
+
+namespace lv::calibrate {
+
+/// A fitted parameter: its name and place.
+struct Fitted {
+  std::string name;
+  double Parameters::*member;
+};
+
+/// A volume that the model should have under loads, and how its target follows from what was
+/// measured.
+struct Observation {
+  std::string name;
+  quasi_static::Loads loads;
+  double target = 0.0;  ///< [mm^3]
+  double weight = 1.0;
+  double pressure_ratio = 1.0;  ///< to the measured pressure of its phase
+  double target_by_edv = 0.0;   ///< dV_k/dEDV
+};
+
+/// How volumes follow from parameters, and parameters from measurements, near a fit. By central
+/// differences of the model: parameters by +-1%, pressures by +-0.25 mmHg.
+struct Sensitivity {
+  std::vector<Fitted> parameters;
+  Eigen::MatrixXd by_parameter;  ///< d ln V_k / d ln x_j
+  Eigen::VectorXd by_pressure;   ///< dV_k/dp [mm^3/kPa]
+  /// d ln x_j by d ln EDV, d ln ESV, dp_ED and dp_ES [1/kPa], for the weighted least-squares fit.
+  Eigen::Matrix<double, Eigen::Dynamic, 4> by_data;
+  /// Of the errors of ln x_i and ln x_j when all volumes carry independent errors of equal size;
+  /// near +-1 the data cannot tell the two apart.
+  Eigen::MatrixXd correlation;
+};
+
+[[nodiscard]] Sensitivity sensitivity(const Model& model, const Parameters& at,
+                                      const std::vector<Fitted>& parameters,
+                                      const std::vector<Observation>& observations, double edv);
+
+}  // namespace lv::calibrate

@@ -1,0 +1,198 @@
+#include "lv/calibrate/summary.hpp"
+
+#include "lv/base/units.hpp"
+#include "lv/calibrate/klotz.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <cmath>
+
+namespace lv::calibrate {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using units::mmHg;
+
+/// Errors of measurements by which fitted values are moved: as fractions of the volumes [-], and
+/// of the pressures [kPa].
+constexpr double volume_error = 0.05;
+constexpr double pressure_error = 2.0 * mmHg;
+const std::array<std::string, 4> data_names{"EDV", "ESV", "p_ED", "p_ES"};
+const std::array<double, 4> data_errors{volume_error, volume_error, pressure_error, pressure_error};
+const std::array<std::string, 4> error_names{"EDV -+5%", "ESV -+5%", "p_ED -+2 mmHg",
+                                             "p_ES -+2 mmHg"};
+
+/// Beyond this correlation two parameters count as not told apart.
+constexpr double alike = 0.9;
+
+/// The fitted value when a measurement is off by its error, to first order of the logarithm.
+double moved(const Fit& fit, Eigen::Index parameter, int data, double sign) {
+  const Fitted& which = fit.sensitivity.parameters[parameter];
+  return fit.parameters.*which.member *
+         std::exp(sign * data_errors[data] * fit.sensitivity.by_data(parameter, data));
+}
+
+std::string volume_rows(const Fit& fit) {
+  std::string text = fmt::format("  {:<18}{:>10}{:>14}{:>12}{:>9}{:>16}\n", "volume", "mmHg",
+                                 "measured ml", "model ml", "off", "dV/dp ml/mmHg");
+  for (std::size_t k = 0; k < fit.observations.size(); ++k) {
+    const Observation& o = fit.observations[k];
+    text += fmt::format("  {:<18}{:>10.2f}{:>14.2f}{:>12.2f}{:>8.2f}%{:>16.3f}\n", o.name,
+                        o.loads.pressure / mmHg, 1e-3 * o.target, 1e-3 * fit.volumes[k],
+                        100.0 * (fit.volumes[k] / o.target - 1.0),
+                        1e-3 * mmHg * fit.sensitivity.by_pressure[static_cast<Eigen::Index>(k)]);
+  }
+  return text;
+}
+
+std::string parameter_rows(const Fit& fit) {
+  std::string text = fmt::format("\n  {:<12}{:>10}", "parameter", "fitted");
+  for (const std::string& name : error_names)
+    text += fmt::format("{:>20}", name);
+  const auto& parameters = fit.sensitivity.parameters;
+  for (std::size_t j = 0; j < parameters.size(); ++j) {
+    text += fmt::format("\n  {:<12}{:>10.4g}", parameters[j].name,
+                        fit.parameters.*parameters[j].member);
+    for (int d = 0; d < 4; ++d)
+      text += fmt::format("{:>20}",
+                          fmt::format("{:.3g} / {:.3g}", moved(fit, static_cast<int>(j), d, -1.0),
+                                      moved(fit, static_cast<int>(j), d, 1.0)));
+  }
+  return text + "\n";
+}
+
+std::string derivative_rows(const Fit& fit) {
+  std::string text = fmt::format("\n  {:<18}", "d ln V / d ln x");
+  for (const Fitted& p : fit.sensitivity.parameters)
+    text += fmt::format("{:>12}", p.name);
+  for (std::size_t k = 0; k < fit.observations.size(); ++k) {
+    text += fmt::format("\n  {:<18}", fit.observations[k].name);
+    for (Eigen::Index j = 0; j < fit.sensitivity.by_parameter.cols(); ++j)
+      text +=
+          fmt::format("{:>12.4f}", fit.sensitivity.by_parameter(static_cast<Eigen::Index>(k), j));
+  }
+  return text + "\n";
+}
+
+/// In words, which parameters the data cannot tell apart.
+std::vector<std::string> ambiguities(const Plan& plan, const Fit& fit) {
+  std::vector<std::string> words;
+  if (plan.passive == Passive::C_a)
+    words.emplace_back(
+        "One volume determines one passive parameter: how a compares with a_f, a_s and a_fs, and "
+        "the exponents, keep the case's values; other values with the same EDV fit as well.");
+  if (plan.passive == Passive::scale)
+    words.emplace_back(
+        "One volume determines one passive parameter: how a, a_f, a_s and a_fs compare, and the "
+        "exponents, keep the case's values; other values with the same EDV fit as well.");
+  if (plan.passive == Passive::scale_and_exponent)
+    words.emplace_back(
+        "Scale and exponent are told apart by the Klotz curve alone, a mean over hearts and not a "
+        "measurement of this one; how the a's compare, and how the b's, keep the case's values.");
+  const Sensitivity& s = fit.sensitivity;
+  for (Eigen::Index i = 0; i < s.correlation.rows(); ++i)
+    for (Eigen::Index j = i + 1; j < s.correlation.cols(); ++j) {
+      const double r = s.correlation(i, j);
+      words.push_back(
+          fmt::format("{} and {}: errors of the volumes move them {} with correlation {:.2f}; {}.",
+                      s.parameters[i].name, s.parameters[j].name,
+                      r > 0.0 ? "together" : "against each other", r,
+                      std::abs(r) > alike ? "these data can hardly tell them apart"
+                                          : "these data tell them apart"));
+    }
+  if (plan.active)
+    words.emplace_back(
+        "T_scale stands for every other cause of tension (calcium, its sensitivity, T_ref), which "
+        "ESV cannot tell apart from it.");
+  return words;
+}
+
+Json parameters_json(const Parameters& p) {
+  return {{"C_a", p.C_a}, {"scale", p.scale}, {"exponent", p.exponent}, {"T_scale", p.T_scale}};
+}
+
+Json observation_json(const Fit& fit, std::size_t k) {
+  const Observation& o = fit.observations[k];
+  const auto row = static_cast<Eigen::Index>(k);
+  Json json{{"name", o.name},
+            {"pressure_mmHg", o.loads.pressure / mmHg},
+            {"target_ml", 1e-3 * o.target},
+            {"model_ml", 1e-3 * fit.volumes[k]},
+            {"dV_dp_ml_per_mmHg", 1e-3 * mmHg * fit.sensitivity.by_pressure[row]}};
+  const auto& parameters = fit.sensitivity.parameters;
+  for (std::size_t j = 0; j < parameters.size(); ++j) {
+    const double by_log =
+        fit.volumes[k] * fit.sensitivity.by_parameter(row, static_cast<Eigen::Index>(j));
+    json["dV_dparameter_ml"][parameters[j].name] =
+        1e-3 * by_log / (fit.parameters.*parameters[j].member);
+  }
+  return json;
+}
+
+Json uncertainty_json(const Fit& fit, std::size_t j) {
+  const Fitted& which = fit.sensitivity.parameters[j];
+  Json json{{"parameter", which.name}, {"value", fit.parameters.*which.member}};
+  for (int d = 0; d < 4; ++d)
+    json["when_off"].push_back({{"measurement", data_names[d]},
+                                {"by", d < 2 ? "5%" : "2 mmHg"},
+                                {"below", moved(fit, static_cast<int>(j), d, -1.0)},
+                                {"above", moved(fit, static_cast<int>(j), d, 1.0)}});
+  for (std::size_t i = 0; i < fit.sensitivity.parameters.size(); ++i)
+    json["correlation"][fit.sensitivity.parameters[i].name] =
+        fit.sensitivity.correlation(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(i));
+  return json;
+}
+
+}  // namespace
+
+std::string text(const Plan& plan, const Fit& fit) {
+  std::string text = "calibration with the quasi-static engine\n\n" + volume_rows(fit) +
+                     parameter_rows(fit) + derivative_rows(fit) + "\n";
+  if (plan.passive == Passive::scale_and_exponent) {
+    const Klotz k = klotz(plan.edv.volume, plan.ed_pressure);
+    text += fmt::format(
+        "  Klotz's own estimate without pressure is {:.2f} ml; the model starts from {:.2f} ml at "
+        "early diastole.\n",
+        1e-3 * k.V0, 1e-3 * plan.unloaded_volume);
+  }
+  for (const std::string& words : ambiguities(plan, fit))
+    text += "  " + words + "\n";
+  return text;
+}
+
+std::string json(const Plan& plan, const Fit& fit) {
+  Json json;
+  json["engine"] = "quasi-static";
+  json["parameters"] = parameters_json(fit.parameters);
+  json["tolerance"] = plan.tolerance;
+  for (std::size_t k = 0; k < fit.observations.size(); ++k)
+    json["volumes"].push_back(observation_json(fit, k));
+  for (std::size_t j = 0; j < fit.sensitivity.parameters.size(); ++j)
+    json["uncertainty"].push_back(uncertainty_json(fit, j));
+  json["uncertainty_by"] = "derivatives of the logarithms at the fit";
+  json["ambiguities"] = ambiguities(plan, fit);
+  json["evaluations"] = fit.history.size();
+  return json.dump(2) + "\n";
+}
+
+Table history_table(const Fit& fit) {
+  Table table({"evaluation", "purpose", "C_a", "scale", "exponent", "T_scale", "pressure_mmHg",
+               "activation", "volume_ml"});
+  const auto number = [](double value) { return Table::number(value, 9); };
+  int row = 0;
+  for (const Evaluation& e : fit.history)
+    table.add_row({std::to_string(++row), e.purpose, number(e.parameters.C_a),
+                   number(e.parameters.scale), number(e.parameters.exponent),
+                   number(e.parameters.T_scale), number(e.loads.pressure / mmHg),
+                   number(e.loads.activation), number(1e-3 * e.volume)});
+  return table;
+}
+
+Parameters parameters_of(const std::string& json) {
+  const auto p = nlohmann::json::parse(json).at("parameters");
+  return {p.at("C_a"), p.at("scale"), p.at("exponent"), p.at("T_scale")};
+}
+
+}  // namespace lv::calibrate

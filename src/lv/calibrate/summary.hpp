@@ -1,0 +1,20 @@
+#pragma once
+
+#include "lv/base/table.hpp"
+#include "lv/calibrate/fit.hpp"
+
+namespace lv::calibrate {
+
+/// What was fitted and how sure it is, for a terminal.
+[[nodiscard]] std::string text(const Plan& plan, const Fit& fit);
+
+/// All of it as a JSON object.
+[[nodiscard]] std::string json(const Plan& plan, const Fit& fit);
+
+/// Every equilibrium of the search in its order: the history of the brackets.
+[[nodiscard]] Table history_table(const Fit& fit);
+
+/// The fitted parameters from `json`'s text.
+[[nodiscard]] Parameters parameters_of(const std::string& json);
+
+}  // namespace lv::calibrate

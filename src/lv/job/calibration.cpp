@@ -1,0 +1,193 @@
+#include "lv/job/calibration.hpp"
+
+#include "lv/base/interrupt.hpp"
+#include "lv/base/log.hpp"
+#include "lv/base/parallel.hpp"
+#include "lv/base/table.hpp"
+#include "lv/calibrate/summary.hpp"
+#include "lv/heartbeat/immersed_beat.hpp"
+#include "lv/job/parameters.hpp"
+#include "lv/solid/cavity.hpp"
+
+#include <Eigen/LU>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace lv::job {
+namespace {
+
+using calibrate::Parameters;
+using calibrate::Passive;
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t most_beats = 3;  // one, and two with corrected parameters
+
+/// The case with other parameters; scale and exponent are factors of the case's.
+Case with(Case c, const Parameters& p) {
+  material::HolzapfelOgden& law = c.passive.holzapfel_ogden;
+  c.passive.C_a = p.C_a;
+  for (double* a : {&law.a, &law.a_f, &law.a_s, &law.a_fs})
+    *a *= p.scale;
+  for (double* b : {&law.b, &law.b_f, &law.b_s, &law.b_fs})
+    *b *= p.exponent;
+  c.active.T_scale = p.T_scale;
+  return c;
+}
+
+calibrate::Plan plan(const Case& c, const mesh::Mesh& mesh) {
+  const Calibration& k = c.calibration;
+  return {k.passive,
+          k.active,
+          c.protocol.ed_pressure,
+          c.protocol.es_pressure,
+          {k.edv, place_of(c, "calibrate.edv")},
+          {k.esv, place_of(c, "calibrate.esv")},
+          solid::Cavity(mesh).volume(mesh.nodes),
+          k.tolerance,
+          k.stiffness,
+          k.exponent,
+          k.T_scale};
+}
+
+/// The names of the parameters that a calibration changes.
+std::vector<std::string> changed(const Calibration& k) {
+  std::vector<std::string> names;
+  if (k.passive == Passive::C_a)
+    names.emplace_back("passive.C_a");
+  if (k.passive == Passive::scale || k.passive == Passive::scale_and_exponent)
+    for (const char* a : {"a", "a_f", "a_s", "a_fs"})
+      names.push_back(std::string("passive.holzapfel_ogden.") + a);
+  if (k.passive == Passive::scale_and_exponent)
+    for (const char* b : {"b", "b_f", "b_s", "b_fs"})
+      names.push_back(std::string("passive.holzapfel_ogden.") + b);
+  if (k.active)
+    names.emplace_back("active.T_scale");
+  return names;
+}
+
+/// Lines for a case file, in place of its [calibrate].
+std::string fragment(const Case& fitted) {
+  std::string text = "# Fitted parameters, to be set in a case file instead of [calibrate]\n";
+  std::string table;
+  const auto names = changed(fitted.calibration);
+  for (const Parameter& p : parameters()) {
+    if (std::find(names.begin(), names.end(), p.name) == names.end())
+      continue;
+    const auto dot = p.name.rfind('.');
+    if (p.name.substr(0, dot) != table) {
+      table = p.name.substr(0, dot);
+      text += fmt::format("\n[{}]\n", table);
+    }
+    text += fmt::format("{} = {}\n", p.name.substr(dot + 1), p.get(fitted));
+  }
+  return text;
+}
+
+Json volumes_json(const Json& calibration, const heartbeat::Beat& beat) {
+  Json rows = Json::array();
+  for (const Json& v : calibration.at("volumes")) {
+    const std::string name = v.at("name");
+    if (name != "EDV" && name != "ESV")
+      continue;
+    const double volume =
+        1e-3 * (name == "EDV" ? beat.end_diastole.volume : beat.end_systole.volume);
+    rows.push_back({{"name", name},
+                    {"measured_ml", v.at("target_ml")},
+                    {"quasi_static_ml", v.at("model_ml")},
+                    {"beat_ml", volume},
+                    {"off", volume / v.at("target_ml").get<double>() - 1.0}});
+  }
+  return rows;
+}
+
+/// Parameters by which a beat's volumes should come to the measured ones.
+Json corrected(const Json& calibration, Json parameters, const Json& rows) {
+  std::vector<std::string> names;
+  for (const Json& u : calibration.at("uncertainty"))
+    if (u.at("parameter") != "exponent")
+      names.push_back(u.at("parameter"));
+  const auto n = static_cast<Eigen::Index>(names.size());
+  Eigen::MatrixXd J(n, n);
+  Eigen::VectorXd missing(n);
+  Eigen::Index k = 0;
+  for (const Json& v : calibration.at("volumes")) {
+    const auto row = std::find_if(rows.begin(), rows.end(),
+                                  [&](const Json& r) { return r.at("name") == v.at("name"); });
+    if (row == rows.end())
+      continue;
+    missing[k] = row->at("measured_ml").get<double>() - row->at("beat_ml").get<double>();
+    for (Eigen::Index j = 0; j < n; ++j)
+      J(k, j) = v.at("dV_dparameter_ml").at(names[j]).get<double>() *
+                calibration.at("parameters").at(names[j]).get<double>();
+    ++k;
+  }
+  const Eigen::VectorXd change = J.partialPivLu().solve(missing);
+  for (Eigen::Index j = 0; j < n; ++j)
+    parameters[names[j]] = parameters.at(names[j]).get<double>() * std::exp(change[j]);
+  return parameters;
+}
+
+}  // namespace
+
+Case for_calibration(Case c) {
+  c.engine = Engine::quasi_static;
+  return c;
+}
+
+void make_calibration(const Case& c, const MeshResult& mesh, const std::filesystem::path& folder) {
+  calibrate::Ventricle ventricle(
+      mesh.mesh, c.fibres, [&](const Parameters& p) { return muscle(with(c, p)); },
+      c.quasi_static.solver);
+  const calibrate::Model model = [&](const Parameters& p, const quasi_static::Loads& loads) {
+    if (parallel::any(interrupt::requested()))
+      throw heartbeat::Interrupted("stopped; run the same command again to calibrate anew");
+    return ventricle.volume(p, loads);
+  };
+  const calibrate::Plan task = plan(c, mesh.mesh);
+  const calibrate::Fit fit =
+      calibrate::fit(model, {.C_a = c.passive.C_a, .T_scale = c.active.T_scale}, task);
+  if (!parallel::is_root())
+    return;
+  calibrate::history_table(fit).write_csv(folder / "calibration.csv");
+  write_file(folder / "calibration.txt", calibrate::text(task, fit));
+  write_file(folder / "calibrated.toml", fragment(with(c, fit.parameters)));
+  write_file(folder / calibration_name, calibrate::json(task, fit));
+}
+
+Case calibrated(Case c, const std::filesystem::path& file) {
+  for (const std::string& name : changed(c.calibration))
+    c.origin[name] = file.string();
+  return with(std::move(c), calibrate::parameters_of(read_file(file)));
+}
+
+bool correct(const Case& c, const std::filesystem::path& calibration_folder,
+             const heartbeat::Beat& beat, const std::filesystem::path& folder) {
+  const Json calibration = Json::parse(read_file(calibration_folder / calibration_name));
+  const auto file = folder / confirmation_name;
+  Json record{{"parameters", calibration.at("parameters")}, {"beats", Json::array()}};
+  if (std::filesystem::exists(file))
+    record = Json::parse(read_file(file));
+  const Json rows = volumes_json(calibration, beat);
+  const bool within = std::all_of(rows.begin(), rows.end(), [&](const Json& row) {
+    return std::abs(row.at("off").get<double>()) <= c.calibration.tolerance;
+  });
+  record["beats"].push_back(
+      {{"parameters", record.at("parameters")}, {"volumes", rows}, {"within_tolerance", within}});
+  record["tolerance"] = c.calibration.tolerance;
+  const bool again = !within && c.calibration.confirm && record["beats"].size() < most_beats;
+  if (again) {
+    record["parameters"] = corrected(calibration, record.at("parameters"), rows);
+    log::info("the beat's volumes are off by more than {:g}%; once more with {}",
+              100.0 * c.calibration.tolerance, record["parameters"].dump());
+    std::filesystem::remove(folder / heartbeat::checkpoint_name);  // before the new parameters
+  }
+  write_file(file, record.dump(2) + "\n");
+  if (!again)
+    write_file(folder / "calibrated.toml", fragment(calibrated(c, file)));
+  return again;
+}
+
+}  // namespace lv::job

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "lv/job/stages.hpp"
+
+#include <optional>
+
+namespace lv::job {
+
+/// The same case on the quasi-static engine, which calibrates whatever engine runs the beat.
+[[nodiscard]] Case for_calibration(Case c);
+
+/// Fits what the case asks for and writes into `folder` calibration.json, calibration.txt,
+/// calibration.csv (every equilibrium of the search) and calibrated.toml (for a case file);
+/// collective. Throws InputError for a volume out of reach, with the volumes within reach.
+void make_calibration(const Case& c, const MeshResult& mesh, const std::filesystem::path& folder);
+
+/// The files with fitted parameters: of a calibration, and of a beat made with them.
+inline constexpr const char* calibration_name = "calibration.json";
+inline constexpr const char* confirmation_name = "confirmation.json";
+
+/// The case with the parameters of such a file.
+[[nodiscard]] Case calibrated(Case c, const std::filesystem::path& file);
+
+/// Records a beat made with the parameters of the calibration, and its volumes beside the measured
+/// ones and the quasi-static engine's, in confirmation.json of the beat's `folder`. When they are
+/// off by more than the tolerance and the case wants confirmation, up to twice, it records
+/// corrected parameters too, removes the checkpoint and returns true: the beat must run again. The
+/// correction takes the volumes' derivatives from the quasi-static engine:
+///
+///   sum_j x_j dV_k/dx_j d ln x_j = V_k,measured - V_k,beat
+///
+/// for EDV and ESV and the parameters that were bracketed to them.
+[[nodiscard]] bool correct(const Case& c, const std::filesystem::path& calibration,
+                           const heartbeat::Beat& beat, const std::filesystem::path& folder);
+
+}  // namespace lv::job
