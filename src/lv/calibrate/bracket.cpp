@@ -12,9 +12,8 @@
 namespace lv::calibrate {
 namespace {
 
-constexpr double first_factor = 1.5;  // of the step from the start
-constexpr double shortest = 1e-3;     // step, of the unknown's logarithm
-constexpr double narrowest = 1e-9;    // bracket, of the unknown's logarithm
+constexpr double shortest = 1e-3;   // step, of the unknown's logarithm
+constexpr double narrowest = 1e-9;  // bracket, of the unknown's logarithm
 constexpr std::uintmax_t most_trials = 60;
 
 class Search {
@@ -34,7 +33,7 @@ class Search {
     if (f_a == 0.0)
       return std::exp(a);
     const double away = f_a > 0.0 ? 1.0 : -1.0;  // a cavity too large asks for more of the unknown
-    double step = std::log(first_factor);
+    double step = std::log(unknown_.first_factor);
     while (true) {
       const double b = std::clamp(a + away * step, low_, high_);
       if (std::abs(b - a) < shortest)

@@ -16,6 +16,7 @@ struct Unknown {
   std::string name;
   double start = 1.0;
   Range range;
+  double first_factor = 1.5;  ///< of the first step from the start
 };
 
 /// A measured volume.

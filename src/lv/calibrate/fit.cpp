@@ -5,7 +5,7 @@
 #include "lv/base/units.hpp"
 #include "lv/calibrate/klotz.hpp"
 
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <fmt/format.h>
 
 #include <array>
@@ -20,12 +20,20 @@ using quasi_static::Loads;
 constexpr double margin = 1e-3;
 
 constexpr std::array<double, 3> pressure_ratios{0.25, 0.5, 2.0};  // to the end-diastolic one
-constexpr double weight_of_edv = 20.0;
 
-constexpr double difference = 1e-3;  // of a logarithm, for derivatives
-constexpr double converged = 1e-4;   // correction of a logarithm
-constexpr int most_corrections = 30;
-constexpr double stiffest_damping = 1e6;
+/// Of the measured point against the Klotz curve, which only tells where on the line of equal
+/// end-diastolic volumes the parameters are.
+constexpr double weight_of_edv = 1e3;
+
+/// First steps of a bracket.
+constexpr double far = 1.5;
+constexpr double near = 1.05;
+
+// logarithms of the exponent
+constexpr double difference = 1e-2;  // for derivatives
+constexpr double longest_step = 0.25;
+constexpr double converged = 1e-3;
+constexpr int most_corrections = 20;
 
 class Fitter {
  public:
@@ -76,18 +84,26 @@ class Fitter {
       return;
     bracket(fitted.front(), plan_.stiffness, ed_loads(), plan_.edv);
     if (plan_.passive == Passive::scale_and_exponent)
-      least_squares({fitted[0], fitted[1]});
+      fit_exponent(fitted[0], fitted[1]);
   }
 
   void bracket(const Fitted& which, const Range& range, const Loads& loads, const Target& target) {
     purpose_ = fmt::format("bracket of {}", which.name);
+    solve(which, range, loads, target, far);
+  }
+
+  /// Brings the scale back to the measured end-diastolic volume after a small change.
+  void keep_edv(const Fitted& scale) { solve(scale, plan_.stiffness, ed_loads(), plan_.edv, near); }
+
+  void solve(const Fitted& which, const Range& range, const Loads& loads, const Target& target,
+             double first_factor) {
     Parameters& p = fit_.parameters;
     const auto volume = [&](double x) {
       p.*which.member = x;
       return model_(p, loads);
     };
-    p.*which.member =
-        find_root(volume, {which.name, p.*which.member, range}, target, margin * plan_.tolerance);
+    p.*which.member = find_root(volume, {which.name, p.*which.member, range, first_factor}, target,
+                                margin * plan_.tolerance);
   }
 
   /// The measured points, and the Klotz curve where it is fitted to.
@@ -112,64 +128,74 @@ class Fitter {
       list.push_back({"ESV", es_loads(), plan_.esv.volume});
   }
 
-  /// Levenberg's damping of Gauss-Newton steps; no parameter leaves its range.
-  void least_squares(const std::vector<Fitted>& unknowns) {
+  /// Gauss-Newton steps in the exponent along the line on which the scale keeps the end-diastolic
+  /// volume, halved until the Klotz curve is nearer.
+  void fit_exponent(const Fitted& scale, const Fitted& exponent) {
     purpose_ = "fit to the Klotz curve";
-    const std::array<Range, 2> ranges{plan_.stiffness, plan_.exponent};
     Eigen::VectorXd r = residuals(fit_.parameters);
-    double damping = 1e-3;
     for (int i = 0; i < most_corrections; ++i) {
-      const Eigen::MatrixXd J = jacobian(unknowns, r);
-      while (true) {
-        Eigen::MatrixXd A = J.transpose() * J;
-        A.diagonal() *= 1.0 + damping;
-        const Eigen::VectorXd step = -A.ldlt().solve(J.transpose() * r);
-        Parameters next = fit_.parameters;
-        double length = 0.0;
-        for (Eigen::Index j = 0; j < step.size(); ++j) {
-          double& x = next.*unknowns[j].member;
-          const double before = x;
-          x = std::clamp(x * std::exp(step[j]), ranges[j].low, ranges[j].high);
-          length = std::max(length, std::abs(std::log(x / before)));
-        }
-        const Eigen::VectorXd r_next = length > 0.0 ? residuals(next) : r;
-        const bool better = r_next.squaredNorm() < r.squaredNorm();
-        if (better) {
-          fit_.parameters = next;
-          r = r_next;
-          damping *= 0.1;
-        }
-        if (length < converged)
-          return;
-        if (better)
-          break;
-        damping *= 10.0;
-        if (damping > stiffest_damping)
-          return;
-      }
+      const double along = scale_along(scale, exponent, r[0]);
+      const Eigen::VectorXd slope =
+          (residuals(moved(scale, exponent, along, difference)) - r) / difference;
+      const auto tail = Eigen::seq(1, Eigen::last);  // all but the end-diastolic point
+      double step = -slope(tail).dot(r(tail)) / slope(tail).squaredNorm();
+      step = std::clamp(step, -longest_step, longest_step);
+      const double log_x = std::log(fit_.parameters.exponent);
+      step = std::clamp(log_x + step, std::log(plan_.exponent.low), std::log(plan_.exponent.high)) -
+             log_x;
+      while (std::abs(step) >= converged && !nearer(scale, exponent, along, step, r))
+        step *= 0.5;
+      if (std::abs(step) < converged)
+        return;
     }
     throw RunError("The fit of scale and exponent to the Klotz curve does not converge",
                    "Set calibrate.passive = \"scale\", which the end-diastolic volume determines");
   }
 
-  [[nodiscard]] Eigen::VectorXd residuals(const Parameters& p) {
-    Eigen::VectorXd r(1 + static_cast<Eigen::Index>(pressure_ratios.size()));  // of the filling
-    for (Eigen::Index k = 0; k < r.size(); ++k) {
-      const Observation& o = fit_.observations[k];
-      r[k] = o.weight * (model_(p, o.loads) / o.target - 1.0);
-    }
-    return r;
+  /// d ln scale/d ln exponent at constant end-diastolic volume, which is off by `misfit`.
+  double scale_along(const Fitted& scale, const Fitted& exponent, double misfit) {
+    const auto slope = [&](const Fitted& which) {
+      Parameters p = fit_.parameters;
+      p.*which.member *= std::exp(difference);
+      return model_(p, ed_loads()) / plan_.edv.volume - 1.0 - misfit;
+    };
+    return -slope(exponent) / slope(scale);
   }
 
-  [[nodiscard]] Eigen::MatrixXd jacobian(const std::vector<Fitted>& unknowns,
-                                         const Eigen::VectorXd& r) {
-    Eigen::MatrixXd J(r.size(), static_cast<Eigen::Index>(unknowns.size()));
-    for (Eigen::Index j = 0; j < J.cols(); ++j) {
-      Parameters p = fit_.parameters;
-      p.*unknowns[j].member *= std::exp(difference);
-      J.col(j) = (residuals(p) - r) / difference;
+  [[nodiscard]] Parameters moved(const Fitted& scale, const Fitted& exponent, double along,
+                                 double step) const {
+    Parameters p = fit_.parameters;
+    p.*exponent.member *= std::exp(step);
+    p.*scale.member *= std::exp(along * step);
+    return p;
+  }
+
+  /// Takes a step if it brings the model nearer to the Klotz curve.
+  bool nearer(const Fitted& scale, const Fitted& exponent, double along, double step,
+              Eigen::VectorXd& r) {
+    const Parameters before = fit_.parameters;
+    try {
+      fit_.parameters = moved(scale, exponent, along, step);
+      keep_edv(scale);
+      const Eigen::VectorXd r_next = residuals(fit_.parameters);
+      if (r_next.squaredNorm() < r.squaredNorm()) {
+        r = r_next;
+        return true;
+      }
+    } catch (const RunError&) {  // no equilibrium there
     }
-    return J;
+    fit_.parameters = before;
+    return false;
+  }
+
+  /// Of the filling: V/V_k - 1.
+  [[nodiscard]] Eigen::VectorXd residuals(const Parameters& p) {
+    Eigen::VectorXd r(1 + static_cast<Eigen::Index>(pressure_ratios.size()));
+    for (Eigen::Index k = 0; k < r.size(); ++k) {
+      const Observation& o = fit_.observations[k];
+      r[k] = model_(p, o.loads) / o.target - 1.0;
+    }
+    return r;
   }
 
   /// The model's volumes with the fitted parameters. Tension at rest makes the end-diastolic volume

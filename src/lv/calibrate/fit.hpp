@@ -49,15 +49,14 @@ struct Fit {
 /// Fits the passive parameters to the end-diastolic volume, then T_scale to the end-systolic one
 /// (section 3.1), and finds out how sure the values are.
 ///
-/// C_a, scale and T_scale are bracketed (find_root). Scale and exponent minimise, by damped
-/// Gauss-Newton steps in their logarithms,
+/// C_a, scale and T_scale are bracketed (find_root). The exponent minimises, with the scale that
+/// keeps the end-diastolic volume,
 ///
-///   sum_k [w_k (V(p_k)/V_k - 1)]^2,   V_k = V_0 + (EDV - V_0) (p_k/p_ED)^(1/B_n)
+///   sum_k [V(p_k)/V_k - 1]^2,   V_k = V_0 + (EDV - V_0) (p_k/p_ED)^(1/B_n)
 ///
-/// at p_k/p_ED = 1/4, 1/2, 1 and 2: the Klotz curve in normalised form through the measured point
-/// and the model's own volume without load, since the shape at early diastole, not the formula for
-/// V_0, is where the model starts. The weight of the measured point is 20 times that of the curve,
-/// which is a mean over hearts.
+/// at p_k/p_ED = 1/4, 1/2 and 2: the Klotz curve in normalised form through the measured point and
+/// the model's own volume without load, since the shape at early diastole, not the formula for V_0,
+/// is where the model starts.
 ///
 /// Throws InputError for a volume out of reach and RunError when a fitted model misses the measured
 /// volumes by more than the tolerance.

@@ -91,6 +91,10 @@ std::vector<std::string> ambiguities(const Plan& plan, const Fit& fit) {
     words.emplace_back(
         "Scale and exponent are told apart by the Klotz curve alone, a mean over hearts and not a "
         "measurement of this one; how the a's compare, and how the b's, keep the case's values.");
+  const double e = fit.parameters.exponent;
+  if (plan.passive == Passive::scale_and_exponent &&
+      (e < 1.001 * plan.exponent.low || e > 0.999 * plan.exponent.high))
+    words.emplace_back("The exponent stands at the end of its range.");
   const Sensitivity& s = fit.sensitivity;
   for (Eigen::Index i = 0; i < s.correlation.rows(); ++i)
     for (Eigen::Index j = i + 1; j < s.correlation.cols(); ++j) {

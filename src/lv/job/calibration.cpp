@@ -190,4 +190,17 @@ bool correct(const Case& c, const std::filesystem::path& calibration_folder,
   return again;
 }
 
+std::vector<report::FittedVolume> fitted_volumes(const Case& c, const std::filesystem::path& beat) {
+  std::vector<report::FittedVolume> volumes;
+  if (!c.calibration.asked())
+    return volumes;
+  const Json record = Json::parse(read_file(beat / confirmation_name));
+  for (const Json& row : record.at("beats").back().at("volumes"))
+    volumes.push_back({row.at("name"), 1e3 * row.at("measured_ml").get<double>(),
+                       1e3 * row.at("quasi_static_ml").get<double>(),
+                       1e3 * row.at("beat_ml").get<double>(),
+                       std::abs(row.at("off").get<double>()) <= c.calibration.tolerance});
+  return volumes;
+}
+
 }  // namespace lv::job

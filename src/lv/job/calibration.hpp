@@ -33,4 +33,9 @@ inline constexpr const char* confirmation_name = "confirmation.json";
 [[nodiscard]] bool correct(const Case& c, const std::filesystem::path& calibration,
                            const heartbeat::Beat& beat, const std::filesystem::path& folder);
 
+/// Measured volumes beside those of the fit and of the beat, as recorded in the beat's folder; none
+/// for a case without calibration.
+[[nodiscard]] std::vector<report::FittedVolume> fitted_volumes(const Case& c,
+                                                               const std::filesystem::path& beat);
+
 }  // namespace lv::job

@@ -180,7 +180,7 @@ void declare_infarct(Declarations& d) {
   d.text("array", LV_AT(scar.array),
          "array of labels, at points (centres of voxels) or in cells; empty: the only one");
   d.whole_list("scar", LV_AT(scar.scar), "the labels that mean scar");
-  d.stage = Stage::beat;
+  d.stage = Stage::calibrate;
   d.table = "infarct";
   d.number("stiffening", LV_AT(infarct.stiffening), not_negative,
            "an infarct of extent M is (1 + stiffening M) times as stiff", "2.23");
@@ -416,7 +416,6 @@ std::vector<Parameter> declare_all() {
   declare_given_mesh(d);
   declare_mesh(d);
   declare_infarct(d);
-  d.stage = Stage::calibrate;
   declare_passive(d);
   declare_active(d);
   declare_calibration(d);

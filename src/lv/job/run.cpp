@@ -146,12 +146,13 @@ class Pipeline {
       case Stage::beat:
         run_beat(part);
         break;
-      case Stage::results:
-        text_ =
-            make_results(fitted_case(folder(Stage::beat)), read_mesh_result(folder(Stage::mesh)),
-                         read_beat(folder(Stage::beat)), part);
+      case Stage::results: {
+        const auto beat = folder(Stage::beat);
+        text_ = make_results(fitted_case(beat), read_mesh_result(folder(Stage::mesh)),
+                             read_beat(beat), fitted_volumes(case_, beat), part);
         on_root([&] { write_file(part / "summary.txt", text_); });
         break;
+      }
       case Stage::report:
         on_root([&] {
           write_page({work_}, part / "report.html");

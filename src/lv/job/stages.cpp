@@ -315,6 +315,7 @@ BeatResult read_beat(const std::filesystem::path& folder) {
 }
 
 std::string make_results(const Case& c, const MeshResult& mesh, const BeatResult& beat,
+                         const std::vector<report::FittedVolume>& fitted,
                          const std::filesystem::path& folder) {
   const analysis::FieldAnalysis analysis = field_analysis(c, mesh.mesh);
   const analysis::BeatFields fields{analysis.at_rest(), analysis.fields(beat.beat.end_diastole),
@@ -322,7 +323,8 @@ std::string make_results(const Case& c, const MeshResult& mesh, const BeatResult
   if (!parallel::is_root())
     return "";
   const analysis::Results results = analysis::results(mesh.mesh, mesh.regions, beat.beat, fields);
-  const report::RunFacts facts = run_facts(c, mesh, beat);
+  report::RunFacts facts = run_facts(c, mesh, beat);
+  facts.fitted = fitted;
   write_file(folder / "summary.json", report::summary_json(facts, beat.beat, results));
   report::regions_table(results).write_csv(folder / "regions.csv");
   report::rotation_table(results).write_csv(folder / "rotation.csv");

@@ -3,6 +3,7 @@
 #include "lv/analysis/results.hpp"
 #include "lv/heartbeat/immersed_beat.hpp"
 #include "lv/job/anatomy.hpp"
+#include "lv/report/summary.hpp"
 
 #include <filesystem>
 
@@ -37,8 +38,11 @@ struct BeatResult {
 };
 [[nodiscard]] BeatResult read_beat(const std::filesystem::path& folder);
 
-/// Computes and writes the results; collective. Returns the text for the terminal on the root.
+/// Computes and writes the results; collective. `fitted` is empty unless the case is calibrated.
+/// Returns the text for the terminal on the root.
 [[nodiscard]] std::string make_results(const Case& c, const MeshResult& mesh,
-                                       const BeatResult& beat, const std::filesystem::path& folder);
+                                       const BeatResult& beat,
+                                       const std::vector<report::FittedVolume>& fitted,
+                                       const std::filesystem::path& folder);
 
 }  // namespace lv::job

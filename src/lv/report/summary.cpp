@@ -169,6 +169,12 @@ std::string summary_json(const RunFacts& facts, const heartbeat::Beat& beat, con
                                     {"unit", o.unit},
                                     {"rule", o.rule},
                                     {"holds", o.holds}});
+  for (const FittedVolume& v : facts.fitted)
+    json["calibration"].push_back({{"volume", v.name},
+                                   {"measured_ml", number(1e-3 * v.measured)},
+                                   {"quasi_static_ml", number(1e-3 * v.quasi_static)},
+                                   {"beat_ml", number(1e-3 * v.beat)},
+                                   {"within_tolerance", v.within_tolerance}});
   json["warnings"] = facts.warnings;
   json["parameters"] = pairs(facts.parameters);
   json["set_in_case_file"] = pairs(facts.origins);
@@ -193,6 +199,15 @@ std::string summary_text(const RunFacts& facts, const heartbeat::Beat& beat, con
   row("wall volume (ml)", 1e-3 * e.wall_volume, 1e-3 * d.wall_volume, 1e-3 * s.wall_volume);
   row("endocardial apex z (mm)", e.apex_endo_z, d.apex_endo_z, s.apex_endo_z);
   text += fmt::format("\n  ejection fraction {:.1f}%\n\n", 100.0 * r.ejection_fraction());
+  if (!facts.fitted.empty())
+    text += fmt::format("  {:<34}{:>14}{:>14}{:>14}\n", "calibration (ml)", "measured",
+                        "quasi-static", "this beat");
+  for (const FittedVolume& v : facts.fitted)
+    text += fmt::format("  {:<34}{:>14.2f}{:>14.2f}{:>14.2f}  {}\n", v.name, 1e-3 * v.measured,
+                        1e-3 * v.quasi_static, 1e-3 * v.beat,
+                        v.within_tolerance ? "within tolerance" : "OUTSIDE TOLERANCE");
+  if (!facts.fitted.empty())
+    text += "\n";
   text += fmt::format("  {:<34}{:>18}\n", "at end-systole, whole wall", "mean +- sd");
   for (const auto& v : r.regional)
     if (v.state == "end_systole" && v.scheme == "whole")

@@ -7,6 +7,15 @@
 
 namespace lv::report {
 
+/// A measured volume to which parameters were fitted, and what the engines make of them.
+struct FittedVolume {
+  std::string name;           ///< EDV or ESV
+  double measured = 0.0;      ///< [mm^3]
+  double quasi_static = 0.0;  ///< of the fit [mm^3]
+  double beat = 0.0;          ///< of this beat [mm^3]
+  bool within_tolerance = false;
+};
+
 /// What stands at the head of a summary besides the results.
 struct RunFacts {
   std::string case_name;
@@ -22,6 +31,7 @@ struct RunFacts {
   std::vector<std::pair<std::string, std::string>>
       origins;  ///< of those that a case file sets: file:line
   std::vector<std::string> warnings;
+  std::vector<FittedVolume> fitted;  ///< of a calibrated case
 };
 
 /// A statement about a beat that a healthy ventricle fulfils, with the number behind it.
