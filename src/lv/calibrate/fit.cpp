@@ -59,13 +59,13 @@ class Fitter {
                                                      : Fitted{"scale", &Parameters::scale});
     if (plan_.passive == Passive::scale_and_exponent)
       fitted.push_back({"exponent", &Parameters::exponent});
-    fit_passive(fitted);
+    fit_passive(fitted, far);
     if (plan_.active) {
       fitted.push_back({"T_scale", &Parameters::T_scale});
-      bracket(fitted.back(), plan_.T_scale, es_loads(), plan_.esv);
+      bracket(fitted.back(), plan_.T_scale, es_loads(), plan_.esv, far);
       // with the tension at rest, the end-diastolic volume has moved a little
-      fit_passive(fitted);
-      bracket(fitted.back(), plan_.T_scale, es_loads(), plan_.esv);
+      fit_passive(fitted, near);
+      bracket(fitted.back(), plan_.T_scale, es_loads(), plan_.esv, near);
     }
     measure();
     purpose_ = "sensitivity";
@@ -79,17 +79,18 @@ class Fitter {
   [[nodiscard]] Loads es_loads() const { return {plan_.es_pressure, 1.0}; }
 
   /// Of `fitted`, the passive parameters.
-  void fit_passive(const std::vector<Fitted>& fitted) {
+  void fit_passive(const std::vector<Fitted>& fitted, double first_factor) {
     if (plan_.passive == Passive::none)
       return;
-    bracket(fitted.front(), plan_.stiffness, ed_loads(), plan_.edv);
+    bracket(fitted.front(), plan_.stiffness, ed_loads(), plan_.edv, first_factor);
     if (plan_.passive == Passive::scale_and_exponent)
       fit_exponent(fitted[0], fitted[1]);
   }
 
-  void bracket(const Fitted& which, const Range& range, const Loads& loads, const Target& target) {
+  void bracket(const Fitted& which, const Range& range, const Loads& loads, const Target& target,
+               double first_factor) {
     purpose_ = fmt::format("bracket of {}", which.name);
-    solve(which, range, loads, target, far);
+    solve(which, range, loads, target, first_factor);
   }
 
   /// Brings the scale back to the measured end-diastolic volume after a small change.

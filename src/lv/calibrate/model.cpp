@@ -20,22 +20,28 @@ double distance(const Loads& a, const Loads& b) {
 
 Ventricle::Ventricle(const mesh::Mesh& mesh, const mesh::FibreRule& fibres, MuscleOf muscle_of,
                      const quasi_static::Parameters& solver)
-    : muscle_of_(std::move(muscle_of)),
-      engine_(mesh, fibres, muscle_of_({}), solver),
-      known_{{engine_.loads(), engine_.state()}} {}
+    : mesh_(mesh), fibres_(fibres), muscle_of_(std::move(muscle_of)), solver_(solver) {}
 
 double Ventricle::volume(const Parameters& parameters, const Loads& loads) {
-  const Equilibrium& start = nearest(loads);
-  engine_.restore(start.state, start.loads);
-  engine_.set_muscle(muscle_of_(parameters));
-  if (distance(engine_.loads(), loads) > 0.0)
-    engine_.go_to(loads);
-  Equilibrium& closest = nearest(loads);
-  if (distance(closest.loads, loads) > 0.0)
-    known_.push_back({loads, engine_.state()});
+  approach(muscle_of_(parameters), loads);
+  if (known_.empty() || distance(nearest(loads).loads, loads) > 0.0)
+    known_.push_back({loads, engine_->state()});
   else
-    closest.state = engine_.state();
-  return engine_.cavity_volume();
+    nearest(loads).state = engine_->state();
+  return engine_->cavity_volume();
+}
+
+/// Brings the engine to equilibrium with the loads.
+void Ventricle::approach(const quasi_static::Muscle& muscle, const Loads& loads) {
+  if (known_.empty()) {
+    engine_.emplace(mesh_, fibres_, muscle, solver_);
+  } else {
+    const Equilibrium& start = nearest(loads);
+    engine_->restore(start.state, start.loads);
+    engine_->set_muscle(muscle);
+  }
+  if (distance(engine_->loads(), loads) > 0.0)
+    engine_->go_to(loads);
 }
 
 Ventricle::Equilibrium& Ventricle::nearest(const Loads& loads) {

@@ -3,6 +3,7 @@
 #include "lv/quasi_static/engine.hpp"
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace lv::calibrate {
@@ -36,10 +37,14 @@ class Ventricle {
     quasi_static::Loads loads;
     quasi_static::State state;
   };
+  void approach(const quasi_static::Muscle& muscle, const quasi_static::Loads& loads);
   [[nodiscard]] Equilibrium& nearest(const quasi_static::Loads& loads);
 
+  const mesh::Mesh& mesh_;
+  mesh::FibreRule fibres_;
   MuscleOf muscle_of_;
-  quasi_static::Engine engine_;
+  quasi_static::Parameters solver_;
+  std::optional<quasi_static::Engine> engine_;
   std::vector<Equilibrium> known_;
 };
 
