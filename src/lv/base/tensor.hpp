@@ -63,6 +63,13 @@ T determinant(const Tensor<T>& F) {
          F(0, 2) * (F(1, 0) * F(2, 1) - F(1, 1) * F(2, 0));
 }
 
+/// The tensor v x, whose product with w is the cross product of v and w.
+inline Mat3 cross_matrix(const Vec3& v) {
+  Mat3 m;
+  m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
+  return m;
+}
+
 /// The cofactor tensor det(F) F^{-T}.
 template <class T>
 Tensor<T> cofactor(const Tensor<T>& F) {

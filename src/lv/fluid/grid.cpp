@@ -33,4 +33,8 @@ Slab slab_of(const Grid& grid, int rank, int ranks) {
   return {parallel::share(grid.cells[2], rank, ranks), rank == 0, rank == ranks - 1};
 }
 
+Grid centred_grid(const Vec3& centre, const Vec3& size, const std::array<int, 3>& cells) {
+  return {cells, centre - 0.5 * size, size.cwiseQuotient(Vec3(cells[0], cells[1], cells[2]))};
+}
+
 }  // namespace lv::fluid

@@ -26,6 +26,10 @@ struct Grid {
   [[nodiscard]] Vec3 face(int c, int i, int j, int k) const;
 };
 
+/// A box of this size [mm] in this many cells, about its centre.
+[[nodiscard]] Grid centred_grid(const Vec3& centre, const Vec3& size,
+                                const std::array<int, 3>& cells);
+
 /// The part of the box that one rank owns: whole planes of cells along z.
 struct Slab {
   parallel::Range planes;  ///< cell planes [begin, end)

@@ -84,7 +84,20 @@ class QuasiStaticRun {
                                : std::numeric_limits<double>::quiet_NaN();
   }
 
-  [[nodiscard]] Snapshot state() const { return snapshot(engine_, wall_, run_.phase, run_.time); }
+  /// The engine's present state; tension per node from the nodes' stretch.
+  [[nodiscard]] Snapshot state() const {
+    Snapshot s;
+    s.time = run_.time;
+    s.phase = run_.phase;
+    s.pressure = engine_.loads().pressure;
+    s.volume = engine_.cavity_volume();
+    s.positions = engine_.state().positions;
+    std::vector<double> stretch(s.positions.size());
+    wall_.nodal_stretch(s.positions, stretch);
+    for (const double lambda : stretch)
+      s.tension.push_back(setup_.muscle.contractility.at(lambda, engine_.loads().activation).value);
+    return s;
+  }
 
   const QuasiStaticSetup& setup_;
   const Observers& observers_;
@@ -94,21 +107,6 @@ class QuasiStaticRun {
 };
 
 }  // namespace
-
-Snapshot snapshot(const Engine& engine, const solid::Wall& wall, Phase phase, double time) {
-  Snapshot s;
-  s.time = time;
-  s.phase = phase;
-  s.pressure = engine.loads().pressure;
-  s.volume = engine.cavity_volume();
-  s.positions = engine.state().positions;
-  std::vector<double> stretch(s.positions.size());
-  wall.nodal_stretch(s.positions, stretch);
-  for (const double lambda : stretch)
-    s.tension.push_back(
-        engine.equations().muscle().contractility.at(lambda, engine.loads().activation).value);
-  return s;
-}
 
 Beat run_quasi_static_beat(const QuasiStaticSetup& setup, const Observers& observers) {
   return QuasiStaticRun(setup, observers).run();

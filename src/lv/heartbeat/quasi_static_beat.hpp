@@ -22,8 +22,4 @@ struct QuasiStaticSetup {
 /// found, and Interrupted after SIGINT or SIGTERM. Collective.
 [[nodiscard]] Beat run_quasi_static_beat(const QuasiStaticSetup& setup, const Observers& observers);
 
-/// The engine's present state as a snapshot; tension per node from the nodes' stretch.
-[[nodiscard]] Snapshot snapshot(const quasi_static::Engine& engine, const solid::Wall& wall,
-                                Phase phase, double time);
-
 }  // namespace lv::heartbeat

@@ -27,12 +27,8 @@ constexpr std::size_t most_beats = 3;  // one, and two with corrected parameters
 
 /// The case with other parameters; scale and exponent are factors of the case's.
 Case with(Case c, const Parameters& p) {
-  material::HolzapfelOgden& law = c.passive.holzapfel_ogden;
   c.passive.C_a = p.C_a;
-  for (double* a : {&law.a, &law.a_f, &law.a_s, &law.a_fs})
-    *a *= p.scale;
-  for (double* b : {&law.b, &law.b_f, &law.b_s, &law.b_fs})
-    *b *= p.exponent;
+  c.passive.holzapfel_ogden = c.passive.holzapfel_ogden.scaled(p.scale, p.exponent);
   c.active.T_scale = p.T_scale;
   return c;
 }

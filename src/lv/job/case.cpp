@@ -1,10 +1,13 @@
 #include "lv/job/case.hpp"
 
+#include "lv/base/bounds.hpp"
+
 namespace lv::job {
 namespace {
 
-/// Springs that yield by micrometres under the pressures of a ventricle [kPa/mm].
-constexpr double quasi_static_base = 1e6;
+solid::BasalSupport quasi_static_support(const Case& c) {
+  return {c.base.kind, quasi_static::rigid_base};
+}
 
 }  // namespace
 
@@ -53,9 +56,7 @@ heartbeat::Protocol protocol(const Case& c) {
 }
 
 solid::BasalSupport basal_support(const Case& c) {
-  if (c.engine == Engine::immersed)
-    return c.base;
-  return {c.base.kind, quasi_static_base};
+  return c.engine == Engine::immersed ? c.base : quasi_static_support(c);
 }
 
 quasi_static::Muscle muscle(const Case& c) {
@@ -63,24 +64,12 @@ quasi_static::Muscle muscle(const Case& c) {
                                  ? quasi_static::Contractility(c.active, c.protocol.calcium.Ca_0,
                                                                c.protocol.calcium.Ca_max)
                                  : quasi_static::Contractility(c.prescribed_tension);
-  return {wall_material(c),
-          contractility,
-          {c.base.kind, quasi_static_base},
-          c.quasi_static.stabilisation};
+  return {wall_material(c), contractility, quasi_static_support(c), c.quasi_static.stabilisation};
 }
 
 immersed::ModelParameters model_parameters(const Case& c, const mesh::Mesh& mesh) {
-  Vec3 lower = mesh.nodes.front();
-  Vec3 upper = lower;
-  for (const Vec3& x : mesh.nodes) {
-    lower = lower.cwiseMin(x);
-    upper = upper.cwiseMax(x);
-  }
   immersed::ModelParameters p;
-  const Vec3 size(c.box.size[0], c.box.size[1], c.box.size[2]);
-  p.grid.cells = c.box.cells;
-  p.grid.spacing = size.cwiseQuotient(Vec3(c.box.cells[0], c.box.cells[1], c.box.cells[2]));
-  p.grid.lower = 0.5 * (lower + upper) - 0.5 * size;
+  p.grid = fluid::centred_grid(bounds(mesh.nodes).center(), Vec3(c.box.size.data()), c.box.cells);
   p.blood = c.blood;
   p.coupling = c.coupling;
   p.base = c.base;

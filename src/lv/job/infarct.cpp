@@ -16,20 +16,19 @@ using mesh::Infarcted;
 using mesh::InfarctSource;
 using mesh::Mesh;
 
-std::string format_box(const Vec3& lower, const Vec3& upper) {
+std::string format_box(const Eigen::AlignedBox3d& box) {
+  const Vec3 lower = box.min();
+  const Vec3 upper = box.max();
   return fmt::format("from ({:.1f}, {:.1f}, {:.1f}) to ({:.1f}, {:.1f}, {:.1f}) mm", lower.x(),
                      lower.y(), lower.z(), upper.x(), upper.y(), upper.z());
 }
 
 /// The box around the wall in image space.
 std::string place_of_wall(const Shape& shape, const Mesh& mesh) {
-  Vec3 lower = shape.frame.to_image(mesh.nodes.front());
-  Vec3 upper = lower;
-  for (const Vec3& X : mesh.nodes) {
-    lower = lower.cwiseMin(shape.frame.to_image(X));
-    upper = upper.cwiseMax(shape.frame.to_image(X));
-  }
-  return format_box(lower, upper);
+  Eigen::AlignedBox3d box;
+  for (const Vec3& X : mesh.nodes)
+    box.extend(shape.frame.to_image(X));
+  return format_box(box);
 }
 
 /// A file that must be named.
@@ -65,7 +64,7 @@ Infarcted within_surface(const Case& c, const Shape& shape, const Mesh& mesh) {
       c, shape, mesh,
       mesh::infarcted_where(
           mesh, [&](const Vec3& X) { return surface.contains(shape.frame.to_image(X)); }),
-      fmt::format("{}: {}", file, format_box(surface.lower(), surface.upper())));
+      fmt::format("{}: {}", file, format_box(surface.box())));
 }
 
 void check_labels(const Case& c, const std::string& file, const std::vector<int>& found) {
@@ -85,7 +84,7 @@ Infarcted within_labels(const Case& c, const Shape& shape, const Mesh& mesh) {
       c, shape, mesh,
       mesh::infarcted_where(
           mesh, [&](const Vec3& X) { return volume.has(shape.frame.to_image(X), c.scar.scar); }),
-      fmt::format("in {}: {}", file, format_box(volume.lower(), volume.upper())));
+      fmt::format("in {}: {}", file, format_box(volume.box())));
 }
 
 Infarcted infarcted(const Case& c, const Shape& shape, const Mesh& mesh) {

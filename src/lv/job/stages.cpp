@@ -1,5 +1,6 @@
 #include "lv/job/stages.hpp"
 
+#include "lv/base/bounds.hpp"
 #include "lv/base/check.hpp"
 #include "lv/base/log.hpp"
 #include "lv/base/parallel.hpp"
@@ -155,13 +156,7 @@ report::RunFacts run_facts(const Case& c, const MeshResult& mesh, const BeatResu
 /// The undeformed wall with the kernel's reach, three cells, must fit in the box.
 void check_box(const Case& c, const mesh::Mesh& m) {
   const fluid::Grid grid = model_parameters(c, m).grid;
-  Vec3 lower = m.nodes.front();
-  Vec3 upper = lower;
-  for (const Vec3& x : m.nodes) {
-    lower = lower.cwiseMin(x);
-    upper = upper.cwiseMax(x);
-  }
-  const Vec3 wall = upper - lower;
+  const Vec3 wall = bounds(m.nodes).sizes();
   const Vec3 room = grid.upper() - grid.lower - 6.0 * grid.spacing;
   if ((wall.array() <= room.array()).all())
     return;

@@ -35,6 +35,9 @@ struct HolzapfelOgden {
   /// I4f = 1 or I4s = 1, at the switches of (2.16), it is that of compression.
   [[nodiscard]] Tangent<double> tangent(const Mat3& F) const;
 
+  /// The same law with all stiffnesses a multiplied by one factor and all exponents b by another.
+  [[nodiscard]] HolzapfelOgden scaled(double stiffness, double exponent = 1.0) const;
+
   /// The same law with a_f, a_s, a_fs multiplied by C_a: the patient's remote muscle (2.25).
   [[nodiscard]] HolzapfelOgden with_anisotropy_scaled(double C_a) const;
 
@@ -107,6 +110,15 @@ inline Tangent<double> HolzapfelOgden::tangent(const Mat3& F) const {
   block(A, 0, 1) += shear.value * Mat3::Identity();
   block(A, 1, 0) += shear.value * Mat3::Identity();
   return A;
+}
+
+inline HolzapfelOgden HolzapfelOgden::scaled(double stiffness, double exponent) const {
+  HolzapfelOgden law = *this;
+  for (double* modulus : {&law.a, &law.a_f, &law.a_s, &law.a_fs})
+    *modulus *= stiffness;
+  for (double* power : {&law.b, &law.b_f, &law.b_s, &law.b_fs})
+    *power *= exponent;
+  return law;
 }
 
 inline HolzapfelOgden HolzapfelOgden::with_anisotropy_scaled(double C_a) const {

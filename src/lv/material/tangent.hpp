@@ -27,4 +27,17 @@ inline Tangent<double> inverse_transpose_tangent(const Mat3& G) {
   return A;
 }
 
+/// d cof(F)/dF. The cofactor's columns are cross products of F's, F_k x F_l, and the derivative of
+/// a cross product is a cross product.
+inline Tangent<double> cofactor_tangent(const Mat3& F) {
+  Tangent<double> A = Tangent<double>::Zero();
+  for (int j = 0; j < 3; ++j) {
+    const int k = (j + 1) % 3;
+    const int l = (j + 2) % 3;
+    block(A, j, l) = cross_matrix(F.col(k));
+    block(A, j, k) = -cross_matrix(F.col(l));
+  }
+  return A;
+}
+
 }  // namespace lv::material

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "lv/base/tensor.hpp"
+#include "lv/material/tangent.hpp"
 
 namespace lv::material {
 
@@ -24,6 +24,14 @@ struct Volumetric {
     const Tensor<T> cof = cofactor(F);
     const T J = F.col(0).dot(cof.col(0));
     return (2.0 * beta_s * log(J) / J) * cof;
+  }
+
+  /// dP/dF = 2 beta_s/J [(1 - ln J)/J cof F (x) cof F + ln J d cof(F)/dF]   [kPa]
+  [[nodiscard]] Tangent<double> tangent(const Mat3& F) const {
+    const Mat3 cof = cofactor(F);
+    const double J = F.col(0).dot(cof.col(0));
+    const double log_J = std::log(J);
+    return 2.0 * beta_s / J * ((1.0 - log_J) / J * outer(cof, cof) + log_J * cofactor_tangent(F));
   }
 };
 

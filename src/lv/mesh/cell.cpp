@@ -1,7 +1,10 @@
 #include "lv/mesh/cell.hpp"
 
+#include "lv/base/check.hpp"
+
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -171,6 +174,14 @@ double smallest_jacobian(const Mesh& mesh, int cell) {
       smallest =
           std::min(smallest, hexahedron_gradient(mesh, cell, cube_corner(q, side)).determinant());
   return smallest;
+}
+
+void fail_inverted(int cell, double jacobian, const Vec3& X) {
+  throw InputError(
+      fmt::format("element {} of the wall mesh", cell),
+      fmt::format("is inverted or collapsed (Jacobian {:.3g} mm^3 at ({:.1f}, {:.1f}, {:.1f}) mm)",
+                  jacobian, X.x(), X.y(), X.z()),
+      "Repair the mesh, or change the edge length");
 }
 
 double scaled_jacobian(const Mesh& mesh, int cell) {

@@ -31,6 +31,9 @@ using LocalFace = std::array<int, 4>;
 /// [mm^3].
 [[nodiscard]] double smallest_jacobian(const Mesh& mesh, int cell);
 
+/// Throws the InputError of a cell whose det dX/dxi [mm^3] is not positive at X [mm].
+[[noreturn]] void fail_inverted(int cell, double jacobian, const Vec3& X);
+
 /// Shape of the cell, 1 for a cube or a regular tetrahedron, 0 for a flat cell, below 0 for an
 /// inverted one (P.M. Knupp, Int. J. Numer. Meth. Engng 48:1165, 2000; as in the Verdict library).
 ///

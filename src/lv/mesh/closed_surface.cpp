@@ -111,15 +111,11 @@ ClosedSurface::ClosedSurface(std::vector<Vec3> nodes, Surface triangles, const s
   if (triangles_.size() == 0)
     throw InputError(where, "holds no triangles", "Export the surface as polygons");
   check_closed(nodes_, triangles_, where);
-  lower_ = upper_ = nodes_.front();
-  for (const Vec3& x : nodes_) {
-    lower_ = lower_.cwiseMin(x);
-    upper_ = upper_.cwiseMax(x);
-  }
+  box_ = bounds(nodes_);
 }
 
 bool ClosedSurface::contains(const Vec3& x) const {
-  if ((x.array() < lower_.array()).any() || (x.array() > upper_.array()).any())
+  if (!box_.contains(x))
     return false;
   double sum = 0.0;
   for (int f = 0; f < triangles_.size(); ++f) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "lv/base/bounds.hpp"
 #include "lv/mesh/mesh.hpp"
 
 #include <string>
@@ -19,14 +20,13 @@ class ClosedSurface {
   /// sum Omega / 4 pi; rounding off cannot change which whole number it is near.
   [[nodiscard]] bool contains(const Vec3& x) const;
 
-  /// Corners of the box around it.
-  [[nodiscard]] const Vec3& lower() const { return lower_; }
-  [[nodiscard]] const Vec3& upper() const { return upper_; }
+  /// The box around it.
+  [[nodiscard]] const Eigen::AlignedBox3d& box() const { return box_; }
 
  private:
   std::vector<Vec3> nodes_;
   Surface triangles_;
-  Vec3 lower_, upper_;
+  Eigen::AlignedBox3d box_;
 };
 
 /// Reads polygons from .stl, .ply, .vtp or a legacy .vtk file; points in the same place are one.

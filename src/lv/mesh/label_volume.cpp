@@ -132,14 +132,9 @@ bool LabelVolume::has(const Vec3& x, const std::vector<int>& labels) const {
   return std::any_of(labels.begin(), labels.end(), [&](int wanted) { return label == wanted; });
 }
 
-Vec3 LabelVolume::lower() const {
+Eigen::AlignedBox3d LabelVolume::box() const {
   const double* b = image_->data->GetBounds();
-  return image_->unit * Vec3(b[0], b[2], b[4]);
-}
-
-Vec3 LabelVolume::upper() const {
-  const double* b = image_->data->GetBounds();
-  return image_->unit * Vec3(b[1], b[3], b[5]);
+  return {image_->unit * Vec3(b[0], b[2], b[4]), image_->unit * Vec3(b[1], b[3], b[5])};
 }
 
 }  // namespace lv::mesh

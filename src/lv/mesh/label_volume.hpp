@@ -1,6 +1,6 @@
 #pragma once
 
-#include "lv/base/tensor.hpp"
+#include "lv/base/bounds.hpp"
 
 #include <memory>
 #include <string>
@@ -26,9 +26,8 @@ class LabelVolume {
   /// Whether x [mm] lies in a voxel with one of these labels; false outside the image.
   [[nodiscard]] bool has(const Vec3& x, const std::vector<int>& labels) const;
 
-  /// Corners of the box around the image [mm].
-  [[nodiscard]] Vec3 lower() const;
-  [[nodiscard]] Vec3 upper() const;
+  /// The box around the image [mm].
+  [[nodiscard]] Eigen::AlignedBox3d box() const;
 
  private:
   struct Image;

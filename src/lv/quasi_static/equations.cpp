@@ -5,8 +5,6 @@
 
 #include <Eigen/Geometry>
 
-#include <cmath>
-
 namespace lv::quasi_static {
 namespace {
 
@@ -29,26 +27,6 @@ ElementState gather(const ReferenceWall& wall, int e, const State& state) {
   return s;
 }
 
-/// v x
-Mat3 cross_matrix(const Vec3& v) {
-  Mat3 m;
-  m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
-  return m;
-}
-
-/// d cof(F)/dF, column-major as every Tangent: cof F is the cross product of F's columns, whose
-/// derivative is a cross product matrix.
-Tangent<double> cofactor_tangent(const Mat3& F) {
-  Tangent<double> C = Tangent<double>::Zero();
-  for (int j = 0; j < 3; ++j) {
-    const int k = (j + 1) % 3;
-    const int l = (j + 2) % 3;
-    C.block<3, 3>(3 * j, 3 * l) = cross_matrix(F.col(k));  // cof_j = F_k x F_l
-    C.block<3, 3>(3 * j, 3 * k) = -cross_matrix(F.col(l));
-  }
-  return C;
-}
-
 /// Stress and, where asked for, tangent at one point, with the second index of F in the fibre
 /// frame, and without the pressure's part.
 struct Constitution {
@@ -68,18 +46,9 @@ struct Constitution {
                                                muscle.material.active_form);
     return P + muscle.stabilisation.stress(F);
   }
-  /// d/dF of 2 beta ln J / J cof F.
-  [[nodiscard]] Tangent<double> stabilisation_tangent(const Mat3& F) const {
-    const Mat3 cof = cofactor(F);
-    const double J = F.col(0).dot(cof.col(0));
-    const Eigen::Map<const Eigen::Matrix<double, 9, 1>> c(cof.data());
-    const double beta = muscle.stabilisation.beta_s;
-    return 2.0 * beta / J *
-           ((1.0 - std::log(J)) / J * c * c.transpose() + std::log(J) * cofactor_tangent(F));
-  }
   [[nodiscard]] Tangent<double> tangent(const Mat3& F, double M) const {
     const Tension T = tension(F, M);
-    return stabilisation_tangent(F) +
+    return muscle.stabilisation.tangent(F) +
            muscle.material.infarct.passive(M) *
                std::visit([&](const auto& law) { return law.tangent(F); },
                           muscle.material.passive) +
@@ -117,7 +86,7 @@ class ElementTangent {
     const Mat3 F = s.x * point.gradient.transpose();
     const Eigen::VectorXd N = pressure_shapes.row(q);
     const Tangent<double> C =
-        point.volume * (law.tangent(F, point.infarct) + N.dot(s.p) * cofactor_tangent(F));
+        point.volume * (law.tangent(F, point.infarct) + N.dot(s.p) * material::cofactor_tangent(F));
     gradients_.middleRows(3 * q, 3) = point.gradient;
     for (int i = 0; i < 3; ++i) {
       for (int k = 0; k < 3; ++k) {
@@ -162,6 +131,13 @@ std::vector<int> unknowns(const ReferenceWall& wall, int e, int node_count) {
   return result;
 }
 
+/// Linear elements would lock with the stabilisation of quadratic ones.
+Muscle for_order(Muscle muscle, int order) {
+  if (order == 1)
+    muscle.stabilisation.beta_s = 0.0;
+  return muscle;
+}
+
 }  // namespace
 
 Equations::Equations(const mesh::Mesh& mesh, const mesh::FibreRule& fibres, const Muscle& muscle)
@@ -169,15 +145,11 @@ Equations::Equations(const mesh::Mesh& mesh, const mesh::FibreRule& fibres, cons
       wall_(reference_wall(mesh, fibres)),
       sides_(mesh::sides(mesh, mesh.endo)),
       side_shapes_(solid::side_shapes(mesh.kind, mesh.order)),
-      muscle_(muscle),
-      base_(mesh, muscle.base) {
-  set_muscle(muscle);
-}
+      muscle_(for_order(muscle, mesh.order)),
+      base_(mesh, muscle.base) {}
 
 void Equations::set_muscle(const Muscle& muscle) {
-  muscle_ = muscle;
-  if (mesh_.order == 1)
-    muscle_.stabilisation.beta_s = 0.0;
+  muscle_ = for_order(muscle, mesh_.order);
   base_ = solid::BasalPenalty(mesh_, muscle.base);
 }
 
@@ -186,7 +158,7 @@ State Equations::rest() const {
 }
 
 Pattern Equations::pattern() const {
-  Pattern pattern{mesh_.nodes, wall_.pressure_count, {}};
+  Pattern pattern{node_count(), wall_.pressure_count, {}};
   for (int e = 0; e < wall_.elements.size(); ++e)
     pattern.groups.push_back(unknowns(wall_, e, node_count()));
   return pattern;

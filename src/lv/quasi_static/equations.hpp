@@ -16,6 +16,9 @@ struct Loads {
   double activation = 0.0;  ///< see Contractility [-]
 };
 
+/// Springs that yield by micrometres under the pressures of a ventricle [kPa/mm].
+inline constexpr double rigid_base = 1e6;
+
 /// What the wall is made of, and how its base is held.
 struct Muscle {
   solid::WallMaterial material;  ///< its volumetric penalty is not used: the wall is incompressible

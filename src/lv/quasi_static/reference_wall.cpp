@@ -2,9 +2,9 @@
 
 #include "lv/base/check.hpp"
 #include "lv/base/parallel.hpp"
+#include "lv/mesh/cell.hpp"
 
 #include <Eigen/LU>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
@@ -49,7 +49,7 @@ class PointMaker {
       const Mat3 dX_dxi = X * to_xi.transpose();
       const double det = dX_dxi.determinant();
       if (!(det > 0.0))
-        fail_inverted(element, X * phi, det);
+        mesh::fail_inverted(element * (mesh_.order == 2 ? 8 : 1), det, X * phi);
       const Eigen::Matrix3Xd gradient = dX_dxi.inverse().transpose() * to_xi;
       const Vec3 radial = radial_.empty() ? Vec3(gradient * t) : Vec3(gather(radial_, nodes) * phi);
       const Mat3 frame = mesh::fibre_frame(fibres_, mesh::wall_axes(radial), phi.dot(t));
@@ -60,15 +60,6 @@ class PointMaker {
   }
 
  private:
-  [[noreturn]] void fail_inverted(int element, const Vec3& X, double det) const {
-    throw InputError(
-        fmt::format("element {} of the wall mesh", element * (mesh_.order == 2 ? 8 : 1)),
-        fmt::format(
-            "is inverted or collapsed (Jacobian {:.3g} mm^3 at ({:.1f}, {:.1f}, {:.1f}) mm)", det,
-            X.x(), X.y(), X.z()),
-        "Repair the mesh, or change the edge length");
-  }
-
   const mesh::Mesh& mesh_;
   mesh::FibreRule fibres_;
   solid::ShapeTable shapes_;

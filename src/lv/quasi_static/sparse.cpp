@@ -47,11 +47,10 @@ class Numbering {
  public:
   explicit Numbering(const Pattern& pattern) : numbers_(pattern.size()) {
     const int ranks = parallel::size();
-    const int nodes = static_cast<int>(pattern.nodes.size());
     int next = 0;
     for (int r = 0; r < ranks; ++r) {
       const int begin = next;
-      const auto of_nodes = parallel::share(nodes, r, ranks);
+      const auto of_nodes = parallel::share(pattern.nodes, r, ranks);
       for (int u = 3 * of_nodes.begin; u < 3 * of_nodes.end; ++u)
         numbers_[u] = next++;
       const auto of_pressures = parallel::share(pattern.pressures, r, ranks);

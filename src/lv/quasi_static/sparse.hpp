@@ -1,12 +1,9 @@
 #pragma once
 
-#include "lv/base/tensor.hpp"
-
 #include <Eigen/Core>
 
 #include <memory>
 #include <span>
-#include <string>
 #include <vector>
 
 /// Sparse linear algebra by PETSc; its headers stay in sparse.cpp.
@@ -15,11 +12,11 @@ namespace lv::quasi_static {
 /// Which unknowns there are and which meet in an element: the displacement of node a along i is
 /// 3 a + i, pressures follow.
 struct Pattern {
-  std::vector<Vec3> nodes;               ///< their positions at rest [mm]
-  int pressures = 0;                     ///< how many
+  int nodes = 0;
+  int pressures = 0;
   std::vector<std::vector<int>> groups;  ///< the unknowns of each element; of all ranks
 
-  [[nodiscard]] int displacements() const { return 3 * static_cast<int>(nodes.size()); }
+  [[nodiscard]] int displacements() const { return 3 * nodes; }
   [[nodiscard]] int size() const { return displacements() + pressures; }
 };
 
@@ -40,8 +37,7 @@ class SparseMatrix {
   void finish();
 
   /// Solves K x = b; b and x complete on every rank. The factorisation is kept until the matrix
-  /// changes. Throws RunError when the matrix is singular.
-  /// Collective.
+  /// changes. Throws RunError when the matrix is singular. Collective.
   [[nodiscard]] std::vector<double> solve(std::span<const double> b);
 
  private:

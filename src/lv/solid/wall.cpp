@@ -1,11 +1,10 @@
 #include "lv/solid/wall.hpp"
 
-#include "lv/base/check.hpp"
 #include "lv/base/parallel.hpp"
+#include "lv/mesh/cell.hpp"
 #include "lv/solid/element.hpp"
 
 #include <Eigen/LU>
-#include <fmt/format.h>
 
 #include <limits>
 
@@ -190,12 +189,7 @@ void PackedElements<E>::set_point(Point& point, int i, int cell, int q, double w
   const ReferencePoint X = reference_point(mesh_, radial_, cell, rule, q);
   const double det = X.dX_dxi.determinant();
   if (!(det > 0.0))
-    throw InputError(
-        fmt::format("element {} of the wall mesh", cell),
-        fmt::format(
-            "is inverted or collapsed (Jacobian {:.3g} mm^3 at ({:.1f}, {:.1f}, {:.1f}) mm)", det,
-            X.X.x(), X.X.y(), X.X.z()),
-        "Repair the mesh, or change the edge length");
+    mesh::fail_inverted(cell, det, X.X);
   const Mat3 K = X.dX_dxi.inverse() * mesh::fibre_frame(fibres_, X.axes, X.t);
   for (int r = 0; r < 3; ++r)
     for (int c = 0; c < 3; ++c)

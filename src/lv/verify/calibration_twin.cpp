@@ -1,10 +1,9 @@
 #include "lv/base/units.hpp"
 #include "lv/calibrate/fit.hpp"
-#include "lv/geometry/ellipsoid.hpp"
 #include "lv/material/calcium.hpp"
-#include "lv/mesh/wall_mesh.hpp"
 #include "lv/solid/cavity.hpp"
 #include "lv/verify/problems.hpp"
+#include "lv/verify/small_ventricle.hpp"
 
 /// Measurements made by the model itself, from which its parameters must come back.
 namespace lv::verify {
@@ -13,30 +12,22 @@ namespace {
 using calibrate::Parameters;
 using units::mmHg;
 
-constexpr double rigid = 1e6;  // springs that hold the base [kPa/mm]
-
 quasi_static::Muscle muscle(const Parameters& p) {
-  material::HolzapfelOgden law;
-  for (double* a : {&law.a, &law.a_f, &law.a_s, &law.a_fs})
-    *a *= p.scale;
-  solid::WallMaterial material;
-  material.passive = law.with_anisotropy_scaled(p.C_a);
+  solid::WallMaterial wall;
+  wall.passive = material::HolzapfelOgden{}.scaled(p.scale).with_anisotropy_scaled(p.C_a);
   material::NiedererHunterSmith active;
   active.T_scale = p.T_scale;
   const material::Calcium calcium;
-  return {material,
+  return {wall,
           quasi_static::Contractility(active, calcium.Ca_0, calcium.Ca_max),
-          {solid::BasalSupport::Kind::sliding, rigid}};
+          {solid::BasalSupport::Kind::sliding, quasi_static::rigid_base}};
 }
 
 }  // namespace
 
 /// The idealised ventricle on a coarse mesh; the mesh's own error cancels.
 void calibration_twin(Findings& found) {
-  const geometry::Ellipsoid ellipsoid;
-  const mesh::Mesh mesh = mesh::wall_mesh(
-      [&](double u, double theta, double t) { return ellipsoid.point(u, theta, t); },
-      {.edge_length = 6.0, .layers = 2, .order = 2});
+  const mesh::Mesh mesh = ideal_mesh({.edge_length = 6.0, .layers = 2, .order = 2});
   calibrate::Ventricle ventricle(mesh, {}, muscle, {});
   const calibrate::Model model = [&](const Parameters& p, const quasi_static::Loads& loads) {
     return ventricle.volume(p, loads);

@@ -46,8 +46,8 @@ mesh::Mesh block(int nx, int ny, int nz) {
 
 }  // namespace
 
-mesh::Mesh LandBeam::mesh(int refinement) const {
-  mesh::Mesh coarse = block(20 * refinement, 2 * refinement, 2 * refinement);
+mesh::Mesh LandBeam::mesh() const {
+  mesh::Mesh coarse = block(40, 4, 4);
   coarse.endo = faces_where(coarse, [](const Vec3& X) { return X.z() == 0.0; });
   coarse.base = faces_where(coarse, [](const Vec3& X) { return X.x() == 0.0; });
   return mesh::refine(coarse);

@@ -12,8 +12,8 @@ namespace lv::verify {
 struct LandBeam {
   double pressure = 0.004;  ///< [kPa]
 
-  /// 20 x 2 x 2 quadratic elements, each cut into refinement^3.
-  [[nodiscard]] mesh::Mesh mesh(int refinement) const;
+  /// 40 x 4 x 4 quadratic elements.
+  [[nodiscard]] mesh::Mesh mesh() const;
   [[nodiscard]] mesh::FibreRule fibres() const { return {0.0, 0.0, 0.0, 0.0}; }
   [[nodiscard]] solid::WallMaterial material() const;
 

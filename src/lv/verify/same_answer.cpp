@@ -30,7 +30,7 @@ double largest_difference(const std::vector<double>& a, const std::vector<double
 
 /// The first steps of a contraction under a rising pressure.
 heartbeat::Archive contract() {
-  const mesh::Mesh mesh = ideal_mesh(edge);
+  const mesh::Mesh mesh = ideal_mesh({.edge_length = edge});
   immersed::Model model(mesh, {}, {}, {}, in_default_box(mesh, cells));
   model.relax(0.3);
   constexpr int steps = 80;
@@ -129,7 +129,7 @@ std::size_t count_differences(const std::vector<double>& a, const std::vector<do
 /// in filling and once in contraction.
 void restart_is_bitwise(Findings& found) {
   log::silence();
-  const mesh::Mesh mesh = ideal_mesh(edge);
+  const mesh::Mesh mesh = ideal_mesh({.edge_length = edge});
   heartbeat::BeatSetup setup = short_beat(mesh);
   const std::filesystem::path folder =
       found.scratch() / fmt::format("restarted_on_{}", parallel::size());

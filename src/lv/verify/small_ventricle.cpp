@@ -1,27 +1,19 @@
 #include "lv/verify/small_ventricle.hpp"
 
+#include "lv/base/bounds.hpp"
 #include "lv/mesh/wall_mesh.hpp"
 
 namespace lv::verify {
 
-mesh::Mesh ideal_mesh(double edge_length, const geometry::Ellipsoid& ellipsoid) {
+mesh::Mesh ideal_mesh(const mesh::WallMeshParameters& parameters,
+                      const geometry::Ellipsoid& ellipsoid) {
   return mesh::wall_mesh(
-      [&](double u, double theta, double t) { return ellipsoid.point(u, theta, t); },
-      {edge_length, 0});
+      [&](double u, double theta, double t) { return ellipsoid.point(u, theta, t); }, parameters);
 }
 
 immersed::ModelParameters in_default_box(const mesh::Mesh& mesh, const std::array<int, 3>& cells) {
-  Vec3 lower = mesh.nodes.front();
-  Vec3 upper = lower;
-  for (const Vec3& x : mesh.nodes) {
-    lower = lower.cwiseMin(x);
-    upper = upper.cwiseMax(x);
-  }
-  const Vec3 size(150.0, 150.0, 200.0);
   immersed::ModelParameters p;
-  p.grid.cells = cells;
-  p.grid.spacing = size.cwiseQuotient(Vec3(cells[0], cells[1], cells[2]));
-  p.grid.lower = 0.5 * (lower + upper) - 0.5 * size;
+  p.grid = fluid::centred_grid(bounds(mesh.nodes).center(), Vec3(150.0, 150.0, 200.0), cells);
   return p;
 }
 

@@ -2,14 +2,16 @@
 
 #include "lv/geometry/ellipsoid.hpp"
 #include "lv/heartbeat/immersed_beat.hpp"
+#include "lv/mesh/parameters.hpp"
 
 #include <array>
 
 namespace lv::verify {
 
-/// The mesh of an idealised ventricle, by default the healthy one, with elements of this edge
-/// length [mm].
-[[nodiscard]] mesh::Mesh ideal_mesh(double edge_length, const geometry::Ellipsoid& ellipsoid = {});
+/// The mesh of an idealised ventricle, by default the healthy one, with elements as these
+/// parameters ask.
+[[nodiscard]] mesh::Mesh ideal_mesh(const mesh::WallMeshParameters& parameters,
+                                    const geometry::Ellipsoid& ellipsoid = {});
 
 /// The engine's parameters for a wall in the middle of the default box of 150 x 150 x 200 mm, in
 /// this many cells.

@@ -1,5 +1,6 @@
 #include "lv/material/law.hpp"
 #include "lv/material/steady_tension.hpp"
+#include "lv/material/volumetric.hpp"
 #include "lv/verify/problems.hpp"
 
 #include <Eigen/Geometry>
@@ -109,6 +110,7 @@ void tangent_is_derivative(Findings& found) {
             HolzapfelOgden{0.059, 8.023, 18.472, 16.026, 2.481, 11.12, 0.216, 11.436});
   check_law(found, "Guccione", material::Guccione{});
   check_law(found, "neo-Hookean", material::NeoHookean{});
+  check_law(found, "volumetric penalty", material::Volumetric{});
   check_active(found, "active, T f (x) f", ActiveForm::niederer);
   check_active(found, "active, second Piola-Kirchhoff", ActiveForm::second_piola);
   check_active(found, "active, Cauchy", ActiveForm::cauchy);

@@ -58,7 +58,7 @@ void compare(const std::string& where, const Beat& beat, const Beat& with, doubl
 /// The paper finds volumes within 3 % and displacements within 0.5 mm. Where blood and muscle meet
 /// the method is of first order, so twice the width may cost twice as much.
 void grid_convergence(Findings& found) {
-  const mesh::Mesh mesh = ideal_mesh(2.4);
+  const mesh::Mesh mesh = ideal_mesh({.edge_length = 2.4});
   const Beat coarse = run(mesh, {40, 40, 53}, 2e-4, found);
   const Beat middle = run(mesh, {48, 48, 64}, 2e-4, found);
   const Beat fine = run(mesh, {56, 56, 75}, 2e-4, found);
@@ -67,7 +67,7 @@ void grid_convergence(Findings& found) {
 }
 
 void time_step(Findings& found) {
-  const mesh::Mesh mesh = ideal_mesh(4.2);
+  const mesh::Mesh mesh = ideal_mesh({.edge_length = 4.2});
   constexpr std::array<int, 3> cells{32, 32, 43};
   const Beat whole = run(mesh, cells, 1e-4, found);
   const Beat third = run(mesh, cells, 1e-4 / 3.0, found);
@@ -99,7 +99,7 @@ analysis::Results analyse(const mesh::Mesh& mesh, const Beat& beat) {
 /// Volumes and means over the wall against the independent solver; the rest against what the paper
 /// says of its healthy subject.
 void idealised_ventricle(Findings& found) {
-  const mesh::Mesh mesh = ideal_mesh(2.2);
+  const mesh::Mesh mesh = ideal_mesh({.edge_length = 2.2});
   const Beat beat = run(mesh, {64, 64, 86}, 2e-4, found);
   const analysis::Results r = analyse(mesh, beat);
   constexpr double volumes = 0.025;
@@ -136,7 +136,7 @@ void idealised_ventricle(Findings& found) {
 
 /// The passive pressure-volume curve of the default ventricle.
 void pressure_volume(Findings& found) {
-  const mesh::Mesh mesh = ideal_mesh(2.2);
+  const mesh::Mesh mesh = ideal_mesh({.edge_length = 2.2});
   constexpr std::array<std::array<double, 2>, 4> curve{
       {{2.0, 103.85}, {4.0, 123.87}, {15.0, 162.70}, {30.0, 181.23}}};  // [mmHg], [ml]
   for (const auto& [pressure, volume] : curve) {
@@ -163,13 +163,10 @@ void other_ventricles(Findings& found) {
        {"thick-walled", {16.0, 50.0, 28.0, 60.0, 10.0}, 1.0, 150.0, 70.92, 26.28},
        {"stiff", {}, 2.0, 110.0, 123.87, 51.32}}};
   for (const Other& other : others) {
-    const mesh::Mesh mesh = ideal_mesh(2.2, other.shape);
+    const mesh::Mesh mesh = ideal_mesh({.edge_length = 2.2}, other.shape);
     heartbeat::BeatSetup setup = default_beat(mesh, {64, 64, 86}, 2e-4);
     setup.protocol.es_pressure = other.es_pressure * units::mmHg;
-    material::HolzapfelOgden law;
-    for (double* modulus : {&law.a, &law.a_f, &law.a_s, &law.a_fs})
-      *modulus *= other.stiffness;
-    setup.material.passive = law;
+    setup.material.passive = material::HolzapfelOgden{}.scaled(other.stiffness);
     const Beat beat = heartbeat::run_immersed_beat(setup, found.scratch(), {});
     found.add_within(fmt::format("end-diastolic volume, {}", other.name),
                      beat.end_diastole.volume / ml, other.edv, 0.025, "ml");

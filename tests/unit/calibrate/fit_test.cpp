@@ -38,15 +38,21 @@ Plan plan() {
   return p;
 }
 
-}  // namespace
-
-TEST_CASE("C_a and T_scale that made the volumes are found", "[calibrate]") {
-  const Parameters truth{.C_a = 7.5, .T_scale = 5.5};
+/// To find C_a and T_scale from the volumes that these make.
+Plan plan_for(const Parameters& truth) {
   Plan p = plan();
   p.passive = Passive::C_a;
   p.active = true;
   p.edv.volume = volume(truth, {p.ed_pressure, 0.0});
   p.esv.volume = volume(truth, {p.es_pressure, 1.0});
+  return p;
+}
+
+}  // namespace
+
+TEST_CASE("C_a and T_scale that made the volumes are found", "[calibrate]") {
+  const Parameters truth{.C_a = 7.5, .T_scale = 5.5};
+  const Plan p = plan_for(truth);
   const Fit found = fit(volume, {.C_a = 1.0, .T_scale = 3.0}, p);
   CHECK(found.parameters.C_a == Approx(truth.C_a).epsilon(1e-3));
   CHECK(found.parameters.T_scale == Approx(truth.T_scale).epsilon(1e-3));
@@ -58,11 +64,7 @@ TEST_CASE("C_a and T_scale that made the volumes are found", "[calibrate]") {
 
 TEST_CASE("a fit says how it moves with the measurements", "[calibrate]") {
   const Parameters truth{.C_a = 7.5, .T_scale = 5.5};
-  Plan p = plan();
-  p.passive = Passive::C_a;
-  p.active = true;
-  p.edv.volume = volume(truth, {p.ed_pressure, 0.0});
-  p.esv.volume = volume(truth, {p.es_pressure, 1.0});
+  const Plan p = plan_for(truth);
   const Sensitivity s = fit(volume, truth, p).sensitivity;
 
   Plan moved = p;  // by fitting again

@@ -3,6 +3,7 @@
 #include "lv/material/calcium.hpp"
 
 #include "support/packs.hpp"
+#include "support/steady_reference.hpp"
 #include "support/stiff_ode.hpp"
 #include <catch2/catch.hpp>
 
@@ -156,23 +157,11 @@ TEST_CASE("binding, sites and overlap follow the stretch (A.5)-(A.9)", "[unit][m
 }
 
 TEST_CASE("the steady isometric tension is that of the reference", "[unit][material]") {
-  struct Row {
-    double Ca;
-    std::array<double, 3> tension;  ///< at stretch 1.0, 1.1, 1.15 [kPa]; computed independently
-  };
-  constexpr std::array<Row, 8> rows{{{0.1, {0.35678417, 0.96679215, 2.0002345}},
-                                     {0.3, {3.7601574, 7.9136806, 13.945835}},
-                                     {0.5, {7.5041466, 27.291408, 94.499892}},
-                                     {0.8, {25.279085, 77.204844, 96.141158}},
-                                     {1.0, {38.951924, 79.494066, 96.509983}},
-                                     {1.5, {48.693344, 81.503421, 96.914661}},
-                                     {3.0, {53.603063, 82.832244, 97.241596}},
-                                     {10., {55.590341, 83.501592, 97.433249}}}};
-  constexpr std::array<double, 3> stretch{1.0, 1.1, 1.15};
   const NiedererHunterSmith law = unscaled();
-  for (const Row& row : rows)
+  for (const auto& row : test::steady_reference)
     for (int i = 0; i < 3; ++i)  // eight digits
-      CHECK(law.steady_state(row.Ca, stretch[i]).tension == Approx(row.tension[i]).epsilon(3e-8));
+      CHECK(law.steady_state(row.Ca, row.stretch[i]).tension ==
+            Approx(row.tension[i]).epsilon(3e-8));
 }
 
 TEST_CASE("a steady state stays as it is", "[unit][material]") {

@@ -2,6 +2,7 @@
 
 #include "lv/base/check.hpp"
 
+#include "support/steady_reference.hpp"
 #include <catch2/catch.hpp>
 
 #include <array>
@@ -29,23 +30,10 @@ double slope(const Function& f, double x) {
 }  // namespace
 
 TEST_CASE("the tabulated steady tension is that of the reference", "[unit][material]") {
-  struct Row {
-    double Ca;
-    std::array<double, 3> tension;  ///< at stretch 1.0, 1.1, 1.15 [kPa]; computed independently
-  };
-  constexpr std::array<Row, 8> rows{{{0.1, {0.35678417, 0.96679215, 2.0002345}},
-                                     {0.3, {3.7601574, 7.9136806, 13.945835}},
-                                     {0.5, {7.5041466, 27.291408, 94.499892}},
-                                     {0.8, {25.279085, 77.204844, 96.141158}},
-                                     {1.0, {38.951924, 79.494066, 96.509983}},
-                                     {1.5, {48.693344, 81.503421, 96.914661}},
-                                     {3.0, {53.603063, 82.832244, 97.241596}},
-                                     {10., {55.590341, 83.501592, 97.433249}}}};
-  constexpr std::array<double, 3> stretch{1.0, 1.1, 1.15};
-  for (const Row& row : rows) {
+  for (const auto& row : test::steady_reference) {
     const SteadyTension steady(scaled(1.0), row.Ca);
     for (int i = 0; i < 3; ++i)  // eight digits, and the table's own 1e-8
-      CHECK(steady.tension(stretch[i]) == Approx(row.tension[i]).epsilon(4e-8));
+      CHECK(steady.tension(row.stretch[i]) == Approx(row.tension[i]).epsilon(4e-8));
   }
 }
 

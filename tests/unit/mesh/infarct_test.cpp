@@ -12,6 +12,7 @@
 #include "lv/mesh/surface.hpp"
 
 #include "mesh/mesh_files.hpp"
+#include "support/block_mesh.hpp"
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
@@ -30,25 +31,6 @@ using mesh::Mesh;
 using units::degree;
 
 constexpr std::array kinds{CellKind::hexahedron, CellKind::tetrahedron};
-
-/// n x n x n cubes with edges of 2 mm from the origin on, or the tetrahedra they split into.
-Mesh cubes(CellKind kind, int n) {
-  Mesh mesh;
-  for (int k = 0; k <= n; ++k)
-    for (int j = 0; j <= n; ++j)
-      for (int i = 0; i <= n; ++i)
-        mesh.nodes.emplace_back(2.0 * i, 2.0 * j, 2.0 * k);
-  const auto node = [n](int i, int j, int k) { return (k * (n + 1) + j) * (n + 1) + i; };
-  for (int k = 0; k < n; ++k)
-    for (int j = 0; j < n; ++j)
-      for (int i = 0; i < n; ++i)
-        for (const int up : {0, 1})
-          for (const auto& [right, back] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}})
-            mesh.cells.push_back(node(i + right, j + back, k + up));
-  mesh.infarct.assign(mesh.nodes.size(), 0.0);
-  mesh.transmural.assign(mesh.nodes.size(), 0.0);
-  return kind == CellKind::hexahedron ? mesh : mesh::split_into_tetrahedra(mesh);
-}
 
 double volume(const Mesh& mesh, const Infarcted& infarcted) {
   double sum = 0.0;
@@ -154,7 +136,7 @@ std::string message(const Work& work) {
 
 TEST_CASE("M falls linearly from the infarct over the border zone along a ray", "[unit][mesh]") {
   for (const auto kind : kinds) {
-    const Mesh mesh = cubes(kind, 12);
+    const Mesh mesh = test::cubes(kind, 12);
     const auto infarcted = mesh::infarcted_where(mesh, [](const Vec3& X) { return X.x() < 6.0; });
     const auto M = mesh::infarct_field(mesh, infarcted, 10.0);
     for (std::size_t a = 0; a < mesh.nodes.size(); ++a) {
@@ -168,7 +150,7 @@ TEST_CASE("the distance in M is that to the nearest point of the infarct, round 
           "[unit][mesh]") {
   // The infarct is the cube [8, 12]^3.
   for (const auto kind : kinds) {
-    const Mesh mesh = cubes(kind, 12);
+    const Mesh mesh = test::cubes(kind, 12);
     const auto infarcted = mesh::infarcted_where(
         mesh, [](const Vec3& X) { return (X - Vec3::Constant(10.0)).cwiseAbs().maxCoeff() < 2.0; });
     const auto M = mesh::infarct_field(mesh, infarcted, 7.0);
@@ -182,7 +164,7 @@ TEST_CASE("the distance in M is that to the nearest point of the infarct, round 
 
 TEST_CASE("volumes tell infarct, border zone and remote muscle apart", "[unit][mesh]") {
   for (const auto kind : kinds) {
-    Mesh mesh = cubes(kind, 12);  // 24 mm wide, a plane of elements has 1152 mm^3
+    Mesh mesh = test::cubes(kind, 12);  // 24 mm wide, a plane of elements has 1152 mm^3
     const auto infarcted = mesh::infarcted_where(mesh, [](const Vec3& X) { return X.x() < 6.0; });
     mesh.infarct = mesh::infarct_field(mesh, infarcted, 10.0);
     const auto volumes = mesh::infarct_volumes(mesh);
@@ -270,7 +252,7 @@ TEST_CASE("the skin of an infarct, read as a surface, holds the same elements", 
 
 TEST_CASE("surfaces come from STL, PLY and VTK files, in any unit and orientation",
           "[unit][mesh]") {
-  std::vector<std::array<Vec3, 3>> inside_out = skin(cubes(CellKind::hexahedron, 1), {true});
+  std::vector<std::array<Vec3, 3>> inside_out = skin(test::cubes(CellKind::hexahedron, 1), {true});
   for (auto& triangle : inside_out) {
     std::swap(triangle[0], triangle[1]);
     for (Vec3& x : triangle)
@@ -281,7 +263,7 @@ TEST_CASE("surfaces come from STL, PLY and VTK files, in any unit and orientatio
     INFO(ending);
     const test::TemporaryFile file(ending, text);
     const auto cube = mesh::read_closed_surface(file.path(), 10.0);
-    CHECK((cube.upper() - Vec3::Constant(10.0)).norm() < 1e-12);
+    CHECK((cube.box().max() - Vec3::Constant(10.0)).norm() < 1e-12);
     CHECK(cube.contains({5.0, 5.0, 5.0}));  // in the planes of diagonals
     CHECK(cube.contains({0.01, 9.99, 3.0}));
     CHECK_FALSE(cube.contains({-0.01, 5.0, 5.0}));
@@ -291,7 +273,7 @@ TEST_CASE("surfaces come from STL, PLY and VTK files, in any unit and orientatio
 }
 
 TEST_CASE("a surface with a hole or with a triangle turned over is refused", "[unit][mesh]") {
-  auto triangles = skin(cubes(CellKind::hexahedron, 1), {true});
+  auto triangles = skin(test::cubes(CellKind::hexahedron, 1), {true});
   const auto read = [&] {
     const test::TemporaryFile file(".stl", stl_text(triangles));
     return message([&] { static_cast<void>(mesh::read_closed_surface(file.path(), 1.0)); });
@@ -305,7 +287,7 @@ TEST_CASE("a surface with a hole or with a triangle turned over is refused", "[u
 }
 
 TEST_CASE("labels at points or in cells mean a ball to within half a voxel", "[unit][mesh]") {
-  const Mesh mesh = cubes(CellKind::tetrahedron, 12);
+  const Mesh mesh = test::cubes(CellKind::tetrahedron, 12);
   const Vec3 centre(11.0, 12.0, 13.0);
   const double radius = 7.3;
   const double spacing = 0.8;

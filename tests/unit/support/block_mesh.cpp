@@ -11,6 +11,8 @@
 namespace lv::test {
 namespace {
 
+constexpr double width = 2.0;  // of a cell [mm]
+
 using mesh::Mesh;
 
 /// Boundary faces whose nodes all satisfy `on_side`.
@@ -26,37 +28,50 @@ mesh::Surface side(const Mesh& block, const OnSide& on_side) {
   return chosen;
 }
 
-Mesh hexahedra(int n) {
-  constexpr double width = 2.0;
-  constexpr double distortion = 0.3;
-  RandomValues random(11);
-  Mesh block;
+Mesh lattice(int n) {
+  Mesh mesh;
   for (int k = 0; k <= n; ++k)
     for (int j = 0; j <= n; ++j)
       for (int i = 0; i <= n; ++i)
-        block.nodes.push_back(Vec3(15.0, 4.0, -6.0) + width * Vec3(i, j, k) +
-                              distortion * random.vector());
+        mesh.nodes.push_back(width * Vec3(i, j, k));
   const auto node = [n](int i, int j, int k) { return (k * (n + 1) + j) * (n + 1) + i; };
   for (int k = 0; k < n; ++k)
     for (int j = 0; j < n; ++j)
       for (int i = 0; i < n; ++i)
         for (const int up : {0, 1})
           for (const auto& [right, back] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}})
-            block.cells.push_back(node(i + right, j + back, k + up));
+            mesh.cells.push_back(node(i + right, j + back, k + up));
+  mesh.infarct.assign(mesh.nodes.size(), 0.0);
+  mesh.transmural.assign(mesh.nodes.size(), 0.0);
+  return mesh;
+}
+
+Mesh hexahedra(int n) {
+  constexpr double distortion = 0.3;
+  RandomValues random(11);
+  Mesh block = lattice(n);
+  for (Vec3& X : block.nodes)
+    X = Vec3(15.0, 4.0, -6.0) + X + distortion * random.vector();
   block.endo = side(block, [&](int a) { return a % (n + 1) == 0; });
   block.epi = side(block, [&](int a) { return a % (n + 1) == n; });
   block.base = side(block, [&](int a) { return a / ((n + 1) * (n + 1)) == n; });
-  for (const Vec3& X : block.nodes)
-    block.transmural.push_back((X.x() - 15.0) / (width * n));
-  block.infarct.assign(block.nodes.size(), 0.0);
+  for (std::size_t a = 0; a < block.nodes.size(); ++a)
+    block.transmural[a] = (block.nodes[a].x() - 15.0) / (width * n);
   return block;
+}
+
+Mesh of_kind(mesh::CellKind kind, Mesh hexahedra) {
+  return kind == mesh::CellKind::hexahedron ? hexahedra : mesh::split_into_tetrahedra(hexahedra);
 }
 
 }  // namespace
 
 Mesh block_mesh(mesh::CellKind kind, int n) {
-  return kind == mesh::CellKind::hexahedron ? hexahedra(n)
-                                            : mesh::split_into_tetrahedra(hexahedra(n));
+  return of_kind(kind, hexahedra(n));
+}
+
+Mesh cubes(mesh::CellKind kind, int n) {
+  return of_kind(kind, lattice(n));
 }
 
 std::vector<Vec3> moved(std::span<const Vec3> nodes, const Mat3& F, const Vec3& c) {

@@ -12,6 +12,10 @@ namespace lv::test {
 /// the endocardium is at low x, the epicardium at high x, the base on top.
 [[nodiscard]] mesh::Mesh block_mesh(mesh::CellKind kind, int n = 3);
 
+/// n x n x n cubes with edges of 2 mm from the origin on, or the tetrahedra they split into; no
+/// sides.
+[[nodiscard]] mesh::Mesh cubes(mesh::CellKind kind, int n);
+
 /// The nodes moved by X -> F X + c.
 [[nodiscard]] std::vector<Vec3> moved(std::span<const Vec3> nodes, const Mat3& F,
                                       const Vec3& c = Vec3::Zero());
