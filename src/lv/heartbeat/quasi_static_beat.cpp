@@ -32,7 +32,7 @@ class QuasiStaticRun {
     go_to({p.ed_pressure, 0.0});
     run_.beat.end_diastole = state();
     run_.phase = Phase::contraction;
-    run_.phase_start = 1.0;
+    run_.phase_start = p.filling_ramp;
     go_to({p.es_pressure, 1.0});
     run_.beat.end_systole = state();
     run_.beat.filling_was_steady = run_.beat.contraction_was_steady = true;
@@ -57,7 +57,9 @@ class QuasiStaticRun {
   }
 
   void record(const Step& step) {
-    run_.time = run_.phase_start + step.progress;
+    const Protocol& p = setup_.protocol;
+    const double ramp = run_.phase == Phase::filling ? p.filling_ramp : p.contraction_ramp;
+    run_.time = run_.phase_start + step.progress * ramp;
     CurveRow row;
     row.time = run_.time;
     row.phase = run_.phase;
@@ -65,7 +67,8 @@ class QuasiStaticRun {
     row.volume = step.volume;
     row.calcium = calcium(step.loads.activation);
     row.mean_tension = engine_.mean_tension();
-    row.step = step.length;
+    row.step = step.length * ramp;
+    row.min_J = row.max_J = std::numeric_limits<double>::quiet_NaN();  // not looked at
     run_.beat.curves.push_back(row);
     if (observers_.curves)
       observers_.curves(run_);

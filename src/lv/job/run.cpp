@@ -227,6 +227,28 @@ double trial_step(const Case& c, const mesh::Mesh& mesh, const immersed::ModelPa
   return elapsed.count() / steps;
 }
 
+/// What the immersed engine would take, in words.
+std::string immersed_cost(const Case& c, const mesh::Mesh& mesh) {
+  const immersed::ModelParameters p = model_parameters(c, mesh);
+  const double seconds = trial_step(c, mesh, p);
+  const double shortest = c.protocol.filling_ramp + c.protocol.filling_window +
+                          c.protocol.contraction_ramp + c.protocol.contraction_window;
+  const double longest = c.protocol.filling_longest + c.protocol.contraction_longest;
+  return fmt::format(
+      "  grid: {} x {} x {}, mesh width {:.3f} mm\n"
+      "  cost: {:.3g} s a step on one rank; between {} and {} for the beat, less on more ranks\n",
+      p.grid.cells[0], p.grid.cells[1], p.grid.cells[2], p.grid.spacing.minCoeff(), seconds,
+      log::duration(shortest / c.time.longest * seconds),
+      log::duration(longest / c.time.longest * seconds));
+}
+
+/// What the quasi-static engine would solve, in words. Making its equations checks the elements.
+std::string static_size(const Case& c, const mesh::Mesh& mesh) {
+  const quasi_static::Equations equations(mesh, c.fibres, muscle(c));
+  return fmt::format("  quasi-static: {} finite elements of order {}, {} unknowns\n",
+                     mesh::elements(mesh).size(), mesh.order, equations.size());
+}
+
 }  // namespace
 
 void run(const Case& c, const RunOptions& options) {
@@ -254,7 +276,6 @@ std::string validate(const Case& c) {
   const MeshResult result = make_mesh(c, shape);
   const mesh::Mesh& m = result.mesh;
   const mesh::Quality q = mesh::quality(m);
-  const immersed::ModelParameters p = model_parameters(c, m);
   std::string text = fmt::format(
       "{}: valid\n"
       "  early diastole: cavity {:.2f} ml, wall {:.2f} ml\n",
@@ -266,22 +287,12 @@ std::string validate(const Case& c) {
     text += fmt::format("  note: {}\n", note);
   text += fmt::format(
       "  mesh: {} elements, {} nodes, edges {:.2f} mm in the mean; worst element {} at ({:.1f}, "
-      "{:.1f}, {:.1f}) mm with scaled Jacobian {:.2f}\n"
-      "  grid: {} x {} x {}, mesh width {:.3f} mm\n",
+      "{:.1f}, {:.1f}) mm with scaled Jacobian {:.2f}\n",
       q.cells, q.nodes, q.edge_length.mean, q.worst_cell, q.worst_place.x(), q.worst_place.y(),
-      q.worst_place.z(), q.scaled_jacobian.min, p.grid.cells[0], p.grid.cells[1], p.grid.cells[2],
-      p.grid.spacing.minCoeff());
+      q.worst_place.z(), q.scaled_jacobian.min);
   if (const std::string infarct = describe_infarct(c, m); !infarct.empty())
     text += fmt::format("  {}\n", infarct);
-  const double seconds = trial_step(c, m, p);
-  const double shortest = c.protocol.filling_ramp + c.protocol.filling_window +
-                          c.protocol.contraction_ramp + c.protocol.contraction_window;
-  const double longest = c.protocol.filling_longest + c.protocol.contraction_longest;
-  return text + fmt::format(
-                    "  cost: {:.3g} s a step on one rank; between {} and {} for the beat, less on "
-                    "more ranks\n",
-                    seconds, log::duration(shortest / c.time.longest * seconds),
-                    log::duration(longest / c.time.longest * seconds));
+  return text + (c.engine == Engine::immersed ? immersed_cost(c, m) : static_size(c, m));
 }
 
 int most_ranks(const std::array<int, 3>& cells) {

@@ -133,8 +133,10 @@ report::RunFacts run_facts(const Case& c, const MeshResult& mesh, const BeatResu
   facts.ranks = beat.ranks;
   facts.nodes = static_cast<int>(mesh.mesh.nodes.size());
   facts.cells = mesh.mesh.cell_count();
-  facts.grid = fmt::format("{} x {} x {}", c.box.cells[0], c.box.cells[1], c.box.cells[2]);
-  facts.mesh_width = model_parameters(c, mesh.mesh).grid.spacing.minCoeff();
+  if (c.engine == Engine::immersed) {
+    facts.grid = fmt::format("{} x {} x {}", c.box.cells[0], c.box.cells[1], c.box.cells[2]);
+    facts.mesh_width = model_parameters(c, mesh.mesh).grid.spacing.minCoeff();
+  }
   facts.wall_clock = beat.beat.wall_clock;
   for (const Parameter& p : parameters())
     facts.parameters.emplace_back(p.name, p.get(c));

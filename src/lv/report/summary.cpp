@@ -138,10 +138,14 @@ std::string summary_json(const RunFacts& facts, const heartbeat::Beat& beat, con
   Json json;
   json["case"] = facts.case_name;
   json["program"] = {{"name", "ventricle"}, {"version", facts.version}, {"engine", facts.engine}};
-  json["resolution"] = {{"grid", facts.grid},      {"mesh_width_mm", number(facts.mesh_width)},
-                        {"nodes", facts.nodes},    {"elements", facts.cells},
-                        {"ranks", facts.ranks},    {"steps", beat.steps},
-                        {"retries", beat.retries}, {"wall_clock_s", number(facts.wall_clock)}};
+  json["resolution"] = {{"grid", facts.grid.empty() ? Json() : Json(facts.grid)},
+                        {"mesh_width_mm", number(facts.mesh_width)},
+                        {"nodes", facts.nodes},
+                        {"elements", facts.cells},
+                        {"ranks", facts.ranks},
+                        {"steps", beat.steps},
+                        {"retries", beat.retries},
+                        {"wall_clock_s", number(facts.wall_clock)}};
   json["early_diastole"] = shape_json(r.early_diastole);
   json["end_diastole"] = shape_json(r.end_diastole);
   json["end_systole"] = shape_json(r.end_systole);
@@ -182,10 +186,10 @@ std::string summary_json(const RunFacts& facts, const heartbeat::Beat& beat, con
 }
 
 std::string summary_text(const RunFacts& facts, const heartbeat::Beat& beat, const Results& r) {
-  std::string text =
-      fmt::format("{}: {} elements, {} nodes, grid {}, {} steps in {:.0f} s on {} rank{}\n\n",
-                  facts.case_name, facts.cells, facts.nodes, facts.grid, beat.steps,
-                  facts.wall_clock, facts.ranks, facts.ranks == 1 ? "" : "s");
+  std::string text = fmt::format(
+      "{}: {}, {} elements, {} nodes{}, {} steps in {:.0f} s on {} rank{}\n\n", facts.case_name,
+      facts.engine, facts.cells, facts.nodes, facts.grid.empty() ? "" : ", grid " + facts.grid,
+      beat.steps, facts.wall_clock, facts.ranks, facts.ranks == 1 ? "" : "s");
   text += fmt::format("  {:<34}{:>14}{:>14}{:>14}\n", "", "early diast.", "end-diastole",
                       "end-systole");
   const auto row = [&](const char* what, double a, double b, double c) {

@@ -2,6 +2,7 @@
 
 #include "lv/analysis/results.hpp"
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -24,10 +25,10 @@ struct RunFacts {
   int ranks = 1;
   int nodes = 0;
   int cells = 0;
-  std::string grid;                                             ///< "96 x 96 x 128"
-  double mesh_width = 0.0;                                      ///< of the grid [mm]
-  double wall_clock = 0.0;                                      ///< of the beat [s]
-  std::vector<std::pair<std::string, std::string>> parameters;  ///< name and value, all of them
+  std::string grid;  ///< "96 x 96 x 128"; empty without blood
+  double mesh_width = std::numeric_limits<double>::quiet_NaN();  ///< of the grid [mm]
+  double wall_clock = 0.0;                                       ///< of the beat [s]
+  std::vector<std::pair<std::string, std::string>> parameters;   ///< name and value, all of them
   std::vector<std::pair<std::string, std::string>>
       origins;  ///< of those that a case file sets: file:line
   std::vector<std::string> warnings;
