@@ -32,3 +32,10 @@ set(DEAL_II_INLINED ${DEAL_II_LIBRARIES_RELEASE})  # what its headers call by th
 list(FILTER DEAL_II_INLINED INCLUDE REGEX "libtrilinos_teuchos")
 target_link_libraries(deal_ii INTERFACE ${DEAL_II_TARGET_RELEASE} ${DEAL_II_INLINED})
 pkg_check_modules(PETSC REQUIRED IMPORTED_TARGET PETSc)
+
+# The images alone, without ITK's factories: what is read and written is named where it is used.
+set(ITK_NO_IO_FACTORY_REGISTER_MANAGER ON)
+find_package(ITK 5.2 REQUIRED COMPONENTS ITKCommon ITKIOGDCM ITKIONIFTI ITKImageFunction ITKImageGrid ITKRegistrationMethodsv4 ITKOptimizersv4 ITKMetricsv4 ITKThresholding ITKLabelMap)
+add_library(itk INTERFACE)
+target_include_directories(itk SYSTEM INTERFACE ${ITK_INCLUDE_DIRS})
+target_link_libraries(itk INTERFACE ${ITK_LIBRARIES})
