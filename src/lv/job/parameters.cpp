@@ -307,6 +307,12 @@ void declare_engine(Declarations& d) {
       "zero at J = 1");
   d.number("first_step", LV_AT(quasi_static.solver.first_step), between(1e-3, 1.0),
            "first load step, as a share of the whole load");
+  d.choice(
+      "linear_solver", LV_AT(quasi_static.solver.newton.linear.method), {"direct", "iterative"},
+      "how the linear equations are solved: by MUMPS, or by GMRES with multigrid, for meshes whose "
+      "factors do not fit into memory");
+  d.number("linear_tolerance", LV_AT(quasi_static.solver.newton.linear.tolerance),
+           between(1e-14, 1e-2), "of the iterative solver: residual over right-hand side");
   d.quantity("tolerance", LV_AT(quasi_static.solver.newton.tolerance), "mm", between(1e-12, 0.1),
              "Newton's method ends when its correction moves the wall by less, rms");
   d.table = "base";

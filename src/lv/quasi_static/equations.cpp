@@ -56,6 +56,14 @@ struct Constitution {
   }
 };
 
+/// The mean shear modulus of a tangent dP/dF [kPa]: of its nine directions the one that changes
+/// volume is left out; isotropic linear elasticity gives mu.
+double shear_modulus(const Tangent<double>& C, const Mat3& F) {
+  const Eigen::Matrix<double, 9, 1> volumetric =
+      Eigen::Map<const Eigen::Matrix<double, 9, 1>>(cofactor(F).eval().data()).normalized();
+  return 0.1 * (C.trace() - volumetric.dot(C * volumetric));
+}
+
 /// The element's tangent, displacements (node by node) before pressures.
 class ElementTangent {
  public:
@@ -63,7 +71,8 @@ class ElementTangent {
       : n_(nodes),
         m_(pressures),
         gradients_(3 * static_cast<Eigen::Index>(points), nodes),
-        K_(3 * nodes + pressures, 3 * nodes + pressures) {
+        K_(3 * nodes + pressures, 3 * nodes + pressures),
+        pressure_mass_(pressures, pressures) {
     for (auto& Y : fluxes_)
       Y.resize(gradients_.rows(), nodes);
   }
@@ -71,12 +80,16 @@ class ElementTangent {
   const Eigen::MatrixXd& compute(const std::vector<Point>& points, const ElementState& s,
                                  const Constitution& law, const Eigen::MatrixXd& pressure_shapes) {
     K_.setZero();
+    pressure_mass_.setZero();
     for (std::size_t q = 0; q < points.size(); ++q)
       add_point(points[q], static_cast<Eigen::Index>(q), s, law, pressure_shapes);
     multiply();
     K_.bottomLeftCorner(m_, 3 * n_) = K_.topRightCorner(3 * n_, m_).transpose();
     return K_;
   }
+
+  /// int N N^T / mu dX of the element computed last.
+  [[nodiscard]] const Eigen::MatrixXd& pressure_mass() const { return pressure_mass_; }
 
  private:
   using Index = Eigen::Index;
@@ -85,8 +98,9 @@ class ElementTangent {
                  const Eigen::MatrixXd& pressure_shapes) {
     const Mat3 F = s.x * point.gradient.transpose();
     const Eigen::VectorXd N = pressure_shapes.row(q);
-    const Tangent<double> C =
-        point.volume * (law.tangent(F, point.infarct) + N.dot(s.p) * material::cofactor_tangent(F));
+    const Tangent<double> dP_dF = law.tangent(F, point.infarct);
+    const Tangent<double> C = point.volume * (dP_dF + N.dot(s.p) * material::cofactor_tangent(F));
+    pressure_mass_ += point.volume / std::max(shear_modulus(dP_dF, F), 1e-3) * N * N.transpose();
     gradients_.middleRows(3 * q, 3) = point.gradient;
     for (int i = 0; i < 3; ++i) {
       for (int k = 0; k < 3; ++k) {
@@ -118,7 +132,7 @@ class ElementTangent {
   Index n_, m_;
   Eigen::MatrixXd gradients_;              ///< G, of all points
   std::array<Eigen::MatrixXd, 9> fluxes_;  ///< C_ik G
-  Eigen::MatrixXd product_, K_;
+  Eigen::MatrixXd product_, K_, pressure_mass_;
 };
 
 std::vector<int> unknowns(const ReferenceWall& wall, int e, int node_count) {
@@ -229,9 +243,11 @@ void Equations::tangent(const State& state, const Loads& loads, SparseMatrix& K)
                          wall_.points.empty() ? 0 : wall_.points.front().size());
   for (std::size_t i = 0; i < wall_.points.size(); ++i) {
     const int e = wall_.first_element + static_cast<int>(i);
-    K.add(unknowns(wall_, e, node_count()),
-          element.compute(wall_.points[i], gather(wall_, e, state), law,
-                          wall_.pressure_shapes.value));
+    const std::vector<int> at = unknowns(wall_, e, node_count());
+    K.add(at, element.compute(wall_.points[i], gather(wall_, e, state), law,
+                              wall_.pressure_shapes.value));
+    K.add_pressure_mass(std::span(at).last(wall_.pressures.nodes_per_element),
+                        element.pressure_mass());
   }
   for_sides(state, [&](std::span<const int> nodes, const Eigen::Matrix3Xd& x) {
     const auto n = static_cast<Eigen::Index>(nodes.size());

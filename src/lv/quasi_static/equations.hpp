@@ -61,6 +61,9 @@ class Equations {
   [[nodiscard]] int size() const { return 3 * node_count() + wall_.pressure_count; }
   [[nodiscard]] int node_count() const { return static_cast<int>(mesh_.nodes.size()); }
 
+  /// The nodes' places before any load [mm].
+  [[nodiscard]] std::span<const Vec3> undeformed() const { return mesh_.nodes; }
+
   /// Which unknowns the tangent joins.
   [[nodiscard]] Pattern pattern() const;
 
@@ -68,7 +71,7 @@ class Equations {
   /// rank.
   [[nodiscard]] std::vector<double> residual(const State& state, const Loads& loads) const;
 
-  /// Adds dR/d(unknowns) of this rank's elements to a matrix that is zero, and finishes it.
+  /// Sets a matrix to dR/d(unknowns), and its pressure mass.
   void tangent(const State& state, const Loads& loads, SparseMatrix& K) const;
 
   /// Volume-weighted mean over the wall of T with the infarct's factor [kPa].

@@ -128,7 +128,9 @@ class Newton::Attempt {
 };
 
 Newton::Newton(const Equations& equations, const NewtonParameters& parameters)
-    : equations_(equations), parameters_(parameters), tangent_(equations.pattern()) {}
+    : equations_(equations),
+      parameters_(parameters),
+      tangent_(equations.pattern(), parameters.linear, equations.undeformed()) {}
 
 NewtonReport Newton::solve(State& state, const Loads& loads) {
   try {

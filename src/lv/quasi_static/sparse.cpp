@@ -20,26 +20,17 @@ void check(PetscErrorCode code) {
                  "Not enough memory is the usual reason: take a coarser mesh or more machines");
 }
 
-/// PETSc runs as long as somebody needs it.
-class Petsc {
- public:
-  Petsc() {
-    if (users++ > 0)
-      return;
-    PetscOptionsSetValue(nullptr, "-no_signal_handler", "true");  // interrupts are ours
-    check(PetscInitializeNoArguments());
-    check(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr));
-  }
-  ~Petsc() {
-    if (--users == 0)
-      PetscFinalize();
-  }
-  Petsc(const Petsc&) = delete;
-  Petsc& operator=(const Petsc&) = delete;
-
- private:
-  static inline int users = 0;
-};
+/// Starts PETSc when it is first needed. It stays until the program ends: once finished and started
+/// again, it no longer knows all of its types.
+void start_petsc() {
+  PetscBool started = PETSC_FALSE;
+  check(PetscInitialized(&started));
+  if (started)
+    return;
+  check(PetscOptionsSetValue(nullptr, "-no_signal_handler", "true"));  // interrupts are ours
+  check(PetscInitializeNoArguments());
+  check(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr));
+}
 
 /// PETSc wants each rank's unknowns in one run: here those of its share of the nodes, then those
 /// of its share of the pressures.
@@ -56,19 +47,33 @@ class Numbering {
       const auto of_pressures = parallel::share(pattern.pressures, r, ranks);
       for (int p = of_pressures.begin; p < of_pressures.end; ++p)
         numbers_[pattern.displacements() + p] = next++;
-      if (r == parallel::rank())
+      if (r == parallel::rank()) {
         mine_ = {begin, next};
+        first_pressure_ = next - (of_pressures.end - of_pressures.begin);
+      }
     }
   }
 
   [[nodiscard]] PetscInt operator[](int unknown) const { return numbers_[unknown]; }
   [[nodiscard]] PetscInt begin() const { return mine_.begin; }
   [[nodiscard]] PetscInt end() const { return mine_.end; }
+  [[nodiscard]] PetscInt first_pressure() const { return first_pressure_; }  ///< of this rank's
 
  private:
   parallel::Range mine_;  ///< of this rank
+  PetscInt first_pressure_ = 0;
   std::vector<PetscInt> numbers_;
 };
+
+/// How the blocks are solved; PETSc makes their solvers anew with every matrix, from these options.
+/// Jacobi, Gauss-Seidel or ILU(0) as smoothers do not converge: the springs of the base hold one
+/// direction, which is not along an axis, and leave another free.
+constexpr const char* block_options =
+    "-lv_fieldsplit_u_ksp_type preonly -lv_fieldsplit_u_pc_type gamg "
+    "-lv_fieldsplit_u_pc_gamg_threshold 0.02 "
+    "-lv_fieldsplit_u_mg_levels_pc_type bjacobi -lv_fieldsplit_u_mg_levels_sub_pc_type ilu "
+    "-lv_fieldsplit_u_mg_levels_sub_pc_factor_levels 1 "
+    "-lv_fieldsplit_p_ksp_type preonly -lv_fieldsplit_p_pc_type bjacobi";
 
 /// Numbers of entries of each of this rank's rows, in its own columns and in the others'.
 struct RowLengths {
@@ -103,15 +108,25 @@ RowLengths row_lengths(const Pattern& pattern, const Numbering& numbers) {
 
 class SparseMatrix::Implementation {
  public:
-  explicit Implementation(const Pattern& pattern) : numbers_(pattern) {
+  Implementation(const Pattern& pattern, const LinearParameters& parameters,
+                 std::span<const Vec3> nodes)
+      : parameters_(parameters), displacements_(pattern.displacements()), numbers_(pattern) {
+    start_petsc();
     make_matrix(pattern);
     check(MatCreateVecs(K_, &x_, &b_));
     check(VecScatterCreateToAll(x_, &to_all_, &everything_));
     check(KSPCreate(PETSC_COMM_WORLD, &ksp_));
-    configure();
+    check(KSPSetOperators(ksp_, K_, K_));
+    if (parameters.method == LinearMethod::direct) {
+      configure_direct();
+    } else {
+      make_pressure_mass(pattern);
+      configure_iterative(nodes);
+    }
   }
   ~Implementation() {
     KSPDestroy(&ksp_);
+    MatDestroy(&S_);
     VecScatterDestroy(&to_all_);
     VecDestroy(&everything_);
     VecDestroy(&x_);
@@ -121,18 +136,35 @@ class SparseMatrix::Implementation {
   Implementation(const Implementation&) = delete;
   Implementation& operator=(const Implementation&) = delete;
 
-  void set_zero() { check(MatZeroEntries(K_)); }
+  void set_zero() {
+    check(MatZeroEntries(K_));
+    if (S_ != nullptr)
+      check(MatZeroEntries(S_));
+  }
 
   void add(std::span<const int> unknowns, const Eigen::MatrixXd& block) {
     at_.clear();
     for (const int u : unknowns)
       at_.push_back(numbers_[u]);
-    insert(block);
+    insert(block, K_);
+  }
+
+  void add_pressure_mass(std::span<const int> pressures, const Eigen::MatrixXd& block) {
+    if (S_ == nullptr)
+      return;
+    at_.clear();
+    for (const int p : pressures)
+      at_.push_back(p - displacements_);  // ranks hold runs of pressures: no other numbers
+    insert(-block, S_);
   }
 
   void finish() {
-    check(MatAssemblyBegin(K_, MAT_FINAL_ASSEMBLY));
-    check(MatAssemblyEnd(K_, MAT_FINAL_ASSEMBLY));
+    for (Mat matrix : {K_, S_}) {
+      if (matrix == nullptr)
+        continue;
+      check(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY));
+      check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
+    }
     check(KSPSetOperators(ksp_, K_, K_));
   }
 
@@ -157,10 +189,10 @@ class SparseMatrix::Implementation {
   }
 
  private:
-  void insert(const Eigen::MatrixXd& block) {
+  void insert(const Eigen::MatrixXd& block, Mat to) {
     const auto n = static_cast<PetscInt>(at_.size());
     row_major_ = block;
-    check(MatSetValues(K_, n, at_.data(), n, at_.data(), row_major_.data(), ADD_VALUES));
+    check(MatSetValues(to, n, at_.data(), n, at_.data(), row_major_.data(), ADD_VALUES));
   }
 
   void set_right_hand_side(std::span<const double> b) {
@@ -184,22 +216,80 @@ class SparseMatrix::Implementation {
     check(MatMPIAIJSetPreallocation(K_, 0, lengths.own.data(), 0, lengths.other.data()));
   }
 
-  void configure() {
+  void make_pressure_mass(const Pattern& pattern) {
+    const PetscInt local = numbers_.end() - numbers_.first_pressure();
+    check(MatCreate(PETSC_COMM_WORLD, &S_));
+    check(MatSetSizes(S_, local, local, pattern.pressures, pattern.pressures));
+    check(MatSetType(S_, MATAIJ));
+    check(MatSetUp(S_));
+    check(MatSetOption(S_, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_FALSE));
+  }
+
+  void configure_iterative(std::span<const Vec3> nodes) {
+    check(KSPSetOptionsPrefix(ksp_, "lv_"));
+    check(KSPSetType(ksp_, KSPFGMRES));
+    check(KSPGMRESSetRestart(ksp_, 100));
+    check(KSPSetTolerances(ksp_, parameters_.tolerance, PETSC_DEFAULT, PETSC_DEFAULT,
+                           parameters_.iterations));
+    PC pc = nullptr;
+    check(KSPGetPC(ksp_, &pc));
+    check(PCSetType(pc, PCFIELDSPLIT));
+    const PetscInt displacements = numbers_.first_pressure() - numbers_.begin();
+    IS of_displacements = nullptr, of_pressures = nullptr;
+    check(ISCreateStride(PETSC_COMM_WORLD, displacements, numbers_.begin(), 1, &of_displacements));
+    check(ISSetBlockSize(of_displacements, 3));
+    check(ISCreateStride(PETSC_COMM_WORLD, numbers_.end() - numbers_.first_pressure(),
+                         numbers_.first_pressure(), 1, &of_pressures));
+    MatNullSpace rigid = rigid_motions(nodes, displacements);
+    check(PetscObjectCompose(reinterpret_cast<PetscObject>(of_displacements), "nearnullspace",
+                             reinterpret_cast<PetscObject>(rigid)));
+    check(PCFieldSplitSetIS(pc, "u", of_displacements));
+    check(PCFieldSplitSetIS(pc, "p", of_pressures));
+    check(PCFieldSplitSetType(pc, PC_COMPOSITE_SCHUR));
+    check(PCFieldSplitSetSchurFactType(pc, PC_FIELDSPLIT_SCHUR_FACT_UPPER));
+    check(PCFieldSplitSetSchurPre(pc, PC_FIELDSPLIT_SCHUR_PRE_USER, S_));
+    check(PetscOptionsInsertString(nullptr, block_options));
+    check(KSPSetFromOptions(ksp_));
+    check(MatNullSpaceDestroy(&rigid));
+    check(ISDestroy(&of_displacements));
+    check(ISDestroy(&of_pressures));
+  }
+
+  static MatNullSpace rigid_motions(std::span<const Vec3> nodes, PetscInt local) {
+    Vec places = nullptr;
+    check(VecCreate(PETSC_COMM_WORLD, &places));
+    check(VecSetSizes(places, local, PETSC_DETERMINE));
+    check(VecSetBlockSize(places, 3));
+    check(VecSetUp(places));
+    PetscInt begin = 0;
+    check(VecGetOwnershipRange(places, &begin, nullptr));
+    PetscScalar* values = nullptr;
+    check(VecGetArray(places, &values));
+    for (PetscInt i = 0; i < local; ++i)
+      values[i] = nodes[(begin + i) / 3][(begin + i) % 3];
+    check(VecRestoreArray(places, &values));
+    MatNullSpace rigid = nullptr;
+    check(MatNullSpaceCreateRigidBody(places, &rigid));
+    check(VecDestroy(&places));
+    return rigid;
+  }
+
+  void configure_direct() {
     check(KSPSetType(ksp_, KSPPREONLY));
     PC pc = nullptr;
     check(KSPGetPC(ksp_, &pc));
     check(PCSetType(pc, PCLU));
     check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
-    check(KSPSetOperators(ksp_, K_, K_));
     check(PCFactorSetUpMatSolverType(pc));
     Mat factor = nullptr;
     check(PCFactorGetMatrix(pc, &factor));
     check(MatMumpsSetIcntl(factor, 14, 60));  // room for pivots that move, in per cent
   }
 
-  Petsc petsc_;
+  LinearParameters parameters_;
+  int displacements_;
   Numbering numbers_;
-  Mat K_ = nullptr;
+  Mat K_ = nullptr, S_ = nullptr;
   KSP ksp_ = nullptr;
   Vec x_ = nullptr, b_ = nullptr, everything_ = nullptr;
   VecScatter to_all_ = nullptr;
@@ -207,8 +297,9 @@ class SparseMatrix::Implementation {
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> row_major_;
 };
 
-SparseMatrix::SparseMatrix(const Pattern& pattern)
-    : implementation_(std::make_unique<Implementation>(pattern)) {}
+SparseMatrix::SparseMatrix(const Pattern& pattern, const LinearParameters& parameters,
+                           std::span<const Vec3> nodes)
+    : implementation_(std::make_unique<Implementation>(pattern, parameters, nodes)) {}
 SparseMatrix::~SparseMatrix() = default;
 SparseMatrix::SparseMatrix(SparseMatrix&&) noexcept = default;
 SparseMatrix& SparseMatrix::operator=(SparseMatrix&&) noexcept = default;
@@ -219,6 +310,10 @@ void SparseMatrix::set_zero() {
 
 void SparseMatrix::add(std::span<const int> unknowns, const Eigen::MatrixXd& block) {
   implementation_->add(unknowns, block);
+}
+
+void SparseMatrix::add_pressure_mass(std::span<const int> pressures, const Eigen::MatrixXd& block) {
+  implementation_->add_pressure_mass(pressures, block);
 }
 
 void SparseMatrix::finish() {

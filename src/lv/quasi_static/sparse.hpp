@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include "lv/base/tensor.hpp"
 
 #include <memory>
 #include <span>
@@ -20,10 +20,31 @@ struct Pattern {
   [[nodiscard]] int size() const { return displacements() + pressures; }
 };
 
-/// A square matrix, its rows shared by the ranks, and the solution of systems with it by MUMPS.
+/// How systems are solved.
+enum class LinearMethod {
+  direct,    ///< MUMPS: robust; memory and time grow faster than the mesh
+  iterative  ///< flexible GMRES, preconditioned block by block: for large meshes and many ranks
+};
+
+struct LinearParameters {
+  LinearMethod method = LinearMethod::direct;
+  double tolerance = 1e-6;  ///< of the iterative method: residual over right-hand side [-]
+  int iterations = 1000;    ///< before the iterative method gives up
+};
+
+/// A square matrix of saddle-point form, its rows shared by the ranks, and the solution of systems
+/// with it.
+///
+///   K = [ A  B ; B^T  0 ]     preconditioner  [ AMG(A)  B ; 0  -S ],  S = int N N^T / mu dV
+///
+/// A: displacements, by algebraic multigrid that knows the rigid motions; S: pressures, their mass
+/// weighted by the inverse shear modulus, which is close to B^T A^-1 B (Elman, Silvester & Wathen,
+/// Finite Elements and Fast Iterative Solvers, 2014, chapter 4).
 class SparseMatrix {
  public:
-  explicit SparseMatrix(const Pattern& pattern);
+  /// `nodes`: their places [mm], for the rigid motions.
+  SparseMatrix(const Pattern& pattern, const LinearParameters& parameters,
+               std::span<const Vec3> nodes);
   ~SparseMatrix();
   SparseMatrix(SparseMatrix&&) noexcept;
   SparseMatrix& operator=(SparseMatrix&&) noexcept;
@@ -33,11 +54,15 @@ class SparseMatrix {
   /// Adds a dense block.
   void add(std::span<const int> unknowns, const Eigen::MatrixXd& block);
 
+  /// Adds to S, of these pressures (numbers among all unknowns). The direct method does not use it.
+  void add_pressure_mass(std::span<const int> pressures, const Eigen::MatrixXd& block);
+
   /// All ranks have added all. Collective.
   void finish();
 
   /// Solves K x = b; b and x complete on every rank. The factorisation is kept until the matrix
-  /// changes. Throws RunError when the matrix is singular. Collective.
+  /// changes. Throws RunError when the matrix is singular or the iterations do not converge.
+  /// Collective.
   [[nodiscard]] std::vector<double> solve(std::span<const double> b);
 
  private:

@@ -67,15 +67,62 @@ int LandBeam::watched_node(const mesh::Mesh& mesh) const {
   throw LogicError("the beam has no node at (10, 0.5, 1)");
 }
 
+namespace {
+
+/// Semi-axes of the ellipsoid at the transmural coordinate t [mm].
+struct SemiAxes {
+  explicit SemiAxes(double t) : radius(7.0 + 3.0 * t), length(17.0 + 3.0 * t) {}
+
+  /// The parametric angle from the apex to the base [rad].
+  [[nodiscard]] double base_angle() const {
+    return std::numbers::pi - std::acos(LandEllipsoid::base_height / length);
+  }
+
+  double radius, length;
+};
+
+/// u from 0 at the apex to 1 at the base.
+Vec3 land_point(double u, double theta, double t) {
+  const SemiAxes a(t);
+  const double psi = u * a.base_angle();
+  return {a.radius * std::sin(psi) * std::cos(theta), a.radius * std::sin(psi) * std::sin(theta),
+          -a.length * std::cos(psi) - LandEllipsoid::base_height};
+}
+
+/// From [0, 1] to itself, with this slope at 0.
+double graded(double s, double slope) {
+  return s * (slope + (1.0 - slope) * s);
+}
+
+}  // namespace
+
 mesh::Mesh LandEllipsoid::mesh(const mesh::WallMeshParameters& parameters) {
-  const auto map = [](double u, double theta, double t) {
-    const double radius = 7.0 + 3.0 * t;
-    const double length = 17.0 + 3.0 * t;
-    const double psi = u * (std::numbers::pi - std::acos(base_height / length));  // from the apex
-    return Vec3(radius * std::sin(psi) * std::cos(theta), radius * std::sin(psi) * std::sin(theta),
-                -length * std::cos(psi) - base_height);
+  return mesh::wall_mesh(land_point, parameters);
+}
+
+mesh::Mesh LandEllipsoid::graded_mesh(const mesh::WallMeshParameters& parameters) {
+  mesh::Mesh mesh = LandEllipsoid::mesh(parameters);
+  for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
+    Vec3& X = mesh.nodes[n];
+    double& t = mesh.transmural[n];
+    const SemiAxes a(t);
+    const double psi =
+        std::atan2(std::hypot(X.x(), X.y()) / a.radius, -(X.z() + base_height) / a.length);
+    t = graded(t, 0.5);
+    X = land_point(graded(psi / a.base_angle(), 0.3), std::atan2(X.y(), X.x()), t);
+  }
+  return mesh;
+}
+
+LandApex land_apex(const mesh::Mesh& mesh, std::span<const Vec3> positions) {
+  const auto on_axis = [&](const mesh::Surface& surface) {
+    double z = 0.0;
+    for (const int node : mesh::surface_nodes(surface))
+      if (std::hypot(mesh.nodes[node].x(), mesh.nodes[node].y()) < 1e-6)
+        z = positions[node].z();
+    return z + LandEllipsoid::base_height;
   };
-  return mesh::wall_mesh(map, parameters);
+  return {on_axis(mesh.endo), on_axis(mesh.epi)};
 }
 
 LandProblem land_inflation() {

@@ -4,6 +4,8 @@
 #include "lv/mesh/parameters.hpp"
 #include "lv/solid/wall.hpp"
 
+#include <span>
+
 /// The mechanics benchmark of S. Land et al., Proc. R. Soc. A 471:20150641, 2015.
 namespace lv::verify {
 
@@ -27,6 +29,11 @@ struct LandEllipsoid {
   static constexpr double base_height = 5.0;  ///< z there = z here + this [mm]
 
   [[nodiscard]] static mesh::Mesh mesh(const mesh::WallMeshParameters& parameters);
+
+  /// With elements that become smaller towards the apex, to 0.3 of their size, and the endocardium,
+  /// to 0.5. The fibres of problem 3 run together at the apex: over the innermost 0.5 mm of the
+  /// endocardium the circumferential stretch falls from 1.4 to 1.
+  [[nodiscard]] static mesh::Mesh graded_mesh(const mesh::WallMeshParameters& parameters);
 };
 
 /// What problems 2 and 3 ask of that ventricle.
@@ -39,6 +46,23 @@ struct LandProblem {
 
 /// Problem 2: isotropic, 10 kPa.
 [[nodiscard]] LandProblem land_inflation();
+
+/// Where the ends of the long axis are.
+struct LandApex {
+  double endo, epi;  ///< z [mm]
+};
+
+/// On a mesh of LandEllipsoid whose nodes have moved.
+[[nodiscard]] LandApex land_apex(const mesh::Mesh& mesh, std::span<const Vec3> positions);
+
+/// What an axisymmetric solver with torsion found on its finest meshes (no participant's results
+/// are published as numbers; their plots agree).
+struct LandReference {
+  LandApex apex;
+  double volume;  ///< of the cavity [mm^3]
+};
+inline constexpr LandReference land_inflation_reference{{-26.61, -28.28}, 10734.5};
+inline constexpr LandReference land_contraction_reference{{-12.35, -15.46}, 1795.9};
 
 /// Problem 3: fibres from 90 to -90 degrees, 15 kPa and an active stress of 60 kPa.
 [[nodiscard]] LandProblem land_contraction();

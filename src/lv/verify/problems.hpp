@@ -41,4 +41,9 @@ void idealised_ventricle(Findings& found);
 void pressure_volume(Findings& found);
 void other_ventricles(Findings& found);
 
+// both engines
+void engines_agree(Findings& found);
+void land2015_problem2_immersed(Findings& found);
+void land2015_problem3_immersed(Findings& found);
+
 }  // namespace lv::verify

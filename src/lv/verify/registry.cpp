@@ -132,6 +132,21 @@ std::span<const Problem> problems() {
        nightly,
        {1},
        other_ventricles},
+      {"engines_agree",
+       "both engines move the default ventricle alike, at the paper's resolution",
+       nightly,
+       {2},
+       engines_agree},
+      {"land2015_problem2_immersed",
+       "inflation of a ventricle: Land et al. 2015, problem 2, run to rest (immersed engine)",
+       nightly,
+       {2},
+       land2015_problem2_immersed},
+      {"land2015_problem3_immersed",
+       "inflation and contraction: Land et al. 2015, problem 3, run to rest (immersed engine)",
+       nightly,
+       {2},
+       land2015_problem3_immersed},
   };
   return all;
 }

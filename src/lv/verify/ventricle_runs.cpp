@@ -1,6 +1,6 @@
-#include "lv/analysis/results.hpp"
 #include "lv/base/log.hpp"
 #include "lv/base/units.hpp"
+#include "lv/verify/analyse.hpp"
 #include "lv/verify/problems.hpp"
 #include "lv/verify/small_ventricle.hpp"
 
@@ -80,17 +80,6 @@ void time_step(Findings& found) {
   state("end-systolic", whole.end_systole, third.end_systole);
 }
 
-namespace {
-
-analysis::Results analyse(const mesh::Mesh& mesh, const Beat& beat) {
-  const analysis::FieldAnalysis analysis(mesh, {}, {}, {});
-  const analysis::BeatFields fields{analysis.at_rest(), analysis.fields(beat.end_diastole),
-                                    analysis.fields(beat.end_systole)};
-  return analysis::results(mesh, mesh::divide(mesh, {}), beat, fields);
-}
-
-}  // namespace
-
 // The reference values below are from an independent quasi-static solver: axisymmetric with
 // torsion, quadratic displacement, discontinuous linear pressure, exactly incompressible,
 // contraction at the steady state of the active law; its meshes of 4 x 24 and 8 x 48 elements
@@ -101,7 +90,7 @@ analysis::Results analyse(const mesh::Mesh& mesh, const Beat& beat) {
 void idealised_ventricle(Findings& found) {
   const mesh::Mesh mesh = ideal_mesh({.edge_length = 2.2});
   const Beat beat = run(mesh, {64, 64, 86}, 2e-4, found);
-  const analysis::Results r = analyse(mesh, beat);
+  const analysis::Results r = analyse(mesh, beat, {}).results;
   constexpr double volumes = 0.025;
   constexpr double stresses = 0.03;
   found.add_within("end-diastolic volume at 8 mmHg", beat.end_diastole.volume / ml, 144.72, volumes,

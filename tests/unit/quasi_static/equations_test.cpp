@@ -4,6 +4,7 @@
 #include "lv/mesh/surface.hpp"
 #include "lv/mesh/wall_mesh.hpp"
 #include "lv/quasi_static/engine.hpp"
+#include "lv/verify/small_ventricle.hpp"
 
 #include "support/block_mesh.hpp"
 #include "support/random_values.hpp"
@@ -19,6 +20,7 @@ using mesh::CellKind;
 using mesh::Mesh;
 using quasi_static::Contractility;
 using quasi_static::Equations;
+using quasi_static::LinearMethod;
 using quasi_static::Loads;
 using quasi_static::Muscle;
 using quasi_static::State;
@@ -77,7 +79,7 @@ TEST_CASE("the tangent is the derivative of the residual", "[unit][quasi_static]
     for (std::size_t k = 0; k < slope.size(); ++k)
       slope[k] = (ahead[k] - behind[k]) / (2.0 * h);
 
-    quasi_static::SparseMatrix K(equations.pattern());
+    quasi_static::SparseMatrix K(equations.pattern(), {}, equations.undeformed());
     equations.tangent(state, loads, K);
     const auto found = K.solve(slope);
     double error = 0.0;
@@ -85,6 +87,28 @@ TEST_CASE("the tangent is the derivative of the residual", "[unit][quasi_static]
       error = std::max(error, std::abs(found[k] - direction[k]));
     CHECK(error < 1e-5);
   }
+}
+
+TEST_CASE("both linear solvers give the same correction", "[unit][quasi_static]") {
+  const Mesh mesh = verify::ideal_mesh({.edge_length = 6.0, .layers = 2, .order = 2});
+  const Muscle held{
+      {}, Contractility(0.0), {solid::BasalSupport::Kind::sliding, quasi_static::rigid_base}};
+  const Equations equations(mesh, {}, held);
+  const auto R = equations.residual(equations.rest(), {1.0, 0.0});
+  std::array<std::vector<double>, 2> found;
+  for (const auto method : {LinearMethod::direct, LinearMethod::iterative}) {
+    quasi_static::SparseMatrix K(equations.pattern(), {.method = method, .tolerance = 1e-9},
+                                 equations.undeformed());
+    equations.tangent(equations.rest(), {1.0, 0.0}, K);
+    found[method == LinearMethod::iterative] = K.solve(R);
+  }
+  double largest = 0.0, difference = 0.0;
+  for (int k = 0; k < 3 * equations.node_count(); ++k) {
+    largest = std::max(largest, std::abs(found[0][k]));
+    difference = std::max(difference, std::abs(found[0][k] - found[1][k]));
+  }
+  CHECK(largest > 0.1);
+  CHECK(difference < 1e-4 * largest);
 }
 
 TEST_CASE("an isochoric uniform deformation is in balance inside the wall",

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "lv/analysis/results.hpp"
+
+namespace lv::verify {
+
+/// What a beat comes to, element by element and in numbers; on the root.
+struct Analysis {
+  analysis::BeatFields fields;
+  analysis::Results results;
+};
+
+/// Of a beat with the program's default muscle and fibres. Collective.
+[[nodiscard]] Analysis analyse(const mesh::Mesh& mesh, const heartbeat::Beat& beat,
+                               const solid::BasalSupport& support);
+
+}  // namespace lv::verify
