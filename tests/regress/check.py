@@ -87,12 +87,12 @@ def check_unloading(work):
     done = run(work, 1, case)
     check("a loaded shape is unloaded before the beat", done.returncode == 0, done.stderr)
     unloaded = summary(work)["unloaded"]
-    check("loaded again it is where it was seen", unloaded["largest_distance_mm"] <= 0.02, unloaded)
+    check("loaded again it is where it was seen", unloaded["largest_distance_mm"] <= 0.05, unloaded)
     check("without load it is smaller", unloaded["unloaded_volume_ml"] < unloaded["seen_volume_ml"] - 5, unloaded)
     check("the beat starts from it", abs(summary(work)["early_diastole"]["cavity_volume_ml"]
                                          - unloaded["unloaded_volume_ml"]) < 0.1, unloaded)
     frames = list((work / "03_beat" / "fields").glob("wall_*.vtu"))
-    check("frames come as output.frame_interval asks", len(frames) == 4, len(frames))
+    check("frames come as output.frame_interval asks, and at the ends of the phases", len(frames) == 3, len(frames))
     other = work.parent / "other_box.toml"
     other.write_text(case.read_text() + '\n[volumetric]\nbeta_s = "50 kPa"\n')
     explained = run(work, 1, other, "--explain", "--until", "beat").stdout

@@ -8,13 +8,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace lv::calibrate {
 namespace {
 
 constexpr double shortest = 1e-3;   // step, of the unknown's logarithm
-constexpr double narrowest = 1e-9;  // bracket, of the unknown's logarithm
+constexpr double narrowest = 1e-7;  // bracket, of the unknown's logarithm
+// volumes of walls that are unloaded anew scatter: a bracket that closes this much farther off, in
+// units of the accuracy, counts as a root
+constexpr double scatter = 20.0;
 constexpr std::uintmax_t most_trials = 60;
 constexpr double nowhere = -10.0;  // misfit where there is no equilibrium
 
@@ -68,6 +72,8 @@ class Search {
   /// ln(V/V_target), and zero where that is small enough, which ends the search.
   double misfit(double log_x) {
     const double f = std::log(volume_(std::exp(log_x)) / target_.volume);
+    if (std::abs(f) < std::abs(nearest_.f))
+      nearest_ = {log_x, f};
     return std::abs(f) <= accuracy_ ? 0.0 : f;
   }
 
@@ -87,6 +93,8 @@ class Search {
     const auto [x, y] = boost::math::tools::toms748_solve(
         [this](double log_x) { return misfit(log_x); }, a, b, f_a, f_b,
         [](double l, double r) { return r - l < narrowest; }, trials);
+    if (x != y && std::abs(nearest_.f) <= scatter * accuracy_)
+      return nearest_.log_x;
     if (x != y)
       throw RunError(fmt::format("The volume jumps between {0} = {1:.9g} and {2:.9g}",
                                  unknown_.name, std::exp(x), std::exp(y)),
@@ -148,6 +156,7 @@ class Search {
   const Target& target_;
   double accuracy_;
   double low_, high_;
+  Point nearest_{0.0, std::numeric_limits<double>::infinity()};
 };
 
 }  // namespace

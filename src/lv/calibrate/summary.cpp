@@ -136,11 +136,11 @@ std::string weakest_direction(const Fit& fit) {
 /// In words, which parameters the data cannot tell apart.
 std::vector<std::string> ambiguities(const Plan& plan, const Fit& fit) {
   std::vector<std::string> words;
-  if (plan.passive == Passive::C_a)
+  if (plan.passive == Passive::C_a && !fit.strain_fit)
     words.emplace_back(
         "One volume determines one passive parameter: how a compares with a_f, a_s and a_fs, and "
         "the exponents, keep the case's values; other values with the same EDV fit as well.");
-  if (plan.passive == Passive::scale)
+  if (plan.passive == Passive::scale && !fit.strain_fit)
     words.emplace_back(
         "One volume determines one passive parameter: how a, a_f, a_s and a_fs compare, and the "
         "exponents, keep the case's values; other values with the same EDV fit as well.");

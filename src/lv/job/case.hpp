@@ -108,7 +108,7 @@ struct Case {
   solid::BasalSupport base;
   Engine engine = Engine::immersed;
   QuasiStatic quasi_static;
-  quasi_static::UnloadParameters unloaded;
+  quasi_static::UnloadParameters unloaded{.tolerance = 0.05};
   Calibration calibration;
   heartbeat::Protocol protocol;
   heartbeat::StepControl time;

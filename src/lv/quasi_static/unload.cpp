@@ -17,7 +17,8 @@ namespace {
 constexpr std::size_t depth = 6;  // of Anderson's method
 constexpr double smallest_damping = 1.0 / 16;
 constexpr double smallest_share = 1.0 / 64;  // of the pressure, before it gives up
-constexpr double loose = 0.5;                // tolerance on the way to the whole pressure [mm]
+constexpr double far_below = 0.02;
+constexpr double loose = 0.5;  // tolerance on the way to the whole pressure [mm]
 
 using Shape = std::vector<Vec3>;
 
@@ -124,17 +125,24 @@ class Unloader {
     return true;
   }
 
-  /// Steps until the tolerance is met; false when no step brings the wall nearer.
+  /// Steps until the distance is far below the tolerance, or below it and hardly falls any more;
+  /// false when no step brings the wall near enough. What is left scatters the volumes of a fit.
   bool improve(double tolerance) {
-    while (now_.step.largest > tolerance) {
-      const bool accelerate = !history_.empty();
-      if (accelerate && step_along(accelerated(), true))
-        continue;
-      history_.clear();
-      if (!step_along(now_.R, false))
-        return false;
+    while (now_.step.largest > far_below * tolerance) {
+      const double before = now_.step.largest;
+      if (!advance())
+        break;
+      if (now_.step.largest <= tolerance && now_.step.largest > 0.5 * before)
+        break;
     }
-    return true;
+    return now_.step.largest <= tolerance;
+  }
+
+  bool advance() {
+    if (!history_.empty() && step_along(accelerated(), true))
+      return true;
+    history_.clear();
+    return step_along(now_.R, false);
   }
 
   bool step_along(const Eigen::VectorXd& direction, bool is_accelerated) {
