@@ -170,7 +170,7 @@ int dispatch(int argc, char** argv) {
       app.add_subcommand("run", "run all stages of a case, skipping those that are up to date");
   add_run_options(*run, command);
   run->add_option("--until", command.until,
-                  "last stage: anatomy, mesh, calibrate, beat, results or report");
+                  "last stage: anatomy, mesh, calibrate, unload, beat, results or report");
 
   auto* fit =
       app.add_subcommand("calibrate", "fit parameters to measured volumes, as the case asks");

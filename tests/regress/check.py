@@ -81,6 +81,24 @@ def check_stages(work):
     check("strength of contraction leaves the mesh alone", explained.count("is up to date") == 2, explained)
 
 
+def check_unloading(work):
+    """A case of the quasi-static engine whose shape was seen under load."""
+    case = here / "unloaded.toml"
+    done = run(work, 1, case)
+    check("a loaded shape is unloaded before the beat", done.returncode == 0, done.stderr)
+    unloaded = summary(work)["unloaded"]
+    check("loaded again it is where it was seen", unloaded["largest_distance_mm"] <= 0.05, unloaded)
+    check("without load it is smaller", unloaded["unloaded_volume_ml"] < unloaded["seen_volume_ml"] - 5, unloaded)
+    check("the beat starts from it", abs(summary(work)["early_diastole"]["cavity_volume_ml"]
+                                         - unloaded["unloaded_volume_ml"]) < 0.1, unloaded)
+    frames = list((work / "03_beat" / "fields").glob("wall_*.vtu"))
+    check("frames come as output.frame_interval asks, and at the ends of the phases", len(frames) == 3, len(frames))
+    other = work.parent / "other_box.toml"
+    other.write_text(case.read_text() + '\n[volumetric]\nbeta_s = "50 kPa"\n')
+    explained = run(work, 1, other, "--explain", "--until", "beat").stdout
+    check("what the engine does not use starts no stage", explained.count("is up to date") == 4, explained)
+
+
 def different_tables(a, b):
     return [name for name in ("03_beat/curves.csv", "04_results/regions.csv", "04_results/rotation.csv")
             if not filecmp.cmp(a / name, b / name, shallow=False)]

@@ -132,10 +132,15 @@ std::vector<CellFields> FieldAnalysis::fields(const heartbeat::Snapshot& snapsho
 }
 
 std::vector<CellFields> FieldAnalysis::at_rest() const {
+  return shape_fields(wall_, mesh_, mesh_.nodes);
+}
+
+std::vector<CellFields> shape_fields(const solid::Wall& wall, const mesh::Mesh& mesh,
+                                     const std::vector<Vec3>& positions) {
   heartbeat::Snapshot s;
-  s.positions = mesh_.nodes;
-  s.tension.assign(mesh_.nodes.size(), 0.0);
-  return cell_fields(wall_, s, std::vector<double>(mesh_.cell_count(), 0.0));
+  s.positions = positions;
+  s.tension.assign(positions.size(), 0.0);
+  return cell_fields(wall, s, std::vector<double>(mesh.cell_count(), 0.0));
 }
 
 Strain strain(const CellFields& now) {

@@ -43,6 +43,10 @@ struct CellFields {
                                                   const heartbeat::Snapshot& snapshot,
                                                   std::span<const double> pressure);
 
+/// The fields of a shape without tension and pressure: enough for strains. Collective.
+[[nodiscard]] std::vector<CellFields> shape_fields(const solid::Wall& wall, const mesh::Mesh& mesh,
+                                                   const std::vector<Vec3>& positions);
+
 /// Turns a wall's snapshots into fields, with the p that balances its forces (wall_pressure.hpp).
 /// All is collective; fields are on the root, empty on other ranks.
 class FieldAnalysis {

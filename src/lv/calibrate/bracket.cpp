@@ -2,19 +2,25 @@
 
 #include "lv/base/check.hpp"
 
+#include <boost/math/tools/minima.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace lv::calibrate {
 namespace {
 
 constexpr double shortest = 1e-3;   // step, of the unknown's logarithm
-constexpr double narrowest = 1e-9;  // bracket, of the unknown's logarithm
+constexpr double narrowest = 1e-7;  // bracket, of the unknown's logarithm
+// volumes of walls that are unloaded anew scatter: a bracket that closes this much farther off, in
+// units of the accuracy, counts as a root
+constexpr double scatter = 20.0;
 constexpr std::uintmax_t most_trials = 60;
+constexpr double nowhere = -10.0;  // misfit where there is no equilibrium
 
 class Search {
  public:
@@ -32,8 +38,9 @@ class Search {
     double f_a = misfit(a);
     if (f_a == 0.0)
       return std::exp(a);
-    const double away = f_a > 0.0 ? 1.0 : -1.0;  // a cavity too large asks for more of the unknown
+    double away = f_a > 0.0 ? 1.0 : -1.0;  // a cavity too large asks for more of the unknown
     double step = std::log(unknown_.first_factor);
+    std::optional<Point> before;
     while (true) {
       const double b = std::clamp(a + away * step, low_, high_);
       if (std::abs(b - a) < shortest)
@@ -43,10 +50,20 @@ class Search {
         step *= 0.25;
         continue;
       }
-      if (f_a * *f_b <= 0.0)
+      if (f_a * *f_b <= 0.0 && (f_a > 0.0 || away < 0.0))
         return std::exp(away > 0.0 ? between(a, b, f_a, *f_b) : between(b, a, *f_b, f_a));
+      if (f_a < 0.0 && *f_b < f_a) {  // smaller still: the other way, or the maximum is passed
+        if (before)
+          return std::exp(beyond_maximum(*before, {b, *f_b}));
+        before = {b, *f_b};
+        away = -away;
+        continue;
+      }
+      before = {a, f_a};
       a = b;
       f_a = *f_b;
+      if (f_a == 0.0)
+        return std::exp(a);
       step *= 2.0;
     }
   }
@@ -55,6 +72,8 @@ class Search {
   /// ln(V/V_target), and zero where that is small enough, which ends the search.
   double misfit(double log_x) {
     const double f = std::log(volume_(std::exp(log_x)) / target_.volume);
+    if (std::abs(f) < std::abs(nearest_.f))
+      nearest_ = {log_x, f};
     return std::abs(f) <= accuracy_ ? 0.0 : f;
   }
 
@@ -74,11 +93,41 @@ class Search {
     const auto [x, y] = boost::math::tools::toms748_solve(
         [this](double log_x) { return misfit(log_x); }, a, b, f_a, f_b,
         [](double l, double r) { return r - l < narrowest; }, trials);
+    if (x != y && std::abs(nearest_.f) <= scatter * accuracy_)
+      return nearest_.log_x;
     if (x != y)
       throw RunError(fmt::format("The volume jumps between {0} = {1:.9g} and {2:.9g}",
                                  unknown_.name, std::exp(x), std::exp(y)),
                      "Lower quasi_static.tolerance, or raise calibrate.tolerance");
     return x;
+  }
+
+  struct Point {
+    double log_x, f;
+  };
+
+  /// The stiffer root when a maximum of the volume lies between two points that have less.
+  double beyond_maximum(const Point& a, const Point& b) {
+    const Point& stiff = a.log_x > b.log_x ? a : b;
+    std::uintmax_t trials = most_trials;
+    constexpr int bits = 10;  // of the place
+    const auto [log_x, minus_f] = boost::math::tools::brent_find_minima(
+        [this](double x) { return -misfit_if_any(x).value_or(nowhere); },
+        std::min(a.log_x, b.log_x), std::max(a.log_x, b.log_x), bits, trials);
+    if (minus_f > 0.0)
+      refuse_beyond(log_x, -minus_f);
+    return between(log_x, stiff.log_x, -minus_f, stiff.f);
+  }
+
+  [[noreturn]] void refuse_beyond(double log_x, double f) const {
+    throw InputError(
+        target_.origin,
+        fmt::format("{:.2f} ml cannot be reached: the model's volume is largest near {} = {:.3g}, "
+                    "about {:.2f} ml, and smaller on both sides",
+                    1e-3 * target_.volume, unknown_.name, std::exp(log_x),
+                    1e-3 * target_.volume * std::exp(f)),
+        "Check this volume and its pressure, and unloaded.pressure; a muscle with other exponents "
+        "fills farther");
   }
 
   [[noreturn]] void refuse() const {
@@ -107,6 +156,7 @@ class Search {
   const Target& target_;
   double accuracy_;
   double low_, high_;
+  Point nearest_{0.0, std::numeric_limits<double>::infinity()};
 };
 
 }  // namespace

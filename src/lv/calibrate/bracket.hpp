@@ -26,9 +26,12 @@ struct Target {
 };
 
 /// The value of the unknown at which a volume that falls with it is the target's, within
-/// `accuracy` as a fraction. The root is bracketed by growing steps from the start, then found by
-/// TOMS 748 (Alefeld, Potra & Shi, ACM Trans. Math. Softw. 21:327, 1995), both in the unknown's
-/// logarithm.
+/// `accuracy` as a fraction. A volume may have a maximum, and fall on both sides of it (that of a
+/// wall which is unloaded anew for every stiffness: very soft muscle is stretched to where it is
+/// stiff already in the shape that was seen); the root on the side of large values is found, and
+/// the largest volume is named when it is too small. The root is bracketed by growing steps from
+/// the start, then found by TOMS 748 (Alefeld, Potra & Shi, ACM Trans. Math. Softw. 21:327, 1995),
+/// both in the unknown's logarithm.
 ///
 /// Throws InputError with the volumes at both ends of the range when the target is beyond them.
 [[nodiscard]] double find_root(const std::function<double(double)>& volume, const Unknown& unknown,

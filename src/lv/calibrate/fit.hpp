@@ -4,6 +4,7 @@
 #include "lv/calibrate/model.hpp"
 #include "lv/calibrate/sensitivity.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,16 +18,23 @@ enum class Passive {
   scale_and_exponent  ///< all exponents by another besides, to the normalised Klotz curve
 };
 
+/// A measured mean strain of a part of the wall.
+struct MeasuredStrain {
+  std::string region;
+  double value = 0.0;
+};
+
 /// What a calibration is to do. Ranges are of the parameters themselves.
 struct Plan {
   Passive passive = Passive::none;
   bool active = false;                          ///< T_scale, to the end-systolic volume
   double ed_pressure = 0.0, es_pressure = 0.0;  ///< [kPa]
   Target edv, esv;
-  double unloaded_volume = 0.0;  ///< of the cavity at early diastole [mm^3]
-  double tolerance = 0.01;       ///< of the volumes, as a fraction
-  Range stiffness;               ///< of C_a or scale
+  double tolerance = 0.01;  ///< of the volumes, as a fraction
+  Range stiffness;          ///< of C_a or scale
   Range exponent, T_scale;
+  std::vector<MeasuredStrain> strains;  ///< end-systolic; fitted to, besides the volumes, when any
+  Errors errors;
 };
 
 /// One equilibrium of the search.
@@ -37,11 +45,21 @@ struct Evaluation {
   double volume = 0.0;  ///< [mm^3]
 };
 
+/// How a model fits measured strains.
+struct StrainFit {
+  std::vector<double> strains;  ///< of the model, in the order of Plan::strains
+  double chi_squared = 0.0;     ///< |r|^2 of volumes and strains, each by its error
+  int degrees_of_freedom = 0;
+  double rms = 0.0, bias = 0.0;  ///< of model minus measured strain
+};
+
 struct Fit {
   Parameters parameters;
-  double edv = 0.0, esv = 0.0;  ///< of the model with these parameters [mm^3]
+  double unloaded_volume = 0.0;  ///< of the model [mm^3]
+  double edv = 0.0, esv = 0.0;   ///< of the model with these parameters [mm^3]
   std::vector<Observation> observations;
   std::vector<double> volumes;  ///< of the model at the observations [mm^3]
+  std::optional<StrainFit> strain_fit;
   Sensitivity sensitivity;
   std::vector<Evaluation> history;
 };
@@ -58,8 +76,16 @@ struct Fit {
 /// the model's own volume without load, since the shape at early diastole, not the formula for V_0,
 /// is where the model starts.
 ///
+/// With measured strains those values are the start of a least-squares fit of all fitted
+/// parameters,
+///
+///   sum_k [(V_k/V_k,measured - 1)/sigma_V]^2 + sum_i [(E_i - E_i,measured)/sigma_E]^2,
+///
+/// by Levenberg-Marquardt in their logarithms (the points of the Klotz curve count as volumes). It
+/// need not meet the volumes within the tolerance.
+///
 /// Throws InputError for a volume out of reach and RunError when a fitted model misses the measured
-/// volumes by more than the tolerance.
+/// volumes, to which alone it was fitted, by more than the tolerance.
 [[nodiscard]] Fit fit(const Model& model, const Parameters& start, const Plan& plan);
 
 }  // namespace lv::calibrate

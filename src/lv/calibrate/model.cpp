@@ -19,27 +19,63 @@ double distance(const Loads& a, const Loads& b) {
 }  // namespace
 
 Ventricle::Ventricle(const mesh::Mesh& mesh, const mesh::FibreRule& fibres, MuscleOf muscle_of,
-                     const quasi_static::Parameters& solver)
-    : mesh_(mesh), fibres_(fibres), muscle_of_(std::move(muscle_of)), solver_(solver) {}
+                     const quasi_static::Parameters& solver,
+                     const quasi_static::UnloadParameters& unloading)
+    : given_(mesh),
+      fibres_(fibres),
+      muscle_of_(std::move(muscle_of)),
+      solver_(solver),
+      unloading_(unloading),
+      wall_(mesh),
+      cavity_(mesh) {}
 
 double Ventricle::volume(const Parameters& parameters, const Loads& loads) {
+  go_to(parameters, loads);
+  return engine_->cavity_volume();
+}
+
+double Ventricle::unloaded_volume(const Parameters& parameters) {
+  return cavity_.volume(wall(parameters).nodes);
+}
+
+std::vector<Vec3> Ventricle::positions(const Parameters& parameters, const Loads& loads) {
+  go_to(parameters, loads);
+  return engine_->state().positions;
+}
+
+const mesh::Mesh& Ventricle::wall(const Parameters& parameters) {
+  if (unloading_.pressure == 0.0 || (unloaded_ && unloaded_with_ == parameters))
+    return wall_;
+  unloaded_ = quasi_static::unload(given_, fibres_, muscle_of_(parameters), unloading_, solver_,
+                                   unloaded_ ? &*unloaded_ : nullptr);
+  unloaded_with_ = parameters;
+  engine_.reset();
+  wall_.nodes = unloaded_->nodes;
+  if (known_.empty())
+    known_.push_back({{unloading_.pressure, 0.0}, unloaded_->loaded});
+  return wall_;
+}
+
+void Ventricle::go_to(const Parameters& parameters, const Loads& loads) {
+  static_cast<void>(wall(parameters));
   approach(muscle_of_(parameters), loads);
   if (known_.empty() || distance(nearest(loads).loads, loads) > 0.0)
     known_.push_back({loads, engine_->state()});
   else
     nearest(loads).state = engine_->state();
-  return engine_->cavity_volume();
 }
 
 /// Brings the engine to equilibrium with the loads.
 void Ventricle::approach(const quasi_static::Muscle& muscle, const Loads& loads) {
-  if (known_.empty()) {
-    engine_.emplace(mesh_, fibres_, muscle, solver_);
-  } else {
+  if (!engine_)
+    engine_.emplace(wall_, fibres_, muscle, solver_);
+  if (!known_.empty()) {
     const Equilibrium& start = nearest(loads);
     engine_->restore(start.state, start.loads);
-    engine_->set_muscle(muscle);
+  } else {
+    engine_->relax();
   }
+  engine_->set_muscle(muscle);
   if (distance(engine_->loads(), loads) > 0.0)
     engine_->go_to(loads);
 }

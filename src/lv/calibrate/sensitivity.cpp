@@ -17,24 +17,80 @@ Parameters scaled(Parameters p, const Fitted& which, double factor) {
   return p;
 }
 
+Eigen::VectorXd as_vector(const std::vector<double>& values) {
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
+/// d ln V_k minus, where its target moves with the parameters, d ln target_k.
+double by_parameter(const Model& model, const Parameters& at, const Fitted& which,
+                    const Observation& o) {
+  const Parameters above = scaled(at, which, std::exp(parameter_step));
+  const Parameters below = scaled(at, which, std::exp(-parameter_step));
+  double change = std::log(model.volume(above, o.loads) / model.volume(below, o.loads));
+  if (o.target_by_unloaded != 0.0)
+    change -= o.target_by_unloaded * (model.unloaded_volume(above) - model.unloaded_volume(below)) /
+              o.target;
+  return change / (2.0 * parameter_step);
+}
+
+/// Derivatives of the strains by the parameters' logarithms and by the two pressures.
+struct StrainRows {
+  Eigen::MatrixXd by_parameter;                          ///< dE_i / d ln x_j
+  Eigen::Matrix<double, Eigen::Dynamic, 2> by_pressure;  ///< dE_i/dp_ED, dE_i/dp_ES [1/kPa]
+};
+
+StrainRows strain_rows(const Model& model, const Parameters& at,
+                       const std::vector<Fitted>& parameters, const quasi_static::Loads& ed,
+                       const quasi_static::Loads& es) {
+  const auto strains = [&](const Parameters& p, double d_ed, double d_es) {
+    return as_vector(
+        model.strains(p, {ed.pressure + d_ed, ed.activation}, {es.pressure + d_es, es.activation}));
+  };
+  const auto difference = [](const Eigen::VectorXd& above, const Eigen::VectorXd& below,
+                             double step) {
+    return Eigen::VectorXd((above - below) / (2.0 * step));
+  };
+  StrainRows rows;
+  const double dp = pressure_step;
+  const Eigen::VectorXd by_ed = difference(strains(at, dp, 0.0), strains(at, -dp, 0.0), dp);
+  rows.by_parameter.resize(by_ed.size(), static_cast<Eigen::Index>(parameters.size()));
+  rows.by_pressure.resize(by_ed.size(), 2);
+  rows.by_pressure << by_ed, difference(strains(at, 0.0, dp), strains(at, 0.0, -dp), dp);
+  for (std::size_t j = 0; j < parameters.size(); ++j)
+    rows.by_parameter.col(static_cast<Eigen::Index>(j)) = difference(
+        strains(scaled(at, parameters[j], std::exp(parameter_step)), 0.0, 0.0),
+        strains(scaled(at, parameters[j], std::exp(-parameter_step)), 0.0, 0.0), parameter_step);
+  return rows;
+}
+
+Eigen::MatrixXd below_each_other(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  Eigen::MatrixXd both(a.rows() + b.rows(), a.cols());
+  both << a, b;
+  return both;
+}
+
+/// (J^T J)^-1, or its pseudo-inverse.
+Eigen::MatrixXd inverse_of_normal_matrix(const Eigen::MatrixXd& J) {
+  return (J.transpose() * J).completeOrthogonalDecomposition().pseudoInverse();
+}
+
 }  // namespace
 
 Sensitivity sensitivity(const Model& model, const Parameters& at,
                         const std::vector<Fitted>& parameters,
-                        const std::vector<Observation>& observations, double edv) {
+                        const std::vector<Observation>& observations, double edv,
+                        const quasi_static::Loads& ed, const quasi_static::Loads& es,
+                        const Errors& errors) {
   const auto n = static_cast<Eigen::Index>(parameters.size());
   const auto m = static_cast<Eigen::Index>(observations.size());
-  Sensitivity s{parameters, Eigen::MatrixXd(m, n), Eigen::VectorXd(m), {}, {}};
+  Sensitivity s{parameters, Eigen::MatrixXd(m, n), Eigen::VectorXd(m), {}, {}, {}, {}};
   Eigen::MatrixXd by_data = Eigen::MatrixXd::Zero(m, 4);  // of ln V_target - ln V, at fixed x
   Eigen::VectorXd weight(m);
   for (Eigen::Index k = 0; k < m; ++k) {
     const Observation& o = observations[k];
     for (Eigen::Index j = 0; j < n; ++j)
-      s.by_parameter(k, j) =
-          std::log(model(scaled(at, parameters[j], std::exp(parameter_step)), o.loads) /
-                   model(scaled(at, parameters[j], std::exp(-parameter_step)), o.loads)) /
-          (2.0 * parameter_step);
-    const auto under = [&](double p) { return model(at, {p, o.loads.activation}); };
+      s.by_parameter(k, j) = by_parameter(model, at, parameters[j], o);
+    const auto under = [&](double p) { return model.volume(at, {p, o.loads.activation}); };
     s.by_pressure[k] =
         (under(o.loads.pressure + pressure_step) - under(o.loads.pressure - pressure_step)) /
         (2.0 * pressure_step);
@@ -44,13 +100,22 @@ Sensitivity sensitivity(const Model& model, const Parameters& at,
     by_data(k, systolic ? 3 : 2) = -o.pressure_ratio * s.by_pressure[k] / o.target;
     weight[k] = o.weight;
   }
-  const Eigen::MatrixXd J = weight.asDiagonal() * s.by_parameter;
-  s.by_data = J.completeOrthogonalDecomposition().solve(weight.asDiagonal() * by_data);
-  const Eigen::MatrixXd covariance = (s.by_parameter.transpose() * s.by_parameter)
-                                         .completeOrthogonalDecomposition()
-                                         .pseudoInverse();
-  const Eigen::VectorXd deviation = covariance.diagonal().cwiseSqrt();
-  s.correlation = covariance.cwiseQuotient(deviation * deviation.transpose());
+  Eigen::MatrixXd J = weight.asDiagonal() * s.by_parameter;
+  by_data = weight.asDiagonal() * by_data;
+  Eigen::MatrixXd of_errors = s.by_parameter;
+  if (model.strains) {
+    const StrainRows rows = strain_rows(model, at, parameters, ed, es);
+    Eigen::MatrixXd strain_by_data = Eigen::MatrixXd::Zero(rows.by_parameter.rows(), 4);
+    strain_by_data.rightCols(2) = -rows.by_pressure / errors.strain;
+    s.strain_by_parameter = rows.by_parameter;
+    J = below_each_other(J / errors.volume, rows.by_parameter / errors.strain);
+    by_data = below_each_other(by_data / errors.volume, strain_by_data);
+    of_errors = J;
+  }
+  s.by_data = J.completeOrthogonalDecomposition().solve(by_data);
+  s.covariance = inverse_of_normal_matrix(of_errors);
+  const Eigen::VectorXd deviation = s.covariance.diagonal().cwiseSqrt();
+  s.correlation = s.covariance.cwiseQuotient(deviation * deviation.transpose());
   return s;
 }
 

@@ -22,25 +22,44 @@ struct Observation {
   quasi_static::Loads loads;
   double target = 0.0;  ///< [mm^3]
   double weight = 1.0;
-  double pressure_ratio = 1.0;  ///< to the measured pressure of its phase
-  double target_by_edv = 0.0;   ///< dV_k/dEDV
+  double pressure_ratio = 1.0;      ///< to the measured pressure of its phase
+  double target_by_edv = 0.0;       ///< dV_k/dEDV
+  double target_by_unloaded = 0.0;  ///< dV_k/dV_0, V_0 the model's volume without load
+};
+
+/// Errors that the measurements are taken to have, independent of each other (standard deviations).
+struct Errors {
+  double volume = 0.02;  ///< as a fraction
+  double strain = 0.03;  ///< of a segment's mean
 };
 
 /// How volumes follow from parameters, and parameters from measurements, near a fit. By central
 /// differences of the model: parameters by +-1%, pressures by +-0.25 mmHg.
 struct Sensitivity {
   std::vector<Fitted> parameters;
-  Eigen::MatrixXd by_parameter;  ///< d ln V_k / d ln x_j
+  Eigen::MatrixXd by_parameter;  ///< d ln (V_k/target_k) / d ln x_j
   Eigen::VectorXd by_pressure;   ///< dV_k/dp [mm^3/kPa]
   /// d ln x_j by d ln EDV, d ln ESV, dp_ED and dp_ES [1/kPa], for the weighted least-squares fit.
   Eigen::Matrix<double, Eigen::Dynamic, 4> by_data;
-  /// Of the errors of ln x_i and ln x_j when all volumes carry independent errors of equal size;
-  /// near +-1 the data cannot tell the two apart.
+  /// Of the errors of ln x_i and ln x_j when all volumes carry independent errors of equal size (of
+  /// the stated sizes, where strains are fitted besides); near +-1 the data cannot tell the two
+  /// apart.
   Eigen::MatrixXd correlation;
+
+  // where strains are fitted besides
+  Eigen::MatrixXd strain_by_parameter;  ///< dE_i / d ln x_j
+  /// Of the errors of ln x_i and ln x_j for the stated errors of volumes and strains; not yet
+  /// scaled by how well the model fits.
+  Eigen::MatrixXd covariance;
 };
 
+/// `ed` and `es` are the loads between which strains are measured; without `model.strains` they and
+/// `errors` mean nothing.
 [[nodiscard]] Sensitivity sensitivity(const Model& model, const Parameters& at,
                                       const std::vector<Fitted>& parameters,
-                                      const std::vector<Observation>& observations, double edv);
+                                      const std::vector<Observation>& observations, double edv,
+                                      const quasi_static::Loads& ed = {},
+                                      const quasi_static::Loads& es = {},
+                                      const Errors& errors = {});
 
 }  // namespace lv::calibrate

@@ -3,9 +3,11 @@
 #include "lv/base/units.hpp"
 #include "lv/calibrate/klotz.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -26,6 +28,9 @@ const std::array<std::string, 4> error_names{"EDV -+5%", "ESV -+5%", "p_ED -+2 m
 
 /// Beyond this correlation two parameters count as not told apart.
 constexpr double alike = 0.9;
+
+/// A combination of parameters less certain than this (of its logarithm) counts as left open.
+constexpr double unknown = 0.5;
 
 /// The fitted value when a measurement is off by its error, to first order of the logarithm.
 double moved(const Fit& fit, Eigen::Index parameter, int data, double sign) {
@@ -76,14 +81,66 @@ std::string derivative_rows(const Fit& fit) {
   return text + "\n";
 }
 
+/// Measured and fitted strains, and how sure they leave the parameters.
+std::string strain_rows(const Plan& plan, const Fit& fit) {
+  const StrainFit& s = *fit.strain_fit;
+  std::string text =
+      fmt::format("\n  {:<18}{:>10}{:>10}{:>10}\n", "circumf. strain", "measured", "model", "off");
+  for (std::size_t i = 0; i < s.strains.size(); ++i)
+    text += fmt::format("  {:<18}{:>10.3f}{:>10.3f}{:>10.3f}\n", plan.strains[i].region,
+                        plan.strains[i].value, s.strains[i], s.strains[i] - plan.strains[i].value);
+  text += fmt::format(
+      "  bias {:.3f}, rms {:.3f}; weights 1/{:g} of a strain and 1/{:g} of a volume's "
+      "fraction; chi^2 {:.1f} for {} degrees of freedom\n",
+      s.bias, s.rms, plan.errors.strain, plan.errors.volume, s.chi_squared, s.degrees_of_freedom);
+  return text;
+}
+
+/// (J^T J)^-1 for the stated errors, larger when the model fits worse than they allow.
+Eigen::MatrixXd covariance(const Fit& fit) {
+  const StrainFit& s = *fit.strain_fit;
+  const double misfit =
+      s.degrees_of_freedom > 0 ? s.chi_squared / static_cast<double>(s.degrees_of_freedom) : 1.0;
+  return std::max(1.0, misfit) * fit.sensitivity.covariance;
+}
+
+std::string deviation_rows(const Fit& fit) {
+  const Eigen::MatrixXd C = covariance(fit);
+  std::string text =
+      fmt::format("\n  {:<12}{:>12}   covariance of the logarithms\n", "parameter", "deviation");
+  for (Eigen::Index j = 0; j < C.rows(); ++j) {
+    text += fmt::format("  {:<12}{:>11.1f}%  ", fit.sensitivity.parameters[j].name,
+                        100.0 * std::sqrt(C(j, j)));
+    for (Eigen::Index i = 0; i < C.cols(); ++i)
+      text += fmt::format("{:>12.3g}", C(j, i));
+    text += "\n";
+  }
+  return text;
+}
+
+/// What the data say least about: the direction of the parameters' logarithms with the largest
+/// variance.
+std::string weakest_direction(const Fit& fit) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(covariance(fit));
+  const Eigen::Index last = eigen.eigenvalues().size() - 1;
+  const Eigen::VectorXd v = eigen.eigenvectors().col(last);
+  std::string product;
+  for (Eigen::Index j = 0; j < v.size(); ++j)
+    product += fmt::format("{}{}^{:.2f}", j == 0 ? "" : " ", fit.sensitivity.parameters[j].name,
+                           v[0] < 0.0 ? -v[j] : v[j]);
+  const double deviation = std::sqrt(eigen.eigenvalues()[last]);
+  return fmt::format("The data say least about {}: its standard deviation is {:.1f}%{}.", product,
+                     100.0 * deviation, deviation > unknown ? ", so they leave it open" : "");
+}
+
 /// In words, which parameters the data cannot tell apart.
 std::vector<std::string> ambiguities(const Plan& plan, const Fit& fit) {
   std::vector<std::string> words;
-  if (plan.passive == Passive::C_a)
+  if (plan.passive == Passive::C_a && !fit.strain_fit)
     words.emplace_back(
         "One volume determines one passive parameter: how a compares with a_f, a_s and a_fs, and "
         "the exponents, keep the case's values; other values with the same EDV fit as well.");
-  if (plan.passive == Passive::scale)
+  if (plan.passive == Passive::scale && !fit.strain_fit)
     words.emplace_back(
         "One volume determines one passive parameter: how a, a_f, a_s and a_fs compare, and the "
         "exponents, keep the case's values; other values with the same EDV fit as well.");
@@ -99,13 +156,15 @@ std::vector<std::string> ambiguities(const Plan& plan, const Fit& fit) {
   for (Eigen::Index i = 0; i < s.correlation.rows(); ++i)
     for (Eigen::Index j = i + 1; j < s.correlation.cols(); ++j) {
       const double r = s.correlation(i, j);
-      words.push_back(
-          fmt::format("{} and {}: errors of the volumes move them {} with correlation {:.2f}; {}.",
-                      s.parameters[i].name, s.parameters[j].name,
-                      r > 0.0 ? "together" : "against each other", r,
-                      std::abs(r) > alike ? "these data can hardly tell them apart"
-                                          : "these data tell them apart"));
+      words.push_back(fmt::format(
+          "{} and {}: errors of the measurements move them {} with correlation {:.2f}; {}.",
+          s.parameters[i].name, s.parameters[j].name, r > 0.0 ? "together" : "against each other",
+          r,
+          std::abs(r) > alike ? "these data can hardly tell them apart"
+                              : "these data tell them apart"));
     }
+  if (fit.strain_fit)
+    words.push_back(weakest_direction(fit));
   if (plan.active)
     words.emplace_back(
         "T_scale stands for every other cause of tension (calcium, its sensitivity, T_ref), which "
@@ -135,6 +194,31 @@ Json observation_json(const Fit& fit, std::size_t k) {
   return json;
 }
 
+Json strains_json(const Plan& plan, const Fit& fit) {
+  const StrainFit& s = *fit.strain_fit;
+  Json json{{"error_of_strain", plan.errors.strain},
+            {"error_of_volume", plan.errors.volume},
+            {"chi_squared", s.chi_squared},
+            {"degrees_of_freedom", s.degrees_of_freedom},
+            {"bias", s.bias},
+            {"rms", s.rms}};
+  for (std::size_t i = 0; i < s.strains.size(); ++i) {
+    Json row{{"region", plan.strains[i].region},
+             {"measured", plan.strains[i].value},
+             {"model", s.strains[i]}};
+    const auto& parameters = fit.sensitivity.parameters;
+    for (std::size_t j = 0; j < parameters.size(); ++j)
+      row["d_dln_parameter"][parameters[j].name] = fit.sensitivity.strain_by_parameter(
+          static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+    json["regions"].push_back(row);
+  }
+  const Eigen::MatrixXd C = covariance(fit);
+  for (Eigen::Index j = 0; j < C.rows(); ++j)
+    json["covariance_of_logarithms"].push_back(
+        std::vector<double>(C.row(j).begin(), C.row(j).end()));
+  return json;
+}
+
 Json uncertainty_json(const Fit& fit, std::size_t j) {
   const Fitted& which = fit.sensitivity.parameters[j];
   Json json{{"parameter", which.name}, {"value", fit.parameters.*which.member}};
@@ -153,13 +237,13 @@ Json uncertainty_json(const Fit& fit, std::size_t j) {
 
 std::string text(const Plan& plan, const Fit& fit) {
   std::string text = "calibration with the quasi-static engine\n\n" + volume_rows(fit) +
-                     parameter_rows(fit) + derivative_rows(fit) + "\n";
+                     (fit.strain_fit ? strain_rows(plan, fit) : "") + parameter_rows(fit) +
+                     (fit.strain_fit ? deviation_rows(fit) : "") + derivative_rows(fit) + "\n";
   if (plan.passive == Passive::scale_and_exponent) {
     const Klotz k = klotz(plan.edv.volume, plan.ed_pressure);
     text += fmt::format(
-        "  Klotz's own estimate without pressure is {:.2f} ml; the model starts from {:.2f} ml at "
-        "early diastole.\n",
-        1e-3 * k.V0, 1e-3 * plan.unloaded_volume);
+        "  Klotz's own estimate without pressure is {:.2f} ml; the model starts from {:.2f} ml.\n",
+        1e-3 * k.V0, 1e-3 * fit.unloaded_volume);
   }
   for (const std::string& words : ambiguities(plan, fit))
     text += "  " + words + "\n";
@@ -175,6 +259,8 @@ std::string json(const Plan& plan, const Fit& fit) {
     json["volumes"].push_back(observation_json(fit, k));
   for (std::size_t j = 0; j < fit.sensitivity.parameters.size(); ++j)
     json["uncertainty"].push_back(uncertainty_json(fit, j));
+  if (fit.strain_fit)
+    json["strains"] = strains_json(plan, fit);
   json["uncertainty_by"] = "derivatives of the logarithms at the fit";
   json["ambiguities"] = ambiguities(plan, fit);
   json["evaluations"] = fit.history.size();

@@ -72,8 +72,11 @@ class QuasiStaticRun {
     run_.beat.curves.push_back(row);
     if (observers_.curves)
       observers_.curves(run_);
-    if (!observers_.frame)
+    constexpr double nearly = 1e-9;  // of the way
+    const bool is_end = step.progress == 0.0 || step.progress > 1.0 - nearly;
+    if (!observers_.frame || (!is_end && run_.time < run_.next_frame))
       return;
+    run_.next_frame = run_.time + setup_.frame_interval;
     const int number = run_.frames++;
     run_.frame_times.push_back(run_.time);
     observers_.frame({number, state(), run_, {}});

@@ -10,7 +10,8 @@ struct QuasiStaticSetup {
   mesh::FibreRule fibres;
   quasi_static::Muscle muscle;
   quasi_static::Parameters parameters;
-  Protocol protocol;  ///< its tolerances, drags and longest times mean nothing here
+  Protocol protocol;            ///< its tolerances, drags and longest times mean nothing here
+  double frame_interval = 0.0;  ///< between frames [s]; the ends of the phases always have one
 };
 
 /// The same beat without inertia and time: equilibrium at end-diastole and, with calcium held until

@@ -7,7 +7,7 @@
 #include "lv/calibrate/summary.hpp"
 #include "lv/heartbeat/immersed_beat.hpp"
 #include "lv/job/parameters.hpp"
-#include "lv/solid/cavity.hpp"
+#include "lv/job/strain_targets.hpp"
 
 #include <Eigen/LU>
 #include <fmt/format.h>
@@ -33,19 +33,23 @@ Case with(Case c, const Parameters& p) {
   return c;
 }
 
-calibrate::Plan plan(const Case& c, const mesh::Mesh& mesh) {
+calibrate::Plan plan(const Case& c, const std::vector<StrainTarget>& targets) {
   const Calibration& k = c.calibration;
+  std::vector<calibrate::MeasuredStrain> strains;
+  for (const StrainTarget& target : targets)
+    strains.push_back(target.measured);
   return {k.passive,
           k.active,
           c.protocol.ed_pressure,
           c.protocol.es_pressure,
           {k.edv, place_of(c, "calibrate.edv")},
           {k.esv, place_of(c, "calibrate.esv")},
-          solid::Cavity(mesh).volume(mesh.nodes),
           k.tolerance,
           k.stiffness,
           k.exponent,
-          k.T_scale};
+          k.T_scale,
+          strains,
+          k.errors};
 }
 
 /// The names of the parameters that a calibration changes.
@@ -136,13 +140,22 @@ Case for_calibration(Case c) {
 void make_calibration(const Case& c, const MeshResult& mesh, const std::filesystem::path& folder) {
   calibrate::Ventricle ventricle(
       mesh.mesh, c.fibres, [&](const Parameters& p) { return muscle(with(c, p)); },
-      c.quasi_static.solver);
-  const calibrate::Model model = [&](const Parameters& p, const quasi_static::Loads& loads) {
-    if (parallel::any(interrupt::requested()))
-      throw heartbeat::Interrupted("stopped; run the same command again to calibrate anew");
-    return ventricle.volume(p, loads);
-  };
-  const calibrate::Plan task = plan(c, mesh.mesh);
+      c.quasi_static.solver, c.unloaded);
+  const std::vector<StrainTarget> targets = strain_targets(c, mesh.regions);
+  using quasi_static::Loads;
+  const calibrate::Model model{
+      [&](const Parameters& p, const Loads& loads) {
+        if (parallel::any(interrupt::requested()))
+          throw heartbeat::Interrupted("stopped; run the same command again to calibrate anew");
+        return ventricle.volume(p, loads);
+      },
+      [&](const Parameters& p) { return ventricle.unloaded_volume(p); },
+      [&](const Parameters& p, const Loads& ed, const Loads& es) {
+        const auto end_diastole = ventricle.positions(p, ed);
+        const auto end_systole = ventricle.positions(p, es);
+        return regional_strains(c, ventricle.wall(p), targets, end_diastole, end_systole);
+      }};
+  const calibrate::Plan task = plan(c, targets);
   const calibrate::Fit fit =
       calibrate::fit(model, {.C_a = c.passive.C_a, .T_scale = c.active.T_scale}, task);
   if (!parallel::is_root())

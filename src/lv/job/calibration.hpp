@@ -9,7 +9,8 @@ namespace lv::job {
 /// The same case on the quasi-static engine, which calibrates whatever engine runs the beat.
 [[nodiscard]] Case for_calibration(Case c);
 
-/// Fits what the case asks for and writes into `folder` calibration.json, calibration.txt,
+/// Fits what the case asks for, with the wall unloaded anew for all parameters where it was seen
+/// under load, and writes into `folder` calibration.json, calibration.txt,
 /// calibration.csv (every equilibrium of the search) and calibrated.toml (for a case file);
 /// collective. Throws InputError for a volume out of reach, with the volumes within reach.
 void make_calibration(const Case& c, const MeshResult& mesh, const std::filesystem::path& folder);

@@ -66,6 +66,9 @@ struct QuasiStatic {
   quasi_static::Parameters solver;
 };
 
+/// Which measure of strain a file holds: E = (lambda^2 - 1)/2 or lambda - 1.
+enum class StrainMeasure { green_lagrange, engineering };
+
 /// Which parameters are fitted to which measured volumes, at the pressures of the protocol.
 struct Calibration {
   calibrate::Passive passive = calibrate::Passive::none;
@@ -75,7 +78,10 @@ struct Calibration {
   calibrate::Range stiffness{0.05, 50.0};
   calibrate::Range exponent{0.2, 5.0};
   calibrate::Range T_scale{0.1, 20.0};
-  bool confirm = false;  ///< with the immersed engine
+  std::string strains;  ///< file of regional strains, fitted to besides; empty: none
+  StrainMeasure strain_measure = StrainMeasure::green_lagrange;  ///< of that file
+  calibrate::Errors errors;  ///< of what was measured, which weigh it
+  bool confirm = false;      ///< with the immersed engine
 
   [[nodiscard]] bool asked() const { return passive != calibrate::Passive::none || active; }
 };
@@ -102,6 +108,7 @@ struct Case {
   solid::BasalSupport base;
   Engine engine = Engine::immersed;
   QuasiStatic quasi_static;
+  quasi_static::UnloadParameters unloaded{.tolerance = 0.05};
   Calibration calibration;
   heartbeat::Protocol protocol;
   heartbeat::StepControl time;
@@ -111,6 +118,11 @@ struct Case {
   std::map<std::string, std::string>
       origin;  ///< parameter -> "file:line" where the case file sets it
 };
+
+/// Whether the wall that was seen is a loaded one.
+[[nodiscard]] inline bool is_loaded(const Case& c) {
+  return c.unloaded.pressure > 0.0;
+}
 
 /// A file named in a case file; relative names are relative to the case file.
 [[nodiscard]] std::filesystem::path beside(const Case& c, const std::string& name);

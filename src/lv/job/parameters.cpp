@@ -212,6 +212,7 @@ void declare_passive(Declarations& d) {
            "exponent of fibre-cross-fibre shear");
   d.table = "passive.neo_hookean";
   d.quantity("mu", LV_AT(passive.neo_hookean.mu), "kPa", positive, "shear modulus");
+  d.stage = Stage::beat;  // the fits' walls are incompressible
   d.table = "volumetric";
   d.quantity("beta_s", LV_AT(volumetric.beta_s), "kPa", not_negative,
              "penalty that reinforces incompressibility; the paper: 100 kPa", "2.20");
@@ -222,6 +223,7 @@ void declare_passive(Declarations& d) {
 }
 
 void declare_active(Declarations& d) {
+  d.stage = Stage::calibrate;
   d.table = "active";
   d.choice(
       "law", LV_AT(active_form), {"niederer", "second_piola", "cauchy"},
@@ -348,10 +350,36 @@ void declare_calibration(Declarations& d) {
   d.number("exponent_max", LV_AT(calibration.exponent.high), positive, "largest factor of the b");
   d.number("T_scale_min", LV_AT(calibration.T_scale.low), positive, "least T_scale");
   d.number("T_scale_max", LV_AT(calibration.T_scale.high), positive, "largest T_scale");
+  d.text("strains", LV_AT(calibration.strains),
+         "CSV of circumferential strains at end-systole from end-diastole, fitted to besides the "
+         "volumes, with columns slice (1 at the base to 7, or aha), segment (ant, antsept, ..., or "
+         "1 to 17) and strain; empty: none");
+  d.choice("strain_measure", LV_AT(calibration.strain_measure), {"green_lagrange", "engineering"},
+           "what that file holds: (lambda^2 - 1)/2 or lambda - 1");
+  d.number("strain_error", LV_AT(calibration.errors.strain),
+           {.low = 0.0, .high = 1.0, .low_included = false},
+           "standard deviation of those strains: each weighs 1/strain_error");
+  d.number("volume_error", LV_AT(calibration.errors.volume),
+           {.low = 0.0, .high = 1.0, .low_included = false},
+           "standard deviation of the volumes, as a fraction, where strains are fitted besides");
   d.stage = Stage::beat;
   d.flag("confirm", LV_AT(calibration.confirm),
          "if the immersed engine's volumes are off by more than the tolerance, correct the "
          "parameters and run the beat again, at most twice");
+}
+
+void declare_unloading(Declarations& d) {
+  d.stage = Stage::calibrate;
+  d.table = "unloaded";
+  d.quantity("pressure", LV_AT(unloaded.pressure), "mmHg", between(0.0, 100.0),
+             "pressure under which the shape of the anatomy was seen; the wall without load is "
+             "found from it before the beat. 0: that shape is free of stress, as in the paper",
+             "4");
+  d.quantity("tolerance", LV_AT(unloaded.tolerance), "mm",
+             {.low = 0.0, .high = 5.0, .low_included = false},
+             "largest distance of a node of the wall, loaded again, from where it was seen");
+  d.whole("iterations", LV_AT(unloaded.iterations), between(1, 1000),
+          "equilibria after which the search gives up");
 }
 
 void declare_protocol(Declarations& d) {
@@ -424,6 +452,7 @@ std::vector<Parameter> declare_all() {
   declare_infarct(d);
   declare_passive(d);
   declare_active(d);
+  declare_unloading(d);
   declare_calibration(d);
   d.stage = Stage::beat;
   declare_engine(d);
@@ -442,7 +471,9 @@ const std::vector<Parameter>& parameters() {
 const std::vector<Section>& sections() {
   static const std::vector<Section> all{
       {"", "The case"},
-      {"anatomy", "Shape of the wall at early diastole, taken as free of stress"},
+      {"anatomy",
+       "Shape of the wall at early diastole, taken as free of stress unless [unloaded] says "
+       "otherwise"},
       {"anatomy.ellipsoid",
        "Truncated ellipsoids (source = \"ellipsoid\"); the default is the idealised healthy "
        "ventricle"},
@@ -474,9 +505,10 @@ const std::vector<Section>& sections() {
       {"box", "The box of blood around the ventricle and its grid"},
       {"coupling", "How the wall's finite elements meet the grid"},
       {"base", "How the basal plane is held"},
+      {"unloaded", "The shape without load, when the one that was seen is a loaded one"},
       {"calibrate",
-       "Fitting of passive and active parameters to measured volumes, with the quasi-static "
-       "engine"},
+       "Fitting of passive and active parameters to measured volumes and strains, with the "
+       "quasi-static engine"},
       {"protocol", "Pressures, timings and the ends of the phases"},
       {"time", "Time steps"},
       {"output", "What is kept, and how often"}};

@@ -109,7 +109,8 @@ class CaseReader {
   void check_calibration() {
     const Calibration& k = case_.calibration;
     const bool passive = k.passive != calibrate::Passive::none;
-    for (const char* name : {"calibrate.edv", "calibrate.esv", "calibrate.confirm"})
+    for (const char* name :
+         {"calibrate.edv", "calibrate.esv", "calibrate.strains", "calibrate.confirm"})
       rule(k.asked() || case_.origin.count(name) == 0, name,
            "says nothing without a fit; set calibrate.passive or calibrate.active");
     rule(!passive || k.edv > 0.0, "calibrate.passive", "needs the measured volume calibrate.edv");
@@ -125,6 +126,19 @@ class CaseReader {
          "must be above zero for a passive fit");
     rule(!k.active || case_.active_form == material::ActiveForm::niederer, "calibrate.active",
          "fits T_scale of active.law = \"niederer\"; the case has another");
+    rule(k.strains.empty() || k.active || !k.asked(), "calibrate.strains",
+         "are of end-systole, which needs calibrate.active = true and calibrate.esv");
+    for (const char* name :
+         {"calibrate.strain_measure", "calibrate.strain_error", "calibrate.volume_error"})
+      rule(!k.strains.empty() || case_.origin.count(name) == 0, name,
+           "says nothing without calibrate.strains");
+    rule(
+        !is_loaded(case_) || !passive ||
+            case_.unloaded.pressure < 0.95 * case_.protocol.ed_pressure,
+        "unloaded.pressure",
+        "is (nearly) protocol.ed_pressure: the wall then fills to the shape that was seen whatever "
+        "its stiffness, and edv says nothing about calibrate.passive; give the pressure of early "
+        "diastole, with its shape");
     rule(!k.confirm || case_.engine == Engine::immersed, "calibrate.confirm",
          "is done with engine = \"immersed\"; the case has the engine that the fit uses");
     rule(k.stiffness.low < k.stiffness.high, "calibrate.stiffness_max",

@@ -6,11 +6,14 @@
 #include "lv/base/nearest.hpp"
 #include "lv/base/parallel.hpp"
 #include "lv/base/table.hpp"
+#include "lv/base/units.hpp"
 #include "lv/bench/bench.hpp"
 #include "lv/job/calibration.hpp"
 #include "lv/job/infarct.hpp"
 #include "lv/job/parameters.hpp"
 #include "lv/job/stages.hpp"
+#include "lv/job/strain_targets.hpp"
+#include "lv/job/unloading.hpp"
 #include "lv/job/workspace.hpp"
 #include "lv/mesh/quality.hpp"
 #include "lv/report/page.hpp"
@@ -18,8 +21,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
+#include <string_view>
 
 namespace lv::job {
 namespace {
@@ -46,14 +51,33 @@ bool root_says(bool value) {
   return parallel::any(parallel::is_root() && value);
 }
 
-/// Parameters of one stage, with the program's version.
+/// Whether a parameter changes what the engines of the case compute.
+bool is_used(const Case& c, const std::string& name) {
+  const auto in = [&](std::initializer_list<std::string_view> tables) {
+    return std::any_of(tables.begin(), tables.end(),
+                       [&](const auto& table) { return name.starts_with(table); });
+  };
+  if (c.engine == Engine::quasi_static)
+    return !in({"volumetric.", "box.", "coupling.", "time.", "base.stiffness", "blood.viscosity"});
+  return c.calibration.asked() || is_loaded(c) || !in({"quasi_static."});
+}
+
+/// Parameters of one stage, with the program's version. The results name all, used or not.
 Ingredients own_ingredients(const Case& c, Stage stage) {
   Ingredients ingredients{{"program version", version()}};
-  for (const Parameter& p : parameters())
-    if (p.stage == stage)
+  for (const Parameter& p : parameters()) {
+    const bool used = is_used(c, p.name);
+    if (p.stage == stage ? used || stage > Stage::beat : stage == Stage::results && !used)
       ingredients[p.name] = p.get(c);
+  }
+  if (stage == Stage::calibrate && !c.calibration.strains.empty())
+    ingredients["contents of calibrate.strains"] =
+        fingerprint_of_file(beside(c, c.calibration.strains));
   return ingredients;
 }
+
+constexpr const char* no_parameters =
+    "the case file sets no parameter: this is the default case, the idealised healthy ventricle";
 
 /// The stages in their order, each with what it depends on.
 class Pipeline {
@@ -71,6 +95,8 @@ class Pipeline {
     log::to_file(work_ / "log.txt");
     log::info("{}: ventricle {} on {} rank{}, results in {}", case_.name, version(),
               parallel::size(), parallel::size() == 1 ? "" : "s", work_.string());
+    if (case_.origin.empty())
+      log::warn("{}: {}", case_.file.string(), no_parameters);
     Ingredients carried = anatomy_files(case_);  // to the next stage that runs
     for (std::size_t s = 0; s <= last_; ++s) {
       Ingredients ingredients = own_ingredients(case_, static_cast<Stage>(s));
@@ -79,6 +105,11 @@ class Pipeline {
         ingredients.merge(infarct_files(case_));
       if (static_cast<Stage>(s) == Stage::calibrate && !case_.calibration.asked()) {
         std::erase_if(ingredients, [](const auto& i) { return i.first.starts_with("calibrate."); });
+        carried = std::move(ingredients);
+        continue;
+      }
+      if (static_cast<Stage>(s) == Stage::unload && !is_loaded(case_)) {
+        std::erase_if(ingredients, [](const auto& i) { return i.first.starts_with("unloaded."); });
         carried = std::move(ingredients);
         continue;
       }
@@ -94,6 +125,9 @@ class Pipeline {
     if (*options_.until == "calibrate" && !case_.calibration.asked())
       throw InputError(case_.file.string(), "asks for no calibration",
                        "Set calibrate.passive or calibrate.active, and the measured volumes");
+    if (*options_.until == "unload" && !is_loaded(case_))
+      throw InputError(case_.file.string(), "takes the shape of its anatomy as free of stress",
+                       "Set unloaded.pressure to the pressure under which it was seen");
     const auto found = std::find(stage_names.begin(), stage_names.end(), *options_.until);
     if (found == stage_names.end()) {
       const std::string nearest = nearest_name(*options_.until, stage_names);
@@ -131,16 +165,25 @@ class Pipeline {
   void make(std::size_t s, const std::filesystem::path& part) {
     switch (static_cast<Stage>(s)) {
       case Stage::anatomy:
-        on_root([&] { write_anatomy(make_anatomy(case_), part); });
+        on_root([&] { write_anatomy(shape(), part); });
         break;
       case Stage::mesh:
-        on_root([&] { write_mesh_result(make_mesh(case_, make_anatomy(case_)), part); });
+        on_root([&] { write_mesh_result(make_mesh(case_, shape()), part); });
         show_mesh(read_mesh_result(part), case_, part);
         break;
       case Stage::calibrate: {
         const Case fitting = for_calibration(case_);
-        on_root([&] { write_mesh_result(make_mesh(fitting, make_anatomy(fitting)), part); });
+        on_root([&] { write_mesh_result(make_mesh(fitting, shape()), part); });
         make_calibration(fitting, read_mesh_result(part), part);
+        break;
+      }
+      case Stage::unload: {
+        const auto elements = part / elements_name;
+        on_root([&] {
+          std::filesystem::create_directories(elements);
+          write_mesh_result(make_mesh(for_calibration(case_), shape()), elements);
+        });
+        unload(part, elements);
         break;
       }
       case Stage::beat:
@@ -148,8 +191,9 @@ class Pipeline {
         break;
       case Stage::results: {
         const auto beat = folder(Stage::beat);
-        text_ = make_results(fitted_case(beat), read_mesh_result(folder(Stage::mesh)),
-                             read_beat(beat), fitted_volumes(case_, beat), part);
+        const auto wall = wall_of(beat);
+        text_ = make_results(fitted_case(beat), read_mesh_result(wall), read_beat(beat),
+                             fitted_volumes(case_, beat), unloaded_shape(wall), part);
         on_root([&] { write_file(part / "summary.txt", text_); });
         break;
       }
@@ -166,19 +210,44 @@ class Pipeline {
   void run_beat(const std::filesystem::path& part) {
     if (root_says(std::filesystem::exists(part / beat_name)))
       return;  // finished, but the folder had not got its name yet
-    const MeshResult mesh = read_mesh_result(folder(Stage::mesh));
     heartbeat::Beat beat;
     bool again = false;
     do {
+      if (is_loaded(case_) && root_says(std::filesystem::exists(part / confirmation_name)))
+        unload(part, folder(Stage::unload) / elements_name);  // with corrected parameters
+      const MeshResult mesh = read_mesh_result(wall_of(part));
       beat = make_beat(fitted_case(part), mesh, part);
       log::info("beat: {} steps in {}", beat.steps, log::duration(beat.wall_clock));
-      on_root(
-          [&] { again = case_.calibration.asked() && correct(case_, calibration(), beat, part); });
+      on_root([&] {
+        again = case_.calibration.asked() && correct(case_, calibration(), beat, part);
+        if (again)
+          std::filesystem::remove_all(part / "fields");  // the next beat may have fewer
+      });
     } while (root_says(again));
     on_root([&] {
       write_beat(beat, part);
       std::filesystem::remove(part / heartbeat::checkpoint_name);
     });
+  }
+
+  /// The wall without load for the parameters in use, into a folder.
+  void unload(const std::filesystem::path& part, const std::filesystem::path& elements) const {
+    make_unloading(fitted_case(part), read_mesh_result(folder(Stage::mesh)),
+                   read_mesh_result(elements).mesh, part);
+  }
+
+  /// Where the stress-free wall of a beat is.
+  [[nodiscard]] std::filesystem::path wall_of(const std::filesystem::path& beat) const {
+    if (!is_loaded(case_))
+      return folder(Stage::mesh);
+    return unloaded_shape(beat) ? beat : folder(Stage::unload);
+  }
+
+  /// Made once, by the first stage that needs it; of the root alone.
+  const Shape& shape() {
+    if (!shape_)
+      shape_ = make_anatomy(case_);
+    return *shape_;
   }
 
   [[nodiscard]] std::filesystem::path calibration() const { return folder(Stage::calibrate); }
@@ -213,6 +282,8 @@ class Pipeline {
   std::filesystem::path work_;
   std::size_t last_;
   std::string text_;
+  std::optional<Shape> shape_;
+  static constexpr const char* elements_name = "quasi_static";  ///< folder of the mesh for fits
 };
 
 /// Seconds that a step takes, from a few steps of the model at rest.
@@ -283,6 +354,14 @@ std::string validate(const Case& c) {
   if (shape.fit)
     text += fmt::format("  contours: wall {:.1f} mm thick at the thinnest, {:.1f} mm at most\n",
                         shape.fit->thinnest.value, shape.fit->thickest.value);
+  if (c.origin.empty())
+    text += fmt::format("  warning: {}\n", no_parameters);
+  if (is_loaded(c))
+    text +=
+        fmt::format("  this shape bears {:.2f} mmHg; the wall without load will be found from it\n",
+                    c.unloaded.pressure / units::mmHg);
+  if (const auto targets = strain_targets(c, result.regions); !targets.empty())
+    text += fmt::format("  strains of {} segments to fit to\n", targets.size());
   for (const std::string& note : shape.notes)
     text += fmt::format("  note: {}\n", note);
   text += fmt::format(

@@ -21,6 +21,7 @@ struct RunOptions {
 ///   anatomy   the surfaces of the wall                    01_anatomy/
 ///   mesh      elements, fibres, regions, quality          02_mesh/
 ///   calibrate parameters from measured volumes            02b_calibrate/, for cases that ask for it
+///   unload    the wall without load                       02c_unload/, where it was seen under load
 ///   beat      filling and contraction                     03_beat/
 ///   results   tables, summary, pictures                   04_results/
 ///   report    the page, a script for ParaView             05_report/

@@ -269,12 +269,15 @@ MeshResult read_mesh_result(const std::filesystem::path& folder) {
 
 heartbeat::Beat make_beat(const Case& c, const MeshResult& mesh,
                           const std::filesystem::path& folder) {
+  if (c.engine == Engine::quasi_static && parallel::is_root())
+    std::filesystem::remove_all(folder / "fields");  // of a beat that was stopped: it starts anew
   BeatWriter writer(c, mesh, folder);
   const heartbeat::Observers observers{[&](const heartbeat::Frame& f) { writer.frame(f); },
                                        [&](const heartbeat::RunState& run) { writer.curves(run); }};
   if (c.engine == Engine::quasi_static)
-    return heartbeat::run_quasi_static_beat(
-        {mesh.mesh, c.fibres, muscle(c), c.quasi_static.solver, protocol(c)}, observers);
+    return heartbeat::run_quasi_static_beat({mesh.mesh, c.fibres, muscle(c), c.quasi_static.solver,
+                                             protocol(c), c.output.frame_interval},
+                                            observers);
   check_box(c, mesh.mesh);  // the grid may have changed since the mesh was made
   check_spacing(c, mesh.mesh);
   const heartbeat::BeatSetup setup{
@@ -313,6 +316,7 @@ BeatResult read_beat(const std::filesystem::path& folder) {
 
 std::string make_results(const Case& c, const MeshResult& mesh, const BeatResult& beat,
                          const std::vector<report::FittedVolume>& fitted,
+                         const std::optional<report::UnloadedShape>& unloaded,
                          const std::filesystem::path& folder) {
   const analysis::FieldAnalysis analysis = field_analysis(c, mesh.mesh);
   const analysis::BeatFields fields{analysis.at_rest(), analysis.fields(beat.beat.end_diastole),
@@ -322,6 +326,7 @@ std::string make_results(const Case& c, const MeshResult& mesh, const BeatResult
   const analysis::Results results = analysis::results(mesh.mesh, mesh.regions, beat.beat, fields);
   report::RunFacts facts = run_facts(c, mesh, beat);
   facts.fitted = fitted;
+  facts.unloaded = unloaded;
   write_file(folder / "summary.json", report::summary_json(facts, beat.beat, results));
   report::regions_table(results).write_csv(folder / "regions.csv");
   report::rotation_table(results).write_csv(folder / "rotation.csv");

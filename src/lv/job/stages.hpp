@@ -6,6 +6,7 @@
 #include "lv/report/summary.hpp"
 
 #include <filesystem>
+#include <optional>
 
 namespace lv::job {
 
@@ -38,11 +39,13 @@ struct BeatResult {
 };
 [[nodiscard]] BeatResult read_beat(const std::filesystem::path& folder);
 
-/// Computes and writes the results; collective. `fitted` is empty unless the case is calibrated.
+/// Computes and writes the results; collective. `fitted` is empty unless the case is calibrated,
+/// `unloaded` unless the wall was seen under load.
 /// Returns the text for the terminal on the root.
 [[nodiscard]] std::string make_results(const Case& c, const MeshResult& mesh,
                                        const BeatResult& beat,
                                        const std::vector<report::FittedVolume>& fitted,
+                                       const std::optional<report::UnloadedShape>& unloaded,
                                        const std::filesystem::path& folder);
 
 }  // namespace lv::job

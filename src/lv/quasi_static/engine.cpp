@@ -91,6 +91,10 @@ void Engine::go_to(const Loads& target, const std::function<void(const Step&)>& 
 void Engine::set_muscle(const Muscle& muscle) {
   equations_.set_muscle(muscle);
   newton_.forget_tangent();
+  if (loads_ == Loads{}) {
+    relax();
+    return;
+  }
   try {
     newton_.solve(state_, loads_);
   } catch (const NoConvergence&) {

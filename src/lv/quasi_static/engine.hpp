@@ -39,7 +39,9 @@ class Engine {
   void go_to(const Loads& loads, const std::function<void(const Step&)>& observe = {});
 
   /// Replaces the muscle and finds the equilibrium under the same loads, at once if Newton's method
-  /// manages, else all the way from rest.
+  /// manages, else all the way from rest. Without loads the wall is undeformed, as at first:
+  /// balanced by the tension of resting muscle alone it would lie on the switches I4 = 1 of (2.16),
+  /// where Newton's method finds no way on.
   void set_muscle(const Muscle& muscle);
 
   /// Back to the undeformed wall without loads.

@@ -14,6 +14,8 @@ namespace lv::quasi_static {
 struct Loads {
   double pressure = 0.0;    ///< on the endocardium, a follower load [kPa]
   double activation = 0.0;  ///< see Contractility [-]
+
+  [[nodiscard]] bool operator==(const Loads&) const = default;
 };
 
 /// Springs that yield by micrometres under the pressures of a ventricle [kPa/mm].

@@ -176,7 +176,10 @@ class SparseMatrix::Implementation {
     if (reason < 0)
       throw RunError(
           fmt::format("The linear equations could not be solved ({})", KSPConvergedReasons[reason]),
-          "A wall that nothing holds is the usual reason: look at the base");
+          parameters_.method == LinearMethod::direct
+              ? "A wall that nothing holds is the usual reason: look at the base"
+              : "Set quasi_static.linear_solver to \"direct\", or give quasi_static.first_step a "
+                "smaller value");
     check(VecScatterBegin(to_all_, x_, everything_, INSERT_VALUES, SCATTER_FORWARD));
     check(VecScatterEnd(to_all_, x_, everything_, INSERT_VALUES, SCATTER_FORWARD));
     const PetscScalar* values = nullptr;

@@ -101,6 +101,23 @@ std::string zones_text(const Results& results) {
   return text + "\n";
 }
 
+Json unloaded_json(const UnloadedShape& u) {
+  return {{"seen_under_mmHg", number(u.pressure / mmHg)},
+          {"seen_volume_ml", number(1e-3 * u.seen_volume)},
+          {"unloaded_volume_ml", number(1e-3 * u.unloaded_volume)},
+          {"loaded_again_volume_ml", number(1e-3 * u.loaded_volume)},
+          {"largest_distance_mm", number(u.largest)},
+          {"rms_distance_mm", number(u.rms)}};
+}
+
+std::string unloaded_text(const UnloadedShape& u) {
+  return fmt::format(
+      "  the wall was seen under {:.2f} mmHg ({:.2f} ml); without load it holds {:.2f} ml, loaded "
+      "again\n  {:.2f} ml, and its nodes are off by {:.4f} mm at most ({:.4f} mm rms)\n\n",
+      u.pressure / mmHg, 1e-3 * u.seen_volume, 1e-3 * u.unloaded_volume, 1e-3 * u.loaded_volume,
+      u.largest, u.rms);
+}
+
 Json pairs(const std::vector<std::pair<std::string, std::string>>& list) {
   Json json = Json::object();
   for (const auto& [name, value] : list)
@@ -155,8 +172,12 @@ std::string summary_json(const RunFacts& facts, const heartbeat::Beat& beat, con
   json["filling_was_steady"] = beat.filling_was_steady;
   json["contraction_was_steady"] = beat.contraction_was_steady;
   json["strain"] =
-      "Green-Lagrange; at end-systole relative to end-diastole, at end-diastole relative to early "
-      "diastole";
+      std::string(
+          "Green-Lagrange; at end-systole relative to end-diastole, at end-diastole "
+          "relative to ") +
+      (facts.unloaded ? "the wall without load (named early_diastole)" : "early diastole");
+  if (facts.unloaded)
+    json["unloaded"] = unloaded_json(*facts.unloaded);
   json["whole_wall"] = {{"end_diastole", region_json(r, "end_diastole", "wall")},
                         {"end_systole", region_json(r, "end_systole", "wall")}};
   if (has_zones(r))
@@ -190,8 +211,8 @@ std::string summary_text(const RunFacts& facts, const heartbeat::Beat& beat, con
       "{}: {}, {} elements, {} nodes{}, {} steps in {:.0f} s on {} rank{}\n\n", facts.case_name,
       facts.engine, facts.cells, facts.nodes, facts.grid.empty() ? "" : ", grid " + facts.grid,
       beat.steps, facts.wall_clock, facts.ranks, facts.ranks == 1 ? "" : "s");
-  text += fmt::format("  {:<34}{:>14}{:>14}{:>14}\n", "", "early diast.", "end-diastole",
-                      "end-systole");
+  text += fmt::format("  {:<34}{:>14}{:>14}{:>14}\n", "",
+                      facts.unloaded ? "unloaded" : "early diast.", "end-diastole", "end-systole");
   const auto row = [&](const char* what, double a, double b, double c) {
     text += fmt::format("  {:<34}{:>14.2f}{:>14.2f}{:>14.2f}\n", what, a, b, c);
   };
@@ -203,6 +224,8 @@ std::string summary_text(const RunFacts& facts, const heartbeat::Beat& beat, con
   row("wall volume (ml)", 1e-3 * e.wall_volume, 1e-3 * d.wall_volume, 1e-3 * s.wall_volume);
   row("endocardial apex z (mm)", e.apex_endo_z, d.apex_endo_z, s.apex_endo_z);
   text += fmt::format("\n  ejection fraction {:.1f}%\n\n", 100.0 * r.ejection_fraction());
+  if (facts.unloaded)
+    text += unloaded_text(*facts.unloaded);
   if (!facts.fitted.empty())
     text += fmt::format("  {:<34}{:>14}{:>14}{:>14}\n", "calibration (ml)", "measured",
                         "quasi-static", "this beat");

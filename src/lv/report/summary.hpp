@@ -3,6 +3,7 @@
 #include "lv/analysis/results.hpp"
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,16 @@ struct FittedVolume {
   double quasi_static = 0.0;  ///< of the fit [mm^3]
   double beat = 0.0;          ///< of this beat [mm^3]
   bool within_tolerance = false;
+};
+
+/// The wall without load that was found from a loaded one, and how well.
+struct UnloadedShape {
+  double pressure = 0.0;         ///< under which the wall was seen [kPa]
+  double seen_volume = 0.0;      ///< of the cavity [mm^3]
+  double unloaded_volume = 0.0;  ///< [mm^3]
+  double loaded_volume = 0.0;    ///< of the wall without load, loaded again [mm^3]
+  double largest = 0.0;          ///< distance of its nodes from where they were seen [mm]
+  double rms = 0.0;              ///< [mm]
 };
 
 /// What stands at the head of a summary besides the results.
@@ -33,6 +44,7 @@ struct RunFacts {
       origins;  ///< of those that a case file sets: file:line
   std::vector<std::string> warnings;
   std::vector<FittedVolume> fitted;  ///< of a calibrated case
+  std::optional<UnloadedShape> unloaded;
 };
 
 /// A statement about a beat that a healthy ventricle fulfils, with the number behind it.

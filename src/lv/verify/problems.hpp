@@ -31,6 +31,8 @@ void land2015_problem1(Findings& found);
 void land2015_problem2(Findings& found);
 void land2015_problem3(Findings& found);
 void calibration_twin(Findings& found);
+void strain_twin(Findings& found);
+void unloading_round_trip(Findings& found);
 
 // the whole engine
 void rank_independence(Findings& found);

@@ -4,6 +4,7 @@
 #include "lv/base/units.hpp"
 #include "lv/calibrate/klotz.hpp"
 
+#include <Eigen/LU>
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
@@ -28,7 +29,6 @@ Plan plan() {
   Plan p;
   p.ed_pressure = 8.0 * mmHg;
   p.es_pressure = 120.0 * mmHg;
-  p.unloaded_volume = V_0;
   p.tolerance = 0.01;
   p.stiffness = {0.05, 50.0};
   p.exponent = {0.2, 5.0};
@@ -37,6 +37,12 @@ Plan plan() {
   p.esv.origin = "case.toml:4";
   return p;
 }
+
+double unloaded_volume(const Parameters&) {
+  return V_0;
+}
+
+const Model model{volume, unloaded_volume, {}};
 
 /// To find C_a and T_scale from the volumes that these make.
 Plan plan_for(const Parameters& truth) {
@@ -53,7 +59,7 @@ Plan plan_for(const Parameters& truth) {
 TEST_CASE("C_a and T_scale that made the volumes are found", "[calibrate]") {
   const Parameters truth{.C_a = 7.5, .T_scale = 5.5};
   const Plan p = plan_for(truth);
-  const Fit found = fit(volume, {.C_a = 1.0, .T_scale = 3.0}, p);
+  const Fit found = fit(model, {.C_a = 1.0, .T_scale = 3.0}, p);
   CHECK(found.parameters.C_a == Approx(truth.C_a).epsilon(1e-3));
   CHECK(found.parameters.T_scale == Approx(truth.T_scale).epsilon(1e-3));
   CHECK(found.edv == Approx(p.edv.volume).epsilon(1e-4));
@@ -65,19 +71,19 @@ TEST_CASE("C_a and T_scale that made the volumes are found", "[calibrate]") {
 TEST_CASE("a fit says how it moves with the measurements", "[calibrate]") {
   const Parameters truth{.C_a = 7.5, .T_scale = 5.5};
   const Plan p = plan_for(truth);
-  const Sensitivity s = fit(volume, truth, p).sensitivity;
+  const Sensitivity s = fit(model, truth, p).sensitivity;
 
   Plan moved = p;  // by fitting again
   moved.tolerance = 1e-6;
   moved.edv.volume *= 1.001;
-  const Parameters by_edv = fit(volume, truth, moved).parameters;
+  const Parameters by_edv = fit(model, truth, moved).parameters;
   CHECK(s.by_data(0, 0) == Approx(std::log(by_edv.C_a / truth.C_a) / 1e-3).epsilon(0.01));
   CHECK(s.by_data(1, 0) == Approx(std::log(by_edv.T_scale / truth.T_scale) / 1e-3).epsilon(0.01));
 
   moved.edv.volume = p.edv.volume;
   moved.ed_pressure *= 1.001;
   const double dp = 1e-3 * p.ed_pressure;
-  const Parameters by_p = fit(volume, truth, moved).parameters;
+  const Parameters by_p = fit(model, truth, moved).parameters;
   CHECK(s.by_data(0, 2) == Approx(std::log(by_p.C_a / truth.C_a) / dp).epsilon(0.01));
   CHECK(s.by_data(1, 2) == Approx(std::log(by_p.T_scale / truth.T_scale) / dp).epsilon(0.01));
   CHECK(s.by_data(0, 1) == Approx(0.0).margin(1e-9));  // ESV says nothing about C_a
@@ -88,7 +94,7 @@ TEST_CASE("scale and exponent are found from the end-diastolic point and the Klo
   Plan p = plan();
   p.passive = Passive::scale_and_exponent;
   p.edv.volume = volume({.scale = 3.0}, {p.ed_pressure, 0.0});
-  const Fit found = fit(volume, {.scale = 1.0, .exponent = 1.6}, p);
+  const Fit found = fit(model, {.scale = 1.0, .exponent = 1.6}, p);
   CHECK(found.parameters.scale == Approx(3.0).epsilon(1e-3));
   CHECK(found.parameters.exponent == Approx(1.0).epsilon(1e-3));
   CHECK(found.sensitivity.parameters.size() == 2);
@@ -102,11 +108,10 @@ TEST_CASE("a volume out of reach is refused with the volumes within reach", "[ca
   const double least = 1e-3 * volume({.C_a = 50.0}, {p.ed_pressure, 0.0});
   const double most = 1e-3 * volume({.C_a = 0.05}, {p.ed_pressure, 0.0});
   using Catch::Matchers::Contains;
-  CHECK_THROWS_AS(fit(volume, {}, p), lv::InputError);
-  CHECK_THROWS_WITH(fit(volume, {}, p),
-                    Contains("case.toml:3: 65.00 ml cannot be reached") &&
-                        Contains(fmt::format("{:.2f} ml at C_a = 0.05", most)) &&
-                        Contains(fmt::format("{:.2f} ml at 50", least)));
+  CHECK_THROWS_AS(fit(model, {}, p), lv::InputError);
+  CHECK_THROWS_WITH(fit(model, {}, p), Contains("case.toml:3: 65.00 ml cannot be reached") &&
+                                           Contains(fmt::format("{:.2f} ml at C_a = 0.05", most)) &&
+                                           Contains(fmt::format("{:.2f} ml at 50", least)));
 }
 
 TEST_CASE("the bracket keeps away from where the model has no equilibrium", "[calibrate]") {
@@ -118,5 +123,77 @@ TEST_CASE("the bracket keeps away from where the model has no equilibrium", "[ca
       throw lv::RunError("no equilibrium", "");
     return volume(q, loads);
   };
-  CHECK(fit(fragile, {}, p).parameters.C_a == Approx(0.72).epsilon(1e-3));
+  CHECK(fit({fragile, unloaded_volume, {}}, {}, p).parameters.C_a == Approx(0.72).epsilon(1e-3));
+}
+
+namespace {
+
+/// Strains of two segments that the two parameters move differently.
+std::vector<double> strains(const Parameters& p, const Loads& ed, const Loads& es) {
+  const double filling = std::log(volume(p, ed) / V_0);
+  return {-0.1 - 0.05 * std::log(p.T_scale) * es.activation, -0.05 - 0.2 * filling};
+}
+
+}  // namespace
+
+TEST_CASE("volumes and strains of a twin give its parameters back", "[calibrate]") {
+  const Parameters truth{.C_a = 2.5, .T_scale = 4.0};
+  Plan p = plan_for(truth);
+  const std::vector<double> seen = strains(truth, {p.ed_pressure, 0.0}, {p.es_pressure, 1.0});
+  p.strains = {{"3 ant", seen[0]}, {"3 inf", seen[1]}};
+  p.edv.volume *= 1.03;  // where the brackets lead astray, and the strains back
+  const Model with_strains{volume, unloaded_volume, strains};
+  p.errors = {.volume = 1.0, .strain = 1e-3};
+  const Fit found = fit(with_strains, {.C_a = 1.0, .T_scale = 3.0}, p);
+  CHECK(found.parameters.C_a == Approx(truth.C_a).epsilon(1e-3));
+  CHECK(found.parameters.T_scale == Approx(truth.T_scale).epsilon(1e-3));
+  REQUIRE(found.strain_fit);
+  CHECK(found.strain_fit->rms < 1e-5);
+  CHECK(found.strain_fit->degrees_of_freedom == 2);
+}
+
+TEST_CASE("the covariance of a fit to strains is that of its linear model", "[calibrate]") {
+  const Parameters truth{.C_a = 2.5, .T_scale = 4.0};
+  Plan p = plan_for(truth);
+  const std::vector<double> seen = strains(truth, {p.ed_pressure, 0.0}, {p.es_pressure, 1.0});
+  p.strains = {{"3 ant", seen[0]}, {"3 inf", seen[1]}};
+  p.errors = {.volume = 0.02, .strain = 0.01};
+  const Sensitivity s = fit({volume, unloaded_volume, strains}, truth, p).sensitivity;
+  Eigen::MatrixXd J(4, 2);
+  J << s.by_parameter / 0.02, s.strain_by_parameter / 0.01;
+  const Eigen::MatrixXd C = (J.transpose() * J).inverse();
+  CHECK((s.covariance - C).norm() < 1e-6 * C.norm());
+  CHECK(s.strain_by_parameter(0, 1) == Approx(-0.05).epsilon(1e-3));
+  CHECK(s.strain_by_parameter(0, 0) == Approx(0.0).margin(1e-6));
+}
+
+TEST_CASE("a fit that the strains pull off its volumes is reported, not refused", "[calibrate]") {
+  const Parameters truth{.C_a = 2.5, .T_scale = 4.0};
+  Plan p = plan_for(truth);
+  const std::vector<double> seen = strains(truth, {p.ed_pressure, 0.0}, {p.es_pressure, 1.0});
+  p.strains = {{"3 ant", seen[0] - 0.05}, {"3 inf", seen[1]}};
+  p.errors = {.volume = 0.02, .strain = 0.01};
+  const Fit found = fit({volume, unloaded_volume, strains}, truth, p);
+  CHECK(std::abs(found.esv / p.esv.volume - 1.0) > p.tolerance);
+  CHECK(found.strain_fit->chi_squared > 1.0);
+}
+
+TEST_CASE("of a volume with a maximum the stiffer root is found, and the maximum named",
+          "[calibrate]") {
+  const auto with_maximum = [](const Parameters& p, const Loads&) {
+    return 100e3 - 20e3 * std::pow(std::log(p.scale / 0.5), 2);  // at scale 0.5
+  };
+  const Model hill{with_maximum, unloaded_volume, {}};
+  Plan p = plan();
+  p.passive = Passive::scale;
+  p.edv.volume = 95e3;
+  const double root = 0.5 * std::exp(0.5);
+  for (const double start : {0.1, 0.4, 0.55, 1.0, 3.0})
+    CHECK(fit(hill, {.scale = start}, p).parameters.scale == Approx(root).epsilon(1e-3));
+  p.edv.volume = 101e3;
+  for (const double start : {0.1, 0.55, 3.0})
+    CHECK_THROWS_WITH(
+        fit(hill, {.scale = start}, p),
+        Catch::Matchers::Contains("101.00 ml cannot be reached: the model's volume is "
+                                  "largest near scale"));
 }
