@@ -42,7 +42,7 @@ struct SplineFitParameters {
   double margin = 5.0;            ///< contour points up to this height above the base count [mm]
   bool correct_shifts = true;     ///< move slices in their planes if there are long-axis contours
   double largest_shift = 15.0;    ///< of a slice [mm]
-  double thinnest_wall = 2.0;     ///< that is accepted [mm]
+  double thinnest_wall = 1.0;     ///< that is accepted [mm]; scarred apexes have 1.5 and less
 };
 
 }  // namespace lv::geometry

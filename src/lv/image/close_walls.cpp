@@ -114,8 +114,8 @@ bool close_wall(const Contour& endo, Contour& epi, double least, std::vector<std
   if (missing == 0)
     return true;
   const std::string over = fmt::format(
-      "slice {}: the wall is open or less than {:g} mm thick over "
-      "{} degrees",
+      "slice {}: the wall is open or thinner than {:g} mm; with where "
+      "it tapers, over {} degrees",
       endo.slice, least, 360 * missing / rays);
   if (missing > most_missing) {
     notes.push_back(over + ": its epicardium is left out");

@@ -144,14 +144,6 @@ Drawn read_source(const Case& c) {
   }
 }
 
-/// All files of a folder.
-void add_folder(const fs::path& folder, Ingredients& files) {
-  std::error_code failed;
-  for (const auto& entry : fs::recursive_directory_iterator(folder, failed))
-    if (entry.is_regular_file())
-      files["contents of " + entry.path().string()] = fingerprint_of_file(entry.path());
-}
-
 /// Volume of the loops of one phase [mm^3]; 0 where it cannot be told.
 double volume_of(const geometry::Contours& contours) {
   const auto endo = std::count_if(contours.short_axis.begin(), contours.short_axis.end(),
@@ -160,6 +152,13 @@ double volume_of(const geometry::Contours& contours) {
 }
 
 }  // namespace
+
+void add_folder(const fs::path& folder, Ingredients& files) {
+  std::error_code failed;
+  for (const auto& entry : fs::recursive_directory_iterator(folder, failed))
+    if (entry.is_regular_file())
+      files["contents of " + entry.path().string()] = fingerprint_of_file(entry.path());
+}
 
 bool is_drawn(const Case& c) {
   return c.anatomy.source != AnatomySource::ellipsoid && c.anatomy.source != AnatomySource::mesh;

@@ -32,6 +32,9 @@ struct Drawn {
 /// The files that this reads, with what stands for their contents.
 [[nodiscard]] Ingredients drawn_files(const Case& c);
 
+/// All files of a folder, with what stands for their contents.
+void add_folder(const std::filesystem::path& folder, Ingredients& files);
+
 /// "phase 1: 9 endo, 0 epi, 141.30 ml" and so on, a line each, with a proposal of phases.
 [[nodiscard]] std::string describe_phases(const std::map<int, geometry::Contours>& phases);
 

@@ -184,7 +184,7 @@ void declare_mesh(Declarations& d) {
 void declare_infarct(Declarations& d) {
   d.table = "infarct";
   d.choice("source", LV_AT(scar.source),
-           {"mesh", "none", "described", "elements", "surface", "labels"},
+           {"mesh", "none", "described", "elements", "surface", "labels", "lge"},
            "where the infarct comes from: the mesh file's point array of M (no infarct if it has "
            "none), nowhere, or one of the tables below; an element is infarcted if its centre is",
            "2.11");
@@ -192,6 +192,9 @@ void declare_infarct(Declarations& d) {
              "width of the border zone, over which M falls from 1 to 0", "2.11");
   d.quantity("length_unit", LV_AT(scar.length_unit), "mm", positive,
              "length of the unit of surface.file or labels.file");
+  d.quantity_triple("shift", LV_AT(scar.shift), "mm", between(-50.0, 50.0),
+                    "by which the labels or the late-enhancement image are moved in scanner "
+                    "coordinates before they are laid on the wall");
   d.table = "infarct.described";
   const Range height = between(0.0, 1.0);
   d.quantity("angle", LV_AT(scar.described.angle), "deg", between(-360.0, 360.0),
@@ -219,10 +222,34 @@ void declare_infarct(Declarations& d) {
       "are relative to the case file");
   d.table = "infarct.labels";
   d.text("file", LV_AT(scar.labels),
-         "labelled volume in image space: .vti or .vtk (structured points)");
+         "labelled volume in image space: NIfTI (.nii, .nii.gz), .vti or .vtk (structured points)");
   d.text("array", LV_AT(scar.array),
          "array of labels, at points (centres of voxels) or in cells; empty: the only one");
   d.whole_list("scar", LV_AT(scar.scar), "the labels that mean scar");
+  d.whole_list("no_reflow", LV_AT(scar.no_reflow),
+               "the labels of the scar's dark core, which is infarct too", true);
+  d.whole_list("muscle", LV_AT(scar.muscle), "the labels of the other muscle, for in_plane", true);
+  d.flag("in_plane", LV_AT(scar.in_plane),
+         "NIfTI: move each slice in its plane until the middle of its muscle and scar lies on that "
+         "of the wall there (another breath-hold)");
+  d.table = "infarct.lge";
+  d.text(
+      "image", LV_AT(scar.lge.image),
+      "late-enhancement image: a NIfTI file or a folder of DICOM files; it is read at the centres "
+      "of the wall's elements, from the nearest slice");
+  d.text_list("series", LV_AT(scar.lge.series),
+              "DICOM series to use, as `ventricle images` lists them; may be left out if there is "
+              "one");
+  d.choice(
+      "threshold", LV_AT(scar.lge.threshold), {"sd", "fwhm"},
+      "scar is brighter than remote muscle by so many standard deviations, or than half of the "
+      "brightest in the wall");
+  d.number("deviations", LV_AT(scar.lge.deviations), positive,
+           "standard deviations above the mean of remote muscle (threshold = \"sd\")");
+  d.whole_list("remote", LV_AT(scar.lge.remote),
+               "AHA segments (1 to 17) of remote, healthy muscle (threshold = \"sd\")", true);
+  d.flag("fill_no_reflow", LV_AT(scar.lge.fill_no_reflow),
+         "dark parts of the wall that the scar shuts off from epicardium and base count to it");
   d.stage = Stage::calibrate;
   d.table = "infarct";
   d.number("stiffening", LV_AT(infarct.stiffening), not_negative,
@@ -511,6 +538,7 @@ const std::vector<Section>& sections() {
       {"infarct.elements", "Elements of an imported mesh (source = \"elements\")"},
       {"infarct.surface", "What a closed surface encloses (source = \"surface\")"},
       {"infarct.labels", "Voxels of a segmented image (source = \"labels\")"},
+      {"infarct.lge", "A late-enhancement image with a threshold (source = \"lge\")"},
       {"active",
        "Active tension; all but law and tension belong to the law of Niederer, Hunter and Smith"},
       {"calcium", "Intracellular calcium, the same everywhere"},
