@@ -7,13 +7,20 @@
 #include <gdcmReader.h>
 #include <gdcmSequenceOfItems.h>
 #include <gdcmTrace.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <array>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <csignal>
+#include <cstdio>
 #include <cstring>
 #include <exception>
 #include <fstream>
+#include <iterator>
 #include <string_view>
 
 namespace lv::image {
@@ -22,10 +29,11 @@ namespace {
 namespace fs = std::filesystem;
 using gdcm::Tag;
 
-constexpr int largest_side = 8192;   // pixels; no scanner makes larger slices
-constexpr int most_frames = 100000;  // of one file
-constexpr double unit_error = 1e-2;  // of direction cosines
-constexpr double seconds = 1e-3;     // per millisecond
+constexpr int largest_side = 8192;      // pixels; no scanner makes larger slices
+constexpr int most_frames = 100000;     // of one file
+constexpr double unit_error = 1e-2;     // of direction cosines
+constexpr unsigned longest_trial = 60;  // of a file [s]
+constexpr double seconds = 1e-3;        // per millisecond
 
 /// GDCM speaks on the terminal unless told not to.
 void silence() {
@@ -36,6 +44,31 @@ void silence() {
     return true;
   }();
   static_cast<void>(once);
+}
+
+/// Whether some work on a file comes to its end. GDCM, as Debian builds it, ends the whole program
+/// by an assertion on files that are damaged in certain ways, so a child of this process tries
+/// first.
+template <class Work>
+bool survives(const Work& work) {
+  const pid_t child = fork();
+  if (child < 0)
+    return true;  // no process to spare: no trial
+  if (child == 0) {
+    for (const int signal : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL})
+      std::signal(signal, SIG_DFL);
+    const rlimit no_core{0, 0};
+    setrlimit(RLIMIT_CORE, &no_core);
+    if (std::freopen("/dev/null", "w", stderr) == nullptr)
+      _exit(1);
+    alarm(longest_trial);
+    work();
+    _exit(0);
+  }
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
 std::string_view trimmed(std::string_view text) {
@@ -276,20 +309,40 @@ DicomFile read_frames(const Values& values, const DicomImage& shared_header, int
   return found;
 }
 
-/// Whether the file is shorter than its pixels as they are without compression.
-std::string damage_of(const fs::path& file, const gdcm::File& parsed, const Values& values,
+/// Where the values of the pixels begin: behind the tag that announces so many bytes. GDCM does not
+/// tell, and takes zeros for what is missing.
+std::optional<std::uintmax_t> pixels_begin(const fs::path& file, std::uintmax_t announced) {
+  std::ifstream stream(file, std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(stream)), {});
+  constexpr std::string_view tag("\xe0\x7f\x10\x00", 4);
+  for (auto at = bytes.find(tag); at != std::string::npos; at = bytes.find(tag, at + 1)) {
+    const bool explicit_vr = bytes.compare(at + 4, 1, "O") == 0;
+    const auto begin = at + (explicit_vr ? 12 : 8);
+    std::uint32_t length = 0;
+    if (begin > bytes.size())
+      continue;
+    std::memcpy(&length, bytes.data() + begin - 4, sizeof(length));
+    if (length >= announced && length <= announced + 1)  // of even length
+      return begin;
+  }
+  return std::nullopt;
+}
+
+/// Whether the file ends before its pixels do; compressed ones are tried when they are read.
+std::string damage_of(const fs::path& file, const gdcm::Reader& reader, const Values& values,
                       const DicomImage& image, int frames) {
-  if (parsed.GetHeader().GetDataSetTransferSyntax().IsEncapsulated())
+  if (reader.GetFile().GetHeader().GetDataSetTransferSyntax().IsEncapsulated())
     return "";
   const auto bits = values.binary<std::uint16_t>(Tag(0x0028, 0x0100)).value_or(16);
   const auto needed = static_cast<std::uintmax_t>(image.plane.rows) * image.plane.columns *
                       static_cast<std::uintmax_t>(frames) * (bits / 8U);
+  const auto begin = pixels_begin(file, needed).value_or(0);
   std::error_code ignored;
   const auto size = fs::file_size(file, ignored);
-  return size < needed ? fmt::format("the file is truncated: {} bytes cannot hold {} x {} pixels{}",
-                                     size, image.plane.columns, image.plane.rows,
-                                     frames > 1 ? fmt::format(" in {} frames", frames) : "")
-                       : "";
+  return size < begin + needed
+             ? fmt::format("the file is truncated: {} of {} bytes of pixels are there",
+                           size > begin ? size - begin : 0, needed)
+             : "";
 }
 
 /// "DICM" after the preamble, or for old files without one an element of the first groups.
@@ -303,8 +356,8 @@ bool looks_like_dicom(const fs::path& file) {
   return got >= 8 && (head[0] == 2 || head[0] == 8) && head[1] == 0 && head[3] == 0;
 }
 
-DicomFile read_parsed(const fs::path& file, const gdcm::File& parsed) {
-  const Values values(parsed.GetDataSet());
+DicomFile read_parsed(const fs::path& file, const gdcm::Reader& reader) {
+  const Values values(reader.GetFile().GetDataSet());
   DicomImage image = common(file, values);
   if (image.plane.rows < 2 || image.plane.columns < 2)
     return {{}, "it is DICOM but no image"};
@@ -315,7 +368,7 @@ DicomFile read_parsed(const fs::path& file, const gdcm::File& parsed) {
   const int frames = values.whole(Tag(0x0028, 0x0008)).value_or(1);
   if (frames < 1 || frames > most_frames)
     return {{}, fmt::format("it claims {} frames", frames)};
-  image.damage = damage_of(file, parsed, values, image, frames);
+  image.damage = damage_of(file, reader, values, image, frames);
   // Some scanners add an empty per-frame sequence to images of one frame.
   if (frames > 1 || values.bytes(Tag(0x0020, 0x0032)).empty())
     if (frames > 1 || values.sequence(Tag(0x5200, 0x9230)) != nullptr)
@@ -377,8 +430,7 @@ bool append_as(const gdcm::PixelFormat& format, const std::vector<char>& bytes,
 }
 
 /// The stored values of all frames of a file.
-std::vector<float> stored_values(const fs::path& file) {
-  silence();
+std::vector<float> decoded_values(const fs::path& file) {
   std::vector<float> values;
   try {
     gdcm::ImageReader reader;
@@ -402,21 +454,40 @@ std::vector<float> stored_values(const fs::path& file) {
   return values;
 }
 
+std::vector<float> stored_values(const fs::path& file) {
+  silence();
+  const bool alive = survives([&] {
+    try {
+      static_cast<void>(decoded_values(file));
+    } catch (const InputError&) {  // this process says it
+    }
+  });
+  if (!alive)
+    fail_pixels(file, "the pixels cannot be decoded: the file is truncated or damaged");
+  return decoded_values(file);
+}
+
+DicomFile read_headers(const fs::path& file) {
+  try {
+    gdcm::Reader reader;
+    reader.SetFileName(file.c_str());
+    if (!reader.ReadUpToTag(Tag(0x7fe0, 0x0010)))
+      return {{}, "its DICOM header is truncated or damaged"};
+    return read_parsed(file, reader);
+  } catch (const std::exception& error) {
+    return {{}, fmt::format("its DICOM header is damaged: {}", error.what())};
+  }
+}
+
 }  // namespace
 
 DicomFile read_dicom_headers(const fs::path& file) {
   silence();
   if (!looks_like_dicom(file))
     return {{}, "it is not DICOM"};
-  try {
-    gdcm::Reader reader;
-    reader.SetFileName(file.c_str());
-    if (!reader.ReadUpToTag(Tag(0x7fe0, 0x0010)))
-      return {{}, "its DICOM header is truncated or damaged"};
-    return read_parsed(file, reader.GetFile());
-  } catch (const std::exception& error) {
-    return {{}, fmt::format("its DICOM header is damaged: {}", error.what())};
-  }
+  if (!survives([&] { static_cast<void>(read_headers(file)); }))
+    return {{}, "its DICOM header is truncated or damaged"};
+  return read_headers(file);
 }
 
 Picture DicomPixels::read(const DicomImage& image) {

@@ -2,6 +2,7 @@
 
 #include "lv/base/check.hpp"
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 #include <itkMetaDataObject.h>
 #include <itkNiftiImageIO.h>
@@ -83,8 +84,66 @@ void check_right_angles(const fs::path& file, const Mat3& axes) {
   }
 }
 
-/// Lays the volume by its sform where there is one, and checks it against what ITK made of the
-/// file, which is the qform where there is one.
+/// The bytes of a file, unpacked if it is packed, and its first ones.
+struct Unpacked {
+  std::uintmax_t length = 0;
+  std::array<char, 352> head{};
+};
+
+/// Reads a file to its end: what the NIfTI library does not, which takes zeros for missing voxels.
+Unpacked unpack(const fs::path& file) {
+  const std::unique_ptr<gzFile_s, int (*)(gzFile)> stream(gzopen(file.c_str(), "rb"), gzclose);
+  if (!stream)
+    fail_damaged(file, "it cannot be opened");
+  Unpacked unpacked;
+  std::vector<char> block(1U << 16U);
+  for (;;) {
+    const int got = gzread(stream.get(), block.data(), static_cast<unsigned>(block.size()));
+    if (got < 0)
+      fail_damaged(file, "it is packed, and damaged or truncated");
+    if (unpacked.length < unpacked.head.size())
+      std::memcpy(unpacked.head.data() + unpacked.length, block.data(),
+                  std::min<std::size_t>(got, unpacked.head.size() - unpacked.length));
+    unpacked.length += static_cast<std::uintmax_t>(got);
+    if (got < static_cast<int>(block.size()))
+      break;
+  }
+  int error = Z_OK;
+  gzerror(stream.get(), &error);
+  if (error != Z_OK && error != Z_STREAM_END)
+    fail_damaged(file, "it is packed, and truncated");
+  return unpacked;
+}
+
+/// A number of the header, turned round if the file comes from a machine of the other byte order.
+template <class Number>
+Number header_number(const std::array<char, 352>& head, std::size_t at) {
+  std::int32_t size = 0;
+  std::memcpy(&size, head.data(), sizeof(size));
+  std::array<char, sizeof(Number)> bytes{};
+  std::memcpy(bytes.data(), head.data() + at, sizeof(Number));
+  if (size != 348)
+    std::reverse(bytes.begin(), bytes.end());
+  return std::bit_cast<Number>(bytes);
+}
+
+/// The map of the qform from voxels to RAS (the NIfTI-1 standard's method 2).
+Eigen::Matrix<double, 3, 4> qform(const std::array<char, 352>& head) {
+  const auto number = [&](std::size_t at) {
+    return static_cast<double>(header_number<float>(head, at));
+  };
+  const Vec3 v(number(256), number(260), number(264));
+  const double a = std::sqrt(std::max(0.0, 1.0 - v.squaredNorm()));
+  Eigen::Matrix<double, 3, 4> map;
+  map.leftCols<3>() = Eigen::Quaterniond(a, v.x(), v.y(), v.z()).toRotationMatrix();
+  const double handed = number(76) < 0.0 ? -1.0 : 1.0;
+  for (int d = 0; d < 3; ++d)
+    map.col(d) *= number(80 + 4 * d) * (d == 2 ? handed : 1.0);
+  map.col(3) = Vec3(number(268), number(272), number(276));
+  return map;
+}
+
+/// Lays the volume by its sform where there is one; if there is a qform too, both must agree.
 void lay(const fs::path& file, const itk::ImageIOBase& io, Volume& volume) {
   const auto affine = sform(io);
   if (!affine) {
@@ -99,7 +158,6 @@ void lay(const fs::path& file, const itk::ImageIOBase& io, Volume& volume) {
   const Mat3 to_lps = Vec3(-1.0, -1.0, 1.0).asDiagonal();
   const Mat3 axes = to_lps * affine->leftCols<3>();
   check_right_angles(file, axes);
-  const Volume other = volume;
   volume.origin = to_lps * affine->col(3);
   for (int d = 0; d < 3; ++d) {
     volume.spacing[d] = axes.col(d).norm();
@@ -107,11 +165,12 @@ void lay(const fs::path& file, const itk::ImageIOBase& io, Volume& volume) {
   }
   if (!has_qform(io))
     return;
+  const auto other = qform(unpack(file).head);
   for (int corner = 0; corner < 8; ++corner) {
     const Vec3 ijk((corner & 1) != 0 ? volume.size[0] - 1 : 0,
                    (corner & 2) != 0 ? volume.size[1] - 1 : 0,
                    (corner & 4) != 0 ? volume.size[2] - 1 : 0);
-    const double apart = (volume.point(ijk) - other.point(ijk)).norm();
+    const double apart = (volume.point(ijk) - to_lps * (other * ijk.homogeneous())).norm();
     if (!(apart < std::max(same_place * volume.spacing.minCoeff(), 1e-2)))
       fail(file,
            fmt::format("its sform and its qform put a corner of the image {:.1f} mm apart", apart),
@@ -201,49 +260,6 @@ bool append_as(itk::IOComponentEnum type, const std::vector<char>& bytes,
     default:
       return false;
   }
-}
-
-/// The bytes of a file, unpacked if it is packed, and its first ones.
-struct Unpacked {
-  std::uintmax_t length = 0;
-  std::array<char, 352> head{};
-};
-
-/// Reads a file to its end: what the NIfTI library does not, which takes zeros for missing voxels.
-Unpacked unpack(const fs::path& file) {
-  const std::unique_ptr<gzFile_s, int (*)(gzFile)> stream(gzopen(file.c_str(), "rb"), gzclose);
-  if (!stream)
-    fail_damaged(file, "it cannot be opened");
-  Unpacked unpacked;
-  std::vector<char> block(1U << 16U);
-  for (;;) {
-    const int got = gzread(stream.get(), block.data(), static_cast<unsigned>(block.size()));
-    if (got < 0)
-      fail_damaged(file, "it is packed, and damaged or truncated");
-    if (unpacked.length < unpacked.head.size())
-      std::memcpy(unpacked.head.data() + unpacked.length, block.data(),
-                  std::min<std::size_t>(got, unpacked.head.size() - unpacked.length));
-    unpacked.length += static_cast<std::uintmax_t>(got);
-    if (got < static_cast<int>(block.size()))
-      break;
-  }
-  int error = Z_OK;
-  gzerror(stream.get(), &error);
-  if (error != Z_OK && error != Z_STREAM_END)
-    fail_damaged(file, "it is packed, and truncated");
-  return unpacked;
-}
-
-/// A number of the header, turned round if the file comes from a machine of the other byte order.
-template <class Number>
-Number header_number(const std::array<char, 352>& head, std::size_t at) {
-  std::int32_t size = 0;
-  std::memcpy(&size, head.data(), sizeof(size));
-  std::array<char, sizeof(Number)> bytes{};
-  std::memcpy(bytes.data(), head.data() + at, sizeof(Number));
-  if (size != 348)
-    std::reverse(bytes.begin(), bytes.end());
-  return std::bit_cast<Number>(bytes);
 }
 
 /// The file of the voxels: that of the header, or beside it.
