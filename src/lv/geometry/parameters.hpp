@@ -41,6 +41,7 @@ struct SplineFitParameters {
   double smoothing_length = 5.0;  ///< l [mm]: a ripple of wave length 2 pi l is halved; 0: none
   double margin = 5.0;            ///< contour points up to this height above the base count [mm]
   bool correct_shifts = true;     ///< move slices in their planes if there are long-axis contours
+  bool align_slices = false;      ///< without them, move slices to make the wall smooth
   double largest_shift = 15.0;    ///< of a slice [mm]
   double thinnest_wall = 1.0;     ///< that is accepted [mm]; scarred apexes have 1.5 and less
 };

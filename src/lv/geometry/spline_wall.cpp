@@ -156,7 +156,8 @@ int count_images(const std::vector<Contour>& contours) {
 /// How the slices, from base to apex, have to move in image space [mm].
 std::vector<Vec3> slice_shifts(const Contours& contours, const SplineFitParameters& parameters) {
   const std::vector<int> slices = slices_from_base(contours);
-  if (!parameters.correct_shifts || count_images(contours.long_axis) < 2)
+  const bool shown = count_images(contours.long_axis) >= 2;
+  if (shown ? !parameters.correct_shifts : !parameters.align_slices)
     return std::vector<Vec3>(slices.size(), Vec3::Zero());
   const Frame frame = model_frame(contours, parameters.frame);
   const Sampler sampler(contours, frame, parameters);
@@ -165,9 +166,11 @@ std::vector<Vec3> slice_shifts(const Contours& contours, const SplineFitParamete
     shifts[k] = frame.axes * shifts[k];
     if (shifts[k].norm() > parameters.largest_shift)
       throw InputError(find(contours.short_axis, slices[k], Side::endo)->where(),
-                       fmt::format("slice {} lies {:.1f} mm from where the long-axis contours put "
+                       fmt::format("slice {} lies {:.1f} mm from where {} put "
                                    "it; at most {:g} mm are accepted",
-                                   slices[k], shifts[k].norm(), parameters.largest_shift),
+                                   slices[k], shifts[k].norm(),
+                                   shown ? "the long-axis contours" : "its neighbours",
+                                   parameters.largest_shift),
                        "Check that all contours show the same time of the heartbeat, or redraw "
                        "the slice");
   }

@@ -75,6 +75,9 @@ void declare_contours(Declarations& d) {
   d.flag("correct_shifts", LV_AT(anatomy.contours.fit.correct_shifts),
          "move short-axis slices in their planes to agree with the long-axis contours (different "
          "breath-holds)");
+  d.flag("align_slices", LV_AT(anatomy.contours.fit.align_slices),
+         "without two long-axis images, move short-axis slices in their planes to make the wall "
+         "smooth; a tilt of the whole stack cannot be seen in this way and stays");
   d.quantity("largest_shift", LV_AT(anatomy.contours.fit.largest_shift), "mm", between(0.0, 50.0),
              "a slice that would have to move farther is an error");
   d.quantity("thinnest_wall", LV_AT(anatomy.contours.fit.thinnest_wall), "mm", between(0.1, 20.0),

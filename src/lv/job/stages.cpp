@@ -10,6 +10,7 @@
 #include "lv/job/infarct.hpp"
 #include "lv/job/parameters.hpp"
 #include "lv/job/run.hpp"
+#include "lv/mesh/infarct.hpp"
 #include "lv/mesh/quality.hpp"
 #include "lv/mesh/refine.hpp"
 #include "lv/report/fields_vtk.hpp"
@@ -152,6 +153,16 @@ report::RunFacts run_facts(const Case& c, const MeshResult& mesh, const BeatResu
   if (beat.beat.retries > 0)
     facts.warnings.push_back(
         fmt::format("{} steps were taken back and repeated smaller", beat.beat.retries));
+  return facts;
+}
+
+/// The segments that the infarct touches.
+std::vector<report::SegmentScar> scar_facts(const Case& c, const MeshResult& mesh) {
+  std::vector<report::SegmentScar> facts;
+  for (const mesh::SegmentInfarct& s : mesh::infarct_by_segment(mesh.mesh, mesh.regions, c.regions))
+    if (s.infarct > 0.0)
+      facts.push_back({mesh::aha_name(s.segment), s.infarct, c.blood.density * s.infarct,
+                       s.infarct / s.wall, s.transmurality});
   return facts;
 }
 
@@ -323,6 +334,7 @@ std::string make_results(const Case& c, const MeshResult& mesh, const BeatResult
   const analysis::Results results = analysis::results(mesh.mesh, mesh.regions, beat.beat, fields);
   report::RunFacts facts = run_facts(c, mesh, beat);
   facts.fitted = fitted;
+  facts.scar = scar_facts(c, mesh);
   write_file(folder / "summary.json", report::summary_json(facts, beat.beat, results));
   if (!describe_infarct(c, mesh.mesh).empty())
     infarct_table(c, mesh.mesh, mesh.regions).write_csv(folder / "infarct.csv");

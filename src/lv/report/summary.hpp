@@ -17,6 +17,15 @@ struct FittedVolume {
   bool within_tolerance = false;
 };
 
+/// The infarct in one AHA segment that it touches.
+struct SegmentScar {
+  std::string name;
+  double volume = 0.0;         ///< [mm^3]
+  double mass = 0.0;           ///< [kg]
+  double part = 0.0;           ///< of the segment
+  double transmurality = 0.0;  ///< see mesh::infarct_by_segment
+};
+
 /// What stands at the head of a summary besides the results.
 struct RunFacts {
   std::string case_name;
@@ -33,6 +42,7 @@ struct RunFacts {
       origins;  ///< of those that a case file sets: file:line
   std::vector<std::string> warnings;
   std::vector<FittedVolume> fitted;  ///< of a calibrated case
+  std::vector<SegmentScar> scar;     ///< empty without infarct
 };
 
 /// A statement about a beat that a healthy ventricle fulfils, with the number behind it.
