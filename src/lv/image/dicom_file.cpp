@@ -21,6 +21,7 @@
 #include <exception>
 #include <fstream>
 #include <iterator>
+#include <new>
 #include <string_view>
 
 namespace lv::image {
@@ -46,6 +47,18 @@ void silence() {
   static_cast<void>(once);
 }
 
+/// A damaged length makes GDCM ask for gigabytes: not more than this besides what is in use.
+void limit_memory() {
+#ifndef __SANITIZE_ADDRESS__  // whose shadow memory is larger than any limit
+  constexpr rlim_t most = rlim_t{1} << 30U;
+  rlim_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  const rlim_t limit = pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + most;
+  const rlimit bound{limit, limit};
+  setrlimit(RLIMIT_AS, &bound);
+#endif
+}
+
 /// Whether some work on a file comes to its end. GDCM, as Debian builds it, ends the whole program
 /// by an assertion on files that are damaged in certain ways, so a child of this process tries
 /// first.
@@ -62,7 +75,12 @@ bool survives(const Work& work) {
     if (std::freopen("/dev/null", "w", stderr) == nullptr)
       _exit(1);
     alarm(longest_trial);
-    work();
+    limit_memory();
+    try {
+      work();
+    } catch (...) {
+      _exit(1);
+    }
     _exit(0);
   }
   int status = 0;
@@ -448,6 +466,8 @@ std::vector<float> decoded_values(const fs::path& file) {
       fail_pixels(file, "is no image of grey values");
   } catch (const InputError&) {
     throw;
+  } catch (const std::bad_alloc&) {
+    throw;  // ends the trial in the child
   } catch (const std::exception& error) {
     fail_pixels(file, fmt::format("the pixels cannot be read: {}", error.what()));
   }
@@ -474,6 +494,8 @@ DicomFile read_headers(const fs::path& file) {
     if (!reader.ReadUpToTag(Tag(0x7fe0, 0x0010)))
       return {{}, "its DICOM header is truncated or damaged"};
     return read_parsed(file, reader);
+  } catch (const std::bad_alloc&) {
+    throw;  // ends the trial in the child
   } catch (const std::exception& error) {
     return {{}, fmt::format("its DICOM header is damaged: {}", error.what())};
   }

@@ -25,7 +25,7 @@ using namespace lv::image;
 
 int mutations() {
   const char* set = std::getenv("VENTRICLE_MUTATIONS");
-  return set != nullptr ? std::atoi(set) : 60;
+  return set != nullptr ? std::atoi(set) : 30;
 }
 
 std::string mutated(std::string bytes, std::mt19937& random) {
