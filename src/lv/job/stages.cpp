@@ -10,6 +10,7 @@
 #include "lv/job/infarct.hpp"
 #include "lv/job/parameters.hpp"
 #include "lv/job/run.hpp"
+#include "lv/mesh/infarct.hpp"
 #include "lv/mesh/quality.hpp"
 #include "lv/mesh/refine.hpp"
 #include "lv/report/fields_vtk.hpp"
@@ -155,6 +156,16 @@ report::RunFacts run_facts(const Case& c, const MeshResult& mesh, const BeatResu
   return facts;
 }
 
+/// The segments that the infarct touches.
+std::vector<report::SegmentScar> scar_facts(const Case& c, const MeshResult& mesh) {
+  std::vector<report::SegmentScar> facts;
+  for (const mesh::SegmentInfarct& s : mesh::infarct_by_segment(mesh.mesh, mesh.regions, c.regions))
+    if (s.infarct > 0.0)
+      facts.push_back({mesh::aha_name(s.segment), s.infarct, c.blood.density * s.infarct,
+                       s.infarct / s.wall, s.transmurality});
+  return facts;
+}
+
 /// The undeformed wall with the kernel's reach, three cells, must fit in the box.
 void check_box(const Case& c, const mesh::Mesh& m) {
   const fluid::Grid grid = model_parameters(c, m).grid;
@@ -243,6 +254,7 @@ void show_mesh(const MeshResult& result, const Case& c, const std::filesystem::p
   report::write(report::fibre_figure(m, undeformed), folder / "fibres.png");
   if (const std::string infarct = describe_infarct(c, m); !infarct.empty()) {
     log::info("{}", infarct);
+    infarct_table(c, m, result.regions).write_csv(folder / "infarct.csv");
     report::write(report::infarct_figure(m), folder / "infarct.png");
   }
 }
@@ -327,7 +339,10 @@ std::string make_results(const Case& c, const MeshResult& mesh, const BeatResult
   report::RunFacts facts = run_facts(c, mesh, beat);
   facts.fitted = fitted;
   facts.unloaded = unloaded;
+  facts.scar = scar_facts(c, mesh);
   write_file(folder / "summary.json", report::summary_json(facts, beat.beat, results));
+  if (!describe_infarct(c, mesh.mesh).empty())
+    infarct_table(c, mesh.mesh, mesh.regions).write_csv(folder / "infarct.csv");
   report::regions_table(results).write_csv(folder / "regions.csv");
   report::rotation_table(results).write_csv(folder / "rotation.csv");
   report::curves_table(beat.beat.curves).write_csv(folder / "curves.csv");

@@ -200,6 +200,13 @@ std::string summary_json(const RunFacts& facts, const heartbeat::Beat& beat, con
                                    {"quasi_static_ml", number(1e-3 * v.quasi_static)},
                                    {"beat_ml", number(1e-3 * v.beat)},
                                    {"within_tolerance", v.within_tolerance}});
+  for (const SegmentScar& s : facts.scar)
+    json["infarct_segments"].push_back(
+        {{"segment", s.name},
+         {"infarct_ml", number(1e-3 * s.volume)},
+         {"infarct_g", number(1e3 * s.mass)},
+         {"percent_of_segment", number(100.0 * s.part)},
+         {"transmurality_percent", number(100.0 * s.transmurality)}});
   json["warnings"] = facts.warnings;
   json["parameters"] = pairs(facts.parameters);
   json["set_in_case_file"] = pairs(facts.origins);
@@ -243,6 +250,15 @@ std::string summary_text(const RunFacts& facts, const heartbeat::Beat& beat, con
   text += "\n";
   if (has_zones(r))
     text += zones_text(r);
+  if (!facts.scar.empty())
+    text += fmt::format("  {:<26}{:>9}{:>9}{:>14}{:>16}\n", "infarct per AHA segment", "ml", "g",
+                        "of segment", "transmurality");
+  for (const SegmentScar& scar : facts.scar)
+    text +=
+        fmt::format("  {:<26}{:>9.2f}{:>9.2f}{:>13.0f}%{:>15.0f}%\n", scar.name, 1e-3 * scar.volume,
+                    1e3 * scar.mass, 100.0 * scar.part, 100.0 * scar.transmurality);
+  if (!facts.scar.empty())
+    text += "\n";
   for (const Observation& o : observations(r))
     text += fmt::format("  {:<22}{:>9.2f} {:<4} {:<44} {}\n", o.name, o.value, o.unit, o.rule,
                         o.holds ? "yes" : "NO");

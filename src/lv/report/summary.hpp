@@ -28,6 +28,15 @@ struct UnloadedShape {
   double rms = 0.0;              ///< [mm]
 };
 
+/// The infarct in one AHA segment that it touches.
+struct SegmentScar {
+  std::string name;
+  double volume = 0.0;         ///< [mm^3]
+  double mass = 0.0;           ///< [kg]
+  double part = 0.0;           ///< of the segment
+  double transmurality = 0.0;  ///< see mesh::infarct_by_segment
+};
+
 /// What stands at the head of a summary besides the results.
 struct RunFacts {
   std::string case_name;
@@ -45,6 +54,7 @@ struct RunFacts {
   std::vector<std::string> warnings;
   std::vector<FittedVolume> fitted;  ///< of a calibrated case
   std::optional<UnloadedShape> unloaded;
+  std::vector<SegmentScar> scar;  ///< empty without infarct
 };
 
 /// A statement about a beat that a healthy ventricle fulfils, with the number behind it.

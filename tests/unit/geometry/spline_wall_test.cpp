@@ -159,6 +159,26 @@ TEST_CASE("slices shifted between breath-holds are put back by the long axes", "
   CHECK(uncorrected.report().short_axis[0].endo->max > 2.0 * wall.report().short_axis[0].endo->max);
 }
 
+TEST_CASE("without long axes slices are moved to where the wall is smooth, if that is asked for",
+          "[unit][geometry]") {
+  Drawing drawing;
+  drawing.long_axis = false;
+  Contours contours = draw(drawing);
+  const auto shifts = shift_slices(contours, drawing.frame, 3.0, 7);
+  const auto rms = [](const SplineWall& wall) {
+    double sum = 0.0;
+    for (const auto& image : wall.report().short_axis)
+      sum += image.endo->rms * image.endo->rms;
+    return std::sqrt(sum);
+  };
+  const SplineWall as_drawn = fit_spline_wall(contours, {});
+  CHECK(as_drawn.report().short_axis[3].shift.norm() == 0.0);
+  SplineFitParameters parameters;
+  parameters.align_slices = true;
+  const SplineWall aligned = fit_spline_wall(contours, parameters);
+  CHECK(rms(aligned) < 0.5 * rms(as_drawn));
+}
+
 TEST_CASE("a shifted slice beyond the limit is refused", "[unit][geometry]") {
   const Drawing drawing = in_scanner();
   Contours contours = draw(drawing);

@@ -3,10 +3,13 @@
 #include "lv/mesh/infarct.hpp"
 
 #include "mesh/mesh_files.hpp"
+#include "support/scanner_files.hpp"
 #include "support/temporary_folder.hpp"
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
+
+#include <functional>
 
 namespace {
 
@@ -89,6 +92,60 @@ TEST_CASE("a surface and a labelled volume in image space mean the region that t
   // an element whose centre lies between voxels may change sides, and its far node with it
   CHECK(furthest < longest_diagonal(wall));
   CHECK(furthest > 0.0);
+}
+
+TEST_CASE("a NIfTI map and the brightness of an image mean the region that they were made from",
+          "[unit][job]") {
+  const mesh::Mesh wall = test::ellipsoid_mesh({}, 4.0);
+  const auto box = [](const Vec3& X) { return in_box(frame.to_image(X)); };
+  const auto expected = mesh::infarct_field(wall, mesh::infarcted_where(wall, box), 10.0);
+  const test::TemporaryFolder folder;
+  const Vec3 origin(40.0, -115.0, 330.0);
+  const auto write = [&](const std::string& name, const std::function<int(const Vec3&)>& value) {
+    test::write_bytes(folder / name,
+                      test::nifti_bytes(test::label_map({160, 160, 160}, Mat3::Identity(),
+                                                        Vec3::Ones(), origin, value)));
+  };
+  // a core without contrast agent in the scar; brightness of muscle between 10 and 12
+  const auto core = [](const Vec3& x) { return x.z() > 380.0 && x.z() < 390.0; };
+  write("labels.nii", [&](const Vec3& x) { return in_box(x) ? core(x) ? 3 : 2 : 1; });
+  write("lge.nii", [&](const Vec3& x) {
+    return in_box(x) ? 100 : 10 + static_cast<int>(std::abs(x.x())) % 3;
+  });
+  job::Case c;
+  c.file = folder / "case.toml";
+  job::Shape shape;
+  shape.frame = frame;
+  const auto furthest = [&] {
+    const auto M = job::infarct_extent(c, shape, wall);
+    double most = 0.0;
+    for (std::size_t a = 0; a < M.size(); ++a)
+      most = std::max(most, 10.0 * std::abs(M[a] - expected[a]));
+    return most;
+  };
+  c.scar.source = InfarctSource::labels;
+  c.scar.labels = "labels.nii";
+  c.scar.scar = {2};
+  c.scar.no_reflow = {3};
+  CHECK(furthest() < longest_diagonal(wall));
+  c.scar.no_reflow = {4};
+  CHECK_THROWS_WITH(
+      furthest(), Catch::Matchers::Contains("has the label 4") && Catch::Matchers::Contains("1 ("));
+  c.scar.source = InfarctSource::lge;
+  c.scar.lge.image = "lge.nii";
+  c.scar.lge.threshold = mesh::ScarThreshold::fwhm;
+  CHECK(furthest() < longest_diagonal(wall));
+  c.scar.lge.threshold = mesh::ScarThreshold::sd;
+  CHECK_THROWS_WITH(furthest(), Catch::Matchers::Contains("infarct.lge.remote is not set"));
+  mesh::Mesh scarred = wall;
+  scarred.infarct = expected;
+  for (const auto& s : mesh::infarct_by_segment(scarred, mesh::divide(wall, {}), {}))
+    if (s.infarct == 0.0)
+      c.scar.lge.remote.push_back(s.segment);
+  c.scar.lge.deviations = 20.0;  // the edge of the scar is half as bright in a voxel
+  CHECK(furthest() < longest_diagonal(wall));
+  c.scar.shift = {500.0, 0.0, 0.0};
+  CHECK_THROWS_WITH(furthest(), Catch::Matchers::Contains("shows nothing of the wall"));
 }
 
 TEST_CASE("the infarct's file is among what the mesh depends on", "[unit][job]") {

@@ -366,3 +366,44 @@ TEST_CASE("a refined mesh keeps the infarcted region", "[unit][mesh]") {
       REQUIRE(fine_M[a] == Approx(M[a]).margin(0.01));
   }
 }
+
+TEST_CASE("a dark core that the scar shuts off counts to it", "[unit][mesh]") {
+  const DescribedInfarct scar{.width = 120.0 * degree, .bottom = 0.3, .top = 0.7, .apex = 0.0};
+  DescribedInfarct core{.width = 40.0 * degree, .bottom = 0.4, .top = 0.6, .apex = 0.0};
+  core.transmurality = 0.4;
+  const Infarcted whole = mesh::infarcted_as_described(ventricle(), scar, {});
+  const Infarcted dark = mesh::infarcted_as_described(ventricle(), core, {});
+  Infarcted bright = whole;
+  for (std::size_t c = 0; c < bright.size(); ++c)
+    bright[c] = whole[c] && !dark[c];
+  REQUIRE(bright != whole);
+  CHECK(mesh::with_enclosed(ventricle(), bright) == whole);
+  CHECK(mesh::with_enclosed(ventricle(), whole) == whole);
+  core.transmurality = 1.0;  // open to the epicardium: not shut off
+  const Infarcted through = mesh::infarcted_as_described(ventricle(), core, {});
+  for (std::size_t c = 0; c < bright.size(); ++c)
+    bright[c] = whole[c] && !through[c];
+  CHECK(mesh::with_enclosed(ventricle(), bright) == bright);
+}
+
+TEST_CASE("the infarct of the segments adds up, and its transmurality is that described",
+          "[unit][mesh]") {
+  DescribedInfarct scar{.width = 120.0 * degree, .bottom = 0.3, .top = 0.7, .apex = 0.0};
+  scar.transmurality = 0.5;
+  Mesh wall = ventricle();
+  wall.infarct = mesh::infarct_field(wall, mesh::infarcted_as_described(wall, scar, {}), 10.0);
+  const auto segments = mesh::infarct_by_segment(wall, mesh::divide(wall, {}), {});
+  REQUIRE(segments.size() == 17);
+  double sum = 0.0;
+  double all = 0.0;
+  for (const auto& s : segments) {
+    sum += s.infarct;
+    all += s.wall;
+    if (s.infarct > 0.3 * s.wall)
+      CHECK(s.transmurality == Approx(0.47).margin(0.1));  // the inner half is the smaller one
+    CHECK((s.infarct > 0.0) == (s.transmurality > 0.0));
+  }
+  const auto volumes = mesh::infarct_volumes(wall);
+  CHECK(sum == Approx(volumes.infarct));
+  CHECK(all == Approx(volumes.wall));
+}

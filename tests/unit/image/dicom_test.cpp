@@ -1,0 +1,152 @@
+#include "lv/base/check.hpp"
+#include "lv/image/dicom_study.hpp"
+
+#include "support/scanner_files.hpp"
+#include "support/temporary_folder.hpp"
+#include <Eigen/Geometry>
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+namespace {
+
+using namespace lv;
+using namespace lv::image;
+using Catch::Matchers::Contains;
+using test::DicomSpec;
+
+constexpr int columns = 6;
+constexpr int rows = 4;
+
+/// Phase p of slice s of an oblique stack, slices 8 mm apart.
+DicomSpec oblique(int s, int p) {
+  const Mat3 axes = Eigen::AngleAxisd(0.8, Vec3(0.2, -0.5, 0.7).normalized()).toRotationMatrix();
+  DicomSpec spec;
+  spec.plane = {Vec3(10.0, -20.0, 30.0) + 8.0 * s * axes.col(2),
+                axes.col(0),
+                axes.col(1),
+                1.5,
+                1.25,
+                columns,
+                rows};
+  for (int i = 0; i < columns * rows; ++i)
+    spec.pixels.push_back(static_cast<std::uint16_t>(1000 * s + 100 * p + i));
+  spec.instance = 10 * s + p + 1;
+  spec.instance_uid = fmt::format("1.2.3.4.{}.{}", s + 1, p + 1);
+  spec.trigger_ms = 40.0 * p + 3.0;
+  spec.rr_ms = 700 + 50 * s;
+  spec.slope = 2.0;
+  spec.intercept = -5.0;
+  return spec;
+}
+
+/// A stack of 3 slices with 2 phases, under names that say nothing.
+void write_stack(const test::TemporaryFolder& folder) {
+  int name = 97;
+  for (int s = 0; s < 3; ++s)
+    for (int p = 0; p < 2; ++p)
+      test::write_bytes(folder / fmt::format("{}", (name = name * 31 % 101)),
+                        test::dicom_bytes(oblique(s, p)));
+}
+
+Cine read(const test::TemporaryFolder& folder, const std::vector<std::string>& series = {}) {
+  return read_dicom_cine(std::array{folder / ""}, series);
+}
+
+std::string complaint(const test::TemporaryFolder& folder,
+                      const std::vector<std::string>& series = {}) {
+  try {
+    static_cast<void>(read(folder, series));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+}  // namespace
+
+TEST_CASE("slices and phases are sorted by the headers, whatever the files are called",
+          "[unit][image]") {
+  const test::TemporaryFolder folder;
+  write_stack(folder);
+  const Cine cine = read(folder);
+  REQUIRE(cine.slices.size() == 3);
+  for (int s = 0; s < 3; ++s) {
+    const CineSlice& slice = cine.slices[s];
+    REQUIRE(slice.frames.size() == 2);
+    CHECK(slice.rr == Approx(0.7 + 0.05 * s));
+    for (int p = 0; p < 2; ++p) {
+      const DicomSpec spec = oblique(s, p);
+      CHECK(slice.times[p] == Approx(1e-3 * *spec.trigger_ms));
+      CHECK((slice.frames[p].plane.origin - spec.plane.origin).norm() < 1e-4);
+      CHECK((slice.frames[p].plane.normal() - spec.plane.normal()).norm() < 1e-6);
+      CHECK(slice.frames[p].plane.spacing_i == 1.5);
+      CHECK(slice.frames[p].plane.spacing_j == 1.25);
+      CHECK(slice.frames[p].at(5, 2) == 2.0F * spec.pixels[2 * columns + 5] - 5.0F);
+    }
+  }
+  CHECK_THAT(fmt::format("{}", fmt::join(cine.notes, "|")), Contains("RR 700 to 800 ms"));
+}
+
+TEST_CASE("a missing phase, a gap and a copy of a file are told", "[unit][image]") {
+  const test::TemporaryFolder folder;
+  for (const int s : {0, 1, 3})
+    for (int p = 0; p < 2; ++p)
+      if (s != 1 || p != 0)
+        test::write_bytes(folder / fmt::format("{}{}", s, p), test::dicom_bytes(oblique(s, p)));
+  test::write_bytes(folder / "copy", test::dicom_bytes(oblique(0, 0)));
+  test::write_bytes(folder / "notes.txt", "no image");
+  const Cine cine = read(folder);
+  REQUIRE(cine.slices.size() == 3);
+  CHECK(cine.slices[0].frames.size() == 2);
+  const std::string notes = fmt::format("{}", fmt::join(cine.notes, "|"));
+  CHECK_THAT(notes, Contains("has 1 images where others have 2"));
+  CHECK_THAT(notes, Contains("8.00 to 16.00 mm apart"));
+  CHECK_THAT(notes, Contains("2 files were skipped"));
+}
+
+TEST_CASE("series that are mixed in a folder are named, and chosen by number or description",
+          "[unit][image]") {
+  const test::TemporaryFolder folder;
+  write_stack(folder);
+  DicomSpec other = oblique(0, 0);
+  std::swap(other.plane.along_row, other.plane.along_column);
+  other.plane.along_row = -other.plane.along_row;
+  other.series_uid = "1.2.3.5";
+  other.instance_uid = "1.2.3.5.1";
+  other.series_number = 7;
+  other.description = "Long Axis";
+  test::write_bytes(folder / "la", test::dicom_bytes(other));
+  const std::string message = complaint(folder);
+  CHECK_THAT(message, Contains("holds 2 stacks of images"));
+  CHECK_THAT(message, Contains("\"1\" cine"));
+  CHECK_THAT(message, Contains("\"7\" Long Axis"));
+  CHECK(read(folder, {"1"}).slices.size() == 3);
+  CHECK(read(folder, {"long axis"}).slices.size() == 1);
+  CHECK(read(folder, {"1.2.3.5"}).slices.size() == 1);
+  CHECK_THAT(complaint(folder, {"8"}), Contains("has no series \"8\""));
+}
+
+TEST_CASE("the same slice in two series is refused", "[unit][image]") {
+  const test::TemporaryFolder folder;
+  write_stack(folder);
+  DicomSpec again = oblique(1, 0);
+  again.series_uid = "1.2.3.9";
+  again.instance_uid = "1.2.3.9.1";
+  again.series_number = 9;
+  again.trigger_ms = 500.0;
+  test::write_bytes(folder / "again", test::dicom_bytes(again));
+  CHECK_THAT(complaint(folder, {"1", "9"}), Contains("is there more than once"));
+}
+
+TEST_CASE("truncated and empty files are named", "[unit][image]") {
+  const test::TemporaryFolder folder;
+  write_stack(folder);
+  const std::string whole = test::dicom_bytes(oblique(3, 0));
+  test::write_bytes(folder / "cut", whole.substr(0, whole.size() - 20));
+  CHECK_THAT(complaint(folder), Contains("cut") && Contains("truncated"));
+  test::write_bytes(folder / "cut", whole.substr(0, 300));
+  CHECK(read(folder).slices.size() == 3);  // its header is lost: skipped, and noted
+  const test::TemporaryFolder nothing;
+  test::write_bytes(nothing / "empty", "");
+  CHECK_THAT(complaint(nothing), Contains("holds no DICOM image") && Contains("it is not DICOM"));
+}

@@ -1,0 +1,170 @@
+#include "lv/base/check.hpp"
+#include "lv/geometry/contour_checks.hpp"
+#include "lv/geometry/long_axis.hpp"
+#include "lv/geometry/spline_wall.hpp"
+#include "lv/image/guide_points.hpp"
+#include "lv/image/sunnybrook.hpp"
+
+#include "geometry/drawn_ellipsoid.hpp"
+#include "support/temporary_folder.hpp"
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <random>
+
+namespace {
+
+using namespace lv;
+using namespace lv::image;
+using Catch::Matchers::Contains;
+using geometry::Side;
+
+/// Three slices with two images each, 10 mm apart.
+DicomStack stack() {
+  DicomStack s;
+  for (int k = 0; k < 3; ++k) {
+    DicomSlice slice;
+    for (int p = 0; p < 2; ++p) {
+      DicomImage image;
+      image.instance = 20 * k + p + 1;
+      image.plane = {Vec3(5.0, 6.0, 10.0 * k), Vec3::UnitX(), Vec3::UnitY(), 2.0, 2.0, 64, 64};
+      slice.images.push_back(image);
+    }
+    s.slices.push_back(slice);
+  }
+  return s;
+}
+
+std::string circle(double radius) {
+  std::string text;
+  for (int i = 0; i < 24; ++i)
+    text += fmt::format("{:.2f} {:.2f}\n", 30.0 + radius * std::cos(0.2618 * i),
+                        30.0 + radius * std::sin(0.2618 * i));
+  return text;
+}
+
+std::string complaint(const test::TemporaryFolder& folder) {
+  try {
+    static_cast<void>(read_sunnybrook(folder / "", stack(), PixelOrigin::corner, DrawnBy::manual));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+/// Drawn contours as a list of points in any order.
+std::string list(const geometry::Contours& contours) {
+  std::vector<std::string> lines;
+  const auto add = [&](const Vec3& x, const std::string& type, int slice) {
+    lines.push_back(
+        fmt::format("{:.4f}\t{:.4f}\t{:.4f}\t{}\t{}\t1\t0\n", x.x(), x.y(), x.z(), type, slice));
+  };
+  for (const auto& c : contours.short_axis)
+    for (const Vec3& x : c.points)
+      add(x, c.side == Side::endo ? "SAX_LV_ENDOCARDIAL" : "SAX_LV_EPICARDIAL", c.slice);
+  for (const auto& c : contours.long_axis) {
+    for (const Vec3& x : c.points)
+      add(x, c.side == Side::endo ? "LAX_LV_ENDOCARDIAL" : "LAX_LV_EPICARDIAL", 100 + c.slice);
+    if (c.side == Side::endo) {
+      add(c.points.front(), "MITRAL_VALVE", 100 + c.slice);
+      add(c.points.back(), "MITRAL_VALVE", 100 + c.slice);
+    }
+  }
+  add(Vec3::Zero(), "LAX_RA", 1);
+  std::shuffle(lines.begin(), lines.end(), std::mt19937(3));
+  std::string text = "x\ty\tz\tcontour type\tslice\tweight\ttime frame\n";
+  for (const std::string& line : lines)
+    text += line;
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("contours in pixels go to the plane of the image whose instance number they bear",
+          "[unit][image]") {
+  const test::TemporaryFolder folder;
+  for (const int instance : {2, 22, 42}) {
+    test::write_bytes(folder / fmt::format("IM-0001-{:04d}-icontour-manual.txt", instance),
+                      circle(8.0));
+    test::write_bytes(folder / fmt::format("IM-0001-{:04d}-ocontour-manual.txt", instance),
+                      circle(12.0));
+  }
+  test::write_bytes(folder / "IM-0001-0001-icontour-manual.txt", circle(6.0));
+  test::write_bytes(folder / "IM-0001-0002-p1contour-manual.txt", circle(1.0));
+  test::write_bytes(folder / "IM-0001-0002-icontour-auto.txt", circle(7.0));
+  const DrawnPhases drawn =
+      read_sunnybrook(folder / "", stack(), PixelOrigin::corner, DrawnBy::manual);
+  REQUIRE(drawn.phases.size() == 2);
+  CHECK(drawn.phases.at(1).short_axis.size() == 1);
+  const geometry::Contours& contours = drawn.phases.at(2);
+  geometry::check_contours(contours);
+  const geometry::Contour* loop = geometry::find(contours.short_axis, 3, Side::endo);
+  REQUIRE(loop != nullptr);
+  // 38 pixels along the row from the corner: 37.5 from the centre of the first pixel
+  CHECK((loop->points.front() - Vec3(5.0 + 2.0 * 37.5, 6.0 + 2.0 * 29.5, 20.0)).norm() < 1e-9);
+  CHECK(drawn.notes.size() == 2);
+  const DrawnPhases centred =
+      read_sunnybrook(folder / "", stack(), PixelOrigin::centre, DrawnBy::manual);
+  CHECK((geometry::find(centred.phases.at(2).short_axis, 3, Side::endo)->points.front() -
+         loop->points.front() - Vec3(1.0, 1.0, 0.0))
+            .norm() < 1e-9);
+}
+
+TEST_CASE("contours without an image, broken lines and points outside are refused",
+          "[unit][image]") {
+  const test::TemporaryFolder folder;
+  CHECK_THAT(complaint(folder), Contains("holds no contours drawn by hand"));
+  const auto file = folder / "IM-0001-0002-icontour-manual.txt";
+  test::write_bytes(file, "1 2\n3\n");
+  CHECK_THAT(complaint(folder), Contains("icontour-manual.txt:2: is no point"));
+  test::write_bytes(file, "1 2\n3 nan\n");
+  CHECK_THAT(complaint(folder), Contains("icontour-manual.txt:2: is no point"));
+  test::write_bytes(file, "1 2\n3 80\n");
+  CHECK_THAT(complaint(folder), Contains("lies outside the image of 64 x 64 pixels"));
+  test::write_bytes(file, "\n");
+  CHECK_THAT(complaint(folder), Contains("holds no points"));
+  std::filesystem::remove(file);
+  test::write_bytes(folder / "IM-0001-0099-icontour-manual.txt", circle(8.0));
+  CHECK_THAT(complaint(folder), Contains("no image of the DICOM series has the InstanceNumber 99"));
+}
+
+TEST_CASE("guide points in any order become the wall that they were taken from", "[unit][image]") {
+  drawn::Drawing drawing;
+  drawing.frame = drawn::oblique_frame();
+  const geometry::Contours contours = drawn::draw(drawing);
+  const test::TemporaryFolder folder;
+  test::write_bytes(folder / "points.txt", list(contours));
+  const GuidePoints read = read_guide_points(folder / "points.txt", std::nullopt, Side::epi);
+  geometry::check_contours(read.contours);
+  CHECK(read.contours.short_axis.size() == contours.short_axis.size());
+  CHECK(read.contours.long_axis.size() == contours.long_axis.size());
+  CHECK(read.contours.annulus.size() == 6);
+  REQUIRE(read.notes.size() == 1);
+  CHECK_THAT(read.notes.front(), Contains("1 points of other kinds are not used: LAX_RA"));
+  geometry::SplineFitParameters fit;
+  fit.frame.base_at = geometry::BaseAt::annulus;
+  const auto wall = geometry::fit_spline_wall(read.contours, fit).report();
+  const auto expected = geometry::fit_spline_wall(contours, fit).report();
+  CHECK(wall.volume_cavity == Approx(expected.volume_cavity).epsilon(0.02));
+  CHECK(wall.volume_wall == Approx(expected.volume_wall).epsilon(0.02));
+}
+
+TEST_CASE("lists of points that say too little are refused", "[unit][image]") {
+  const test::TemporaryFolder folder;
+  const auto says = [&](const std::string& text) -> std::string {
+    test::write_bytes(folder / "p.txt", text);
+    try {
+      static_cast<void>(read_guide_points(folder / "p.txt", std::nullopt, Side::epi));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return {};
+  };
+  CHECK_THAT(says(""), Contains("is empty"));
+  CHECK_THAT(says("x y z\n"), Contains("column \"x\" is missing"));
+  CHECK_THAT(says("x\ty\tz\ttype\tslice\n1\t2\tq\tMITRAL_VALVE\t1\n"),
+             Contains("p.txt:2: \"q\" is not a finite number"));
+  CHECK_THAT(says("x\ty\tz\ttype\tslice\ttime frame\n1\t2\t3\tA\t1\t0\n1\t2\t3\tA\t1\t4\n"),
+             Contains("has points of 2 times") && Contains("0, 4"));
+}

@@ -1,0 +1,197 @@
+#include "lv/image/label_contours.hpp"
+
+#include "lv/base/check.hpp"
+#include "lv/geometry/contour_checks.hpp"
+#include "lv/geometry/ellipsoid.hpp"
+#include "lv/geometry/spline_wall.hpp"
+#include "lv/image/close_walls.hpp"
+#include "lv/image/nifti.hpp"
+#include "lv/image/plane_mask.hpp"
+
+#include "geometry/drawn_ellipsoid.hpp"
+#include "support/scanner_files.hpp"
+#include "support/temporary_folder.hpp"
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+namespace {
+
+using namespace lv;
+using namespace lv::image;
+using Catch::Matchers::Contains;
+using geometry::Side;
+
+constexpr double pi = std::numbers::pi;
+
+/// A ventricle of the model frame: cavity 1, muscle 2 up to the base plane.
+int ventricle(const geometry::Ellipsoid& e, const Vec3& X) {
+  if (X.z() > 0.0)
+    return 0;
+  const auto inside = [&](double a, double c) {
+    return Vec3(X.x() / a, X.y() / a, (X.z() + e.base_height) / c).norm() < 1.0;
+  };
+  return inside(e.endo_radius, e.endo_length) ? 1 : inside(e.epi_radius, e.epi_length) ? 2 : 0;
+}
+
+/// The map of a ventricle that lies askew, slices 8 mm apart across axis `along`.
+Volume askew(int along, const std::function<int(const Vec3&, int)>& change) {
+  const geometry::Ellipsoid e;
+  const geometry::Frame frame = drawn::oblique_frame();
+  Mat3 directions;
+  directions.col(along) = -frame.axes.col(2);
+  directions.col((along + 1) % 3) = frame.axes.col(0);
+  directions.col((along + 2) % 3) = -frame.axes.col(1);
+  Vec3 spacing(1.4, 1.4, 1.4);
+  spacing[along] = 8.0;
+  std::array<int, 3> size{60, 60, 60};
+  size[along] = 14;
+  Vec3 middle(30.0, 30.0, 30.0);
+  middle[along] = 0.0;
+  const Vec3 origin =
+      frame.to_image({0.0, 0.0, 4.0 + 8.0}) - directions * spacing.cwiseProduct(middle);
+  const test::NiftiSpec spec =
+      test::label_map(size, directions, spacing, origin, [&](const Vec3& x) {
+        const Vec3 X = frame.to_model(x);
+        return change(X, ventricle(e, X));
+      });
+  const test::TemporaryFolder folder;
+  test::write_bytes(folder / "map.nii", test::nifti_bytes(spec));
+  return read_nifti(folder / "map.nii");
+}
+
+int unchanged(const Vec3&, int label) {
+  return label;
+}
+
+LabelContours traced(const std::function<int(const Vec3&, int)>& change, int along = 2) {
+  return trace_labels(askew(along, change), {{1}, {2}, {}}, 0);
+}
+
+std::string all(const std::vector<std::string>& notes) {
+  return fmt::format("{}", fmt::join(notes, "|"));
+}
+
+/// Volume of the ellipsoid of one side below the base plane.
+double volume(const geometry::Ellipsoid& e, double a, double c) {
+  const double h = e.base_height / c;  // of the cut above the centre
+  return pi * a * a * c * (2.0 / 3.0 + h - h * h * h / 3.0);
+}
+
+}  // namespace
+
+TEST_CASE("the outline of pixels runs half way to their neighbours", "[unit][image]") {
+  PlaneMask mask(40, 30);
+  for (int j = 5; j < 15; ++j)
+    for (int i = 10; i < 30; ++i)
+      mask.inside[j * 40 + i] = 1;
+  const PixelLoop loop = outline(mask);
+  CHECK(area(loop) == Approx(200.0 - 0.5));
+  for (const auto& x : loop) {
+    CHECK(x.x() >= 9.5);
+    CHECK(x.x() <= 29.5);
+    CHECK(x.y() >= 4.5);
+    CHECK(x.y() <= 14.5);
+  }
+  CHECK(outline(PlaneMask(5, 5)).empty());
+  mask.inside[7 * 40 + 12] = 0;
+  CHECK(filled(mask).count() == 200);
+  mask.inside[0] = 1;
+  CHECK(parts(mask).size() == 2);
+  CHECK(parts(mask).front().count() == 199);
+}
+
+TEST_CASE("labels of a ventricle that lies askew become its wall, whatever the order of axes",
+          "[unit][image]") {
+  const geometry::Ellipsoid e;
+  for (const int along : {0, 1, 2}) {
+    const LabelContours labels = traced(unchanged, along);
+    geometry::check_contours(labels.contours);
+    geometry::SplineFitParameters fit;
+    fit.frame.base_at = geometry::BaseAt::slab;
+    const auto report = geometry::fit_spline_wall(labels.contours, fit).report();
+    const double cavity = volume(e, e.endo_radius, e.endo_length);
+    const double wall = volume(e, e.epi_radius, e.epi_length) - cavity;
+    CHECK(report.volume_cavity == Approx(cavity).epsilon(0.02));
+    CHECK(report.volume_wall == Approx(wall).epsilon(0.03));
+    CHECK(report.contour_cavity == Approx(labels.cavity).epsilon(0.01));
+    CHECK(report.base_height == Approx(4.0).margin(0.1));
+  }
+}
+
+TEST_CASE("papillary muscles, holes and islands are told and do not move the borders",
+          "[unit][image]") {
+  const LabelContours plain = traced(unchanged);
+  const LabelContours labels = traced([](const Vec3& X, int label) {
+    if (label == 1 && X.z() > -35.0 && (X - Vec3(8.0, 5.0, X.z())).norm() < 3.0)
+      return 2;  // a papillary muscle
+    if (label == 2 && (X - Vec3(0.0, 27.0, -10.0)).norm() < 2.0)
+      return 0;  // a hole in the wall
+    if (label == 0 && std::abs(X.z() + 28.0) < 4.0 && std::abs(X.x() - 40.0) < 2.0 &&
+        std::abs(X.y()) < 2.0)
+      return 1;  // an island of cavity
+    return label;
+  });
+  REQUIRE(labels.contours.short_axis.size() == plain.contours.short_axis.size());
+  for (std::size_t c = 0; c < plain.contours.short_axis.size(); ++c)
+    CHECK(labels.contours.short_axis[c].points.size() ==
+          plain.contours.short_axis[c].points.size());
+  CHECK_THAT(all(labels.notes), Contains("inside the cavity (papillary muscles or holes)"));
+  CHECK_THAT(all(labels.notes), Contains("1 island of the cavity"));
+}
+
+TEST_CASE("muscle beyond the cavity's apex shows the epicardium", "[unit][image]") {
+  const LabelContours labels =
+      traced([](const Vec3& X, int label) { return label == 1 && X.z() < -50.0 ? 2 : label; });
+  CHECK_THAT(all(labels.notes), Contains("muscle without cavity: beyond the apex"));
+  geometry::check_contours(labels.contours);
+  geometry::SplineFitParameters fit;
+  fit.frame.base_at = geometry::BaseAt::slab;
+  const auto report = geometry::fit_spline_wall(labels.contours, fit).report();
+  const geometry::Ellipsoid e;
+  CHECK(report.volume_cavity + report.volume_wall ==
+        Approx(volume(e, e.epi_radius, e.epi_length)).epsilon(0.03));
+}
+
+TEST_CASE("swapped labels and a cavity in two parts are refused", "[unit][image]") {
+  const Volume map = askew(2, unchanged);
+  CHECK_THROWS_WITH(trace_labels(map, {{2}, {1}, {}}, 0),
+                    Contains("cavity and muscle seem swapped"));
+  CHECK_THROWS_WITH(traced([](const Vec3& X, int label) {
+                      return label == 1 && std::abs(X.x()) < 4.0 ? 0 : label;
+                    }),
+                    Contains("the cavity is in 2 parts"));
+  CHECK_THROWS_WITH(
+      traced([](const Vec3& X, int label) { return X.z() < -20.0 && X.z() > -45.0 ? 0 : label; }),
+      Contains("more than one slice apart"));
+}
+
+TEST_CASE("a wall that is open over a sector is bridged, over more it is left to other slices",
+          "[unit][image]") {
+  const auto open = [](double angle) {
+    return [angle](const Vec3& X, int label) {
+      return label == 2 && X.z() > -8.0 && std::abs(std::atan2(X.y(), X.x())) < 0.5 * angle ? 0
+                                                                                            : label;
+    };
+  };
+  for (const bool narrow : {true, false}) {
+    LabelContours labels = traced(open(narrow ? 1.0 : 3.0));
+    close_walls(labels.contours, 1.0, labels.notes);
+    geometry::check_contours(labels.contours);
+    const int basal = labels.contours.short_axis.front().slice;
+    CHECK((geometry::find(labels.contours.short_axis, basal, Side::epi) != nullptr) == narrow);
+    CHECK_THAT(all(labels.notes),
+               Contains(narrow ? "its thickness is interpolated there" : "epicardium is left out"));
+  }
+}
+
+TEST_CASE("phases are proposed from the volume curve", "[unit][image]") {
+  const Phases p = propose_phases({100.0, 80.0, 60.0, 50.0, 52.0, 58.0, 70.0, 90.0});
+  CHECK(p.end_diastole == 0);
+  CHECK(p.end_systole == 3);
+  CHECK(p.early_diastole == 5);
+  CHECK(propose_phases({70.0}).early_diastole == 0);
+}

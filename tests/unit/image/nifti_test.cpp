@@ -1,0 +1,155 @@
+#include "lv/image/nifti.hpp"
+
+#include "lv/base/check.hpp"
+#include "lv/image/lookup.hpp"
+
+#include "support/scanner_files.hpp"
+#include "support/temporary_folder.hpp"
+#include <Eigen/Geometry>
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace {
+
+using namespace lv;
+using namespace lv::image;
+using Catch::Matchers::Contains;
+
+Mat3 oblique() {
+  return Eigen::AngleAxisd(1.1, Vec3(0.4, 0.5, -0.6).normalized()).toRotationMatrix();
+}
+
+test::NiftiSpec small(const Mat3& directions) {
+  return test::label_map({3, 4, 5}, directions, {1.0, 2.0, 8.0}, {10.0, -20.0, 30.0},
+                         [n = 0](const Vec3&) mutable { return n++ % 7; });
+}
+
+std::string complaint(const test::NiftiSpec& spec, std::size_t cut = 0) {
+  const test::TemporaryFolder folder;
+  const std::string bytes = test::nifti_bytes(spec);
+  test::write_bytes(folder / "x.nii", bytes.substr(0, bytes.size() - cut));
+  try {
+    static_cast<void>(read_nifti(folder / "x.nii"));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+}  // namespace
+
+TEST_CASE("a NIfTI image lies where its sform says, in any order and direction of axes",
+          "[unit][image]") {
+  Mat3 swapped = Mat3::Zero();  // j along -x, k along y, i along z
+  swapped(2, 0) = 1.0;
+  swapped(0, 1) = -1.0;
+  swapped(1, 2) = 1.0;
+  Mat3 mirrored = oblique();
+  mirrored.col(1) *= -1.0;
+  for (const Mat3& directions : {Mat3(Mat3::Identity()), oblique(), swapped, mirrored}) {
+    const test::TemporaryFolder folder;
+    test::write_bytes(folder / "x.nii", test::nifti_bytes(small(directions)));
+    const Volume v = read_nifti(folder / "x.nii");
+    CHECK((v.directions - directions).norm() < 1e-5);
+    const Vec3 expected = Vec3(10.0, -20.0, 30.0) + directions * Vec3(2.0, 2.0 * 3.0, 8.0 * 4.0);
+    CHECK((v.point({2.0, 3.0, 4.0}) - expected).norm() < 1e-3);
+    CHECK((v.index(expected) - Vec3(2.0, 3.0, 4.0)).norm() < 1e-4);
+    CHECK(v.at(2, 3, 4) == (2 + 3 * 3 + 12 * 4) % 7);
+    CHECK(slice_axis(v) == 2);
+    const Cine cine = cine_of(v);
+    CHECK(cine.slices.size() == 5);
+    CHECK((cine.slices[4].frames[0].plane.point(2, 3) - expected).norm() < 1e-3);
+    CHECK(cine.slices[4].frames[0].at(2, 3) == v.at(2, 3, 4));
+    CHECK(has_label(v, expected, {static_cast<int>(v.at(2, 3, 4))}));
+    CHECK_FALSE(has_label(v, expected + 20.0 * directions.col(2), {0, 1, 2, 3, 4, 5, 6}));
+  }
+}
+
+TEST_CASE("slope and intercept of a NIfTI image are applied; times are kept", "[unit][image]") {
+  test::NiftiSpec spec = small(oblique());
+  spec.size = {3, 4, 5, 2};
+  for (int i = 0; i < 60; ++i)
+    spec.values.push_back(9);
+  spec.slope = 0.5F;
+  spec.intercept = 2.0F;
+  const test::TemporaryFolder folder;
+  test::write_bytes(folder / "x.nii", test::nifti_bytes(spec));
+  const Volume v = read_nifti(folder / "x.nii");
+  REQUIRE(v.frames == 2);
+  CHECK(v.time_step == Approx(0.04));
+  CHECK(v.at(0, 0, 0, 0) == 2.0F);
+  CHECK(v.at(1, 0, 0, 0) == 2.5F);
+  CHECK(v.at(1, 1, 1, 1) == 6.5F);
+}
+
+TEST_CASE("a truncated NIfTI image is refused, not filled with zeros", "[unit][image]") {
+  CHECK(complaint(small(oblique())).empty());
+  CHECK_THAT(complaint(small(oblique()), 1), Contains("it ends after 411 of 412 bytes"));
+  CHECK_THAT(complaint(small(oblique()), 100), Contains("cannot be read as NIfTI"));
+}
+
+TEST_CASE("a sheared sform and a sform that contradicts the qform are refused", "[unit][image]") {
+  test::NiftiSpec sheared = small(oblique());
+  sheared.sform[0][2] += 3.0;
+  CHECK_THAT(complaint(sheared), Contains("its axes are not at right angles"));
+  test::NiftiSpec contradiction = small(oblique());
+  contradiction.qform_code = 1;
+  CHECK_THAT(complaint(contradiction), Contains("its sform and its qform put a corner"));
+}
+
+TEST_CASE("a file that does not say how it lies in space is noted", "[unit][image]") {
+  test::NiftiSpec spec = small(oblique());
+  spec.sform_code = 0;
+  const test::TemporaryFolder folder;
+  test::write_bytes(folder / "x.nii", test::nifti_bytes(spec));
+  const Volume v = read_nifti(folder / "x.nii");
+  REQUIRE(v.notes.size() == 1);
+  CHECK_THAT(v.notes.front(), Contains("neither sform nor qform"));
+}
+
+TEST_CASE("absent labels are answered with those that there are; fractions are no labels",
+          "[unit][image]") {
+  Volume v;
+  v.file = "map.nii";
+  v.size = {2, 1, 1};
+  v.spacing = {10.0, 10.0, 10.0};
+  v.values = {0.0F, 3.0F};
+  CHECK_THROWS_WITH(require_labels(v, 0, {3, 4}, "case.toml:5", "cavity"),
+                    Contains("case.toml:5") && Contains("has the label 4 of cavity") &&
+                        Contains("0 (1.00 ml), 3 (1.00 ml)"));
+  CHECK_THROWS_WITH(require_labels(v, 1, {3}, "case.toml:5", "cavity"),
+                    Contains("there is no frame 2"));
+  v.values = {0.0F, 0.4F};
+  CHECK_THROWS_WITH(label_volumes(v), Contains("voxel (1, 0, 0)") && Contains("0.4"));
+}
+
+TEST_CASE("a stack of images is read from its nearest slice, linear between pixels",
+          "[unit][image]") {
+  Cine stack;
+  for (const int s : {0, 1}) {
+    Picture picture{{Vec3(0.0, 0.0, 10.0 * s), Vec3::UnitX(), Vec3::UnitY(), 2.0, 2.0, 3, 3}, {}};
+    for (int p = 0; p < 9; ++p)
+      picture.values.push_back(static_cast<float>(100 * s + p));
+    stack.slices.push_back({"", {picture}, {}, 0.0});
+  }
+  CHECK(sample(stack, {1.0, 2.0, 1.0}) == Approx(3.5));
+  CHECK(sample(stack, {1.0, 2.0, 6.0}) == Approx(103.5));
+  CHECK(std::isnan(sample(stack, {1.0, 2.0, 15.5})));
+  CHECK(std::isnan(sample(stack, {7.0, 2.0, 0.0})));
+}
+
+TEST_CASE("slices of labels are moved onto the middle of the wall", "[unit][image]") {
+  Volume v;
+  v.size = {5, 5, 2};
+  v.spacing = {1.0, 1.0, 8.0};
+  v.values.assign(50, 0.0F);
+  v.values[25 + 2 * 5 + 1] = 4.0F;  // (1, 2, 1)
+  const std::vector<Weighted> wall{{{3.0, 3.0, 8.0}, 2.0}, {{4.0, 2.0, 9.0}, 2.0}};
+  const auto moves = slice_moves(v, {4}, wall);
+  CHECK(moves[0].norm() == 0.0);
+  CHECK((moves[1] - Vec3(2.5, 0.5, 0.0)).norm() < 1e-12);
+  CHECK(has_label(v, {3.5, 2.5, 8.0}, {4}, moves));
+  CHECK_FALSE(has_label(v, {1.0, 2.0, 8.0}, {4}, moves));
+}

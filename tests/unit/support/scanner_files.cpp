@@ -1,0 +1,149 @@
+#include "support/scanner_files.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstring>
+
+namespace lv::test {
+namespace {
+
+template <class Number>
+void put(std::string& bytes, Number value) {
+  char raw[sizeof(Number)];
+  std::memcpy(raw, &value, sizeof(Number));
+  bytes.append(raw, sizeof(Number));
+}
+
+void tag(std::string& bytes, int group, int element, const char* vr) {
+  put(bytes, static_cast<std::uint16_t>(group));
+  put(bytes, static_cast<std::uint16_t>(element));
+  bytes += vr;
+}
+
+/// A short text element, padded to even length.
+void text(std::string& bytes, int group, int element, const char* vr, std::string value) {
+  if (value.size() % 2 == 1)
+    value += std::string(vr) == "UI" ? '\0' : ' ';
+  tag(bytes, group, element, vr);
+  put(bytes, static_cast<std::uint16_t>(value.size()));
+  bytes += value;
+}
+
+void number(std::string& bytes, int group, int element, int value) {
+  tag(bytes, group, element, "US");
+  put(bytes, std::uint16_t{2});
+  put(bytes, static_cast<std::uint16_t>(value));
+}
+
+}  // namespace
+
+std::string dicom_bytes(const DicomSpec& s) {
+  std::string meta;
+  text(meta, 2, 2, "UI", "1.2.840.10008.5.1.4.1.1.4");
+  text(meta, 2, 3, "UI", s.instance_uid);
+  text(meta, 2, 0x10, "UI", "1.2.840.10008.1.2.1");
+  std::string bytes(128, '\0');
+  bytes += "DICM";
+  tag(bytes, 2, 0, "UL");
+  put(bytes, std::uint16_t{4});
+  put(bytes, static_cast<std::uint32_t>(meta.size()));
+  bytes += meta;
+  const Vec3& o = s.plane.origin;
+  const Vec3& r = s.plane.along_row;
+  const Vec3& c = s.plane.along_column;
+  text(bytes, 8, 8, "CS", "ORIGINAL\\PRIMARY\\M");
+  text(bytes, 8, 0x16, "UI", "1.2.840.10008.5.1.4.1.1.4");
+  text(bytes, 8, 0x18, "UI", s.instance_uid);
+  text(bytes, 8, 0x60, "CS", "MR");
+  text(bytes, 8, 0x103e, "LO", s.description);
+  text(bytes, 0x18, 0x50, "DS", "8");
+  if (s.trigger_ms)
+    text(bytes, 0x18, 0x1060, "DS", fmt::format("{}", *s.trigger_ms));
+  text(bytes, 0x18, 0x1062, "IS", fmt::format("{}", s.rr_ms));
+  text(bytes, 0x20, 0x0d, "UI", "1.2.3");
+  text(bytes, 0x20, 0x0e, "UI", s.series_uid);
+  text(bytes, 0x20, 0x11, "IS", fmt::format("{}", s.series_number));
+  text(bytes, 0x20, 0x13, "IS", fmt::format("{}", s.instance));
+  text(bytes, 0x20, 0x32, "DS", fmt::format("{:.6f}\\{:.6f}\\{:.6f}", o.x(), o.y(), o.z()));
+  text(bytes, 0x20, 0x37, "DS",
+       fmt::format("{:.8f}\\{:.8f}\\{:.8f}\\{:.8f}\\{:.8f}\\{:.8f}", r.x(), r.y(), r.z(), c.x(),
+                   c.y(), c.z()));
+  number(bytes, 0x28, 2, 1);
+  text(bytes, 0x28, 4, "CS", "MONOCHROME2");
+  number(bytes, 0x28, 0x10, s.plane.rows);
+  number(bytes, 0x28, 0x11, s.plane.columns);
+  text(bytes, 0x28, 0x30, "DS", fmt::format("{}\\{}", s.plane.spacing_j, s.plane.spacing_i));
+  number(bytes, 0x28, 0x100, 16);
+  number(bytes, 0x28, 0x101, 16);
+  number(bytes, 0x28, 0x102, 15);
+  number(bytes, 0x28, 0x103, 0);
+  text(bytes, 0x28, 0x1052, "DS", fmt::format("{}", s.intercept));
+  text(bytes, 0x28, 0x1053, "DS", fmt::format("{}", s.slope));
+  tag(bytes, 0x7fe0, 0x10, "OW");
+  put(bytes, std::uint16_t{0});
+  put(bytes, static_cast<std::uint32_t>(2 * s.pixels.size()));
+  for (const std::uint16_t pixel : s.pixels)
+    put(bytes, pixel);
+  return bytes;
+}
+
+std::string nifti_bytes(const NiftiSpec& s) {
+  std::string head(348, '\0');
+  const auto set = [&](std::size_t at, auto value) {
+    std::memcpy(head.data() + at, &value, sizeof(value));
+  };
+  set(0, std::int32_t{348});
+  set(40, static_cast<std::int16_t>(s.size[3] > 1 ? 4 : 3));
+  for (int d = 0; d < 4; ++d)
+    set(42 + 2 * d, static_cast<std::int16_t>(s.size[d]));
+  for (int d = 4; d < 7; ++d)
+    set(42 + 2 * d, std::int16_t{1});
+  set(70, static_cast<std::int16_t>(s.floating ? 16 : 2));
+  set(72, static_cast<std::int16_t>(s.floating ? 32 : 8));
+  set(76, 1.0F);  // qfac
+  for (int d = 0; d < 3; ++d) {
+    double square = 0.0;
+    for (int e = 0; e < 3; ++e)
+      square += s.sform[e][d] * s.sform[e][d];
+    set(80 + 4 * d, static_cast<float>(std::sqrt(square)));
+  }
+  set(92, 0.04F);
+  set(108, 352.0F);
+  set(112, s.slope);
+  set(116, s.intercept);
+  head[123] = 2 | 8;  // mm, s
+  set(252, static_cast<std::int16_t>(s.qform_code));
+  set(254, static_cast<std::int16_t>(s.sform_code));
+  for (int d = 0; d < 3; ++d)
+    for (int e = 0; e < 4; ++e)
+      set(280 + 16 * d + 4 * e, static_cast<float>(s.sform[d][e]));
+  head.replace(344, 4, std::string("n+1\0", 4));
+  std::string bytes = head + std::string(4, '\0');
+  for (const double value : s.values)
+    if (s.floating)
+      put(bytes, static_cast<float>(value));
+    else
+      put(bytes, static_cast<std::uint8_t>(value));
+  return bytes;
+}
+
+NiftiSpec label_map(const std::array<int, 3>& size, const Mat3& directions, const Vec3& spacing,
+                    const Vec3& origin, const std::function<int(const Vec3&)>& label) {
+  NiftiSpec s;
+  s.size = {size[0], size[1], size[2], 1};
+  const Mat3 axes = directions * spacing.asDiagonal();
+  const Vec3 to_ras(-1.0, -1.0, 1.0);
+  for (int d = 0; d < 3; ++d) {
+    for (int e = 0; e < 3; ++e)
+      s.sform[d][e] = to_ras[d] * axes(d, e);
+    s.sform[d][3] = to_ras[d] * origin[d];
+  }
+  for (int k = 0; k < size[2]; ++k)
+    for (int j = 0; j < size[1]; ++j)
+      for (int i = 0; i < size[0]; ++i)
+        s.values.push_back(label(origin + axes * Vec3(i, j, k)));
+  return s;
+}
+
+}  // namespace lv::test

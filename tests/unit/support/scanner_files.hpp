@@ -1,0 +1,49 @@
+#pragma once
+
+#include "lv/image/picture.hpp"
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lv::test {
+
+/// One DICOM image as a scanner writes it (explicit VR, little endian), 16-bit pixels.
+struct DicomSpec {
+  image::Plane plane;
+  std::vector<std::uint16_t> pixels;  ///< rows x columns
+  std::string series_uid = "1.2.3.4";
+  std::string instance_uid = "1.2.3.4.1";
+  std::string description = "cine";
+  int series_number = 1;
+  int instance = 1;
+  std::optional<double> trigger_ms;
+  int rr_ms = 800;
+  double slope = 1.0, intercept = 0.0;
+};
+
+[[nodiscard]] std::string dicom_bytes(const DicomSpec& spec);
+
+/// One NIfTI-1 file of 8-bit or floating-point values.
+struct NiftiSpec {
+  std::array<int, 4> size{1, 1, 1, 1};
+  std::array<std::array<double, 4>, 3> sform{};  ///< voxels to RAS [mm]
+  int sform_code = 1;
+  int qform_code = 0;  ///< with the identity as rotation and the spacing of the sform
+  bool floating = false;
+  float slope = 0.0F, intercept = 0.0F;
+  std::vector<double> values;
+};
+
+[[nodiscard]] std::string nifti_bytes(const NiftiSpec& spec);
+
+/// A label map of a ventricle in image space: `label(x)` at the centre of each voxel (LPS).
+[[nodiscard]] NiftiSpec label_map(const std::array<int, 3>& size, const Mat3& directions,
+                                  const Vec3& spacing, const Vec3& origin,
+                                  const std::function<int(const Vec3&)>& label);
+
+}  // namespace lv::test
