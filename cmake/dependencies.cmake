@@ -35,7 +35,13 @@ pkg_check_modules(PETSC REQUIRED IMPORTED_TARGET PETSc)
 
 # The images alone, without ITK's factories: what is read and written is named where it is used.
 set(ITK_NO_IO_FACTORY_REGISTER_MANAGER ON)
-find_package(ITK 5.2 REQUIRED COMPONENTS ITKCommon ITKIOGDCM ITKIONIFTI ITKImageFunction ITKImageGrid ITKRegistrationMethodsv4 ITKOptimizersv4 ITKMetricsv4 ITKThresholding ITKLabelMap)
+find_package(ITK 5.2 REQUIRED COMPONENTS ITKCommon ITKIOGDCM ITKIONIFTI ITKImageFunction ITKImageGrid ITKRegistrationMethodsv4 ITKOptimizersv4 ITKMetricsv4 ITKThresholding ITKLabelMap ITKPath)
 add_library(itk INTERFACE)
 target_include_directories(itk SYSTEM INTERFACE ${ITK_INCLUDE_DIRS})
 target_link_libraries(itk INTERFACE ${ITK_LIBRARIES})
+find_package(ZLIB REQUIRED)  # NIfTI images are packed with it
+# ITK brings an older Eigen of its own: the sources that include ITK or GDCM are told to use the system's.
+function(lv_uses_itk)
+  set_source_files_properties(${ARGN} PROPERTIES
+    COMPILE_DEFINITIONS ITK_USE_SYSTEM_EIGEN COMPILE_OPTIONS "-isystem;${GDCM_INCLUDE_DIRS}")
+endfunction()

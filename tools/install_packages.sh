@@ -3,7 +3,7 @@
 set -e
 packages="g++ cmake ninja-build pkg-config openmpi-bin libopenmpi-dev libfftw3-dev libfftw3-mpi-dev
   libeigen3-dev libxsimd-dev libboost-dev libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libspdlog-dev
-  libfmt-dev libdeal.ii-dev libpetsc-real-dev libopenblas0-pthread libvtk9-dev libgmsh-dev libinsighttoolkit5-dev libcairo2-dev fonts-dejavu-core"
+  libfmt-dev libdeal.ii-dev libpetsc-real-dev libopenblas0-pthread libvtk9-dev libgmsh-dev libinsighttoolkit5-dev libgdcm-dev zlib1g-dev libcairo2-dev fonts-dejavu-core"
 [ "$1" != --tests ] || packages="$packages catch2 libsundials-dev python3 clang-format"
 missing=""
 for package in $packages; do

@@ -2,6 +2,8 @@
 
 #include "lv/base/tensor.hpp"
 
+#include <Eigen/Geometry>
+
 #include <optional>
 #include <string>
 #include <vector>
@@ -52,6 +54,7 @@ struct CineSlice {
 /// All slices of one orientation, in order along their common normal.
 struct Cine {
   std::vector<CineSlice> slices;
+  std::vector<std::string> notes;  ///< what a reader found worth saying, in sentences
 };
 
 }  // namespace lv::image

@@ -1,0 +1,441 @@
+#include "lv/image/dicom_file.hpp"
+
+#include "lv/base/check.hpp"
+
+#include <fmt/format.h>
+#include <gdcmImageReader.h>
+#include <gdcmReader.h>
+#include <gdcmSequenceOfItems.h>
+#include <gdcmTrace.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <exception>
+#include <fstream>
+#include <string_view>
+
+namespace lv::image {
+namespace {
+
+namespace fs = std::filesystem;
+using gdcm::Tag;
+
+constexpr int largest_side = 8192;   // pixels; no scanner makes larger slices
+constexpr int most_frames = 100000;  // of one file
+constexpr double unit_error = 1e-2;  // of direction cosines
+constexpr double seconds = 1e-3;     // per millisecond
+
+/// GDCM speaks on the terminal unless told not to.
+void silence() {
+  static const bool once = [] {
+    gdcm::Trace::WarningOff();
+    gdcm::Trace::ErrorOff();
+    gdcm::Trace::DebugOff();
+    return true;
+  }();
+  static_cast<void>(once);
+}
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view blank(" \t\r\n\0", 5);
+  const auto first = text.find_first_not_of(blank);
+  if (first == std::string_view::npos)
+    return {};
+  return text.substr(first, text.find_last_not_of(blank) - first + 1);
+}
+
+std::optional<double> number_of(std::string_view text) {
+  text = trimmed(text);
+  if (text.starts_with('+'))
+    text.remove_prefix(1);
+  double value = 0.0;
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (text.empty() || result.ec != std::errc() || result.ptr != text.data() + text.size() ||
+      !std::isfinite(value))
+    return std::nullopt;
+  return value;
+}
+
+/// A data set's values by tag; absent and unreadable values alike are none.
+class Values {
+ public:
+  explicit Values(const gdcm::DataSet& set) : set_(&set) {}
+
+  [[nodiscard]] std::string_view bytes(const Tag& tag) const {
+    if (!set_->FindDataElement(tag))
+      return {};
+    const gdcm::ByteValue* value = set_->GetDataElement(tag).GetByteValue();
+    return value == nullptr || value->GetPointer() == nullptr
+               ? std::string_view()
+               : std::string_view(value->GetPointer(), value->GetLength());
+  }
+
+  [[nodiscard]] std::string text(const Tag& tag) const { return std::string(trimmed(bytes(tag))); }
+
+  /// Numbers written as text (DS, IS).
+  [[nodiscard]] std::vector<double> numbers(const Tag& tag) const {
+    std::vector<double> values;
+    std::string_view rest = bytes(tag);
+    while (!rest.empty()) {
+      const auto end = rest.find('\\');
+      const auto value = number_of(rest.substr(0, end));
+      if (!value)
+        return {};
+      values.push_back(*value);
+      rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + 1);
+    }
+    return values;
+  }
+
+  [[nodiscard]] std::optional<double> number(const Tag& tag) const {
+    const auto values = numbers(tag);
+    return values.empty() ? std::nullopt : std::optional(values.front());
+  }
+
+  [[nodiscard]] std::optional<int> whole(const Tag& tag) const {
+    const auto value = number(tag);
+    if (!value || std::abs(*value) > 2e9)
+      return std::nullopt;
+    return static_cast<int>(std::lround(*value));
+  }
+
+  /// A number stored as it is (US, UL, FD).
+  template <class Number>
+  [[nodiscard]] std::optional<Number> binary(const Tag& tag) const {
+    const std::string_view stored = bytes(tag);
+    if (stored.size() < sizeof(Number))
+      return std::nullopt;
+    Number value;
+    std::memcpy(&value, stored.data(), sizeof(Number));
+    return value;
+  }
+
+  /// The items of a sequence.
+  [[nodiscard]] gdcm::SmartPointer<gdcm::SequenceOfItems> sequence(const Tag& tag) const {
+    return set_->FindDataElement(tag) ? set_->GetDataElement(tag).GetValueAsSQ() : nullptr;
+  }
+
+ private:
+  const gdcm::DataSet* set_;
+};
+
+/// The functional groups of one frame: its own, else those that all frames share.
+class FrameGroups {
+ public:
+  FrameGroups(const Values& own, const std::optional<Values>& shared)
+      : own_(own), shared_(shared) {}
+
+  /// The first item of a group; none if neither has it.
+  [[nodiscard]] std::optional<Values> group(const Tag& tag) {
+    for (const Values* values : {&own_, shared_ ? &*shared_ : nullptr}) {
+      if (values == nullptr)
+        continue;
+      const auto items = values->sequence(tag);
+      if (items != nullptr && items->GetNumberOfItems() > 0) {
+        kept_.push_back(items);  // it owns the data set
+        return Values(items->GetItem(1).GetNestedDataSet());
+      }
+    }
+    return std::nullopt;
+  }
+
+ private:
+  Values own_;
+  std::optional<Values> shared_;
+  std::vector<gdcm::SmartPointer<gdcm::SequenceOfItems>> kept_;
+};
+
+/// Position, orientation and spacing as text values; empty if fine, else what is wrong.
+std::string lay(const std::vector<double>& position, const std::vector<double>& orientation,
+                const std::vector<double>& spacing, Plane& plane) {
+  if (position.size() != 3)
+    return "it has no ImagePositionPatient";
+  if (orientation.size() != 6)
+    return "it has no ImageOrientationPatient";
+  if (spacing.size() != 2 || !(spacing[0] > 0.0) || !(spacing[1] > 0.0))
+    return "it has no PixelSpacing above zero";
+  const Vec3 row(orientation[0], orientation[1], orientation[2]);
+  const Vec3 column(orientation[3], orientation[4], orientation[5]);
+  if (std::abs(row.norm() - 1.0) > unit_error || std::abs(column.norm() - 1.0) > unit_error ||
+      std::abs(row.dot(column)) > unit_error)
+    return "its ImageOrientationPatient holds no two unit vectors at right angles";
+  plane.origin = Vec3(position[0], position[1], position[2]);
+  plane.along_row = row.normalized();
+  plane.along_column = (column - column.dot(plane.along_row) * plane.along_row).normalized();
+  plane.spacing_j = spacing[0];  // between rows comes first
+  plane.spacing_i = spacing[1];
+  return "";
+}
+
+double cycle_length(const Values& values) {
+  if (const auto interval = values.number(Tag(0x0018, 0x1062)); interval && *interval > 0.0)
+    return *interval * seconds;
+  if (const auto rate = values.number(Tag(0x0018, 0x1088)); rate && *rate > 0.0)
+    return 60.0 / *rate;
+  return 0.0;
+}
+
+/// ImageType without "original or derived" and "primary or secondary".
+std::string kind_of(const std::string& image_type) {
+  auto at = image_type.find('\\');
+  if (at != std::string::npos)
+    at = image_type.find('\\', at + 1);
+  return at == std::string::npos ? "" : image_type.substr(at + 1);
+}
+
+/// What all images of a file share.
+DicomImage common(const fs::path& file, const Values& values) {
+  DicomImage image;
+  image.file = file;
+  image.series_uid = values.text(Tag(0x0020, 0x000e));
+  image.description = values.text(Tag(0x0008, 0x103e));
+  image.instance_uid = values.text(Tag(0x0008, 0x0018));
+  image.kind = kind_of(values.text(Tag(0x0008, 0x0008)));
+  image.modality = values.text(Tag(0x0008, 0x0060));
+  image.series_number = values.whole(Tag(0x0020, 0x0011));
+  image.instance = values.whole(Tag(0x0020, 0x0013));
+  image.rr = cycle_length(values);
+  image.phases_announced = values.whole(Tag(0x0018, 0x1090)).value_or(0);
+  image.plane.rows = values.binary<std::uint16_t>(Tag(0x0028, 0x0010)).value_or(0);
+  image.plane.columns = values.binary<std::uint16_t>(Tag(0x0028, 0x0011)).value_or(0);
+  return image;
+}
+
+/// An image of its own, as scanners wrote them before multi-frame files.
+std::string read_single(const Values& values, DicomImage& image) {
+  if (std::string wrong =
+          lay(values.numbers(Tag(0x0020, 0x0032)), values.numbers(Tag(0x0020, 0x0037)),
+              values.numbers(Tag(0x0028, 0x0030)), image.plane);
+      !wrong.empty())
+    return wrong;
+  image.thickness = values.number(Tag(0x0018, 0x0050)).value_or(0.0);
+  image.temporal_position = values.whole(Tag(0x0020, 0x0100));
+  if (const auto time = values.number(Tag(0x0018, 0x1060)))
+    image.trigger_time = *time * seconds;
+  image.slope = values.number(Tag(0x0028, 0x1053)).value_or(1.0);
+  image.intercept = values.number(Tag(0x0028, 0x1052)).value_or(0.0);
+  return "";
+}
+
+void read_timing(FrameGroups& groups, DicomImage& image) {
+  if (const auto sync = groups.group(Tag(0x0018, 0x9118))) {
+    if (const auto delay = sync->binary<double>(Tag(0x0020, 0x9153));
+        delay && std::isfinite(*delay))
+      image.trigger_time = *delay * seconds;
+    if (const auto rr = sync->binary<double>(Tag(0x0020, 0x9251)); rr && *rr > 0.0)
+      image.rr = *rr * seconds;
+  }
+  if (const auto content = groups.group(Tag(0x0020, 0x9111)))
+    if (const auto index = content->binary<std::uint32_t>(Tag(0x0020, 0x9128)))
+      image.temporal_position = static_cast<int>(*index);
+}
+
+/// One frame of an enhanced multi-frame file.
+std::string read_frame(FrameGroups groups, DicomImage& image) {
+  const auto numbers = [&](const Tag& group, const Tag& tag) {
+    const auto values = groups.group(group);
+    return values ? values->numbers(tag) : std::vector<double>();
+  };
+  const Tag measures(0x0028, 0x9110);
+  if (std::string wrong = lay(numbers(Tag(0x0020, 0x9113), Tag(0x0020, 0x0032)),
+                              numbers(Tag(0x0020, 0x9116), Tag(0x0020, 0x0037)),
+                              numbers(measures, Tag(0x0028, 0x0030)), image.plane);
+      !wrong.empty())
+    return wrong;
+  const auto first = [](const std::vector<double>& values, double otherwise) {
+    return values.empty() ? otherwise : values.front();
+  };
+  image.thickness = first(numbers(measures, Tag(0x0018, 0x0050)), 0.0);
+  const Tag transformation(0x0028, 0x9145);
+  image.slope = first(numbers(transformation, Tag(0x0028, 0x1053)), 1.0);
+  image.intercept = first(numbers(transformation, Tag(0x0028, 0x1052)), 0.0);
+  read_timing(groups, image);
+  return "";
+}
+
+DicomFile read_frames(const Values& values, const DicomImage& shared_header, int frames) {
+  const auto per_frame = values.sequence(Tag(0x5200, 0x9230));
+  if (per_frame == nullptr || static_cast<int>(per_frame->GetNumberOfItems()) != frames)
+    return {{}, "it has several frames, but not the position of each (no enhanced MR)"};
+  const auto shared = values.sequence(Tag(0x5200, 0x9229));
+  std::optional<Values> shared_values;
+  if (shared != nullptr && shared->GetNumberOfItems() > 0)
+    shared_values.emplace(shared->GetItem(1).GetNestedDataSet());
+  DicomFile found;
+  for (int f = 0; f < frames; ++f) {
+    DicomImage image = shared_header;
+    image.frame = f;
+    image.instance = f + 1;
+    const Values own(per_frame->GetItem(f + 1).GetNestedDataSet());
+    if (std::string wrong = read_frame(FrameGroups(own, shared_values), image); !wrong.empty())
+      return {{}, fmt::format("frame {}: {}", f + 1, wrong)};
+    found.images.push_back(std::move(image));
+  }
+  return found;
+}
+
+/// Whether the file is shorter than its pixels as they are without compression.
+std::string damage_of(const fs::path& file, const gdcm::File& parsed, const Values& values,
+                      const DicomImage& image, int frames) {
+  if (parsed.GetHeader().GetDataSetTransferSyntax().IsEncapsulated())
+    return "";
+  const auto bits = values.binary<std::uint16_t>(Tag(0x0028, 0x0100)).value_or(16);
+  const auto needed = static_cast<std::uintmax_t>(image.plane.rows) * image.plane.columns *
+                      static_cast<std::uintmax_t>(frames) * (bits / 8U);
+  std::error_code ignored;
+  const auto size = fs::file_size(file, ignored);
+  return size < needed ? fmt::format("the file is truncated: {} bytes cannot hold {} x {} pixels{}",
+                                     size, image.plane.columns, image.plane.rows,
+                                     frames > 1 ? fmt::format(" in {} frames", frames) : "")
+                       : "";
+}
+
+/// "DICM" after the preamble, or for old files without one an element of the first groups.
+bool looks_like_dicom(const fs::path& file) {
+  std::array<char, 132> head{};
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(head.data(), head.size());
+  const auto got = stream.gcount();
+  if (got == 132 && std::string_view(head.data() + 128, 4) == "DICM")
+    return true;
+  return got >= 8 && (head[0] == 2 || head[0] == 8) && head[1] == 0 && head[3] == 0;
+}
+
+DicomFile read_parsed(const fs::path& file, const gdcm::File& parsed) {
+  const Values values(parsed.GetDataSet());
+  DicomImage image = common(file, values);
+  if (image.plane.rows < 2 || image.plane.columns < 2)
+    return {{}, "it is DICOM but no image"};
+  if (image.plane.rows > largest_side || image.plane.columns > largest_side)
+    return {{}, fmt::format("it claims {} x {} pixels", image.plane.columns, image.plane.rows)};
+  if (values.binary<std::uint16_t>(Tag(0x0028, 0x0002)).value_or(1) != 1)
+    return {{}, "it is an image of colours, not of grey values"};
+  const int frames = values.whole(Tag(0x0028, 0x0008)).value_or(1);
+  if (frames < 1 || frames > most_frames)
+    return {{}, fmt::format("it claims {} frames", frames)};
+  image.damage = damage_of(file, parsed, values, image, frames);
+  // Some scanners add an empty per-frame sequence to images of one frame.
+  if (frames > 1 || values.bytes(Tag(0x0020, 0x0032)).empty())
+    if (frames > 1 || values.sequence(Tag(0x5200, 0x9230)) != nullptr)
+      return read_frames(values, image, frames);
+  if (std::string wrong = read_single(values, image); !wrong.empty())
+    return {{}, wrong};
+  return {{image}, ""};
+}
+
+template <class Stored>
+void append(const std::vector<char>& bytes, std::vector<float>& values) {
+  const std::size_t n = bytes.size() / sizeof(Stored);
+  values.reserve(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    Stored stored;
+    std::memcpy(&stored, bytes.data() + i * sizeof(Stored), sizeof(Stored));
+    values.push_back(static_cast<float>(stored));
+  }
+}
+
+bool append_as(const gdcm::PixelFormat& format, const std::vector<char>& bytes,
+               std::vector<float>& values) {
+  switch (format.GetScalarType()) {
+    case gdcm::PixelFormat::UINT8:
+      append<std::uint8_t>(bytes, values);
+      return true;
+    case gdcm::PixelFormat::INT8:
+      append<std::int8_t>(bytes, values);
+      return true;
+    case gdcm::PixelFormat::UINT12:
+    case gdcm::PixelFormat::UINT16:
+      append<std::uint16_t>(bytes, values);
+      return true;
+    case gdcm::PixelFormat::INT12:
+    case gdcm::PixelFormat::INT16:
+      append<std::int16_t>(bytes, values);
+      return true;
+    case gdcm::PixelFormat::UINT32:
+      append<std::uint32_t>(bytes, values);
+      return true;
+    case gdcm::PixelFormat::INT32:
+      append<std::int32_t>(bytes, values);
+      return true;
+    case gdcm::PixelFormat::FLOAT32:
+      append<float>(bytes, values);
+      return true;
+    case gdcm::PixelFormat::FLOAT64:
+      append<double>(bytes, values);
+      return true;
+    default:
+      return false;
+  }
+}
+
+[[noreturn]] void fail_pixels(const fs::path& file, const std::string& what) {
+  throw InputError(file.string(), what,
+                   "Copy or export the file again; if it is broken at its source, leave its series "
+                   "out");
+}
+
+/// The stored values of all frames of a file.
+std::vector<float> stored_values(const fs::path& file) {
+  silence();
+  std::vector<float> values;
+  try {
+    gdcm::ImageReader reader;
+    reader.SetFileName(file.c_str());
+    if (!reader.Read())
+      fail_pixels(file,
+                  "the pixels cannot be read: the file is truncated, damaged or of an unknown "
+                  "compression");
+    const gdcm::Image& image = reader.GetImage();
+    std::vector<char> bytes(image.GetBufferLength());
+    if (!image.GetBuffer(bytes.data()))
+      fail_pixels(file, "the pixels cannot be decoded: the file is truncated or damaged");
+    if (image.GetPixelFormat().GetSamplesPerPixel() != 1 ||
+        !append_as(image.GetPixelFormat(), bytes, values))
+      fail_pixels(file, "is no image of grey values");
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::exception& error) {
+    fail_pixels(file, fmt::format("the pixels cannot be read: {}", error.what()));
+  }
+  return values;
+}
+
+}  // namespace
+
+DicomFile read_dicom_headers(const fs::path& file) {
+  silence();
+  if (!looks_like_dicom(file))
+    return {{}, "it is not DICOM"};
+  try {
+    gdcm::Reader reader;
+    reader.SetFileName(file.c_str());
+    if (!reader.ReadUpToTag(Tag(0x7fe0, 0x0010)))
+      return {{}, "its DICOM header is truncated or damaged"};
+    return read_parsed(file, reader.GetFile());
+  } catch (const std::exception& error) {
+    return {{}, fmt::format("its DICOM header is damaged: {}", error.what())};
+  }
+}
+
+Picture DicomPixels::read(const DicomImage& image) {
+  if (!image.damage.empty())
+    fail_pixels(image.file, image.damage);
+  if (image.file != file_ || values_.empty()) {
+    values_ = stored_values(image.file);
+    file_ = image.file;
+  }
+  const std::size_t n = static_cast<std::size_t>(image.plane.rows) * image.plane.columns;
+  const std::size_t first = n * static_cast<std::size_t>(image.frame);
+  if (values_.size() < first + n)
+    fail_pixels(image.file, fmt::format("holds {} values where {} x {} pixels were announced",
+                                        values_.size(), image.plane.columns, image.plane.rows));
+  Picture picture{image.plane, {}};
+  picture.values.reserve(n);
+  for (std::size_t p = first; p < first + n; ++p)
+    picture.values.push_back(static_cast<float>(image.slope * values_[p] + image.intercept));
+  return picture;
+}
+
+}  // namespace lv::image

@@ -1,0 +1,66 @@
+#pragma once
+
+#include "lv/image/dicom_file.hpp"
+#include "lv/image/picture.hpp"
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace lv::image {
+
+/// The images of one slice in order of time.
+struct DicomSlice {
+  double position = 0.0;  ///< along the stack's normal [mm]
+  std::vector<DicomImage> images;
+};
+
+/// Parallel slices of one series with one kind of image: what a user chooses from. A series with
+/// several orientations is several stacks.
+struct DicomStack {
+  std::string key;  ///< by which a case names it: the series' number, with #2 for a second stack of
+                    ///< a series; the SeriesInstanceUID where numbers are missing or repeated
+  std::string series_uid, description, kind;
+  Vec3 normal = Vec3::UnitZ();
+  std::vector<DicomSlice> slices;  ///< along the normal
+};
+
+/// All that some files hold.
+struct DicomStudy {
+  std::vector<DicomStack> stacks;    ///< by series number, UID and orientation
+  std::vector<std::string> skipped;  ///< files that are not used, each with its reason
+};
+
+/// Reads the headers of files and of all files in folders, whatever their names. Images that are
+/// there twice (the same SOPInstanceUID) count once; what is no DICOM image with a place in space
+/// is skipped with its reason. Slices are told apart by their planes and images of a slice ordered
+/// by trigger time, else temporal position, else instance number. Throws InputError if a file or
+/// folder is absent.
+[[nodiscard]] DicomStudy read_dicom_study(std::span<const std::filesystem::path> where);
+
+/// A line per stack: key, description, slices, images per slice, size, spacing, orientation, RR.
+[[nodiscard]] std::string describe(const DicomStudy& study);
+
+/// The stacks that a user names, joined to one: each name is a key, a series number, a
+/// SeriesInstanceUID or a description (then all series that bear it). Without names there must be
+/// one stack only. `where` and `parameter` are for messages. Throws InputError with the list of
+/// stacks where a name fits none, where there are several to choose from, where the chosen ones are
+/// not parallel, or where two images show the same slice at the same time.
+[[nodiscard]] DicomStack choose_stack(const DicomStudy& study, std::span<const std::string> series,
+                                      const std::string& where, const std::string& parameter);
+
+/// What a user should know of a stack: gaps and steps between slices, differing heart rates,
+/// differing numbers of images, damaged files.
+[[nodiscard]] std::vector<std::string> remarks(const DicomStack& stack);
+
+/// The images of a stack with their pixels.
+[[nodiscard]] Cine read_pixels(const DicomStack& stack);
+
+/// A cine stack, or any stack of images, from files and folders; see read_dicom_study and
+/// choose_stack. The notes are those of remarks, and how many files were skipped.
+[[nodiscard]] Cine read_dicom_cine(std::span<const std::filesystem::path> where,
+                                   std::span<const std::string> series = {},
+                                   const std::string& parameter = "series");
+
+}  // namespace lv::image

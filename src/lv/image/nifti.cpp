@@ -1,0 +1,332 @@
+#include "lv/image/nifti.hpp"
+
+#include "lv/base/check.hpp"
+
+#include <fmt/format.h>
+#include <itkMetaDataObject.h>
+#include <itkNiftiImageIO.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <exception>
+#include <memory>
+#include <optional>
+#include <sstream>
+
+namespace lv::image {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double at_right_angles = 1e-3;  // cosine between axes
+constexpr double same_place = 0.1;        // of a voxel, between sform and qform
+
+[[noreturn]] void fail(const fs::path& file, const std::string& what, const std::string& remedy) {
+  throw InputError(file.string(), what, remedy);
+}
+
+[[noreturn]] void fail_damaged(const fs::path& file, const std::string& what) {
+  fail(file, fmt::format("cannot be read as NIfTI: {}", what),
+       "The file seems to be truncated, damaged or of another kind: save or copy it again");
+}
+
+std::string first_line(const std::string& text) {
+  const auto start = text.find_last_of(':');  // ITK puts file and line before its message
+  const std::string message = start == std::string::npos ? text : text.substr(start + 1);
+  const auto from = message.find_first_not_of(" \n");
+  return from == std::string::npos ? text : message.substr(from, message.find('\n', from) - from);
+}
+
+std::string entry(const itk::ImageIOBase& io, const std::string& key) {
+  std::string value;
+  itk::ExposeMetaData(io.GetMetaDataDictionary(), key, value);
+  return value;
+}
+
+/// The affine map of the sform from voxels to RAS, if the file has one.
+std::optional<Eigen::Matrix<double, 3, 4>> sform(const itk::ImageIOBase& io) {
+  std::istringstream code(entry(io, "sform_code"));
+  int kind = 0;
+  code >> kind;
+  if (kind <= 0)
+    return std::nullopt;
+  Eigen::Matrix<double, 3, 4> map;
+  for (int d = 0; d < 3; ++d) {
+    std::istringstream row(entry(io, fmt::format("srow_{}", "xyz"[d])));
+    for (int e = 0; e < 4; ++e)
+      row >> map(d, e);
+    if (!row)
+      return std::nullopt;
+  }
+  return map;
+}
+
+bool has_qform(const itk::ImageIOBase& io) {
+  std::istringstream code(entry(io, "qform_code"));
+  int kind = 0;
+  code >> kind;
+  return kind > 0;
+}
+
+void check_right_angles(const fs::path& file, const Mat3& axes) {
+  for (int d = 0; d < 3; ++d) {
+    const double length = axes.col(d).norm();
+    const double cosine =
+        axes.col(d).dot(axes.col((d + 1) % 3)) / length / axes.col((d + 1) % 3).norm();
+    if (!(length > 0.0) || !std::isfinite(length) || !(std::abs(cosine) < at_right_angles))
+      fail(file, "its sform is sheared or flat: its axes are not at right angles",
+           "Resample the image to a rectangular grid");
+  }
+}
+
+/// Lays the volume by its sform where there is one, and checks it against what ITK made of the
+/// file, which is the qform where there is one.
+void lay(const fs::path& file, const itk::ImageIOBase& io, Volume& volume) {
+  const auto affine = sform(io);
+  if (!affine) {
+    if (!has_qform(io))
+      volume.notes.push_back(fmt::format(
+          "{} does not say how it lies in space (neither sform nor qform): its axes are "
+          "taken to point to the left, the back and the head; if it is mirrored, so are "
+          "the regions",
+          file.string()));
+    return;
+  }
+  const Mat3 to_lps = Vec3(-1.0, -1.0, 1.0).asDiagonal();
+  const Mat3 axes = to_lps * affine->leftCols<3>();
+  check_right_angles(file, axes);
+  const Volume other = volume;
+  volume.origin = to_lps * affine->col(3);
+  for (int d = 0; d < 3; ++d) {
+    volume.spacing[d] = axes.col(d).norm();
+    volume.directions.col(d) = axes.col(d).normalized();
+  }
+  if (!has_qform(io))
+    return;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 ijk((corner & 1) != 0 ? volume.size[0] - 1 : 0,
+                   (corner & 2) != 0 ? volume.size[1] - 1 : 0,
+                   (corner & 4) != 0 ? volume.size[2] - 1 : 0);
+    const double apart = (volume.point(ijk) - other.point(ijk)).norm();
+    if (!(apart < std::max(same_place * volume.spacing.minCoeff(), 1e-2)))
+      fail(file,
+           fmt::format("its sform and its qform put a corner of the image {:.1f} mm apart", apart),
+           "Correct the header so that both agree, or set the code of the wrong one to 0");
+  }
+}
+
+/// Sizes, spacing and place as ITK reads them.
+Volume read_header(const fs::path& file, itk::NiftiImageIO& io) {
+  Volume volume;
+  volume.file = file.string();
+  const unsigned dimensions = io.GetNumberOfDimensions();
+  std::array<int, 4> size{1, 1, 1, 1};
+  for (unsigned d = 0; d < dimensions; ++d) {
+    const auto n = io.GetDimensions(d);
+    if (d >= 4 && n > 1)
+      fail(file, fmt::format("has {} dimensions", dimensions), "Save an image of three or four");
+    if (n < 1 || n > 100000)
+      fail_damaged(file, fmt::format("it claims {} voxels along an axis", n));
+    if (d < 4)
+      size[d] = static_cast<int>(n);
+  }
+  for (unsigned d = 0; d < std::min(dimensions, 3U); ++d) {
+    volume.spacing[d] = io.GetSpacing(d);
+    volume.origin[d] = io.GetOrigin(d);
+    const std::vector<double> direction = io.GetDirection(d);
+    for (unsigned e = 0; e < std::min<std::size_t>(direction.size(), 3); ++e)
+      volume.directions(e, d) = direction[e];
+  }
+  volume.size = {size[0], size[1], size[2]};
+  volume.frames = size[3];
+  if (dimensions > 3 && volume.frames > 1 && io.GetSpacing(3) > 0.0 && io.GetSpacing(3) < 10.0)
+    volume.time_step = io.GetSpacing(3);
+  if (!volume.spacing.allFinite() || !(volume.spacing.minCoeff() > 0.0) ||
+      !volume.origin.allFinite() || !volume.directions.allFinite())
+    fail_damaged(file, "its voxels have no size or no place");
+  return volume;
+}
+
+template <class Stored>
+void append(const std::vector<char>& bytes, std::vector<float>& values) {
+  const auto* stored = reinterpret_cast<const Stored*>(bytes.data());
+  for (std::size_t i = 0; i < bytes.size() / sizeof(Stored); ++i)
+    values.push_back(static_cast<float>(stored[i]));
+}
+
+bool append_as(itk::IOComponentEnum type, const std::vector<char>& bytes,
+               std::vector<float>& values) {
+  using T = itk::IOComponentEnum;
+  switch (type) {
+    case T::UCHAR:
+      append<unsigned char>(bytes, values);
+      return true;
+    case T::CHAR:
+      append<signed char>(bytes, values);
+      return true;
+    case T::USHORT:
+      append<unsigned short>(bytes, values);
+      return true;
+    case T::SHORT:
+      append<short>(bytes, values);
+      return true;
+    case T::UINT:
+      append<unsigned int>(bytes, values);
+      return true;
+    case T::INT:
+      append<int>(bytes, values);
+      return true;
+    case T::ULONG:
+      append<unsigned long>(bytes, values);
+      return true;
+    case T::LONG:
+      append<long>(bytes, values);
+      return true;
+    case T::ULONGLONG:
+      append<unsigned long long>(bytes, values);
+      return true;
+    case T::LONGLONG:
+      append<long long>(bytes, values);
+      return true;
+    case T::FLOAT:
+      append<float>(bytes, values);
+      return true;
+    case T::DOUBLE:
+      append<double>(bytes, values);
+      return true;
+    default:
+      return false;
+  }
+}
+
+/// The bytes of a file, unpacked if it is packed, and its first ones.
+struct Unpacked {
+  std::uintmax_t length = 0;
+  std::array<char, 352> head{};
+};
+
+/// Reads a file to its end: what the NIfTI library does not, which takes zeros for missing voxels.
+Unpacked unpack(const fs::path& file) {
+  const std::unique_ptr<gzFile_s, int (*)(gzFile)> stream(gzopen(file.c_str(), "rb"), gzclose);
+  if (!stream)
+    fail_damaged(file, "it cannot be opened");
+  Unpacked unpacked;
+  std::vector<char> block(1U << 16U);
+  for (;;) {
+    const int got = gzread(stream.get(), block.data(), static_cast<unsigned>(block.size()));
+    if (got < 0)
+      fail_damaged(file, "it is packed, and damaged or truncated");
+    if (unpacked.length < unpacked.head.size())
+      std::memcpy(unpacked.head.data() + unpacked.length, block.data(),
+                  std::min<std::size_t>(got, unpacked.head.size() - unpacked.length));
+    unpacked.length += static_cast<std::uintmax_t>(got);
+    if (got < static_cast<int>(block.size()))
+      break;
+  }
+  int error = Z_OK;
+  gzerror(stream.get(), &error);
+  if (error != Z_OK && error != Z_STREAM_END)
+    fail_damaged(file, "it is packed, and truncated");
+  return unpacked;
+}
+
+/// A number of the header, turned round if the file comes from a machine of the other byte order.
+template <class Number>
+Number header_number(const std::array<char, 352>& head, std::size_t at) {
+  std::int32_t size = 0;
+  std::memcpy(&size, head.data(), sizeof(size));
+  std::array<char, sizeof(Number)> bytes{};
+  std::memcpy(bytes.data(), head.data() + at, sizeof(Number));
+  if (size != 348)
+    std::reverse(bytes.begin(), bytes.end());
+  return std::bit_cast<Number>(bytes);
+}
+
+/// The file of the voxels: that of the header, or beside it.
+fs::path voxel_file(const fs::path& file) {
+  if (file.extension() != ".hdr")
+    return file;
+  fs::path voxels = file;
+  voxels.replace_extension(".img");
+  return fs::exists(voxels) ? voxels : fs::path(voxels.string() + ".gz");
+}
+
+/// Refuses a file that ends before its voxels do.
+void check_length(const fs::path& file, const Volume& volume) {
+  Unpacked unpacked = unpack(file);
+  const int bits = header_number<std::int16_t>(unpacked.head, 72);
+  const auto offset = header_number<float>(unpacked.head, 108);
+  if (voxel_file(file) != file)
+    unpacked = unpack(voxel_file(file));
+  const std::uintmax_t needed =
+      static_cast<std::uintmax_t>(offset > 0.0F && offset < 1e9F ? offset : 0.0F) +
+      volume.voxels() * static_cast<std::uintmax_t>(volume.frames) * std::max(bits, 0) / 8;
+  if (unpacked.length < needed)
+    fail_damaged(file, fmt::format("it ends after {} of {} bytes", unpacked.length, needed));
+}
+
+void read_values(const fs::path& file, itk::NiftiImageIO& io, Volume& volume) {
+  constexpr std::uintmax_t most = std::uintmax_t{1} << 33U;
+  const std::uintmax_t bytes =
+      volume.voxels() * static_cast<std::uintmax_t>(volume.frames) * io.GetComponentSize();
+  if (bytes > most)
+    fail(file, fmt::format("claims {} bytes of voxels", bytes), "Crop or downsample the image");
+  itk::ImageIORegion all(io.GetNumberOfDimensions());
+  for (unsigned d = 0; d < io.GetNumberOfDimensions(); ++d)
+    all.SetSize(d, io.GetDimensions(d));
+  io.SetIORegion(all);
+  std::vector<char> buffer(bytes);
+  io.Read(buffer.data());
+  if (!append_as(io.GetComponentType(), buffer, volume.values))
+    fail(file, "has values of an unknown type", "Save whole numbers or floating-point numbers");
+}
+
+}  // namespace
+
+bool is_nifti_name(const fs::path& file) {
+  const std::string name = file.filename().string();
+  return name.ends_with(".nii") || name.ends_with(".nii.gz") || name.ends_with(".hdr") ||
+         name.ends_with(".img") || name.ends_with(".img.gz");
+}
+
+Volume read_nifti(const fs::path& file) {
+  if (!fs::is_regular_file(file))
+    fail(file, "there is no such file", "Check the name of the NIfTI image");
+  if (!is_nifti_name(file))
+    fail(file, fmt::format("has the ending \"{}\"", file.extension().string()),
+         "NIfTI images end in .nii, .nii.gz, .hdr or .img");
+  itk::Object::GlobalWarningDisplayOff();
+  try {
+    const auto io = itk::NiftiImageIO::New();
+    io->SetFileName(file.string());
+    if (!io->CanReadFile(file.c_str()))
+      fail_damaged(file, "it has no NIfTI header");
+    io->ReadImageInformation();
+    if (io->GetNumberOfComponents() != 1)
+      fail(file, fmt::format("has {} values per voxel", io->GetNumberOfComponents()),
+           "Give an image of grey values or labels");
+    Volume volume = read_header(file, *io);
+    lay(file, *io, volume);
+    check_length(file, volume);
+    read_values(file, *io, volume);
+    return volume;
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::exception& error) {
+    const std::string what = error.what();
+    if (what.find("orthonormal") != std::string::npos)
+      fail(file, "its sform is sheared or flat: its axes are not at right angles",
+           "Resample the image to a rectangular grid");
+    fail_damaged(file, first_line(what));
+  }
+}
+
+Cine read_nifti_cine(const fs::path& file) {
+  return cine_of(read_nifti(file));
+}
+
+}  // namespace lv::image

@@ -1,0 +1,66 @@
+#pragma once
+
+#include "lv/image/picture.hpp"
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace lv::image {
+
+/// Voxels in space, at one or more times. Voxel (i, j, k) has its centre at
+///
+///   x = origin + directions (spacing_1 i, spacing_2 j, spacing_3 k)     image space (LPS) [mm]
+struct Volume {
+  std::string file;  ///< for messages
+  std::array<int, 3> size{0, 0, 0};
+  int frames = 1;
+  Vec3 origin = Vec3::Zero();
+  Mat3 directions = Mat3::Identity();  ///< columns: unit vectors of growing i, j, k
+  Vec3 spacing = Vec3::Ones();         ///< [mm]
+  double time_step = 0.0;              ///< between frames; 0 if not known [s]
+  std::vector<float> values;           ///< i fastest, then j, k and the frame
+  std::vector<std::string> notes;      ///< what the reader found worth saying
+
+  [[nodiscard]] std::size_t voxels() const {
+    return static_cast<std::size_t>(size[0]) * size[1] * size[2];
+  }
+  [[nodiscard]] float at(int i, int j, int k, int frame = 0) const {
+    return values[voxels() * frame + (static_cast<std::size_t>(k) * size[1] + j) * size[0] + i];
+  }
+  [[nodiscard]] Vec3 point(const Vec3& ijk) const {
+    return origin + directions * spacing.cwiseProduct(ijk);
+  }
+  /// Inverse of point, in voxels.
+  [[nodiscard]] Vec3 index(const Vec3& x) const {
+    return (directions.transpose() * (x - origin)).cwiseQuotient(spacing);
+  }
+  [[nodiscard]] double voxel_volume() const { return spacing.prod(); }  ///< [mm^3]
+};
+
+/// The axis (0, 1 or 2) that the slices are stacked along: the one with the largest spacing; the
+/// third where no spacing is 1.2 times the others, as in images of cubic voxels.
+[[nodiscard]] int slice_axis(const Volume& volume);
+
+/// The slices of one frame across an axis, in order of growing index; in the plane the remaining
+/// axes in their order.
+[[nodiscard]] std::vector<Picture> slices(const Volume& volume, int axis, int frame = 0);
+
+/// The slices across slice_axis as a cine: all frames of each, with times if the file has a time
+/// step.
+[[nodiscard]] Cine cine_of(const Volume& volume);
+
+/// Volume of each label of one frame [mm^3]. Throws InputError naming the voxel if a value is no
+/// whole number.
+[[nodiscard]] std::map<int, double> label_volumes(const Volume& volume, int frame = 0);
+
+/// "0 (8123.4 ml), 1 (191.2 ml)"
+[[nodiscard]] std::string describe(const std::map<int, double>& label_volumes);
+
+/// Throws InputError, listing the labels that there are with their volumes, unless the frame exists
+/// and every label occurs in it. `parameter` names the choice in messages; `where` is its place.
+void require_labels(const Volume& volume, int frame, const std::vector<int>& labels,
+                    const std::string& where, const std::string& parameter);
+
+}  // namespace lv::image
