@@ -2,9 +2,11 @@
 #include "lv/base/launch.hpp"
 #include "lv/base/parallel.hpp"
 #include "lv/base/table.hpp"
+#include "lv/base/units.hpp"
 #include "lv/heartbeat/immersed_beat.hpp"
 #include "lv/job/read_case.hpp"
 #include "lv/job/run.hpp"
+#include "lv/phantom/study.hpp"
 #include "lv/verify/run.hpp"
 
 #include <CLI/CLI.hpp>
@@ -42,6 +44,10 @@ struct Command {
   lv::job::BenchOptions bench;
   bool list = false;
   lv::verify::Options verify;
+  lv::phantom::Ventricle ventricle;
+  lv::phantom::Scan scan;
+  lv::phantom::StudyFiles study;
+  std::string folder;
   std::string solve_in;  ///< folder for the findings of one problem, see verify::solve_option
 };
 
@@ -153,6 +159,69 @@ void add_verify(CLI::App& app, Command& command) {
   verify->add_option(lv::verify::solve_option, command.solve_in)->group("");
 }
 
+/// Options that say how the phantom's images are made.
+void add_scan_options(CLI::App& app, lv::phantom::Scan& scan) {
+  const auto number = [&](const char* name, double& value, const char* help, double low,
+                          double high) {
+    app.add_option(name, value, help)->check(CLI::Range(low, high))->capture_default_str();
+  };
+  number("--snr", scan.snr, "mean signal of muscle / deviation of the Rician noise; 0: no noise",
+         0.0, 1e4);
+  number("--shift", scan.shift, "root mean square of the slices' breath-hold shifts [mm]", 0.0,
+         30.0);
+  number("--pixel", scan.pixel, "spacing of pixels [mm]", 0.3, 5.0);
+  number("--field-of-view", scan.field_of_view, "side of the images [mm]", 100.0, 600.0);
+  number("--thickness", scan.thickness, "of slices [mm]", 1.0, 20.0);
+  number("--gap", scan.gap, "between short-axis slices [mm]", 0.0, 20.0);
+  number("--rr", scan.rr, "length of the heart's cycle [s]", 0.3, 3.0);
+  number("--texture", scan.texture, "of muscle, deviation / mean", 0.0, 0.5);
+  app.add_option("--phases", scan.phases, "images per cycle")
+      ->check(CLI::Range(5, 200))
+      ->capture_default_str();
+  app.add_option("--oblique", scan.oblique,
+                 "true: the heart lies as in a chest; false: along the scanner's z axis")
+      ->capture_default_str();
+  app.add_option("--seed", scan.seed, "of noise, shifts and texture")->capture_default_str();
+}
+
+/// Options that say what the phantom's heart is and does. Lengths in mm.
+void add_heart_options(CLI::App& app, lv::phantom::Ventricle& v) {
+  const auto number = [&](const char* name, double& value, const char* help, double low,
+                          double high) {
+    app.add_option(name, value, help)->check(CLI::Range(low, high))->capture_default_str();
+  };
+  const auto angle = [&](const char* name, double& radians, const char* help) {
+    app.add_option_function<double>(
+           name, [&radians](double degrees) { radians = degrees * lv::units::degree; }, help)
+        ->check(CLI::Range(-360.0, 360.0))
+        ->default_str(fmt::format("{:g}", radians / lv::units::degree));
+  };
+  number("--endo-radius", v.shape.endo_radius, "of the ellipsoid at end-diastole [mm]", 5, 60);
+  number("--endo-length", v.shape.endo_length, "its long semi-axis [mm]", 10, 120);
+  number("--epi-radius", v.shape.epi_radius, "[mm]", 6, 80);
+  number("--epi-length", v.shape.epi_length, "[mm]", 12, 140);
+  number("--squeeze", v.squeeze, "ejection fraction that healthy muscle would have", 0, 0.85);
+  number("--shortening", v.shortening, "of the long axis at end-systole", 0, 0.4);
+  angle("--rotation-base", v.rotation_base, "anticlockwise seen from the apex [deg]");
+  angle("--rotation-apex", v.rotation_apex, "anticlockwise seen from the apex [deg]");
+  angle("--scar-angle", v.scar.angle, "its middle, from the septum towards anterior [deg]");
+  angle("--scar-width", v.scar.width, "[deg]");
+  number("--scar-bottom", v.scar.bottom, "height below the base, negative [mm]", -150, 0);
+  number("--scar-top", v.scar.top, "height below the base, negative [mm]", -150, 0);
+  number("--scar-transmurality", v.scar.transmurality, "part of the wall; 0: no scar", 0, 1);
+  number("--akinesia", v.akinesia, "part of the squeeze that the scar loses", 0, 1);
+}
+
+void add_phantom(CLI::App& app, Command& command) {
+  auto* phantom = app.add_subcommand(
+      "phantom", "make a synthetic study whose volumes, scar and strains are known");
+  phantom->add_option("FOLDER", command.folder, "a new folder")->required();
+  add_scan_options(*phantom, command.scan);
+  add_heart_options(*phantom, command.ventricle);
+  phantom->add_option("--dicom", command.study.dicom, "write DICOM files")->capture_default_str();
+  phantom->add_option("--nifti", command.study.nifti, "write NIfTI files")->capture_default_str();
+}
+
 int dispatch(int argc, char** argv) {
   Command command;
   CLI::App app{"ventricle: left-ventricular mechanics from cardiac magnetic resonance"};
@@ -176,6 +245,7 @@ int dispatch(int argc, char** argv) {
       app.add_subcommand("calibrate", "fit parameters to measured volumes, as the case asks");
   add_run_options(*fit, command);
 
+  add_phantom(app, command);
   add_verify(app, command);
   add_page(app, command, "report", "write one page that shows a run, finished or not", 1);
   add_page(app, command, "compare", "write one page that shows two runs side by side", 2);
@@ -210,6 +280,11 @@ int dispatch(int argc, char** argv) {
     command.until = "calibrate";
   if (*run || *fit)
     return run_parallel(command, argc, argv);
+  if (app.got_subcommand("phantom")) {
+    fmt::print("{}", lv::phantom::write_study(command.ventricle, command.scan, command.study,
+                                              command.folder));
+    return 0;
+  }
   if (*time)
     return bench(command, argc, argv);
   for (const char* page : {"report", "compare"})

@@ -51,7 +51,8 @@ Vec3 direction(double angle) {
   return {std::cos(angle), std::sin(angle), 0.0};
 }
 
-/// The heart's right chamber: a crescent on the septum that hardly moves.
+/// The heart's right chamber at end-diastole: a crescent on the septum. It is grown together with
+/// the left one and moves as the left one's motion goes on outside.
 bool in_right_ventricle(const Ventricle& v, const Vec3& x) {
   const double a = v.shape.epi_radius;
   const double depth = -v.apex();
@@ -161,18 +162,16 @@ Vec3 Scanner::in_model(const ScanPlane& plane, double i, double j, double across
 }
 
 Scanner::Place Scanner::place(const Motion& motion, const Vec3& x) const {
-  const double r = std::hypot(x.x(), x.y());
-  if (x.z() > motion.z(0.0))
-    return {in_atrium(ventricle_, motion, x) ? cavity : background,
-            in_right_ventricle(ventricle_, x), x};
-  if (r > 1.5 * ventricle_.shape.epi_radius)
-    return {background, in_right_ventricle(ventricle_, x), x};
-  const double theta = std::atan2(x.y(), x.x());
-  if (r < motion.radius(Side::endo, x.z(), theta))
-    return {cavity, false, x};
-  if (r >= motion.radius(Side::epi, x.z(), theta))
-    return {background, in_right_ventricle(ventricle_, x), x};
   const Vec3 X = motion.inverse(x);
+  if (X.z() > 0.0)
+    return {in_atrium(ventricle_, motion, x) ? cavity : background,
+            in_right_ventricle(ventricle_, X), X};
+  const double theta = std::atan2(x.y(), x.x());
+  const double r = std::hypot(x.x(), x.y());
+  if (r < motion.radius(Side::endo, x.z(), theta))
+    return {cavity, false, X};
+  if (r >= motion.radius(Side::epi, x.z(), theta))
+    return {background, in_right_ventricle(ventricle_, X), X};
   return {ventricle_.in_scar(X) ? scar : muscle, false, X};
 }
 

@@ -18,11 +18,11 @@ struct Scan {
   double thickness = 8.0;      ///< of slices [mm]
   double gap = 0.0;            ///< between short-axis slices [mm]
   int phases = 25;
-  double rr = 0.9;        ///< length of the heart's cycle [s]
-  double snr = 0.0;       ///< mean signal of muscle / standard deviation of the noise; 0: no noise
-  double shift = 0.0;     ///< root mean square of the slices' breath-hold shifts [mm]
-  double texture = 0.15;  ///< of muscle, standard deviation / mean
-  bool oblique = true;    ///< the heart lies in the chest as hearts do; else along the scanner's z
+  double rr = 0.9;       ///< length of the heart's cycle [s]
+  double snr = 0.0;      ///< mean signal of muscle / standard deviation of the noise; 0: no noise
+  double shift = 0.0;    ///< root mean square of the slices' breath-hold shifts [mm]
+  double texture = 0.2;  ///< of muscle, standard deviation / mean
+  bool oblique = true;   ///< the heart lies in the chest as hearts do; else along the scanner's z
   std::uint32_t seed = 1;
 };
 
@@ -74,7 +74,7 @@ class Scanner {
   struct Place {
     Label label;
     bool right_ventricle;
-    Vec3 X;  ///< muscle: at end-diastole
+    Vec3 X;  ///< at end-diastole
   };
   [[nodiscard]] Place place(const Motion& motion, const Vec3& x) const;
   [[nodiscard]] double signal(const Place& place, const Vec3& x, Contrast contrast) const;

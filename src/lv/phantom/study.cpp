@@ -129,6 +129,12 @@ void check(const Ventricle& v, const Scan& scan) {
        "the scar's bottom is not below its top", "Swap them");
 }
 
+image::Cine one(const image::CineSlice& slice) {
+  image::Cine cine;
+  cine.slices.push_back(slice);
+  return cine;
+}
+
 void write_images(const Scanner& scanner, const Scan& scan, const ScanPlanes& planes,
                   const StudyFiles& files, const fs::path& folder) {
   const image::Cine sa = cine_of(scanner, scan, planes.short_axis, 1);
@@ -140,7 +146,7 @@ void write_images(const Scanner& scanner, const Scan& scan, const ScanPlanes& pl
     std::vector<Series> series{{1, "cine_short_axis", sa}, {5, "late_enhancement_short_axis", lge}};
     for (std::size_t k = 0; k < la.slices.size(); ++k)
       series.push_back(
-          {static_cast<int>(k) + 2, fmt::format("cine_{}", la.slices[k].name), {{la.slices[k]}}});
+          {static_cast<int>(k) + 2, fmt::format("cine_{}", la.slices[k].name), one(la.slices[k])});
     write_dicom(header, series, folder / "dicom");
   }
   if (!files.nifti)
@@ -149,8 +155,7 @@ void write_images(const Scanner& scanner, const Scan& scan, const ScanPlanes& pl
   fs::create_directories(nifti);
   write_nifti(sa, nifti / "cine_short_axis.nii.gz");
   for (std::size_t k = 0; k < la.slices.size(); ++k)
-    write_nifti(image::Cine{{la.slices[k]}},
-                nifti / fmt::format("cine_long_axis_{}.nii.gz", k + 1));
+    write_nifti(one(la.slices[k]), nifti / fmt::format("cine_long_axis_{}.nii.gz", k + 1));
   write_nifti(lge, nifti / "late_enhancement.nii.gz");
   std::vector<std::vector<LabelPicture>> labels;
   for (const double time : phase_times(scan))

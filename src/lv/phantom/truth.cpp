@@ -70,9 +70,9 @@ std::vector<strain::SegmentStrain> all_segments(const Ventricle& v, const Scan& 
 }
 
 std::array<double, 17> scar_of_segments(const Ventricle& v) {
-  constexpr int heights = 800;
-  constexpr int turns = 720;
-  constexpr int layers = 60;
+  constexpr int heights = 400;
+  constexpr int turns = 360;
+  constexpr int layers = 40;
   std::array<double, 17> volumes{};
   const double dz = -v.apex() / heights;
   for (int a = 0; a < heights; ++a) {
@@ -115,7 +115,7 @@ ordered_json slices_json(const Truth& truth, const Ventricle& v, const ScanPlane
     const int number = static_cast<int>(s) + 1;
     const bool drawn =
         std::any_of(truth.slices.begin(), truth.slices.end(),
-                    [&](const strain::SliceSeries& drawn) { return drawn.slice == number; });
+                    [&](const strain::SliceSeries& series) { return series.slice == number; });
     list.push_back({{"slice", number},
                     {"height_mm", p.height},
                     {"shift_mm", numbers(p.shift)},

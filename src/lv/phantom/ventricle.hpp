@@ -22,7 +22,7 @@ struct Ventricle {
   geometry::Ellipsoid shape{
       .endo_radius = 26.0, .endo_length = 68.0, .epi_radius = 35.0, .epi_length = 76.0};
   double squeeze = 0.6;      ///< part of the cavity that healthy muscle would eject
-  double shortening = 0.12;  ///< of the long axis, by descent of the base; the apex stays
+  double shortening = 0.04;  ///< of the long axis, by descent of the base; the apex stays
   double rotation_base =
       -4.0 * std::numbers::pi / 180.0;  ///< anticlockwise seen from the apex [rad]
   double rotation_apex = 12.0 * std::numbers::pi / 180.0;  ///< at the epicardial apex; linear in Z
