@@ -111,6 +111,14 @@ int validate(const Command& command, int argc, char** argv) {
   return 0;
 }
 
+int measure_strain(Command& command, int argc, char** argv) {
+  const lv::job::Case c = lv::job::read_case(command.case_file);
+  const lv::parallel::Session session(&argc, &argv);
+  command.run.until = "strain";
+  lv::job::run(c, command.run);
+  return 0;
+}
+
 int verify(const Command& command, int argc, char** argv) {
   if (command.list) {
     fmt::print("{}", lv::verify::list());
@@ -239,11 +247,18 @@ int dispatch(int argc, char** argv) {
       app.add_subcommand("run", "run all stages of a case, skipping those that are up to date");
   add_run_options(*run, command);
   run->add_option("--until", command.until,
-                  "last stage: anatomy, mesh, calibrate, beat, results or report");
+                  "last stage: strain, anatomy, mesh, calibrate, beat, results or report");
 
   auto* fit =
       app.add_subcommand("calibrate", "fit parameters to measured volumes, as the case asks");
   add_run_options(*fit, command);
+
+  auto* strain =
+      app.add_subcommand("strain", "measure strain from the cine images that a case names");
+  strain->add_option("CASE", command.case_file, "the case file")->required();
+  strain->add_option("--work", command.run.work,
+                     "work folder (default: the case file's name with .work)");
+  strain->add_flag("--explain", command.run.explain, "say why the stage runs or does not");
 
   add_phantom(app, command);
   add_verify(app, command);
@@ -278,6 +293,8 @@ int dispatch(int argc, char** argv) {
     return validate(command, argc, argv);
   if (*fit)
     command.until = "calibrate";
+  if (*strain)
+    return measure_strain(command, argc, argv);
   if (*run || *fit)
     return run_parallel(command, argc, argv);
   if (app.got_subcommand("phantom")) {

@@ -8,9 +8,12 @@
 #include "lv/mesh/regions.hpp"
 #include "lv/mesh/wall_mesh.hpp"
 #include "lv/quasi_static/engine.hpp"
+#include "lv/strain/warp.hpp"
 
+#include <array>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 
 namespace lv::job {
@@ -80,6 +83,23 @@ struct Calibration {
   [[nodiscard]] bool asked() const { return passive != calibrate::Passive::none || active; }
 };
 
+/// Which strain a table holds.
+enum class StrainMeasure { green_lagrange, engineering };
+
+/// Strain measured from cine images, or by somebody else. File names as the case file gives them.
+struct StrainStudy {
+  std::string cine, series;               ///< short-axis images
+  std::string contours, long_axis;        ///< drawn at end-diastole
+  std::string es_contours;                ///< drawn at end-systole, for comparison
+  int end_diastole = 1, end_systole = 0;  ///< numbers of the images in order of time
+  std::optional<std::array<double, 3>> septum_point;
+  strain::RegistrationParameters registration;
+  std::string measured, measured_column;  ///< a table of strains instead of images
+  StrainMeasure measured_kind = StrainMeasure::engineering;
+
+  [[nodiscard]] bool asked() const { return !cine.empty(); }
+};
+
 /// All that a case file says, checked once and constant from then on. Member initialisers are the
 /// defaults; names, units, ranges and meanings are in parameters.cpp.
 struct Case {
@@ -103,6 +123,7 @@ struct Case {
   Engine engine = Engine::immersed;
   QuasiStatic quasi_static;
   Calibration calibration;
+  StrainStudy strain;
   heartbeat::Protocol protocol;
   heartbeat::StepControl time;
   heartbeat::OutputSchedule output;
