@@ -69,6 +69,8 @@ itk::MetaDataDictionary dictionary(const StudyHeader& header, const Instance& at
       {"0020|0037", triple(plane.along_row) + "\\" + triple(plane.along_column)},
       {"0020|0052", uid(header.seed, 0, 1)},
       {"0020|1041", decimal(plane.origin.dot(plane.normal()))},
+      {"0028|0002", "1"},
+      {"0028|0004", "MONOCHROME2"},
       {"0028|0030", decimal(plane.spacing_j) + "\\" + decimal(plane.spacing_i)}};
   itk::MetaDataDictionary entries_of_itk;
   for (const auto& [tag, value] : entries)
