@@ -4,6 +4,7 @@
 #include "lv/base/table.hpp"
 #include "lv/base/units.hpp"
 #include "lv/heartbeat/immersed_beat.hpp"
+#include "lv/job/list_images.hpp"
 #include "lv/job/read_case.hpp"
 #include "lv/job/run.hpp"
 #include "lv/phantom/study.hpp"
@@ -42,6 +43,7 @@ struct Command {
   int ranks = 0;
   bool markdown = false;
   lv::job::BenchOptions bench;
+  lv::job::ListOptions images;
   bool list = false;
   lv::verify::Options verify;
   lv::phantom::Ventricle ventricle;
@@ -230,6 +232,18 @@ void add_phantom(CLI::App& app, Command& command) {
   phantom->add_option("--nifti", command.study.nifti, "write NIfTI files")->capture_default_str();
 }
 
+void add_images(CLI::App& app, Command& command) {
+  auto* images = app.add_subcommand(
+      "images", "list series, slices, phases, labels and volumes of images, to fill in a case");
+  images->add_option("WHERE", command.images.where, "a folder of DICOM files, or a NIfTI file")
+      ->required();
+  images->add_option("--contours", command.images.contours,
+                     "folder of Sunnybrook contours: volumes per phase");
+  images->add_option("--series", command.images.series, "series that the contours were drawn on");
+  images->add_option("--cavity", command.images.cavity,
+                     "labels of the cavity: volume at each time of a label map");
+}
+
 int dispatch(int argc, char** argv) {
   Command command;
   CLI::App app{"ventricle: left-ventricular mechanics from cardiac magnetic resonance"};
@@ -262,6 +276,7 @@ int dispatch(int argc, char** argv) {
 
   add_phantom(app, command);
   add_verify(app, command);
+  add_images(app, command);
   add_page(app, command, "report", "write one page that shows a run, finished or not", 1);
   add_page(app, command, "compare", "write one page that shows two runs side by side", 2);
 
@@ -307,6 +322,8 @@ int dispatch(int argc, char** argv) {
   for (const char* page : {"report", "compare"})
     if (app.got_subcommand(page))
       return write_page(command, page, argc, argv);
+  if (app.got_subcommand("images"))
+    fmt::print("{}", lv::job::list_images(command.images));
   if (app.got_subcommand("verify"))
     return verify(command, argc, argv);
   if (*list)

@@ -2,6 +2,7 @@
 
 #include "lv/base/check.hpp"
 #include "lv/geometry/contour_measures.hpp"
+#include "lv/geometry/long_axis.hpp"
 
 #include <fmt/format.h>
 
@@ -210,12 +211,33 @@ void check_pair(const Contour& endo, const Contour& epi) {
 void check_slices(const Contours& contours) {
   for (const Contour& c : contours.short_axis) {
     const Contour* endo = find(contours.short_axis, c.slice, Side::endo);
-    if (endo == nullptr)
-      throw InputError(c.where(), fmt::format("slice {} has no endocardium", c.slice),
-                       "Draw its endo loop or remove the slice");
-    if (c.side == Side::epi)
+    if (c.side == Side::epi && endo != nullptr)
       check_pair(*endo, c);
   }
+}
+
+/// A slice without endocardium can only lie beyond the cavity's apex.
+void check_lone_epicardium(const Contours& contours) {
+  const auto endo = loops_from_base(contours, Side::endo);
+  const Vec3 last = mean_of(endo.back()->points);
+  const Vec3 down = last - mean_of(endo.front()->points);
+  for (const Contour& c : contours.short_axis)
+    if (find(contours.short_axis, c.slice, Side::endo) == nullptr &&
+        (mean_of(c.points) - last).dot(down) <= 0.0)
+      throw InputError(c.where(), fmt::format("slice {} has no endocardium", c.slice),
+                       "Draw its endo loop or remove the slice");
+}
+
+/// One loop says nothing of how the wall changes along the axis.
+void check_enough_epicardium(const Contours& contours) {
+  const auto loops = loops_from_base(contours, Side::epi);
+  const bool along = std::any_of(contours.long_axis.begin(), contours.long_axis.end(),
+                                 [](const Contour& c) { return c.side == Side::epi; });
+  if (loops.size() == 1 && !along)
+    throw InputError(loops.front()->where(),
+                     fmt::format("only slice {} has an epicardium; at least two are needed",
+                                 loops.front()->slice),
+                     "Draw the outer border of the muscle on more slices");
 }
 
 /// The endocardial loops in slice order with the planes they lie in, normals all to one side.
@@ -352,6 +374,8 @@ void check_contours(const Contours& contours) {
   check_order(stack);
   check_apart(stack);
   check_nearby(contours, stack);
+  check_lone_epicardium(contours);
+  check_enough_epicardium(contours);
 }
 
 }  // namespace lv::geometry

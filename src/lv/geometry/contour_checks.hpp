@@ -7,9 +7,10 @@ namespace lv::geometry {
 /// Refuses contours that cannot be borders of one left ventricle, by file and line: fewer than 8
 /// points in a loop (5 in a long-axis curve) or fewer than 3 slices; a size that only another unit
 /// than mm explains; loops that are not flat, not closed or cross themselves; a slice without
-/// endocardium; an endocardium that crosses, encloses or lies beside its epicardium; slices that
-/// are not parallel, not in order, or share a plane; long-axis curves or apex points far from the
-/// slices. A slice without epicardium is accepted. @throws InputError
+/// endocardium, unless it lies beyond the cavity at the apex; a single epicardium, where no
+/// long-axis curve shows it besides; an endocardium that crosses, encloses or lies beside its
+/// epicardium; slices that are not parallel, not in order, or share a plane; long-axis curves or
+/// apex points far from the slices. A slice without epicardium is accepted. @throws InputError
 void check_contours(const Contours& contours);
 
 }  // namespace lv::geometry

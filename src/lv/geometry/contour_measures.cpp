@@ -34,6 +34,14 @@ double mean_radius(const Contour& loop) {
   return sum / static_cast<double>(loop.points.size());
 }
 
+double enclosed_area(const Contour& loop) {
+  Vec3 twice = Vec3::Zero();
+  const Vec3 centre = mean_of(loop.points);
+  for (std::size_t i = 0; i < loop.points.size(); ++i)
+    twice += (loop.points[i] - centre).cross(loop.points[(i + 1) % loop.points.size()] - centre);
+  return 0.5 * twice.norm();
+}
+
 std::vector<double> point_lengths(const Contour& contour, bool closed) {
   const std::size_t n = contour.points.size();
   std::vector<double> lengths(n, 0.0);

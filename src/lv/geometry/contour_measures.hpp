@@ -17,6 +17,9 @@ namespace lv::geometry {
 /// The mean distance of a loop's points from their mean [mm].
 [[nodiscard]] double mean_radius(const Contour& loop);
 
+/// The area that a closed loop encloses, projected on its plane [mm^2].
+[[nodiscard]] double enclosed_area(const Contour& loop);
+
 /// The length of line that each point stands for: half of the segments on either side [mm].
 [[nodiscard]] std::vector<double> point_lengths(const Contour& contour, bool closed);
 

@@ -191,25 +191,6 @@ std::vector<Contour> read_file(const std::filesystem::path& path) {
   return contours;
 }
 
-/// Drops points that repeat the one before; a loop is closed by its last segment, not by repeating
-/// its first point.
-void drop_repeats(Contour& loop) {
-  const auto repeats = [&](std::size_t i, std::size_t j) {
-    return (loop.points[i] - loop.points[j]).norm() < 1e-6;
-  };
-  Contour kept = loop;
-  kept.points.clear();
-  kept.lines.clear();
-  const std::size_t n = loop.points.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    if (i > 0 && (repeats(i, i - 1) || (i == n - 1 && repeats(i, 0))))
-      continue;
-    kept.points.push_back(loop.points[i]);
-    kept.lines.push_back(loop.lines[i]);
-  }
-  loop = std::move(kept);
-}
-
 void append_apex_points(const std::filesystem::path& path, std::vector<Contour>& apex) {
   for (const Contour& c : read_file(path))
     for (std::size_t i = 0; i < c.points.size(); ++i)
@@ -231,6 +212,24 @@ const Contour* find(const std::vector<Contour>& contours, int slice, Side side) 
     return c.slice == slice && c.side == side;
   });
   return found == contours.end() ? nullptr : &*found;
+}
+
+void drop_repeats(Contour& loop) {
+  const auto repeats = [&](std::size_t i, std::size_t j) {
+    return (loop.points[i] - loop.points[j]).norm() < 1e-6;
+  };
+  Contour kept = loop;
+  kept.points.clear();
+  kept.lines.clear();
+  const std::size_t n = loop.points.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    if (i > 0 && (repeats(i, i - 1) || (i == n - 1 && repeats(i, 0))))
+      continue;
+    kept.points.push_back(loop.points[i]);
+    if (i < loop.lines.size())
+      kept.lines.push_back(loop.lines[i]);
+  }
+  loop = std::move(kept);
 }
 
 Contours read_contours(const ContourFiles& files) {

@@ -33,7 +33,12 @@ struct Contours {
   std::vector<Contour> short_axis;
   std::vector<Contour> long_axis;
   std::vector<Contour> apex;  ///< one point each
+  std::vector<Vec3> annulus;  ///< points of the mitral annulus, image space [mm]
 };
+
+/// Drops points that repeat the one before; a loop is closed by its last segment, not by repeating
+/// its first point.
+void drop_repeats(Contour& loop);
 
 /// The contour of a slice and side, or null.
 [[nodiscard]] const Contour* find(const std::vector<Contour>& contours, int slice, Side side);

@@ -59,6 +59,26 @@ ImageReport image_report(const std::vector<Contour>& set, int slice, const Fitte
   return report;
 }
 
+ImageReport short_axis_report(const Contours& contours, int slice, const Fitted& fitted) {
+  ImageReport report =
+      image_report(contours.short_axis, slice, fitted, std::numeric_limits<double>::infinity());
+  if (const Contour* endo = find(contours.short_axis, slice, Side::endo))
+    report.endo_area = enclosed_area(*endo);
+  if (const Contour* epi = find(contours.short_axis, slice, Side::epi))
+    report.epi_area = enclosed_area(*epi);
+  return report;
+}
+
+/// All slices with a loop, from the base to the apex: those of the endocardium, then those of the
+/// epicardium beyond it.
+std::vector<int> all_slices(const Contours& contours) {
+  std::vector<int> slices = slices_from_base(contours);
+  for (const Contour* epi : loops_from_base(contours, Side::epi))
+    if (find(contours.short_axis, epi->slice, Side::endo) == nullptr)
+      slices.push_back(epi->slice);
+  return slices;
+}
+
 std::optional<Residual> apex_residual(const Contours& contours, Side side, const Fitted& fitted) {
   std::vector<const Contour*> points;
   for (const Contour& c : contours.apex)
@@ -111,13 +131,40 @@ double slice_tilt(const Contours& contours) {
 
 }  // namespace
 
+SlabVolumes slab_volumes(const Contours& contours) {
+  const double usual = slice_spacing(contours);
+  const std::vector<int> slices = all_slices(contours);
+  const Vec3 normal =
+      plane_of(find(contours.short_axis, slices.front(), Side::endo)->points).axes.col(2);
+  std::vector<double> heights;
+  for (const int slice : slices) {
+    const Contour* endo = find(contours.short_axis, slice, Side::endo);
+    const Contour* any = endo != nullptr ? endo : find(contours.short_axis, slice, Side::epi);
+    heights.push_back(mean_of(any->points).dot(normal));
+  }
+  SlabVolumes volumes;
+  for (std::size_t k = 0; k < slices.size(); ++k) {
+    const double above = k > 0 ? std::abs(heights[k] - heights[k - 1]) : usual;
+    const double below = k + 1 < slices.size() ? std::abs(heights[k + 1] - heights[k]) : usual;
+    const double thickness = 0.5 * (above + below);
+    const Contour* endo = find(contours.short_axis, slices[k], Side::endo);
+    const Contour* epi = find(contours.short_axis, slices[k], Side::epi);
+    const double cavity = endo != nullptr ? enclosed_area(*endo) : 0.0;
+    volumes.cavity += cavity * thickness;
+    if (epi != nullptr) {
+      volumes.wall += (enclosed_area(*epi) - cavity) * thickness;
+      ++volumes.wall_slices;
+    }
+  }
+  return volumes;
+}
+
 FitReport measure_fit(const Contours& contours, const Frame& frame, const StarSurface& endo,
                       const StarSurface& epi, double margin) {
   const Fitted fitted{frame, endo, epi, margin};
   FitReport report;
-  constexpr double everywhere = std::numeric_limits<double>::infinity();
-  for (const int slice : slices_from_base(contours))
-    report.short_axis.push_back(image_report(contours.short_axis, slice, fitted, everywhere));
+  for (const int slice : all_slices(contours))
+    report.short_axis.push_back(short_axis_report(contours, slice, fitted));
   std::set<int> images;
   for (const Contour& c : contours.long_axis)
     images.insert(c.slice);
@@ -127,6 +174,13 @@ FitReport measure_fit(const Contours& contours, const Frame& frame, const StarSu
   report.apex_epi = apex_residual(contours, Side::epi, fitted);
   report.volume_cavity = endo.enclosed_volume();
   report.volume_wall = epi.enclosed_volume() - report.volume_cavity;
+  const SlabVolumes slabs = slab_volumes(contours);
+  report.contour_cavity = slabs.cavity;
+  report.contour_wall = slabs.wall;
+  report.wall_slices = slabs.wall_slices;
+  report.slice_spacing = slice_spacing(contours);
+  report.base_height =
+      -frame.to_model(mean_of(loops_from_base(contours, Side::endo).front()->points)).z() + 0.0;
   measure_thickness(contours, fitted, report);
   report.slice_tilt = slice_tilt(contours);
   return report;

@@ -55,11 +55,30 @@ bool starts_at_apex(const Contours& contours) {
   return (mean_of(loops.front()->points) - at).norm() < (mean_of(loops.back()->points) - at).norm();
 }
 
-std::vector<const Contour*> loops_from_base(const Contours& contours) {
-  std::vector<const Contour*> loops;
-  for (const int slice : slices_from_base(contours))
-    loops.push_back(find(contours.short_axis, slice, Side::endo));
-  return loops;
+/// The points that show the mitral annulus; none if nothing does.
+std::vector<Vec3> annulus_points(const Contours& contours) {
+  std::vector<Vec3> points = contours.annulus;
+  if (points.empty())
+    for (const Contour& c : contours.long_axis)
+      if (c.side == Side::endo) {
+        points.push_back(c.points.front());
+        points.push_back(c.points.back());
+      }
+  return points;
+}
+
+/// From the centre of the most basal endocardial loop to a point of the base plane.
+Vec3 base_offset(const Contours& contours, const Vec3& basal_centre, BaseAt at) {
+  if (at == BaseAt::slice)
+    return Vec3::Zero();
+  if (at == BaseAt::slab)
+    return basal_slab(contours);
+  const auto points = annulus_points(contours);
+  if (points.empty())
+    throw InputError(contours.short_axis.front().where(),
+                     "no point of the mitral annulus and no long-axis curve shows the base",
+                     "Lay the base plane in the most basal slice or at the end of its slab");
+  return mean_of(points) - basal_centre;
 }
 
 Vec3 across(const Vec3& direction, const Vec3& axis) {
@@ -96,8 +115,45 @@ bool shows_apex(const Contours& contours, Side side) {
   return !apex_points(contours, side).empty();
 }
 
-double extrapolated_depth(const Contours& contours) {
-  const auto loops = loops_from_base(contours);
+std::vector<const Contour*> loops_from_base(const Contours& contours, Side side) {
+  const auto slices = slices_from_base(contours);
+  const auto centre = [&](int slice) {
+    return mean_of(find(contours.short_axis, slice, Side::endo)->points);
+  };
+  const Vec3 up = centre(slices.front()) - centre(slices.back());
+  std::vector<const Contour*> loops;
+  for (const Contour& c : contours.short_axis)
+    if (c.side == side)
+      loops.push_back(&c);
+  std::stable_sort(loops.begin(), loops.end(), [&](const Contour* a, const Contour* b) {
+    return mean_of(a->points).dot(up) > mean_of(b->points).dot(up);
+  });
+  return loops;
+}
+
+double slice_spacing(const Contours& contours) {
+  const auto loops = loops_from_base(contours, Side::endo);
+  const Vec3 normal = plane_of(loops.front()->points).axes.col(2);
+  std::vector<double> steps;
+  for (std::size_t k = 1; k < loops.size(); ++k)
+    steps.push_back(
+        std::abs((mean_of(loops[k]->points) - mean_of(loops[k - 1]->points)).dot(normal)));
+  std::nth_element(steps.begin(), steps.begin() + steps.size() / 2, steps.end());
+  return steps[steps.size() / 2];
+}
+
+Vec3 basal_slab(const Contours& contours) {
+  const auto loops = loops_from_base(contours, Side::endo);
+  const Frame plane = plane_of(loops.front()->points);
+  const Vec3 normal = plane.axes.col(2);
+  const Vec3 away = plane.origin - mean_of(loops.back()->points);
+  return std::copysign(0.5 * slice_spacing(contours), normal.dot(away)) * normal;
+}
+
+double extrapolated_depth(const Contours& contours, Side side) {
+  const auto loops = loops_from_base(contours, side);
+  if (loops.size() < 2)
+    return slice_spacing(contours);
   const Contour& last = *loops[loops.size() - 1];
   const Contour& above = *loops[loops.size() - 2];
   const double spacing = std::abs(plane_of(last.points).to_model(mean_of(above.points)).z());
@@ -110,7 +166,7 @@ double extrapolated_depth(const Contours& contours) {
 
 LongAxis long_axis(const Contours& contours) {
   std::vector<Vec3> centres;
-  for (const Contour* loop : loops_from_base(contours))
+  for (const Contour* loop : loops_from_base(contours, Side::endo))
     centres.push_back(mean_of(loop->points));
   const Vec3 base = centres.front();
   if (shows_apex(contours, Side::endo))
@@ -130,16 +186,17 @@ Vec3 endo_apex(const Contours& contours) {
   if (!shown.empty())
     return mean_of(shown);
   const LongAxis axis = long_axis(contours);
-  const Vec3 last = mean_of(loops_from_base(contours).back()->points);
-  const double height = (last - axis.point).dot(axis.up) - extrapolated_depth(contours);
+  const Vec3 last = mean_of(loops_from_base(contours, Side::endo).back()->points);
+  const double height = (last - axis.point).dot(axis.up) - extrapolated_depth(contours, Side::endo);
   return axis.point + height * axis.up;
 }
 
 Frame model_frame(const Contours& contours, const FrameParameters& parameters) {
-  const Contour& basal = *loops_from_base(contours).front();
+  const Contour& basal = *loops_from_base(contours, Side::endo).front();
   const LongAxis axis = long_axis(contours);
   Frame frame;
   frame.origin = mean_of(basal.points);
+  const Vec3 offset = base_offset(contours, frame.origin, parameters.base_at);
   Vec3 z = axis.up;
   if (parameters.base_plane == BasePlane::basal_slice) {
     z = plane_of(basal.points).axes.col(2);
@@ -147,6 +204,7 @@ Frame model_frame(const Contours& contours, const FrameParameters& parameters) {
   } else {
     frame.origin = axis.point + (frame.origin - axis.point).dot(z) * z;
   }
+  frame.origin += offset.dot(z) * z;
   const Vec3 x = x_direction(basal, frame.origin, z, parameters).normalized();
   frame.axes.col(0) = x;
   frame.axes.col(1) = z.cross(x);

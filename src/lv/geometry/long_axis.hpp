@@ -30,13 +30,23 @@ struct LongAxis {
 /// Whether apex points or long-axis curves show the apex of a surface.
 [[nodiscard]] bool shows_apex(const Contours& contours, Side side);
 
-/// How far the apex of the endocardium lies beyond the last loop if nothing shows it [mm]: where
-/// the squared mean radius r^2 of the last two loops would vanish linearly, but not farther than
-/// one slice spacing, for the next slice showed no cavity.
-[[nodiscard]] double extrapolated_depth(const Contours& contours);
+/// How far the apex of a surface lies beyond its last loop if nothing shows it [mm]: where the
+/// squared mean radius r^2 of its last two loops would vanish linearly, but not farther than one
+/// slice spacing, for the next slice showed nothing of it.
+[[nodiscard]] double extrapolated_depth(const Contours& contours, Side side);
 
-/// The model frame of some contours: z = 0 is the base plane and holds the centre of the most basal
-/// endocardial loop.
+/// The loops of a surface from the base to the apex.
+[[nodiscard]] std::vector<const Contour*> loops_from_base(const Contours& contours, Side side);
+
+/// The usual distance of neighbouring endocardial loops along their normal: the median [mm].
+[[nodiscard]] double slice_spacing(const Contours& contours);
+
+/// From the centre of the most basal endocardial loop to the end of the slab that it stands for:
+/// half a slice spacing along its normal, away from the apex [mm].
+[[nodiscard]] Vec3 basal_slab(const Contours& contours);
+
+/// The model frame of some contours: z = 0 is the base plane, whose height is as BaseAt says. If it
+/// holds the centre of the most basal endocardial loop:
 ///
 ///   BasePlane::long_axis     z is the direction of the long axis, the origin is on it;
 ///   BasePlane::basal_slice   z is normal to the plane of the most basal endocardial loop, the
@@ -44,7 +54,8 @@ struct LongAxis {
 ///                            geometries, whose basal loop is drawn in the plane of the valves.
 ///
 /// x points, as seen along z, from the origin to the septum point; else from the centre of the most
-/// basal loop to its first point. @throws InputError if the septum point is on the long axis.
+/// basal loop to its first point. @throws InputError if the septum point is on the long axis, or if
+/// the base plane shall lie in an annulus that nothing shows.
 [[nodiscard]] Frame model_frame(const Contours& contours, const FrameParameters& parameters);
 
 }  // namespace lv::geometry

@@ -5,10 +5,18 @@
 
 namespace lv::geometry {
 
-/// The base plane z = 0. It holds the centre of the most basal endocardial loop and is
+/// The direction of the base plane z = 0. It is
 enum class BasePlane {
   long_axis,   ///< normal to the long axis
   basal_slice  ///< the plane of that loop
+};
+
+/// Where the base plane lies.
+enum class BaseAt {
+  slice,   ///< in the centre of the most basal endocardial loop
+  slab,    ///< half a slice spacing above it, where the slab ends that the slice stands for
+  annulus  ///< in the mean of the points of the mitral annulus, else of the ends of the long-axis
+           ///< curves of the endocardium
 };
 
 /// How the model frame is laid into the contours.
@@ -16,6 +24,7 @@ struct FrameParameters {
   BasePlane base_plane = BasePlane::long_axis;
   /// A point of the septum in image space [mm]: the direction of x, theta = 0.
   std::optional<std::array<double, 3>> septum;
+  BaseAt base_at = BaseAt::slice;
 };
 
 /// How the two surfaces are fitted to the contours.
@@ -33,7 +42,7 @@ struct SplineFitParameters {
   double margin = 5.0;            ///< contour points up to this height above the base count [mm]
   bool correct_shifts = true;     ///< move slices in their planes if there are long-axis contours
   double largest_shift = 15.0;    ///< of a slice [mm]
-  double thinnest_wall = 2.0;     ///< that is accepted [mm]
+  double thinnest_wall = 1.0;     ///< that is accepted [mm]; scarred apexes have 1.5 and less
 };
 
 }  // namespace lv::geometry

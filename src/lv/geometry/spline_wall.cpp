@@ -30,12 +30,14 @@ std::string place(const Vec3& x) {
 /// Collects the points of the contours for the fit.
 class Sampler {
  public:
-  Sampler(const Contours& contours, const Frame& frame, double margin)
+  Sampler(const Contours& contours, const Frame& frame, const SplineFitParameters& parameters)
       : contours_(contours), frame_(frame), slices_(slices_from_base(contours)) {
     for (const Contour& c : contours.short_axis)
       add_curve(c, true, infinity);
+    if (parameters.frame.base_at == BaseAt::slab)
+      add_end_of_slab();
     for (const Contour& c : contours.long_axis)
-      add_curve(c, false, margin);
+      add_curve(c, false, parameters.margin);
     for (const Contour& c : contours.apex)
       add_apex(c.side, frame.to_model(c.points.front()));
     if (samples(Side::epi).empty())
@@ -50,16 +52,10 @@ class Sampler {
       add_apex(Side::endo, endo);
       notes.push_back(fmt::format(
           "no contour shows the endocardial apex: assumed {:.1f} mm beyond the last slice",
-          extrapolated_depth(contours_)));
+          extrapolated_depth(contours_, Side::endo)));
     }
-    if (!shows_apex(contours_, Side::epi)) {
-      const double thickness = apical_thickness();
-      add_apex(Side::epi, endo - Vec3(0.0, 0.0, thickness));
-      notes.push_back(
-          fmt::format("no contour shows the epicardial apex: assumed {:.1f} mm below "
-                      "the endocardial one, as thick as the wall of the last slice",
-                      thickness));
-    }
+    if (!shows_apex(contours_, Side::epi))
+      add_assumed_epi_apex(endo, notes);
   }
 
   [[nodiscard]] FitData data() const { return {samples_, {}}; }
@@ -81,16 +77,50 @@ class Sampler {
 
   void add_curve(const Contour& c, bool closed, double highest) {
     const auto length = point_lengths(c, closed);
-    const auto index = std::find(slices_.begin(), slices_.end(), c.slice) - slices_.begin();
+    const auto found = std::find(slices_.begin(), slices_.end(), c.slice);
+    const int index = found == slices_.end() ? -1 : static_cast<int>(found - slices_.begin());
     for (std::size_t i = 0; i < c.points.size(); ++i) {
       const Vec3 x = frame_.to_model(c.points[i]);
       if (x.z() > highest)
         continue;
       if (closed)
-        samples(c.side).push_back({x, length[i], Source::short_axis, static_cast<int>(index)});
+        samples(c.side).push_back({x, length[i], Source::short_axis, index});
       else
         samples(c.side).push_back({x, length[i], Source::long_axis});
     }
+  }
+
+  /// The basal slice stands for a slab of tissue: its loops again, where the slab ends.
+  void add_end_of_slab() {
+    const Vec3 shift = frame_.axes.transpose() * basal_slab(contours_);
+    for (const Side side : {Side::endo, Side::epi})
+      if (const Contour* loop = find(contours_.short_axis, slices_.front(), side)) {
+        const auto length = point_lengths(*loop, true);
+        for (std::size_t i = 0; i < loop->points.size(); ++i)
+          samples(side).push_back(
+              {frame_.to_model(loop->points[i]) + shift, length[i], Source::short_axis, 0});
+      }
+  }
+
+  void add_assumed_epi_apex(const Vec3& endo, std::vector<std::string>& notes) {
+    const double thickness = apical_thickness();
+    const Contour& last = *loops_from_base(contours_, Side::epi).back();
+    const double depth = extrapolated_depth(contours_, Side::epi);
+    const double height = frame_.to_model(mean_of(last.points)).z() - depth;
+    const bool lone = find(contours_.short_axis, last.slice, Side::endo) == nullptr;
+    if (lone && height < endo.z() - thickness) {
+      add_apex(Side::epi, Vec3(endo.x(), endo.y(), height));
+      notes.push_back(
+          fmt::format("no contour shows the epicardial apex: assumed {:.1f} mm beyond slice {}, "
+                      "the last with muscle",
+                      depth, last.slice));
+      return;
+    }
+    add_apex(Side::epi, endo - Vec3(0.0, 0.0, thickness));
+    notes.push_back(
+        fmt::format("no contour shows the epicardial apex: assumed {:.1f} mm below "
+                    "the endocardial one, as thick as the wall of the last slice",
+                    thickness));
   }
 
   /// Its length is the others' mean.
@@ -129,7 +159,7 @@ std::vector<Vec3> slice_shifts(const Contours& contours, const SplineFitParamete
   if (!parameters.correct_shifts || count_images(contours.long_axis) < 2)
     return std::vector<Vec3>(slices.size(), Vec3::Zero());
   const Frame frame = model_frame(contours, parameters.frame);
-  const Sampler sampler(contours, frame, parameters.margin);
+  const Sampler sampler(contours, frame, parameters);
   std::vector<Vec3> shifts = fit_surfaces(sampler.movable_data(), parameters).shifts;
   for (std::size_t k = 0; k < slices.size(); ++k) {
     shifts[k] = frame.axes * shifts[k];
@@ -147,9 +177,10 @@ std::vector<Vec3> slice_shifts(const Contours& contours, const SplineFitParamete
 Contours moved(Contours contours, const std::vector<Vec3>& shifts) {
   const std::vector<int> slices = slices_from_base(contours);
   for (Contour& c : contours.short_axis) {
-    const auto k = std::find(slices.begin(), slices.end(), c.slice) - slices.begin();
-    for (Vec3& x : c.points)
-      x += shifts[k];
+    const auto found = std::find(slices.begin(), slices.end(), c.slice);
+    if (found != slices.end())  // an epicardium beyond the cavity has no plane to move in
+      for (Vec3& x : c.points)
+        x += shifts[found - slices.begin()];
   }
   return contours;
 }
@@ -279,7 +310,7 @@ SplineWall fit_spline_wall(const Contours& contours, const SplineFitParameters& 
     check_star_shaped(loop, frame);
 
   std::vector<std::string> notes;
-  Sampler sampler(placed, frame, parameters.margin);
+  Sampler sampler(placed, frame, parameters);
   sampler.add_assumed_apexes(notes);
   note_missing_epicardium(placed, notes);
   note_extrapolated_base(placed, frame, notes);

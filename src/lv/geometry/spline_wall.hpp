@@ -37,7 +37,9 @@ class SplineWall {
 ///
 /// What no contour shows is assumed, and noted in the report: the endocardial apex as endo_apex
 /// says; the epicardial apex as far below the endocardial one as the wall is thick in the most
-/// apical slice that shows both.
+/// apical slice that shows both, or, where slices beyond the cavity show muscle alone, beyond the
+/// last of them as extrapolated_depth says. With BaseAt::slab the most basal loops are repeated
+/// where their slab ends, half a slice spacing above them.
 ///
 /// @throws InputError naming slice, height and angle if a contour is folded as seen from the long
 /// axis, a slice is moved by more than the largest shift, the wall is thinner than the thinnest

@@ -279,9 +279,7 @@ class Fit {
     return std::accumulate(weights_[side].begin(), weights_[side].end(), 0.0);
   }
 
-  [[nodiscard]] bool moves(const Sample& p) const {
-    return p.source == Source::short_axis && slices() > 0;
-  }
+  [[nodiscard]] bool moves(const Sample& p) const { return p.slice >= 0 && slices() > 0; }
 
   /// Divides the weights of long-axis points by the ratio of the two sources' variances.
   void weigh_sources() {

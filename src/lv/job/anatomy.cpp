@@ -2,12 +2,14 @@
 
 #include "lv/base/check.hpp"
 #include "lv/base/table.hpp"
+#include "lv/job/drawn.hpp"
 #include "lv/mesh/abaqus_blocks.hpp"
 #include "lv/mesh/import.hpp"
 #include "lv/mesh/refine.hpp"
 #include "lv/report/fields_vtk.hpp"
 #include "lv/report/tables_csv.hpp"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <memory>
@@ -17,28 +19,52 @@ namespace {
 
 namespace fs = std::filesystem;
 
-geometry::ContourFiles contour_files(const Case& c) {
-  const ContourAnatomy& a = c.anatomy.contours;
-  if (a.short_axis.empty())
-    throw InputError(c.file.string(), "anatomy.contours.short_axis is not set",
-                     "Name the CSV file of the short-axis loops");
-  geometry::ContourFiles files{.short_axis = beside(c, a.short_axis), .long_axis = {}, .apex = {}};
-  if (!a.long_axis.empty())
-    files.long_axis = beside(c, a.long_axis);
-  for (const std::string& apex : {a.apex_endo, a.apex_epi})
-    if (!apex.empty())
-      files.apex.push_back(beside(c, apex));
-  return files;
+constexpr const char* assumed_septum =
+    "the septum is assumed at the first point of the basal endocardial loop: regions bear the "
+    "wrong "
+    "names if it is elsewhere (set anatomy.contours.septum_point)";
+
+geometry::BaseAt base_at(const Case& c, const Drawn& drawn) {
+  switch (c.anatomy.contours.base_at) {
+    case BaseChoice::slice:
+      return geometry::BaseAt::slice;
+    case BaseChoice::slab:
+      return geometry::BaseAt::slab;
+    case BaseChoice::annulus:
+      return geometry::BaseAt::annulus;
+    default:
+      return drawn.usual_base;
+  }
 }
 
-Shape from_contours(const Case& c) {
-  const auto wall = std::make_shared<const geometry::SplineWall>(
-      geometry::fit_spline_wall(geometry::read_contours(contour_files(c)), c.anatomy.contours.fit));
+std::string base_rule(geometry::BaseAt at, geometry::BasePlane direction) {
+  const char* height = at == geometry::BaseAt::slice ? "through the most basal slice"
+                       : at == geometry::BaseAt::slab
+                           ? "half a slice spacing above the most basal slice, where its slab ends"
+                           : "through the mitral annulus";
+  return fmt::format("{}, {}", height,
+                     direction == geometry::BasePlane::long_axis ? "across the long axis"
+                                                                 : "parallel to that slice");
+}
+
+Shape from_drawn(const Case& c) {
+  Drawn drawn = read_drawn(c);
+  geometry::SplineFitParameters fit = c.anatomy.contours.fit;
+  fit.frame.base_at = base_at(c, drawn);
+  if (!fit.frame.septum)
+    fit.frame.septum = drawn.septum;
+  const auto wall =
+      std::make_shared<const geometry::SplineWall>(geometry::fit_spline_wall(drawn.contours, fit));
   Shape shape;
   shape.wall = [wall](double u, double theta, double t) { return wall->point(u, theta, t); };
   shape.frame = wall->frame();
-  shape.fit = wall->report();
-  shape.notes = wall->report().notes;
+  shape.notes = std::move(drawn.notes);
+  shape.notes.insert(shape.notes.end(), wall->report().notes.begin(), wall->report().notes.end());
+  if (!fit.frame.septum && !c.origin.contains("regions.septum_angle"))
+    shape.notes.emplace_back(assumed_septum);
+  shape.quality = report::QualitySheet{
+      wall->report(),     drawn.source,       base_rule(fit.frame.base_at, fit.frame.base_plane),
+      drawn.label_cavity, drawn.label_muscle, shape.notes};
   return shape;
 }
 
@@ -70,19 +96,23 @@ std::vector<double> numbers(const Vec3& v) {
 
 std::string septum_note(const Case& c) {
   const bool said = c.origin.contains("regions.septum_angle") ||
-                    c.origin.contains("anatomy.contours.septum_point");
+                    c.origin.contains("anatomy.contours.septum_point") ||
+                    !c.anatomy.labels.right_ventricle.empty();
   if (said || c.anatomy.source == AnatomySource::ellipsoid)
     return "";
-  return c.anatomy.source == AnatomySource::contours
-             ? "the septum is assumed at the first point of the basal endocardial loop: regions "
-               "bear the wrong names if it is elsewhere (set anatomy.contours.septum_point)"
+  if (c.anatomy.source == AnatomySource::guide_points)
+    return "";  // the list may show it: see the notes of the anatomy
+  return is_drawn(c)
+             ? assumed_septum
              : "the septum is assumed on the mesh's x axis: regions bear the wrong names if it is "
                "elsewhere (set regions.septum_angle)";
 }
 
 Shape make_anatomy(const Case& c) {
-  if (c.anatomy.source != AnatomySource::ellipsoid) {
-    Shape shape = c.anatomy.source == AnatomySource::contours ? from_contours(c) : from_mesh(c);
+  if (is_drawn(c))
+    return from_drawn(c);
+  if (c.anatomy.source == AnatomySource::mesh) {
+    Shape shape = from_mesh(c);
     if (const std::string note = septum_note(c); !note.empty())
       shape.notes.push_back(note);
     return shape;
@@ -106,22 +136,20 @@ void write_anatomy(const Shape& shape, const fs::path& folder) {
                                      {"z_axis_in_image_space", numbers(axes.col(2))},
                                      {"notes", shape.notes}};
   write_file(folder / "frame.json", frame.dump(2) + "\n");
-  if (shape.fit)
-    report::fit_table(*shape.fit).write_csv(folder / "fit.csv");
+  if (!shape.quality)
+    return;
+  report::fit_table(shape.quality->fit).write_csv(folder / "fit.csv");
+  report::quality_table(*shape.quality).write_csv(folder / "quality.csv");
+  write_file(folder / "quality.json", report::quality_json(*shape.quality));
+  write_file(folder / "quality.txt", report::quality_text(*shape.quality));
 }
 
 Ingredients anatomy_files(const Case& c) {
-  Ingredients files;
+  Ingredients files = drawn_files(c);
   const auto add = [&](const std::string& parameter, const std::string& name) {
     if (!name.empty())
       files["contents of " + parameter] = fingerprint_of_file(beside(c, name));
   };
-  if (c.anatomy.source == AnatomySource::contours) {
-    add("anatomy.contours.short_axis", c.anatomy.contours.short_axis);
-    add("anatomy.contours.long_axis", c.anatomy.contours.long_axis);
-    add("anatomy.contours.apex_endo", c.anatomy.contours.apex_endo);
-    add("anatomy.contours.apex_epi", c.anatomy.contours.apex_epi);
-  }
   if (c.anatomy.source == AnatomySource::mesh) {
     add("anatomy.mesh.file", c.anatomy.mesh.import.file);
     const fs::path file = beside(c, c.anatomy.mesh.import.file);

@@ -5,6 +5,7 @@
 #include "lv/job/case.hpp"
 #include "lv/job/workspace.hpp"
 #include "lv/mesh/wall_mesh.hpp"
+#include "lv/report/quality_sheet.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -17,8 +18,8 @@ struct Shape {
   std::optional<mesh::Mesh> given;  ///< that mesh
   std::vector<bool> infarcted;      ///< its elements in infarct.elements.set, if that is the source
   geometry::Frame frame;
-  std::optional<geometry::FitReport> fit;  ///< for contours
-  std::vector<std::string> notes;          ///< what was assumed or changed
+  std::optional<report::QualitySheet> quality;  ///< for a drawn wall
+  std::vector<std::string> notes;               ///< what was assumed or changed
 };
 
 /// The shape that a case asks for. Throws InputError naming the file and what is wrong in it.
@@ -28,8 +29,8 @@ struct Shape {
 /// does.
 [[nodiscard]] std::string septum_note(const Case& c);
 
-/// Writes surfaces.vtu (in the model frame), frame.json and, for contours, fit.csv with the
-/// residual distances per image.
+/// Writes surfaces.vtu (in the model frame), frame.json and, for a drawn wall, fit.csv with the
+/// residual distances per image and the quality sheet as quality.csv, .json and .txt.
 void write_anatomy(const Shape& shape, const std::filesystem::path& folder);
 
 /// The files that a case's anatomy is read from, by parameter, with what stands for their contents.

@@ -4,6 +4,7 @@
 #include "lv/geometry/ellipsoid.hpp"
 #include "lv/geometry/parameters.hpp"
 #include "lv/heartbeat/parameters.hpp"
+#include "lv/image/sunnybrook.hpp"
 #include "lv/immersed/model.hpp"
 #include "lv/mesh/regions.hpp"
 #include "lv/mesh/wall_mesh.hpp"
@@ -15,11 +16,12 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace lv::job {
 
 /// Where the ventricle's shape comes from.
-enum class AnatomySource { ellipsoid, contours, mesh };
+enum class AnatomySource { ellipsoid, contours, mesh, labels, sunnybrook, guide_points };
 
 /// Which passive law the wall follows.
 enum class PassiveLaw { holzapfel_ogden, guccione, neo_hookean };
@@ -27,10 +29,38 @@ enum class PassiveLaw { holzapfel_ogden, guccione, neo_hookean };
 /// Which solver runs the beat.
 enum class Engine { immersed, quasi_static };
 
-/// Contours and how surfaces are fitted to them. File names as the case file gives them.
+/// Where the base plane lies; `automatic`: as is usual for the source.
+enum class BaseChoice { automatic, slice, slab, annulus };
+
+/// Contours, and how surfaces are fitted to contours of whatever source. File names as the case
+/// file gives them.
 struct ContourAnatomy {
   std::string short_axis, long_axis, apex_endo, apex_epi;
+  BaseChoice base_at = BaseChoice::automatic;
   geometry::SplineFitParameters fit;
+};
+
+/// A map of labels and what they mean.
+struct LabelAnatomy {
+  std::string file;                                  ///< NIfTI
+  std::vector<int> cavity, muscle, right_ventricle;  ///< empty: not said
+  int frame = 0;                                     ///< from 1; 0: the only one
+};
+
+/// Contours in pixels of DICOM images.
+struct SunnybrookAnatomy {
+  std::string contours, dicom;      ///< folders
+  std::vector<std::string> series;  ///< of the DICOM files; empty: the only one
+  int phase = 0;                    ///< from 1 in order of time; 0: not said
+  image::PixelOrigin pixel_origin = image::PixelOrigin::corner;
+  image::DrawnBy drawn_by = image::DrawnBy::manual;
+};
+
+/// A list of points.
+struct GuidePointAnatomy {
+  std::string file;
+  int frame = -1;  ///< -1: the only one
+  geometry::Side apex_point = geometry::Side::epi;
 };
 
 /// A mesh made elsewhere.
@@ -44,6 +74,9 @@ struct Anatomy {
   geometry::Ellipsoid ellipsoid;
   ContourAnatomy contours;
   MeshAnatomy mesh;
+  LabelAnatomy labels;
+  SunnybrookAnatomy sunnybrook;
+  GuidePointAnatomy guide_points;
 };
 
 struct Passive {

@@ -1,10 +1,13 @@
 #include "lv/job/cine.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/geometry/contour_checks.hpp"
 #include "lv/geometry/contour_measures.hpp"
 #include "lv/geometry/long_axis.hpp"
+#include "lv/image/close_walls.hpp"
 #include "lv/image/dicom_study.hpp"
 #include "lv/image/nifti.hpp"
+#include "lv/image/sunnybrook.hpp"
 
 #include <fmt/format.h>
 
@@ -19,15 +22,37 @@ namespace {
 using geometry::Contour;
 using geometry::Side;
 
-image::Cine read_cine(const Case& c) {
-  const std::filesystem::path file = beside(c, c.strain.cine);
-  if (image::is_nifti_name(file))
-    return image::read_nifti_cine(file);
-  const std::array<std::filesystem::path, 1> where{file};
-  if (c.strain.series.empty())
-    return image::read_dicom_cine(where, {}, "strain.series");
-  const std::array<std::string, 1> series{c.strain.series};
-  return image::read_dicom_cine(where, series, "strain.series");
+image::DicomStack read_stack(const Case& c) {
+  const std::array<std::filesystem::path, 1> where{beside(c, c.strain.cine)};
+  std::vector<std::string> series;
+  if (!c.strain.series.empty())
+    series.push_back(c.strain.series);
+  return image::choose_stack(image::read_dicom_study(where), series, where.front().string(),
+                             "strain.series");
+}
+
+image::Cine read_cine(const Case& c, const std::optional<image::DicomStack>& stack) {
+  return stack ? image::read_pixels(*stack) : image::read_nifti_cine(beside(c, c.strain.cine));
+}
+
+/// Loops in the Sunnybrook form: of the phase that is followed, and of end-systole if that is said.
+void read_sunnybrook(const Case& c, const image::DicomStack& stack, CineStudy& study) {
+  constexpr double thinnest_wall = 2.0;  // of loops that cross [mm]
+  const std::filesystem::path folder = beside(c, c.strain.contours);
+  image::DrawnPhases drawn =
+      image::read_sunnybrook(folder, stack, image::PixelOrigin::corner, image::DrawnBy::manual);
+  study.notes.insert(study.notes.end(), drawn.notes.begin(), drawn.notes.end());
+  const auto diastole = drawn.phases.find(c.strain.end_diastole);
+  if (diastole == drawn.phases.end())
+    throw InputError(folder.string(),
+                     fmt::format("no contours are drawn on images number {} of the slices",
+                                 c.strain.end_diastole),
+                     "Set strain.end_diastole to the number, in order of time, of those that are");
+  study.drawn = diastole->second;
+  image::close_walls(study.drawn, thinnest_wall, study.notes);
+  geometry::check_contours(study.drawn);
+  if (const auto systole = drawn.phases.find(c.strain.end_systole); systole != drawn.phases.end())
+    study.systolic = systole->second.short_axis;
 }
 
 geometry::Contours read_drawn(const Case& c, const std::string& parameter,
@@ -112,10 +137,17 @@ std::size_t drawn_frame(const Case& c, const image::CineSlice& slice) {
 
 CineStudy read_cine_study(const Case& c) {
   CineStudy study;
-  study.cine = read_cine(c);
+  std::optional<image::DicomStack> stack;
+  if (!image::is_nifti_name(c.strain.cine))
+    stack = read_stack(c);
+  study.cine = read_cine(c, stack);
   study.notes = study.cine.notes;
   study.spacing = spacing_of(study.cine);
-  study.drawn = read_drawn(c, "strain.contours", c.strain.contours);
+  if (stack && std::filesystem::is_directory(beside(c, c.strain.contours)) &&
+      !c.strain.contours.empty())
+    read_sunnybrook(c, *stack, study);
+  else
+    study.drawn = read_drawn(c, "strain.contours", c.strain.contours);
   for (const Contour& loop : study.drawn.short_axis)
     study.slice_of.push_back(slice_with(study.cine, loop));
   if (!c.strain.es_contours.empty())

@@ -254,9 +254,33 @@ class Declarations {
         });
   }
 
+  /// Words in quotation marks; an empty list stands for none.
   template <class Member>
-  void whole_list(const std::string& key, const Member& member, const std::string& help) {
-    const std::string rule = "a list of whole numbers, at least one";
+  void text_list(const std::string& key, const Member& member, const std::string& help) {
+    const std::string rule = "a list of texts; [] for none";
+    add(
+        key, "list of texts", "", rule, help, "",
+        [=](const Case& c) {
+          std::string text;
+          for (const std::string& word : member(const_cast<Case&>(c)))
+            text += fmt::format("{}\"{}\"", text.empty() ? "" : ", ", word);
+          return fmt::format("[{}]", text);
+        },
+        [=](Case& c, const toml::node& node) {
+          const toml::array* array = node.as_array();
+          if (array == nullptr || (!array->empty() && !array->is_homogeneous<std::string>()))
+            throw std::invalid_argument(fmt::format("must be {}", rule));
+          member(c).clear();
+          for (const toml::node& value : *array)
+            member(c).push_back(*value.value<std::string>());
+        });
+  }
+
+  template <class Member>
+  void whole_list(const std::string& key, const Member& member, const std::string& help,
+                  bool may_be_empty = false) {
+    const std::string rule = may_be_empty ? "a list of whole numbers; [] for none"
+                                          : "a list of whole numbers, at least one";
     add(
         key, "list of whole numbers", "", rule, help, "",
         [=](const Case& c) {
@@ -264,7 +288,8 @@ class Declarations {
         },
         [=](Case& c, const toml::node& node) {
           const toml::array* array = node.as_array();
-          if (array == nullptr || array->empty() || !array->is_homogeneous<std::int64_t>())
+          if (array == nullptr || (array->empty() && !may_be_empty) ||
+              (!array->empty() && !array->is_homogeneous<std::int64_t>()))
             throw std::invalid_argument(fmt::format("must be {}", rule));
           member(c).clear();
           for (const toml::node& value : *array) {

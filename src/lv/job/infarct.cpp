@@ -1,6 +1,11 @@
 #include "lv/job/infarct.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/image/dicom_study.hpp"
+#include "lv/image/lookup.hpp"
+#include "lv/image/nifti.hpp"
+#include "lv/job/drawn.hpp"
+#include "lv/mesh/cell.hpp"
 #include "lv/mesh/closed_surface.hpp"
 #include "lv/mesh/infarct.hpp"
 #include "lv/mesh/label_volume.hpp"
@@ -8,6 +13,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
 
 namespace lv::job {
 namespace {
@@ -76,14 +84,143 @@ void check_labels(const Case& c, const std::string& file, const std::vector<int>
                        "Name the labels that mean scar");
 }
 
+/// A point of the wall as the shifted images have it.
+Vec3 in_images(const Case& c, const Shape& shape, const Vec3& X) {
+  return shape.frame.to_image(X) - Vec3(c.scar.shift[0], c.scar.shift[1], c.scar.shift[2]);
+}
+
+Infarcted within_nifti(const Case& c, const Shape& shape, const Mesh& mesh,
+                       const std::string& file) {
+  const image::Volume volume = image::read_nifti(file);
+  std::vector<int> wanted = c.scar.scar;
+  wanted.insert(wanted.end(), c.scar.no_reflow.begin(), c.scar.no_reflow.end());
+  image::require_labels(volume, 0, c.scar.scar, place_of(c, "infarct.labels.scar"),
+                        "infarct.labels.scar");
+  image::require_labels(volume, 0, c.scar.no_reflow, place_of(c, "infarct.labels.no_reflow"),
+                        "infarct.labels.no_reflow");
+  std::vector<Vec3> moves;
+  if (c.scar.in_plane) {
+    if (c.scar.muscle.empty())
+      throw InputError(
+          place_of(c, "infarct.labels.in_plane"),
+          "infarct.labels.muscle is not set: the slices are moved by the middle of all "
+          "muscle",
+          "Name the labels of healthy muscle too");
+    image::require_labels(volume, 0, c.scar.muscle, place_of(c, "infarct.labels.muscle"),
+                          "infarct.labels.muscle");
+    std::vector<int> muscle = wanted;
+    muscle.insert(muscle.end(), c.scar.muscle.begin(), c.scar.muscle.end());
+    std::vector<image::Weighted> wall;
+    for (int cell = 0; cell < mesh.cell_count(); ++cell)
+      wall.push_back(
+          {in_images(c, shape, mesh::cell_centre(mesh, cell)), mesh::cell_volume(mesh, cell)});
+    moves = image::slice_moves(volume, muscle, wall);
+    for (std::size_t s = 0; s < moves.size(); ++s)
+      if (moves[s].norm() > c.anatomy.contours.fit.largest_shift)
+        throw InputError(
+            place_of(c, "infarct.labels.in_plane"),
+            fmt::format("slice {} of {} would have to move by {:.1f} mm; at most {:g} mm are "
+                        "accepted",
+                        s + 1, file, moves[s].norm(), c.anatomy.contours.fit.largest_shift),
+            "Check that both images share the scanner's coordinates, or set infarct.shift");
+  }
+  return checked(c, shape, mesh,
+                 mesh::infarcted_where(mesh,
+                                       [&](const Vec3& X) {
+                                         return image::has_label(volume, in_images(c, shape, X),
+                                                                 wanted, moves);
+                                       }),
+                 fmt::format("in {}", file));
+}
+
+/// The brightness at the centre of every element; NaN outside the image.
+std::vector<double> brightness(const Case& c, const Shape& shape, const Mesh& mesh,
+                               const image::Cine& lge) {
+  std::vector<double> values;
+  for (int cell = 0; cell < mesh.cell_count(); ++cell)
+    values.push_back(image::sample(lge, in_images(c, shape, mesh::cell_centre(mesh, cell))));
+  return values;
+}
+
+image::Cine read_lge(const Case& c) {
+  const mesh::LateEnhancement& lge = c.scar.lge;
+  const std::string file = file_of(c, "infarct.lge.image", lge.image);
+  image::Cine image = image::is_nifti_name(file)
+                          ? image::read_nifti_cine(file)
+                          : image::read_dicom_cine(std::array{std::filesystem::path(file)},
+                                                   lge.series, "infarct.lge.series");
+  for (const image::CineSlice& slice : image.slices)
+    if (slice.frames.size() != 1)
+      throw InputError(
+          file, fmt::format("{} has {} images of different times", slice.name, slice.frames.size()),
+          "A late-enhancement image has one for each slice: choose the series");
+  return image;
+}
+
+/// The brightness from which on muscle is scar.
+double scar_threshold(const Case& c, const Mesh& mesh, const std::vector<double>& values) {
+  const mesh::LateEnhancement& lge = c.scar.lge;
+  if (lge.threshold == mesh::ScarThreshold::fwhm) {
+    double most = -std::numeric_limits<double>::infinity();
+    for (const double value : values)
+      if (value > most)
+        most = value;
+    return 0.5 * most;
+  }
+  if (lge.remote.empty())
+    throw InputError(
+        place_of(c, "infarct.source"), "infarct.lge.remote is not set",
+        "Name the AHA segments of remote, healthy muscle, or set threshold = \"fwhm\"");
+  const mesh::Regions regions = mesh::divide(mesh, c.regions);
+  double V = 0.0;
+  double first = 0.0;
+  double second = 0.0;
+  for (int cell = 0; cell < mesh.cell_count(); ++cell) {
+    const double value = values[cell];
+    if (std::isnan(value) ||
+        std::find(lge.remote.begin(), lge.remote.end(), regions.aha[cell]) == lge.remote.end())
+      continue;
+    const double dV = mesh::cell_volume(mesh, cell);
+    V += dV;
+    first += dV * value;
+    second += dV * value * value;
+  }
+  if (V == 0.0)
+    throw InputError(place_of(c, "infarct.lge.remote"),
+                     "the image shows nothing of the remote segments",
+                     "Name segments between 1 and 17 that the image covers");
+  const double mean = first / V;
+  return mean + lge.deviations * std::sqrt(std::max(0.0, second / V - mean * mean));
+}
+
+Infarcted by_brightness(const Case& c, const Shape& shape, const Mesh& mesh) {
+  const std::vector<double> values = brightness(c, shape, mesh, read_lge(c));
+  if (std::all_of(values.begin(), values.end(), [](double v) { return std::isnan(v); }))
+    throw InputError(place_of(c, "infarct.lge.image"),
+                     fmt::format("{} shows nothing of the wall, which reaches {} in image space",
+                                 c.scar.lge.image, place_of_wall(shape, mesh)),
+                     "Check that both share the scanner's coordinates");
+  const double threshold = scar_threshold(c, mesh, values);
+  Infarcted infarcted;
+  for (const double value : values)
+    infarcted.push_back(value > threshold);
+  infarcted = checked(c, shape, mesh, std::move(infarcted),
+                      fmt::format("brighter than {:.4g} in {}", threshold, c.scar.lge.image));
+  return c.scar.lge.fill_no_reflow ? mesh::with_enclosed(mesh, infarcted) : infarcted;
+}
+
 Infarcted within_labels(const Case& c, const Shape& shape, const Mesh& mesh) {
   const std::string file = file_of(c, "infarct.labels.file", c.scar.labels);
+  if (image::is_nifti_name(file))
+    return within_nifti(c, shape, mesh, file);
   const mesh::LabelVolume volume(file, c.scar.array, c.scar.length_unit);
   check_labels(c, file, volume.labels());
+  std::vector<int> wanted = c.scar.scar;
+  wanted.insert(wanted.end(), c.scar.no_reflow.begin(), c.scar.no_reflow.end());
   return checked(
       c, shape, mesh,
       mesh::infarcted_where(
-          mesh, [&](const Vec3& X) { return volume.has(shape.frame.to_image(X), c.scar.scar); }),
+          mesh, [&](const Vec3& X) { return volume.has(in_images(c, shape, X), wanted); }),
       fmt::format("in {}: {}", file, format_box(volume.box())));
 }
 
@@ -94,6 +231,8 @@ Infarcted infarcted(const Case& c, const Shape& shape, const Mesh& mesh) {
     return within_surface(c, shape, mesh);
   if (c.scar.source == InfarctSource::labels)
     return within_labels(c, shape, mesh);
+  if (c.scar.source == InfarctSource::lge)
+    return by_brightness(c, shape, mesh);
   return checked(c, shape, mesh, Infarcted(shape.infarcted),
                  fmt::format("the elements of \"{}\"", c.scar.set));
 }
@@ -118,7 +257,26 @@ Ingredients infarct_files(const Case& c) {
     add("infarct.surface.file", c.scar.surface);
   if (c.scar.source == InfarctSource::labels)
     add("infarct.labels.file", c.scar.labels);
+  if (c.scar.source == InfarctSource::lge && !c.scar.lge.image.empty()) {
+    const auto place = beside(c, c.scar.lge.image);
+    if (std::filesystem::is_directory(place))
+      add_folder(place, files);
+    else
+      add("infarct.lge.image", c.scar.lge.image);
+  }
   return files;
+}
+
+Table infarct_table(const Case& c, const Mesh& mesh, const mesh::Regions& regions) {
+  Table table({"segment", "name", "wall_ml", "infarct_ml", "infarct_g", "infarct_percent",
+               "transmurality_percent"});
+  for (const mesh::SegmentInfarct& s : mesh::infarct_by_segment(mesh, regions, c.regions))
+    table.add_row({std::to_string(s.segment), mesh::aha_name(s.segment),
+                   Table::number(1e-3 * s.wall), Table::number(1e-3 * s.infarct),
+                   Table::number(1e3 * c.blood.density * s.infarct),
+                   Table::number(s.wall > 0.0 ? 100.0 * s.infarct / s.wall : 0.0),
+                   Table::number(100.0 * s.transmurality)});
+  return table;
 }
 
 std::string describe_infarct(const Case& c, const Mesh& mesh) {

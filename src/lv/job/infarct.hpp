@@ -1,5 +1,6 @@
 #pragma once
 
+#include "lv/base/table.hpp"
 #include "lv/job/anatomy.hpp"
 #include "lv/job/case.hpp"
 
@@ -15,6 +16,11 @@ namespace lv::job {
 
 /// The files that the infarct is read from, by parameter, with what stands for their contents.
 [[nodiscard]] Ingredients infarct_files(const Case& c);
+
+/// infarct.csv: per AHA segment the infarct's volume, mass (with the density of the case), part of
+/// the segment and transmurality (see mesh::infarct_by_segment).
+[[nodiscard]] Table infarct_table(const Case& c, const mesh::Mesh& mesh,
+                                  const mesh::Regions& regions);
 
 /// "infarct: 68.54 ml (60.0% of the wall), 68.5 g; border zone: ..."; empty without an infarct.
 [[nodiscard]] std::string describe_infarct(const Case& c, const mesh::Mesh& mesh);

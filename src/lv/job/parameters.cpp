@@ -24,7 +24,8 @@ void declare_anatomy(Declarations& d) {
       "of slow loads, in seconds");
   d.stage = Stage::anatomy;
   d.table = "anatomy";
-  d.choice("source", LV_AT(anatomy.source), {"ellipsoid", "contours", "mesh"},
+  d.choice("source", LV_AT(anatomy.source),
+           {"ellipsoid", "contours", "mesh", "labels", "sunnybrook", "guide_points"},
            "where the shape of the wall at early diastole comes from", "2.2");
   d.table = "anatomy.ellipsoid";
   const Range size = between(1.0, 200.0);
@@ -55,6 +56,11 @@ void declare_contours(Declarations& d) {
            "the base plane through the centre of the most basal endocardial loop is normal to the "
            "long axis, or the plane of that loop",
            "2.2");
+  d.choice("base_at", LV_AT(anatomy.contours.base_at), {"automatic", "slice", "slab", "annulus"},
+           "the base plane lies in the most basal endocardial loop, half a slice spacing above it "
+           "where the slab of the slice ends, or at the mitral annulus (guide points, ends of "
+           "long-axis curves); automatic: slice for contours, slab for labels and sunnybrook, "
+           "annulus for guide_points that show it");
   d.optional_point("septum_point", LV_AT(anatomy.contours.fit.frame.septum), "mm",
                    "a point of the middle of the septum in scanner coordinates: the model's x "
                    "direction, from which regions are counted");
@@ -73,6 +79,43 @@ void declare_contours(Declarations& d) {
              "a slice that would have to move farther is an error");
   d.quantity("thinnest_wall", LV_AT(anatomy.contours.fit.thinnest_wall), "mm", between(0.1, 20.0),
              "a thinner wall is an error");
+}
+
+void declare_images(Declarations& d) {
+  d.table = "anatomy.labels";
+  d.text("file", LV_AT(anatomy.labels.file),
+         "NIfTI label map, of one or more times; names are relative to the case file");
+  d.whole_list(
+      "cavity", LV_AT(anatomy.labels.cavity),
+      "labels of the left ventricle's blood (with those of papillary muscles, if labelled)", true);
+  d.whole_list("muscle", LV_AT(anatomy.labels.muscle), "labels of the left ventricle's muscle",
+               true);
+  d.whole_list("right_ventricle", LV_AT(anatomy.labels.right_ventricle),
+               "labels of the right ventricle: where the septum is; may be left out", true);
+  d.whole("frame", LV_AT(anatomy.labels.frame), between(0, 10000),
+          "time of a map of several, counted from 1; 0: the only one");
+  d.table = "anatomy.sunnybrook";
+  d.text("contours", LV_AT(anatomy.sunnybrook.contours),
+         "folder of text contours IM-0001-0059-icontour-manual.txt and so on, in pixels");
+  d.text("dicom", LV_AT(anatomy.sunnybrook.dicom), "folder of the DICOM files they were drawn on");
+  d.text_list(
+      "series", LV_AT(anatomy.sunnybrook.series),
+      "series to use: number, description or SeriesInstanceUID, as `ventricle images` lists "
+      "them; may be left out if there is one");
+  d.whole("phase", LV_AT(anatomy.sunnybrook.phase), between(0, 10000),
+          "phase to use, counted from 1 in order of time among the DICOM files; 0: not chosen");
+  d.choice(
+      "pixel_origin", LV_AT(anatomy.sunnybrook.pixel_origin), {"corner", "centre"},
+      "pixel coordinates (0, 0) are the image's outer corner, or the centre of its first pixel");
+  d.choice("drawn", LV_AT(anatomy.sunnybrook.drawn_by), {"manual", "auto"},
+           "which contours to use, as the file names say");
+  d.table = "anatomy.guide_points";
+  d.text("file", LV_AT(anatomy.guide_points.file),
+         "tab-separated list with columns x, y, z, contour type, slice and time frame");
+  d.whole("frame", LV_AT(anatomy.guide_points.frame), between(-1, 100000),
+          "time frame to use; -1: the only one");
+  d.choice("apex_point", LV_AT(anatomy.guide_points.apex_point), {"endo", "epi"},
+           "the surface whose tip a point of type APEX_POINT is");
 }
 
 void declare_given_mesh(Declarations& d) {
@@ -141,7 +184,7 @@ void declare_mesh(Declarations& d) {
 void declare_infarct(Declarations& d) {
   d.table = "infarct";
   d.choice("source", LV_AT(scar.source),
-           {"mesh", "none", "described", "elements", "surface", "labels"},
+           {"mesh", "none", "described", "elements", "surface", "labels", "lge"},
            "where the infarct comes from: the mesh file's point array of M (no infarct if it has "
            "none), nowhere, or one of the tables below; an element is infarcted if its centre is",
            "2.11");
@@ -149,6 +192,9 @@ void declare_infarct(Declarations& d) {
              "width of the border zone, over which M falls from 1 to 0", "2.11");
   d.quantity("length_unit", LV_AT(scar.length_unit), "mm", positive,
              "length of the unit of surface.file or labels.file");
+  d.quantity_triple("shift", LV_AT(scar.shift), "mm", between(-50.0, 50.0),
+                    "by which the labels or the late-enhancement image are moved in scanner "
+                    "coordinates before they are laid on the wall");
   d.table = "infarct.described";
   const Range height = between(0.0, 1.0);
   d.quantity("angle", LV_AT(scar.described.angle), "deg", between(-360.0, 360.0),
@@ -176,10 +222,34 @@ void declare_infarct(Declarations& d) {
       "are relative to the case file");
   d.table = "infarct.labels";
   d.text("file", LV_AT(scar.labels),
-         "labelled volume in image space: .vti or .vtk (structured points)");
+         "labelled volume in image space: NIfTI (.nii, .nii.gz), .vti or .vtk (structured points)");
   d.text("array", LV_AT(scar.array),
          "array of labels, at points (centres of voxels) or in cells; empty: the only one");
   d.whole_list("scar", LV_AT(scar.scar), "the labels that mean scar");
+  d.whole_list("no_reflow", LV_AT(scar.no_reflow),
+               "the labels of the scar's dark core, which is infarct too", true);
+  d.whole_list("muscle", LV_AT(scar.muscle), "the labels of the other muscle, for in_plane", true);
+  d.flag("in_plane", LV_AT(scar.in_plane),
+         "NIfTI: move each slice in its plane until the middle of its muscle and scar lies on that "
+         "of the wall there (another breath-hold)");
+  d.table = "infarct.lge";
+  d.text(
+      "image", LV_AT(scar.lge.image),
+      "late-enhancement image: a NIfTI file or a folder of DICOM files; it is read at the centres "
+      "of the wall's elements, from the nearest slice");
+  d.text_list("series", LV_AT(scar.lge.series),
+              "DICOM series to use, as `ventricle images` lists them; may be left out if there is "
+              "one");
+  d.choice(
+      "threshold", LV_AT(scar.lge.threshold), {"sd", "fwhm"},
+      "scar is brighter than remote muscle by so many standard deviations, or than half of the "
+      "brightest in the wall");
+  d.number("deviations", LV_AT(scar.lge.deviations), positive,
+           "standard deviations above the mean of remote muscle (threshold = \"sd\")");
+  d.whole_list("remote", LV_AT(scar.lge.remote),
+               "AHA segments (1 to 17) of remote, healthy muscle (threshold = \"sd\")", true);
+  d.flag("fill_no_reflow", LV_AT(scar.lge.fill_no_reflow),
+         "dark parts of the wall that the scar shuts off from epicardium and base count to it");
   d.stage = Stage::calibrate;
   d.table = "infarct";
   d.number("stiffening", LV_AT(infarct.stiffening), not_negative,
@@ -356,9 +426,10 @@ void declare_strain(Declarations& d) {
          "over time; names are relative to the case file");
   d.text("series", LV_AT(strain.series),
          "DICOM: number, UID or description of the series; may be left out if there is one");
-  d.text("contours", LV_AT(strain.contours),
-         "CSV of the loops of endocardium and epicardium drawn on the cine at end-diastole, in the "
-         "form of anatomy.contours.short_axis");
+  d.text(
+      "contours", LV_AT(strain.contours),
+      "loops of endocardium and epicardium drawn on the cine at end-diastole: a CSV file in the "
+      "form of anatomy.contours.short_axis, or a folder of text contours in the Sunnybrook form");
   d.text("long_axis", LV_AT(strain.long_axis),
          "CSV of curves on long-axis images at end-diastole, for the place of the apex; may be "
          "left out");
@@ -456,6 +527,7 @@ std::vector<Parameter> declare_all() {
   Declarations d;
   declare_anatomy(d);
   declare_contours(d);
+  declare_images(d);
   declare_given_mesh(d);
   declare_mesh(d);
   declare_infarct(d);
@@ -485,9 +557,15 @@ const std::vector<Section>& sections() {
        "Truncated ellipsoids (source = \"ellipsoid\"); the default is the idealised healthy "
        "ventricle"},
       {"anatomy.contours",
-       "Contours drawn on images (source = \"contours\"); B-spline surfaces are fitted to them"},
+       "Contours drawn on images (source = \"contours\"), and how B-spline surfaces are fitted to "
+       "them: the latter holds for labels, sunnybrook and guide_points too"},
+      {"anatomy.labels",
+       "A label map (source = \"labels\"): its borders on the slices become contours"},
+      {"anatomy.sunnybrook",
+       "Contours in pixels with their DICOM images (source = \"sunnybrook\")"},
+      {"anatomy.guide_points", "A list of points on the borders (source = \"guide_points\")"},
       {"anatomy.mesh", "A mesh made elsewhere (source = \"mesh\")"},
-      {"mesh", "Hexahedral mesh of the wall (sources \"ellipsoid\" and \"contours\")"},
+      {"mesh", "Hexahedral mesh of the wall (every source but \"mesh\")"},
       {"fibres", "Rule-based fibre and sheet directions"},
       {"regions",
        "Division of the wall for tables: the paper's seven slices and the AHA's 17 segments"},
@@ -505,6 +583,7 @@ const std::vector<Section>& sections() {
       {"infarct.elements", "Elements of an imported mesh (source = \"elements\")"},
       {"infarct.surface", "What a closed surface encloses (source = \"surface\")"},
       {"infarct.labels", "Voxels of a segmented image (source = \"labels\")"},
+      {"infarct.lge", "A late-enhancement image with a threshold (source = \"lge\")"},
       {"active",
        "Active tension; all but law and tension belong to the law of Niederer, Hunter and Smith"},
       {"calcium", "Intracellular calcium, the same everywhere"},

@@ -217,6 +217,8 @@ class Pipeline {
     if (!parallel::is_root())
       return;
     const auto stage = static_cast<Stage>(s);
+    if (stage == Stage::anatomy && std::filesystem::exists(folder(stage) / "quality.txt"))
+      fmt::print("\n{}\n", read_file(folder(stage) / "quality.txt"));
     if (stage == Stage::calibrate)
       fmt::print("\n{}\nparameters in {}\n\n", read_file(folder(stage) / "calibration.txt"),
                  (folder(stage) / "calibrated.toml").string());
@@ -302,11 +304,11 @@ std::string validate(const Case& c) {
       "{}: valid\n"
       "  early diastole: cavity {:.2f} ml, wall {:.2f} ml\n",
       c.file.string(), 1e-3 * solid::Cavity(m).volume(m.nodes), 1e-3 * q.wall_volume);
-  if (shape.fit)
-    text += fmt::format("  contours: wall {:.1f} mm thick at the thinnest, {:.1f} mm at most\n",
-                        shape.fit->thinnest.value, shape.fit->thickest.value);
-  for (const std::string& note : shape.notes)
-    text += fmt::format("  note: {}\n", note);
+  if (shape.quality)
+    text += report::quality_text(*shape.quality);
+  else
+    for (const std::string& note : shape.notes)
+      text += fmt::format("  note: {}\n", note);
   text += fmt::format(
       "  mesh: {} elements, {} nodes, edges {:.2f} mm in the mean; worst element {} at ({:.1f}, "
       "{:.1f}, {:.1f}) mm with scaled Jacobian {:.2f}\n",

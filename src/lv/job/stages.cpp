@@ -255,6 +255,7 @@ void show_mesh(const MeshResult& result, const Case& c, const std::filesystem::p
   report::write(report::fibre_figure(m, undeformed), folder / "fibres.png");
   if (const std::string infarct = describe_infarct(c, m); !infarct.empty()) {
     log::info("{}", infarct);
+    infarct_table(c, m, result.regions).write_csv(folder / "infarct.csv");
     report::write(report::infarct_figure(m), folder / "infarct.png");
   }
 }
@@ -335,6 +336,8 @@ std::string make_results(const Case& c, const MeshResult& mesh, const BeatResult
   report::RunFacts facts = run_facts(c, mesh, beat);
   facts.fitted = fitted;
   write_file(folder / "summary.json", report::summary_json(facts, beat.beat, results));
+  if (!describe_infarct(c, mesh.mesh).empty())
+    infarct_table(c, mesh.mesh, mesh.regions).write_csv(folder / "infarct.csv");
   report::regions_table(results).write_csv(folder / "regions.csv");
   report::rotation_table(results).write_csv(folder / "rotation.csv");
   report::curves_table(beat.beat.curves).write_csv(folder / "curves.csv");

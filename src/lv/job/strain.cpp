@@ -89,9 +89,9 @@ Check check(const CineStudy& study, const TrackedSlice& slice, int phase) {
 }
 
 Table slices_table(const CineStudy& study, const std::vector<TrackedSlice>& slices, int systole) {
-  Table table({"slice", "name", "third", "followed", "residual_es", "largest_residual",
-               "smallest_J", "cavity_area_ed_mm2", "cavity_area_es_mm2", "given_area_es_mm2",
-               "dice_es", "mean_distance_es_mm", "largest_distance_es_mm"});
+  Table table({"slice", "third", "followed", "residual_es", "largest_residual", "smallest_J",
+               "cavity_area_ed_mm2", "cavity_area_es_mm2", "given_area_es_mm2", "dice_es",
+               "mean_distance_es_mm", "largest_distance_es_mm"});
   for (const TrackedSlice& s : slices) {
     const std::size_t k = at_phase(s, systole);
     double largest = 0.0;
@@ -99,7 +99,7 @@ Table slices_table(const CineStudy& study, const std::vector<TrackedSlice>& slic
       largest = std::max(largest, m.residual);
     const Check given = check(study, s, systole);
     static constexpr std::array<const char*, 3> thirds{"basal", "middle", "apical"};
-    table.add_row({std::to_string(s.series.slice), s.series.name, thirds.at(s.series.third),
+    table.add_row({std::to_string(s.series.slice), thirds.at(s.series.third),
                    was_followed(s) ? "yes" : "no", number(s.matches.at(k).residual),
                    number(largest), number(s.smallest_J), number(s.cavity_areas.front()),
                    number(s.cavity_areas.at(k)), number(given.area), number(given.dice),
@@ -179,9 +179,10 @@ std::string words(const CineStudy& study, const std::vector<TrackedSlice>& slice
   for (const TrackedSlice& s : slices)
     if (!was_followed(s))
       text += fmt::format(
-          "slice {} could not be followed (its map shrinks area to {:.2f}): its muscle has "
-          "probably "
-          "left the plane; it is left out of the AHA segments and the whole wall\n",
+          "slice {} was not followed everywhere: the map folds in its wall (least J {:.2f}), as "
+          "when "
+          "muscle leaves the plane or images are far apart in time; it is left out of the AHA "
+          "segments and the whole wall\n",
           s.series.slice, s.smallest_J);
   text +=
       fmt::format("end-diastole: phase {}, cavity {:.1f} ml; end-systole: phase {}, {:.1f} ml\n",

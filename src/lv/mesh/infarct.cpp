@@ -6,7 +6,9 @@
 #include "lv/mesh/surface.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 namespace lv::mesh {
@@ -27,6 +29,20 @@ double mean_transmural(const Mesh& mesh, int cell) {
   return sum / static_cast<double>(mesh.cell(cell).size());
 }
 
+/// The faces of a cell, each by its nodes.
+std::vector<std::vector<int>> faces_of(const Mesh& mesh, int c) {
+  static const std::vector<std::vector<int>> hexahedron{{0, 1, 2, 3}, {4, 5, 6, 7}, {0, 1, 5, 4},
+                                                        {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+  static const std::vector<std::vector<int>> tetrahedron{
+      {0, 1, 2}, {0, 1, 3}, {1, 2, 3}, {0, 2, 3}};
+  std::vector<std::vector<int>> faces =
+      mesh.kind == CellKind::hexahedron ? hexahedron : tetrahedron;
+  for (auto& face : faces)
+    for (int& a : face)
+      a = mesh.cell(c)[a];
+  return faces;
+}
+
 /// The infarcted elements alone, on the nodes of the whole wall.
 Mesh infarcted_part(const Mesh& mesh, const Infarcted& infarcted) {
   Mesh part;
@@ -35,6 +51,43 @@ Mesh infarcted_part(const Mesh& mesh, const Infarcted& infarcted) {
   for (int c = 0; c < mesh.cell_count(); ++c)
     if (infarcted[c])
       part.cells.insert(part.cells.end(), mesh.cell(c).begin(), mesh.cell(c).end());
+  return part;
+}
+
+/// Numbers the parts of the wall that are not infarcted, of cells that share faces; -1 in the
+/// infarct.
+std::vector<int> healthy_parts(const Mesh& mesh, const Infarcted& infarcted) {
+  std::map<std::vector<int>, std::vector<int>> cells_of_face;
+  for (int c = 0; c < mesh.cell_count(); ++c)
+    if (!infarcted[c])
+      for (auto face : faces_of(mesh, c)) {
+        std::sort(face.begin(), face.end());
+        cells_of_face[face].push_back(c);
+      }
+  std::vector<std::vector<int>> neighbours(mesh.cell_count());
+  for (const auto& [face, cells] : cells_of_face)
+    if (cells.size() == 2) {
+      neighbours[cells[0]].push_back(cells[1]);
+      neighbours[cells[1]].push_back(cells[0]);
+    }
+  std::vector<int> part(mesh.cell_count(), -1);
+  int parts = 0;
+  for (int c = 0; c < mesh.cell_count(); ++c) {
+    if (infarcted[c] || part[c] >= 0)
+      continue;
+    std::vector<int> front{c};
+    part[c] = parts;
+    while (!front.empty()) {
+      const int at = front.back();
+      front.pop_back();
+      for (const int next : neighbours[at])
+        if (part[next] < 0) {
+          part[next] = parts;
+          front.push_back(next);
+        }
+    }
+    ++parts;
+  }
   return part;
 }
 
@@ -78,6 +131,68 @@ std::vector<double> infarct_field(const Mesh& mesh, const Infarcted& infarcted, 
   for (const int a : part.cells)  // inside, the distance is that to the edge
     M[a] = 1.0;
   return M;
+}
+
+Infarcted with_enclosed(const Mesh& mesh, const Infarcted& infarcted) {
+  const std::vector<int> part = healthy_parts(mesh, infarcted);
+  const int parts = 1 + *std::max_element(part.begin(), part.end());
+  std::vector<double> volume(parts, 0.0);
+  std::vector<bool> open(parts, false);
+  std::vector<bool> outside(mesh.nodes.size(), false);
+  for (const Surface* surface : {&mesh.epi, &mesh.base})
+    for (const int a : surface->nodes)
+      outside[a] = true;
+  for (int c = 0; c < mesh.cell_count(); ++c) {
+    if (part[c] < 0)
+      continue;
+    volume[part[c]] += cell_volume(mesh, c);
+    for (const int a : mesh.cell(c))
+      if (outside[a])
+        open[part[c]] = true;
+  }
+  const auto largest = std::max_element(volume.begin(), volume.end()) - volume.begin();
+  Infarcted all = infarcted;
+  for (int c = 0; c < mesh.cell_count(); ++c)
+    if (part[c] >= 0 && part[c] != largest && !open[part[c]])
+      all[c] = true;
+  return all;
+}
+
+std::vector<SegmentInfarct> infarct_by_segment(const Mesh& mesh, const Regions& regions,
+                                               const RegionParameters& parameters) {
+  constexpr double height = 5.0;                     // of a column [mm]
+  constexpr double width = std::numbers::pi / 18.0;  // [rad]
+  const auto axis = cavity_axis(mesh, parameters);
+  struct Column {
+    double wall = 0.0, infarct = 0.0;
+  };
+  std::map<std::array<int, 3>, Column> columns;
+  for (int c = 0; c < mesh.cell_count(); ++c) {
+    const Vec3 X = cell_centre(mesh, c);
+    const Vec3 r = X - axis(X.z());
+    Column& column = columns[{regions.aha[c], static_cast<int>(std::floor(X.z() / height)),
+                              static_cast<int>(std::floor(std::atan2(r.y(), r.x()) / width))}];
+    const double V = cell_volume(mesh, c);
+    const auto nodes = mesh.cell(c);
+    const bool all =
+        std::all_of(nodes.begin(), nodes.end(), [&](int a) { return mesh.infarct[a] == 1.0; });
+    column.wall += V;
+    column.infarct += all ? V : 0.0;
+  }
+  std::vector<SegmentInfarct> segments(17);
+  std::vector<double> touched(17, 0.0);
+  for (int s = 0; s < 17; ++s)
+    segments[s].segment = s + 1;
+  for (const auto& [key, column] : columns) {
+    SegmentInfarct& segment = segments.at(key[0] - 1);
+    segment.wall += column.wall;
+    segment.infarct += column.infarct;
+    if (column.infarct > 0.0)
+      touched[key[0] - 1] += column.wall;
+  }
+  for (int s = 0; s < 17; ++s)
+    segments[s].transmurality = touched[s] > 0.0 ? segments[s].infarct / touched[s] : 0.0;
+  return segments;
 }
 
 InfarctVolumes infarct_volumes(const Mesh& mesh) {

@@ -26,6 +26,11 @@ using Infarcted = std::vector<bool>;
 [[nodiscard]] Infarcted infarcted_as_described(const Mesh& mesh, const DescribedInfarct& infarct,
                                                const RegionParameters& regions);
 
+/// The infarcted elements with those that they shut off: parts of the rest of the wall, hanging
+/// together across faces, that are not its largest and reach neither epicardium nor base (the dark
+/// core of a scar, where contrast agent does not come).
+[[nodiscard]] Infarcted with_enclosed(const Mesh& mesh, const Infarcted& infarcted);
+
 /// The extent of the infarct at every node, (2.11)-(2.12):
 ///
 ///   M = max(0, 1 - d / l),  d = min over X' in U^in of |X - X'|,  l the border zone's width [mm]
@@ -40,5 +45,18 @@ struct InfarctVolumes {
   double wall = 0.0, infarct = 0.0, border = 0.0;
 };
 [[nodiscard]] InfarctVolumes infarct_volumes(const Mesh& mesh);
+
+/// The infarct in one AHA segment.
+struct SegmentInfarct {
+  int segment = 0;       ///< 1 to 17
+  double wall = 0.0;     ///< volume of the segment [mm^3]
+  double infarct = 0.0;  ///< of its elements with M = 1 throughout [mm^3]
+  /// Mean part of the wall's thickness that is infarcted where it is infarcted at all: over columns
+  /// of the wall 5 mm high and 10 degrees wide, weighted by their volumes. 0 without infarct.
+  double transmurality = 0.0;
+};
+[[nodiscard]] std::vector<SegmentInfarct> infarct_by_segment(const Mesh& mesh,
+                                                             const Regions& regions,
+                                                             const RegionParameters& parameters);
 
 }  // namespace lv::mesh

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -52,7 +53,8 @@ enum class InfarctSource {
   described,  ///< an idealised description
   elements,   ///< a set of elements of an imported mesh
   surface,    ///< a closed surface in image space
-  labels      ///< a labelled volume in image space
+  labels,     ///< a labelled volume in image space
+  lge         ///< the brightness of a late-enhancement image in the wall
 };
 
 /// An idealised infarct in the wall's own directions: a sector of the wall and the apex all round,
@@ -69,16 +71,37 @@ struct DescribedInfarct {
   double transmurality = 1.0;  ///< transmural coordinate that the infarct reaches
 };
 
+/// What of a late-enhancement image is bright enough for scar.
+enum class ScarThreshold {
+  sd,   ///< the mean of remote muscle and some standard deviations
+  fwhm  ///< half of the brightest in the wall
+};
+
+/// A late-enhancement image and its threshold.
+struct LateEnhancement {
+  std::string image;                ///< NIfTI file, or folder of DICOM files
+  std::vector<std::string> series;  ///< of the DICOM files; empty: the only one
+  ScarThreshold threshold = ScarThreshold::sd;
+  double deviations = 5.0;  ///< above the mean of remote muscle
+  std::vector<int> remote;  ///< AHA segments of remote muscle; empty: not said
+  bool fill_no_reflow = true;
+};
+
 /// The infarct and its border zone. Files as the case file names them.
 struct InfarctParameters {
   InfarctSource source = InfarctSource::mesh;
   double border = 10.0;  ///< width of the border zone, l^bz of (2.11) [mm]
   DescribedInfarct described;
-  std::string set;           ///< of elements; see ImportParameters::infarct_set
-  std::string surface;       ///< .stl, .ply, .vtp or .vtk
-  std::string labels;        ///< .vti or .vtk
-  std::string array;         ///< of labels; empty: the file's only array
-  std::vector<int> scar{1};  ///< the labels that mean scar
+  std::string set;             ///< of elements; see ImportParameters::infarct_set
+  std::string surface;         ///< .stl, .ply, .vtp or .vtk
+  std::string labels;          ///< .vti or .vtk
+  std::string array;           ///< of labels; empty: the file's only array
+  std::vector<int> scar{1};    ///< the labels that mean scar
+  std::vector<int> no_reflow;  ///< the labels that mean its dark core; may be empty
+  std::vector<int> muscle;     ///< the labels of other muscle, for in_plane; may be empty
+  bool in_plane = false;       ///< move each slice of a label map onto the wall
+  std::array<double, 3> shift{0.0, 0.0, 0.0};  ///< of the images in image space [mm]
+  LateEnhancement lge;
   double length_unit = 1.0;  ///< of the surface's or labels' file [mm]
 };
 

@@ -111,6 +111,37 @@ void write_all_contours(const Ventricle& v, const Scan& scan, const ScanPlanes& 
   }
 }
 
+std::string case_file(const Ventricle& v, const Scan& scan, const StudyFiles& files,
+                      const Truth& truth) {
+  const double middle = 0.5 * v.cavity_apex();
+  const Vec3 p =
+      pose(scan).to_image({0.5 * (v.shape.endo_radius + v.shape.epi_radius), 0.0, middle});
+  const std::string septum = fmt::format(
+      "septum_point = [\"{:.3f} mm\", \"{:.3f} mm\", \"{:.3f} mm\"]\n", p.x(), p.y(), p.z());
+  std::string text =
+      "# A synthetic study: what is true of it is in truth.json and truth_segments.csv.\n"
+      "name = \"phantom\"\n\n[anatomy]\nsource = \"contours\"\n\n[anatomy.contours]  # early "
+      "diastole\n"
+      "short_axis = \"contours/early_short_axis.csv\"\n"
+      "long_axis = \"contours/early_long_axis.csv\"\n"
+      "apex_endo = \"contours/early_apex_endo.csv\"\n"
+      "apex_epi = \"contours/early_apex_epi.csv\"\n" +
+      septum;
+  if (!files.dicom && !files.nifti)
+    return text;
+  text += "\n[strain]\n";
+  text += files.dicom ? "cine = \"dicom\"\nseries = \"cine_short_axis\"\n"
+                      : "cine = \"nifti/cine_short_axis.nii.gz\"\n";
+  return text +
+         fmt::format(
+             "contours = \"contours/ed_short_axis.csv\"\n"
+             "long_axis = \"contours/ed_long_axis.csv\"\n"
+             "es_contours = \"contours/es_short_axis.csv\"\n"
+             "end_diastole = {}\n",
+             truth.end_diastole) +
+         septum;
+}
+
 void check(const Ventricle& v, const Scan& scan) {
   const geometry::Ellipsoid& e = v.shape;
   const auto rule = [](bool holds, const std::string& what, const char* remedy) {
@@ -188,6 +219,7 @@ std::string write_study(const Ventricle& v, const Scan& scan, const StudyFiles& 
   write_all_contours(v, scan, all, t, folder / "contours");
   write_file(folder / "truth.json", truth_json(t, v, scan, all));
   strain::segments_table(t.segments).write_csv(folder / "truth_segments.csv");
+  write_file(folder / "case.toml", case_file(v, scan, files, t));
   strain::rotation_table(t.slices).write_csv(folder / "truth_rotation.csv");
   return fmt::format(
       "wrote {}: {} short-axis slices and {} long axes of {} phases; cavity {:.1f} ml at "

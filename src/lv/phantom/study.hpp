@@ -18,6 +18,7 @@ struct StudyFiles {
 ///   dicom/               cine of short and long axes, late enhancement, as mixed files
 ///   nifti/               the same as volumes, with label maps
 ///   contours/            CSV at end-diastole (ed), end-systole (es) and early diastole
+///   case.toml            a case that takes the study
 ///   truth.json, truth_segments.csv, truth_rotation.csv
 ///
 /// Throws InputError for a phantom that cannot be and RunError when files cannot be written.

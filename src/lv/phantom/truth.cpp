@@ -154,7 +154,6 @@ Truth truth(const Ventricle& v, const Scan& scan, const ScanPlanes& planes) {
     const ScanPlane& plane = planes.short_axis[c.slice - 1];
     strain::SliceSeries s = series(v, scan, plane.height);
     s.slice = c.slice;
-    s.name = plane.name;
     t.slices.push_back(std::move(s));
   }
   t.segments = all_segments(v, scan, t.slices);

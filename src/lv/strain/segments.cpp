@@ -39,7 +39,7 @@ void add_slice(const SliceSeries& s, std::vector<SegmentStrain>& rows) {
                          const std::vector<Ray>& rays) {
       rows.push_back({scheme, s.slice, name, s.phases[k], time_of(s, k), strain_of(rays)});
     };
-    add("slice", s.name, s.motion[k].rays);
+    add("slice", "all", s.motion[k].rays);
     for (int sector = 1; sector <= sectors; ++sector)
       add("sector", mesh::sector_name(1, sector), chosen(s.motion[k], [&](double angle) {
             return mesh::sector_at(angle, 0.0, sectors) == sector;

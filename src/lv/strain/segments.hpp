@@ -10,8 +10,7 @@ namespace lv::strain {
 
 /// A slice over the cycle.
 struct SliceSeries {
-  int slice = 0;  ///< its number
-  std::string name;
+  int slice = 0;                    ///< its number
   int third = 0;                    ///< 0 basal, 1 middle, 2 apical third of the cavity's length
   std::vector<int> phases;          ///< numbers of the images, from 1, in order of time
   std::vector<double> times;        ///< after the R wave [s]; empty if not known

@@ -202,7 +202,6 @@ TrackedSlice track(const SliceTask& task, const Orientation& orientation,
   };
   TrackedSlice result;
   result.series.slice = task.endo.slice;
-  result.series.name = task.cine->name;
   result.series.third = third_of(plane, orientation);
   for (std::size_t n = 0; n < frames.size(); ++n) {
     const std::size_t k = (task.drawn + n) % frames.size();

@@ -18,7 +18,7 @@ enum class Template {
 struct RegistrationParameters {
   Template scheme = Template::direct;
   double knot_spacing = 8.0;  ///< of the B-spline [mm]
-  double bending = 1.0;       ///< beta, weight of the bending energy [mm^2]
+  double bending = 2.0;       ///< beta, weight of the bending energy [mm^2]
   double smoothing = 1.0;     ///< of the images: standard deviation of a Gaussian [mm]
   double margin = 6.0;        ///< pixels up to this distance outside the epicardium count [mm]
 };

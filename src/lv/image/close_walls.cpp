@@ -1,0 +1,143 @@
+#include "lv/image/close_walls.hpp"
+
+#include "lv/geometry/contour_measures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+namespace lv::image {
+namespace {
+
+using geometry::Contour;
+using geometry::Contours;
+using geometry::Frame;
+using geometry::Side;
+using Vec2 = Eigen::Vector2d;
+
+constexpr double pi = std::numbers::pi;
+constexpr int rays = 180;
+constexpr int most_missing = rays / 3;
+
+std::vector<Vec2> in_plane(const Contour& loop, const Frame& plane) {
+  std::vector<Vec2> points;
+  for (const Vec3& x : loop.points)
+    points.emplace_back(plane.to_model(x).head<2>());
+  return points;
+}
+
+/// How far out a ray from the origin last crosses a loop; 0 if it never does.
+double reach(const std::vector<Vec2>& loop, const Vec2& ray) {
+  double farthest = 0.0;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const Vec2& a = loop[i];
+    const Vec2 e = loop[(i + 1) % loop.size()] - a;
+    const double det = ray.y() * e.x() - ray.x() * e.y();
+    if (det == 0.0)
+      continue;
+    const double s = (ray.x() * a.y() - ray.y() * a.x()) / det;
+    if (s >= 0.0 && s <= 1.0)
+      farthest = std::max(farthest, (a.y() * e.x() - a.x() * e.y()) / det);
+  }
+  return farthest;
+}
+
+/// Radius of the endocardium and thickness of the wall along each ray.
+struct Wall {
+  std::vector<double> inner, thickness;
+  std::vector<int> there;  ///< rays on which the wall is not missing
+};
+
+/// The rays between which thickness is interpolated: not those where it is less than `least`, nor
+/// their neighbours up to where the wall has half its usual thickness, for an open wall tapers.
+std::vector<int> rays_there(const std::vector<double>& thickness, double least) {
+  std::vector<double> sorted = thickness;
+  std::nth_element(sorted.begin(), sorted.begin() + rays / 2, sorted.end());
+  const double half = 0.5 * sorted[rays / 2];
+  std::vector<bool> missing(rays);
+  for (int k = 0; k < rays; ++k) {
+    if (thickness[k] >= least)
+      continue;
+    for (const int step : {1, rays - 1})
+      for (int at = k, n = 0; n < rays && (n == 0 || thickness[at] < half);
+           ++n, at = (at + step) % rays)
+        missing[at] = true;
+  }
+  std::vector<int> there;
+  for (int k = 0; k < rays; ++k)
+    if (!missing[k])
+      there.push_back(k);
+  return there;
+}
+
+Vec2 direction(int k) {
+  return {std::cos(2.0 * pi * k / rays), std::sin(2.0 * pi * k / rays)};
+}
+
+Wall measure(const Contour& endo, const Contour& epi, const Frame& plane, double least) {
+  const auto inside = in_plane(endo, plane);
+  const auto outside = in_plane(epi, plane);
+  Wall wall;
+  for (int k = 0; k < rays; ++k) {
+    wall.inner.push_back(reach(inside, direction(k)));
+    wall.thickness.push_back(reach(outside, direction(k)) - wall.inner.back());
+  }
+  wall.there = rays_there(wall.thickness, least);
+  return wall;
+}
+
+/// The epicardium with the thickness interpolated over missing rays.
+std::vector<Vec3> bridged(const Wall& wall, const Frame& plane) {
+  std::vector<Vec3> points;
+  for (std::size_t n = 0; n < wall.there.size(); ++n) {
+    const int from = wall.there[n];
+    const int gap = (wall.there[(n + 1) % wall.there.size()] - from + rays - 1) % rays + 1;
+    const double first = wall.thickness[from];
+    const double next = wall.thickness[(from + gap) % rays];
+    for (int k = 0; k < gap; ++k) {
+      const int at = (from + k) % rays;
+      const Vec2 x = (wall.inner[at] + first + (next - first) * k / gap) * direction(at);
+      points.push_back(plane.to_image({x.x(), x.y(), 0.0}));
+    }
+  }
+  return points;
+}
+
+/// Whether the epicardium stays.
+bool close_wall(const Contour& endo, Contour& epi, double least, std::vector<std::string>& notes) {
+  const Frame plane = geometry::plane_of(endo.points);
+  const Wall wall = measure(endo, epi, plane, least);
+  const int missing = rays - static_cast<int>(wall.there.size());
+  if (missing == 0)
+    return true;
+  const std::string over = fmt::format(
+      "slice {}: the wall is open or thinner than {:g} mm; with where "
+      "it tapers, over {} degrees",
+      endo.slice, least, 360 * missing / rays);
+  if (missing > most_missing) {
+    notes.push_back(over + ": its epicardium is left out");
+    return false;
+  }
+  notes.push_back(over + ": its thickness is interpolated there");
+  epi.points = bridged(wall, plane);
+  epi.lines.clear();
+  return true;
+}
+
+}  // namespace
+
+void close_walls(Contours& contours, double least, std::vector<std::string>& notes) {
+  std::vector<Contour> kept;
+  for (Contour& loop : contours.short_axis) {
+    const Contour* endo = geometry::find(contours.short_axis, loop.slice, Side::endo);
+    if (loop.side == Side::endo || endo == nullptr || endo->points.size() < 3 ||
+        loop.points.size() < 3 || close_wall(*endo, loop, least, notes))
+      kept.push_back(loop);
+  }
+  contours.short_axis = std::move(kept);
+}
+
+}  // namespace lv::image

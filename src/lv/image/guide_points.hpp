@@ -1,0 +1,38 @@
+#pragma once
+
+#include "lv/geometry/contours.hpp"
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lv::image {
+
+/// Contours from a list of points.
+struct GuidePoints {
+  geometry::Contours contours;                  ///< not checked yet
+  std::optional<std::array<double, 3>> septum;  ///< middle of the points on the septum's right [mm]
+  std::vector<std::string> notes;
+};
+
+/// Reads a tab-separated list of points in scanner millimetres. The first line names the columns:
+/// x, y, z, "contour type" (or type), slice and, if there are several times, "time frame" (or
+/// frame); other columns, such as a weight, are not used. The types are
+///
+///   SAX_LV_ENDOCARDIAL, SAX_LV_EPICARDIAL   loops on short-axis slices
+///   LAX_LV_ENDOCARDIAL, LAX_LV_EPICARDIAL   curves on long-axis images
+///   SAX_RV_SEPTUM                           the septum's right side: closes an open epicardium
+///   MITRAL_VALVE                            points of the mitral annulus
+///   APEX_ENDO_POINT, APEX_EPI_POINT         tips of the surfaces
+///   APEX_POINT                              the tip of `apex_of`
+///
+/// and others are counted in a note. Points of a loop are put in order round their middle, those of
+/// a curve round the middle of the cavity from the base over the apex to the base. An epicardium
+/// that is open over more than 60 degrees is left out, with a note. `frame` must be given if there
+/// are several. Throws InputError with file and line.
+[[nodiscard]] GuidePoints read_guide_points(const std::filesystem::path& file,
+                                            std::optional<int> frame, geometry::Side apex_of);
+
+}  // namespace lv::image

@@ -1,0 +1,301 @@
+#include "lv/image/label_contours.hpp"
+
+#include "lv/base/check.hpp"
+#include "lv/image/plane_mask.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace lv::image {
+namespace {
+
+using geometry::Contour;
+using geometry::Side;
+using Vec2 = Eigen::Vector2d;
+
+constexpr double largest_island = 0.2;   // of the largest part
+constexpr double largest_hole = 0.3;     // of the filled cavity
+constexpr std::size_t least_points = 8;  // of a border
+
+bool is_one_of(float value, const std::vector<int>& labels) {
+  return std::any_of(labels.begin(), labels.end(),
+                     [value](int label) { return value == static_cast<float>(label); });
+}
+
+PlaneMask mask_of(const Picture& picture, const std::vector<int>& labels) {
+  PlaneMask mask(picture.plane.columns, picture.plane.rows);
+  for (std::size_t p = 0; p < mask.inside.size(); ++p)
+    mask.inside[p] = is_one_of(picture.values[p], labels) ? 1 : 0;
+  return mask;
+}
+
+PlaneMask united(const PlaneMask& a, const PlaneMask& b) {
+  PlaneMask both = a;
+  for (std::size_t p = 0; p < both.inside.size(); ++p)
+    both.inside[p] |= b.inside[p];
+  return both;
+}
+
+/// One slice while its borders are drawn.
+struct Slice {
+  int number = 0;
+  Plane plane;
+  PixelLoop endo, epi;
+
+  [[nodiscard]] double pixel_area() const { return plane.spacing_i * plane.spacing_j; }
+};
+
+/// Draws the borders of one slice.
+class Tracer {
+ public:
+  Tracer(const Volume& volume, const LabelMeaning& meaning, std::vector<std::string>& notes)
+      : volume_(volume), meaning_(meaning), notes_(notes) {}
+
+  Slice trace(const Picture& picture, int number) {
+    Slice slice{number, picture.plane, {}, {}};
+    const PlaneMask cavity = trace_cavity(picture, slice);
+    trace_body(picture, cavity, slice);
+    return slice;
+  }
+
+ private:
+  [[noreturn]] void refuse(const Slice& slice, const std::string& what, const char* remedy) const {
+    throw InputError(volume_.file, fmt::format("slice {}: {}", slice.number, what), remedy);
+  }
+
+  void note(const Slice& slice, const std::string& what) {
+    notes_.push_back(fmt::format("slice {}: {}", slice.number, what));
+  }
+
+  /// The largest part; the others are dropped or refused.
+  PlaneMask largest(const PlaneMask& mask, const Slice& slice, const char* of) {
+    std::vector<PlaneMask> found = parts(mask);
+    if (found.empty())
+      return mask;
+    if (found.size() > 1) {
+      const double second = static_cast<double>(found[1].count()) * slice.pixel_area();
+      const double first = static_cast<double>(found[0].count()) * slice.pixel_area();
+      if (second >= largest_island * first)
+        refuse(slice,
+               fmt::format("{} is in {} parts, the largest of {:.0f} and {:.0f} mm2", of,
+                           found.size(), first, second),
+               "One left ventricle hangs together: correct the label map there");
+      note(slice,
+           fmt::format("{} island{} of {}, {:.0f} mm2 in all, dropped", found.size() - 1,
+                       found.size() == 2 ? "" : "s", of,
+                       static_cast<double>(mask.count() - found[0].count()) * slice.pixel_area()));
+    }
+    return std::move(found.front());
+  }
+
+  PlaneMask trace_cavity(const Picture& picture, Slice& slice) {
+    const PlaneMask labelled = mask_of(picture, meaning_.cavity);
+    if (labelled.count() == 0)
+      return labelled;
+    const PlaneMask part = largest(labelled, slice, "the cavity");
+    PlaneMask cavity = filled(part);
+    const auto enclosed = static_cast<double>(cavity.count() - part.count());
+    const auto whole = static_cast<double>(cavity.count());
+    if (enclosed > largest_hole * whole)
+      refuse(
+          slice,
+          fmt::format("{:.0f}% of what the cavity encloses is not cavity", 100 * enclosed / whole),
+          "The labels of cavity and muscle seem swapped");
+    if (enclosed > 0.0)
+      note(slice,
+           fmt::format("{:.0f} mm2 inside the cavity (papillary muscles or holes) count to it",
+                       enclosed * slice.pixel_area()));
+    slice.endo = outline(cavity);
+    if (slice.endo.size() >= least_points)
+      return cavity;
+    note(slice, fmt::format("a cavity of {:.0f} mm2 is too small for a border: left out",
+                            whole * slice.pixel_area()));
+    slice.endo.clear();
+    return cavity;
+  }
+
+  void trace_body(const Picture& picture, const PlaneMask& cavity, Slice& slice) {
+    const PlaneMask muscle = mask_of(picture, meaning_.muscle);
+    if (muscle.count() == 0) {
+      if (!slice.endo.empty())
+        note(slice, "no muscle is labelled: no epicardium");
+      return;
+    }
+    const PlaneMask part = largest(united(cavity, muscle), slice, "the wall");
+    const PlaneMask body = filled(part);
+    if (body.count() > part.count())
+      note(slice,
+           fmt::format("holes of {:.0f} mm2 in the wall filled",
+                       static_cast<double>(body.count() - part.count()) * slice.pixel_area()));
+    slice.epi = outline(body);
+    if (slice.epi.size() < least_points)
+      slice.epi.clear();
+  }
+
+  const Volume& volume_;
+  const LabelMeaning& meaning_;
+  std::vector<std::string>& notes_;
+};
+
+/// A run of neighbouring slices with a cavity, [first, last].
+struct Run {
+  std::size_t first, last;
+  double area;
+};
+
+std::vector<Run> runs_of(const std::vector<Slice>& slices) {
+  std::vector<Run> runs;
+  for (std::size_t s = 0; s < slices.size(); ++s) {
+    if (slices[s].endo.empty())
+      continue;
+    constexpr std::size_t bridged = 2;  // one slice between
+    if (runs.empty() || s - runs.back().last > bridged)
+      runs.push_back({s, s, 0.0});
+    runs.back().last = s;
+    runs.back().area += area(slices[s].endo);
+  }
+  return runs;
+}
+
+/// The slices of the cavity; smaller parts far from it are dropped.
+Run main_run(std::vector<Slice>& slices, const std::string& file, std::vector<std::string>& notes) {
+  const std::vector<Run> runs = runs_of(slices);
+  if (runs.empty())
+    throw InputError(file, "no slice shows a cavity", "Check the labels and the frame");
+  const Run main = *std::max_element(runs.begin(), runs.end(),
+                                     [](const Run& a, const Run& b) { return a.area < b.area; });
+  for (const Run& run : runs) {
+    if (run.first == main.first)
+      continue;
+    const std::string where = fmt::format("slices {} to {}", run.first + 1, run.last + 1);
+    if (run.area >= largest_island * main.area)
+      throw InputError(file,
+                       fmt::format("the cavity is in parts: slices {} to {} and {} are more than "
+                                   "one slice apart",
+                                   main.first + 1, main.last + 1, where),
+                       "Label the slices between, or remove the part that is not the ventricle");
+    notes.push_back(fmt::format("{}: a part of the cavity apart from the rest dropped", where));
+    for (std::size_t s = run.first; s <= run.last; ++s)
+      slices[s].endo.clear();
+  }
+  for (std::size_t s = main.first; s <= main.last; ++s)
+    if (slices[s].endo.empty()) {
+      notes.push_back(fmt::format("slice {}: no cavity between slices with one: left out", s + 1));
+      slices[s].epi.clear();
+    }
+  return main;
+}
+
+/// Keeps the epicardium of slices without a cavity only where they continue the apex.
+void keep_apical_muscle(std::vector<Slice>& slices, const Run& run,
+                        std::vector<std::string>& notes) {
+  const bool apex_first = area(slices[run.first].endo) < area(slices[run.last].endo);
+  const auto last = static_cast<std::ptrdiff_t>(slices.size()) - 1;
+  std::ptrdiff_t s = apex_first ? static_cast<std::ptrdiff_t>(run.first) - 1
+                                : static_cast<std::ptrdiff_t>(run.last) + 1;
+  std::vector<bool> keep(slices.size(), false);
+  for (; s >= 0 && s <= last && !slices[s].epi.empty(); s += apex_first ? -1 : 1)
+    keep[s] = true;
+  for (std::size_t k = 0; k < slices.size(); ++k)
+    if ((k < run.first || k > run.last) && !keep[k] && !slices[k].epi.empty()) {
+      notes.push_back(
+          fmt::format("slice {}: muscle without cavity away from the apex: left out", k + 1));
+      slices[k].epi.clear();
+    } else if (keep[k]) {
+      notes.push_back(fmt::format("slice {}: muscle without cavity: beyond the apex", k + 1));
+    }
+}
+
+Contour contour_of(const Slice& slice, Side side, const std::string& file) {
+  Contour contour{slice.number, side, {}, file, {}};
+  for (const Vec2& x : side == Side::endo ? slice.endo : slice.epi)
+    contour.points.push_back(slice.plane.point(x.x(), x.y()));
+  return contour;
+}
+
+/// The middle of some labels' voxels.
+std::optional<std::array<double, 3>> middle_of(const Volume& volume, const std::vector<int>& labels,
+                                               int frame) {
+  Vec3 sum = Vec3::Zero();
+  double count = 0.0;
+  for (int k = 0; k < volume.size[2]; ++k)
+    for (int j = 0; j < volume.size[1]; ++j)
+      for (int i = 0; i < volume.size[0]; ++i)
+        if (is_one_of(volume.at(i, j, k, frame), labels)) {
+          sum += Vec3(i, j, k);
+          count += 1.0;
+        }
+  if (count == 0.0)
+    return std::nullopt;
+  const Vec3 x = volume.point(sum / count);
+  return std::array{x.x(), x.y(), x.z()};
+}
+
+double volume_of(const Volume& volume, const std::vector<int>& labels, int frame) {
+  const std::size_t n = volume.voxels();
+  std::size_t count = 0;
+  for (std::size_t v = n * frame; v < n * (frame + 1); ++v)
+    count += is_one_of(volume.values[v], labels) ? 1 : 0;
+  return static_cast<double>(count) * volume.voxel_volume();
+}
+
+}  // namespace
+
+LabelContours trace_labels(const Volume& volume, const LabelMeaning& meaning, int frame) {
+  LabelContours traced;
+  traced.notes = volume.notes;
+  Tracer tracer(volume, meaning, traced.notes);
+  std::vector<Slice> traces;
+  int number = 0;
+  for (const Picture& picture : slices(volume, slice_axis(volume), frame))
+    traces.push_back(tracer.trace(picture, ++number));
+  const Run run = main_run(traces, volume.file, traced.notes);
+  keep_apical_muscle(traces, run, traced.notes);
+  for (const Slice& slice : traces) {
+    if (!slice.endo.empty())
+      traced.contours.short_axis.push_back(contour_of(slice, Side::endo, volume.file));
+    if (!slice.epi.empty())
+      traced.contours.short_axis.push_back(contour_of(slice, Side::epi, volume.file));
+  }
+  traced.cavity = volume_of(volume, meaning.cavity, frame);
+  traced.muscle = volume_of(volume, meaning.muscle, frame);
+  if (!meaning.right_ventricle.empty())
+    traced.septum = middle_of(volume, meaning.right_ventricle, frame);
+  return traced;
+}
+
+std::vector<double> volume_curve(const Volume& volume, const std::vector<int>& cavity) {
+  std::vector<double> volumes;
+  for (int f = 0; f < volume.frames; ++f)
+    volumes.push_back(volume_of(volume, cavity, f));
+  return volumes;
+}
+
+Phases propose_phases(const std::vector<double>& volumes) {
+  constexpr double grown = 0.1;  // of the stroke volume
+  const int n = static_cast<int>(volumes.size());
+  Phases phases;
+  phases.end_diastole =
+      static_cast<int>(std::max_element(volumes.begin(), volumes.end()) - volumes.begin());
+  phases.end_systole =
+      static_cast<int>(std::min_element(volumes.begin(), volumes.end()) - volumes.begin());
+  phases.early_diastole = phases.end_systole;
+  const double least = volumes[phases.end_systole];
+  const double stroke = volumes[phases.end_diastole] - least;
+  for (int k = 1; k < n; ++k) {
+    const int at = (phases.end_systole + k) % n;
+    if (at == phases.end_diastole)
+      break;
+    if (volumes[at] >= least + grown * stroke) {
+      phases.early_diastole = at;
+      break;
+    }
+  }
+  return phases;
+}
+
+}  // namespace lv::image

@@ -1,0 +1,59 @@
+#pragma once
+
+#include "lv/geometry/contours.hpp"
+#include "lv/image/volume.hpp"
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lv::image {
+
+/// Which labels mean what.
+struct LabelMeaning {
+  std::vector<int> cavity;           ///< blood of the left ventricle, with papillary muscles or not
+  std::vector<int> muscle;           ///< of the left ventricle
+  std::vector<int> right_ventricle;  ///< its blood; may be empty
+};
+
+/// The borders of a labelled ventricle at one time.
+struct LabelContours {
+  geometry::Contours contours;                  ///< slices counted from 1 along the slice axis
+  double cavity = 0.0;                          ///< volume of all voxels of the cavity [mm^3]
+  double muscle = 0.0;                          ///< volume of all voxels of the muscle [mm^3]
+  std::optional<std::array<double, 3>> septum;  ///< towards the middle of the right ventricle [mm]
+  std::vector<std::string> notes;               ///< what was filled, dropped, or left out, by slice
+};
+
+/// Draws the borders on every slice across slice_axis, half way between pixels inside and outside
+/// (see outline): the endocardium around the cavity, the epicardium around cavity and muscle.
+///
+/// - Muscle or other labels that the cavity encloses count to the cavity (papillary muscles); more
+///   than 30% of a slice is refused, for then the labels seem swapped.
+/// - Of several parts the largest is taken and the rest dropped; a second part of 20% or more is
+///   refused.
+/// - Where the muscle is open on part of a slice the loops touch or cross: see close_walls.
+/// - A gap of one slice in the cavity is left to the fit; behind a wider one parts of less than 20%
+///   of the cavity are dropped, larger ones refused.
+/// - Slices with muscle alone count beyond the apex (the end with the smaller cavity), next to it;
+///   elsewhere they are left out.
+///
+/// Throws InputError naming the file and the slice; the labels must be in the frame (see
+/// require_labels).
+[[nodiscard]] LabelContours trace_labels(const Volume& volume, const LabelMeaning& meaning,
+                                         int frame);
+
+/// The volume of the cavity's voxels at every time [mm^3].
+[[nodiscard]] std::vector<double> volume_curve(const Volume& volume,
+                                               const std::vector<int>& cavity);
+
+/// Phases proposed from a volume curve, counted from 0: end-diastole at the largest volume,
+/// end-systole at the smallest, early diastole at the first time after it (going round) at which
+/// the volume has grown by a tenth of the stroke volume.
+struct Phases {
+  int end_diastole = 0, end_systole = 0, early_diastole = 0;
+};
+[[nodiscard]] Phases propose_phases(const std::vector<double>& volumes);
+
+}  // namespace lv::image

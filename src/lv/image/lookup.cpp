@@ -1,0 +1,112 @@
+#include "lv/image/lookup.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace lv::image {
+namespace {
+
+bool is_one_of(float value, const std::vector<int>& labels) {
+  return std::any_of(labels.begin(), labels.end(),
+                     [value](int label) { return value == static_cast<float>(label); });
+}
+
+/// Of a point over the pixels of a picture, linear between them; NaN outside.
+double bilinear(const Picture& picture, double i, double j) {
+  const int columns = picture.plane.columns;
+  const int rows = picture.plane.rows;
+  if (!(i >= -0.5 && j >= -0.5 && i <= columns - 0.5 && j <= rows - 0.5))
+    return std::numeric_limits<double>::quiet_NaN();
+  const double x = std::clamp(i, 0.0, columns - 1.0);
+  const double y = std::clamp(j, 0.0, rows - 1.0);
+  const int i0 = std::min(static_cast<int>(x), columns - 2);
+  const int j0 = std::min(static_cast<int>(y), rows - 2);
+  const double u = x - i0;
+  const double v = y - j0;
+  return (1 - u) * (1 - v) * picture.at(i0, j0) + u * (1 - v) * picture.at(i0 + 1, j0) +
+         (1 - u) * v * picture.at(i0, j0 + 1) + u * v * picture.at(i0 + 1, j0 + 1);
+}
+
+}  // namespace
+
+bool has_label(const Volume& volume, const Vec3& x, const std::vector<int>& labels,
+               std::span<const Vec3> moves) {
+  const int axis = slice_axis(volume);
+  Vec3 ijk = volume.index(x);
+  if (!moves.empty()) {
+    const double slice = std::round(ijk[axis]);
+    if (!(slice >= 0 && slice < volume.size[axis]))
+      return false;
+    ijk = volume.index(x - moves[static_cast<std::size_t>(slice)]);
+  }
+  std::array<int, 3> at{};
+  for (int d = 0; d < 3; ++d) {
+    const double nearest = std::round(ijk[d]);
+    if (!(nearest >= 0 && nearest < volume.size[d]))
+      return false;
+    at[d] = static_cast<int>(nearest);
+  }
+  return is_one_of(volume.at(at[0], at[1], at[2]), labels);
+}
+
+std::vector<Vec3> slice_moves(const Volume& volume, const std::vector<int>& labels,
+                              std::span<const Weighted> wall) {
+  const int axis = slice_axis(volume);
+  const auto n = static_cast<std::size_t>(volume.size[axis]);
+  std::vector<Vec3> labelled(n, Vec3::Zero());
+  std::vector<double> count(n, 0.0);
+  for (int k = 0; k < volume.size[2]; ++k)
+    for (int j = 0; j < volume.size[1]; ++j)
+      for (int i = 0; i < volume.size[0]; ++i)
+        if (is_one_of(volume.at(i, j, k), labels)) {
+          const std::array<int, 3> ijk{i, j, k};
+          labelled[ijk[axis]] += volume.point(Vec3(i, j, k));
+          count[ijk[axis]] += 1.0;
+        }
+  std::vector<Vec3> middle(n, Vec3::Zero());
+  std::vector<double> weight(n, 0.0);
+  for (const Weighted& point : wall) {
+    const double slice = std::round(volume.index(point.x)[axis]);
+    if (!(slice >= 0 && slice < static_cast<double>(n)))
+      continue;
+    middle[static_cast<std::size_t>(slice)] += point.weight * point.x;
+    weight[static_cast<std::size_t>(slice)] += point.weight;
+  }
+  std::vector<Vec3> moves(n, Vec3::Zero());
+  const Vec3 normal = volume.directions.col(axis);
+  for (std::size_t s = 0; s < n; ++s)
+    if (count[s] > 0.0 && weight[s] > 0.0) {
+      const Vec3 move = middle[s] / weight[s] - labelled[s] / count[s];
+      moves[s] = move - move.dot(normal) * normal;
+    }
+  return moves;
+}
+
+double sample(const Cine& stack, const Vec3& x) {
+  constexpr double alone = 5.0;  // half a slab [mm]
+  const Picture* nearest = nullptr;
+  double distance = std::numeric_limits<double>::infinity();
+  for (const CineSlice& slice : stack.slices) {
+    const double d = std::abs(slice.frames.front().plane.pixel(x).z());
+    if (d < distance) {
+      distance = d;
+      nearest = &slice.frames.front();
+    }
+  }
+  if (nearest == nullptr)
+    return std::numeric_limits<double>::quiet_NaN();
+  double neighbour = std::numeric_limits<double>::infinity();
+  for (const CineSlice& slice : stack.slices)
+    if (&slice.frames.front() != nearest)
+      neighbour = std::min(neighbour,
+                           std::abs(slice.frames.front().plane.pixel(nearest->plane.origin).z()));
+  const double half = std::isfinite(neighbour) ? 0.5 * neighbour : alone;
+  if (distance > half + 1e-6)
+    return std::numeric_limits<double>::quiet_NaN();
+  const Vec3 ij = nearest->plane.pixel(x);
+  return bilinear(*nearest, ij.x(), ij.y());
+}
+
+}  // namespace lv::image

@@ -1,0 +1,99 @@
+#include "lv/image/plane_mask.hpp"
+
+#include <itkBinaryFillholeImageFilter.h>
+#include <itkConnectedComponentImageFilter.h>
+#include <itkContourExtractor2DImageFilter.h>
+#include <itkImage.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace lv::image {
+namespace {
+
+using Image = itk::Image<unsigned char, 2>;
+
+/// With a frame of outside pixels around it, so that every line closes.
+Image::Pointer to_itk(const PlaneMask& mask) {
+  const auto image = Image::New();
+  image->SetRegions(
+      {static_cast<unsigned>(mask.columns + 2), static_cast<unsigned>(mask.rows + 2)});
+  image->Allocate(true);
+  for (int j = 0; j < mask.rows; ++j)
+    for (int i = 0; i < mask.columns; ++i)
+      image->SetPixel({i + 1, j + 1}, mask.at(i, j) ? 1 : 0);
+  return image;
+}
+
+template <class ItkImage, class Chosen>
+PlaneMask from_itk(const ItkImage& image, int columns, int rows, const Chosen& chosen) {
+  PlaneMask mask(columns, rows);
+  for (int j = 0; j < rows; ++j)
+    for (int i = 0; i < columns; ++i)
+      mask.inside[static_cast<std::size_t>(j) * columns + i] =
+          chosen(image.GetPixel({i + 1, j + 1})) ? 1 : 0;
+  return mask;
+}
+
+}  // namespace
+
+std::size_t PlaneMask::count() const {
+  return static_cast<std::size_t>(std::count(inside.begin(), inside.end(), 1));
+}
+
+std::vector<PlaneMask> parts(const PlaneMask& mask) {
+  using Labels = itk::Image<unsigned, 2>;
+  const auto filter = itk::ConnectedComponentImageFilter<Image, Labels>::New();
+  filter->SetInput(to_itk(mask));
+  filter->Update();
+  const auto count = static_cast<unsigned>(filter->GetObjectCount());
+  std::vector<PlaneMask> found;
+  for (unsigned label = 1; label <= count; ++label)
+    found.push_back(from_itk(*filter->GetOutput(), mask.columns, mask.rows,
+                             [label](unsigned value) { return value == label; }));
+  std::stable_sort(found.begin(), found.end(),
+                   [](const PlaneMask& a, const PlaneMask& b) { return a.count() > b.count(); });
+  return found;
+}
+
+PlaneMask filled(const PlaneMask& mask) {
+  const auto filter = itk::BinaryFillholeImageFilter<Image>::New();
+  filter->SetInput(to_itk(mask));
+  filter->SetForegroundValue(1);
+  filter->FullyConnectedOff();
+  filter->Update();
+  return from_itk(*filter->GetOutput(), mask.columns, mask.rows,
+                  [](unsigned char value) { return value == 1; });
+}
+
+PixelLoop outline(const PlaneMask& mask) {
+  const auto filter = itk::ContourExtractor2DImageFilter<Image>::New();
+  filter->SetInput(to_itk(mask));
+  filter->SetContourValue(0.5);
+  filter->Update();
+  PixelLoop longest;
+  for (unsigned n = 0; n < filter->GetNumberOfOutputs(); ++n) {
+    PixelLoop loop;
+    for (const auto& vertex : *filter->GetOutput(n)->GetVertexList())
+      loop.emplace_back(vertex[0] - 1.0, vertex[1] - 1.0);
+    while (loop.size() > 1 && (loop.front() - loop.back()).norm() < 1e-9)
+      loop.pop_back();
+    if (area(loop) > area(longest))
+      longest = std::move(loop);
+  }
+  return longest;
+}
+
+double area(const PixelLoop& loop) {
+  double twice = 0.0;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const auto& a = loop[i];
+    const auto& b = loop[(i + 1) % loop.size()];
+    twice += a.x() * b.y() - a.y() * b.x();
+  }
+  return 0.5 * std::abs(twice);
+}
+
+}  // namespace lv::image

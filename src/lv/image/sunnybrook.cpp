@@ -1,0 +1,179 @@
+#include "lv/image/sunnybrook.hpp"
+
+#include "lv/base/check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <optional>
+#include <regex>
+
+namespace lv::image {
+namespace {
+
+namespace fs = std::filesystem;
+using geometry::Contour;
+using geometry::Side;
+
+/// What the name of a contour file says.
+struct ContourName {
+  int instance = 0;
+  std::string border;  ///< i, o, p1, p2
+  DrawnBy drawn_by = DrawnBy::manual;
+};
+
+std::optional<ContourName> parse_name(const std::string& name) {
+  static const std::regex form(R"(IM-\d{1,8}-(\d{1,8})-(i|o|p1|p2)contour-(manual|auto)\.txt)",
+                               std::regex::icase);
+  std::smatch match;
+  if (!std::regex_match(name, match, form))
+    return std::nullopt;
+  std::string border = match[2];
+  std::transform(border.begin(), border.end(), border.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const char who = static_cast<char>(std::tolower(static_cast<unsigned char>(match[3].str()[0])));
+  return ContourName{std::stoi(match[1]), border,
+                     who == 'm' ? DrawnBy::manual : DrawnBy::automatic};
+}
+
+/// An image of the stack: its slice and phase, both from 1.
+struct Place {
+  const DicomImage* image;
+  int slice, phase;
+};
+
+std::multimap<int, Place> images_by_instance(const DicomStack& stack) {
+  std::multimap<int, Place> places;
+  for (std::size_t s = 0; s < stack.slices.size(); ++s)
+    for (std::size_t p = 0; p < stack.slices[s].images.size(); ++p)
+      if (const DicomImage& image = stack.slices[s].images[p]; image.instance)
+        places.emplace(*image.instance,
+                       Place{&image, static_cast<int>(s) + 1, static_cast<int>(p) + 1});
+  return places;
+}
+
+Place place_of(const std::multimap<int, Place>& places, int instance, const fs::path& file) {
+  const auto [first, last] = places.equal_range(instance);
+  if (first == last)
+    throw InputError(
+        file.string(),
+        fmt::format("no image of the DICOM series has the InstanceNumber {}", instance),
+        "Give the DICOM files that the contours were drawn on");
+  if (std::next(first) != last)
+    throw InputError(file.string(),
+                     fmt::format("the InstanceNumber {} is that of {} and of {}", instance,
+                                 first->second.image->file.string(),
+                                 std::next(first)->second.image->file.string()),
+                     "Choose the one series that the contours were drawn on");
+  return first->second;
+}
+
+/// Two numbers, separated by blanks or a comma.
+std::optional<Eigen::Vector2d> parse_point(const std::string& line) {
+  Eigen::Vector2d x;
+  const char* at = line.data();
+  const char* end = line.data() + line.size();
+  const auto skip = [&] {
+    while (at != end && (*at == ' ' || *at == '\t' || *at == ',' || *at == '\r'))
+      ++at;
+  };
+  for (const int d : {0, 1}) {
+    skip();
+    const auto result = std::from_chars(at, end, x[d]);
+    if (result.ec != std::errc() || !std::isfinite(x[d]))
+      return std::nullopt;
+    at = result.ptr;
+  }
+  skip();
+  return at == end ? std::optional(x) : std::nullopt;
+}
+
+Contour read_contour(const fs::path& file, const Place& place, Side side, PixelOrigin origin) {
+  std::ifstream stream(file);
+  if (!stream)
+    throw InputError(file.string(), "the contour file cannot be opened",
+                     "Check that it can be read");
+  const Plane& plane = place.image->plane;
+  const double shift = origin == PixelOrigin::corner ? 0.5 : 0.0;
+  Contour contour{place.slice, side, {}, file.string(), {}};
+  std::string text;
+  for (int line = 1; std::getline(stream, text); ++line) {
+    if (text.find_first_not_of(" \t\r") == std::string::npos)
+      continue;
+    const auto x = parse_point(text);
+    if (!x)
+      throw InputError(fmt::format("{}:{}", file.string(), line), "is no point \"x y\"",
+                       "Give one point a line: two numbers, in pixels");
+    if (x->x() < -1.0 || x->y() < -1.0 || x->x() > plane.columns + 1.0 || x->y() > plane.rows + 1.0)
+      throw InputError(
+          fmt::format("{}:{}", file.string(), line),
+          fmt::format("the point ({:g}, {:g}) lies outside the image of {} x {} pixels", x->x(),
+                      x->y(), plane.columns, plane.rows),
+          "Coordinates are in pixels of the DICOM image");
+    contour.points.push_back(plane.point(x->x() - shift, x->y() - shift));
+    contour.lines.push_back(line);
+  }
+  if (contour.points.empty())
+    throw InputError(file.string(), "the contour file holds no points",
+                     "Remove it or draw it again");
+  geometry::drop_repeats(contour);
+  return contour;
+}
+
+}  // namespace
+
+DrawnPhases read_sunnybrook(const fs::path& folder, const DicomStack& stack, PixelOrigin origin,
+                            DrawnBy drawn_by) {
+  std::error_code failed;
+  if (!fs::is_directory(folder, failed))
+    throw InputError(folder.string(), "there is no such folder",
+                     "Name the folder with the contour files");
+  const auto places = images_by_instance(stack);
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.is_regular_file())
+      files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  DrawnPhases drawn;
+  int others = 0;
+  int papillary = 0;
+  int unknown = 0;
+  for (const fs::path& file : files) {
+    const auto name = parse_name(file.filename().string());
+    unknown += name ? 0 : 1;
+    if (!name)
+      continue;
+    if (name->drawn_by != drawn_by) {
+      ++others;
+    } else if (name->border != "i" && name->border != "o") {
+      ++papillary;
+    } else {
+      const Place place = place_of(places, name->instance, file);
+      drawn.phases[place.phase].short_axis.push_back(
+          read_contour(file, place, name->border == "i" ? Side::endo : Side::epi, origin));
+    }
+  }
+  if (drawn.phases.empty())
+    throw InputError(folder.string(),
+                     fmt::format("holds no contours drawn {}",
+                                 drawn_by == DrawnBy::manual ? "by hand" : "automatically"),
+                     "Contour files are called IM-0001-0059-icontour-manual.txt and so on");
+  for (auto& [phase, contours] : drawn.phases)
+    std::stable_sort(contours.short_axis.begin(), contours.short_axis.end(),
+                     [](const Contour& a, const Contour& b) { return a.slice < b.slice; });
+  if (papillary > 0)
+    drawn.notes.push_back(fmt::format(
+        "{} contours of papillary muscles are not used: the muscles belong to the cavity",
+        papillary));
+  if (others > 0)
+    drawn.notes.push_back(fmt::format("{} contours of the other observer are not used", others));
+  if (unknown > 0)
+    drawn.notes.push_back(
+        fmt::format("{} other files in {} are not used", unknown, folder.string()));
+  return drawn;
+}
+
+}  // namespace lv::image

@@ -1,0 +1,231 @@
+#include "lv/job/drawn.hpp"
+
+#include "lv/base/check.hpp"
+#include "lv/geometry/contour_checks.hpp"
+#include "lv/geometry/contour_measures.hpp"
+#include "lv/geometry/fit_report.hpp"
+#include "lv/image/close_walls.hpp"
+#include "lv/image/dicom_study.hpp"
+#include "lv/image/guide_points.hpp"
+#include "lv/image/label_contours.hpp"
+#include "lv/image/nifti.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace lv::job {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A file or folder that must be named.
+fs::path named(const Case& c, const std::string& parameter, const std::string& name,
+               const char* what) {
+  if (name.empty())
+    throw InputError(place_of(c, "anatomy.source"), fmt::format("{} is not set", parameter),
+                     fmt::format("Name {}", what));
+  return beside(c, name);
+}
+
+geometry::ContourFiles contour_files(const Case& c) {
+  const ContourAnatomy& a = c.anatomy.contours;
+  if (a.short_axis.empty())
+    throw InputError(c.file.string(), "anatomy.contours.short_axis is not set",
+                     "Name the CSV file of the short-axis loops");
+  geometry::ContourFiles files{.short_axis = beside(c, a.short_axis), .long_axis = {}, .apex = {}};
+  if (!a.long_axis.empty())
+    files.long_axis = beside(c, a.long_axis);
+  for (const std::string& apex : {a.apex_endo, a.apex_epi})
+    if (!apex.empty())
+      files.apex.push_back(beside(c, apex));
+  return files;
+}
+
+Drawn from_csv(const Case& c) {
+  Drawn drawn;
+  drawn.contours = geometry::read_contours(contour_files(c));
+  drawn.source = fmt::format("contours of {}", c.anatomy.contours.short_axis);
+  return drawn;
+}
+
+int chosen_frame(const Case& c, const image::Volume& volume) {
+  const LabelAnatomy& a = c.anatomy.labels;
+  if (a.frame > 0 || volume.frames == 1)
+    return std::max(a.frame, 1) - 1;
+  throw InputError(
+      place_of(c, "anatomy.labels.file"),
+      fmt::format("{} has {} frames and anatomy.labels.frame is not set.\n{}", volume.file,
+                  volume.frames, describe_volume_curve(image::volume_curve(volume, a.cavity))),
+      "Choose a frame");
+}
+
+Drawn from_labels(const Case& c) {
+  const LabelAnatomy& a = c.anatomy.labels;
+  const fs::path file = named(c, "anatomy.labels.file", a.file, "the NIfTI label map");
+  const image::Volume volume = image::read_nifti(file);
+  for (const auto& [parameter, labels] :
+       {std::pair("anatomy.labels.cavity", a.cavity), {"anatomy.labels.muscle", a.muscle}})
+    if (labels.empty())
+      throw InputError(place_of(c, "anatomy.labels.file"),
+                       fmt::format("{} is not set; {} has the labels {}", parameter, volume.file,
+                                   image::describe(image::label_volumes(volume))),
+                       "Say which labels mean it");
+  const int frame = chosen_frame(c, volume);
+  const auto require = [&](const char* parameter, const std::vector<int>& labels) {
+    image::require_labels(volume, frame, labels, place_of(c, parameter), parameter);
+  };
+  require("anatomy.labels.cavity", a.cavity);
+  require("anatomy.labels.muscle", a.muscle);
+  require("anatomy.labels.right_ventricle", a.right_ventricle);
+  image::LabelContours traced =
+      image::trace_labels(volume, {a.cavity, a.muscle, a.right_ventricle}, frame);
+  Drawn drawn;
+  drawn.contours = std::move(traced.contours);
+  drawn.source = fmt::format("labels of {}, frame {}", a.file, frame + 1);
+  drawn.label_cavity = traced.cavity;
+  drawn.label_muscle = traced.muscle;
+  drawn.septum = traced.septum;
+  drawn.usual_base = geometry::BaseAt::slab;
+  drawn.notes = std::move(traced.notes);
+  return drawn;
+}
+
+Drawn from_sunnybrook(const Case& c) {
+  const SunnybrookAnatomy& a = c.anatomy.sunnybrook;
+  const fs::path folder =
+      named(c, "anatomy.sunnybrook.contours", a.contours, "the folder of contour files");
+  const fs::path dicom = named(c, "anatomy.sunnybrook.dicom", a.dicom, "the folder of DICOM files");
+  const image::DicomStack stack =
+      image::choose_stack(image::read_dicom_study(std::array{dicom}), a.series, dicom.string(),
+                          "anatomy.sunnybrook.series");
+  image::DrawnPhases read = image::read_sunnybrook(folder, stack, a.pixel_origin, a.drawn_by);
+  if (!read.phases.contains(a.phase))
+    throw InputError(place_of(c, "anatomy.sunnybrook.phase"),
+                     fmt::format("{}; there are contours of\n{}",
+                                 a.phase == 0 ? "anatomy.sunnybrook.phase is not set"
+                                              : fmt::format("there are none of phase {}", a.phase),
+                                 describe_phases(read.phases)),
+                     "Choose a phase, counted from 1 in order of time");
+  Drawn drawn;
+  drawn.contours = std::move(read.phases.at(a.phase));
+  drawn.source = fmt::format("contours of {}, phase {}", a.contours, a.phase);
+  drawn.usual_base = geometry::BaseAt::slab;
+  drawn.notes = image::remarks(stack);
+  drawn.notes.insert(drawn.notes.end(), read.notes.begin(), read.notes.end());
+  return drawn;
+}
+
+Drawn from_guide_points(const Case& c) {
+  const GuidePointAnatomy& a = c.anatomy.guide_points;
+  image::GuidePoints read =
+      image::read_guide_points(named(c, "anatomy.guide_points.file", a.file, "the list of points"),
+                               a.frame < 0 ? std::nullopt : std::optional(a.frame), a.apex_point);
+  Drawn drawn;
+  drawn.contours = std::move(read.contours);
+  drawn.source = fmt::format("guide points of {}", a.file);
+  drawn.septum = read.septum;
+  drawn.usual_base =
+      drawn.contours.annulus.empty() ? geometry::BaseAt::slab : geometry::BaseAt::annulus;
+  drawn.notes = std::move(read.notes);
+  return drawn;
+}
+
+Drawn read_source(const Case& c) {
+  switch (c.anatomy.source) {
+    case AnatomySource::labels:
+      return from_labels(c);
+    case AnatomySource::sunnybrook:
+      return from_sunnybrook(c);
+    case AnatomySource::guide_points:
+      return from_guide_points(c);
+    default:
+      return from_csv(c);
+  }
+}
+
+/// Volume of the loops of one phase [mm^3]; 0 where it cannot be told.
+double volume_of(const geometry::Contours& contours) {
+  const auto endo = std::count_if(contours.short_axis.begin(), contours.short_axis.end(),
+                                  [](const auto& c) { return c.side == geometry::Side::endo; });
+  return endo < 2 ? 0.0 : geometry::slab_volumes(contours).cavity;
+}
+
+}  // namespace
+
+void add_folder(const fs::path& folder, Ingredients& files) {
+  std::error_code failed;
+  for (const auto& entry : fs::recursive_directory_iterator(folder, failed))
+    if (entry.is_regular_file())
+      files["contents of " + entry.path().string()] = fingerprint_of_file(entry.path());
+}
+
+bool is_drawn(const Case& c) {
+  return c.anatomy.source != AnatomySource::ellipsoid && c.anatomy.source != AnatomySource::mesh;
+}
+
+Drawn read_drawn(const Case& c) {
+  Drawn drawn = read_source(c);
+  if (c.anatomy.source != AnatomySource::contours)
+    image::close_walls(drawn.contours, c.anatomy.contours.fit.thinnest_wall, drawn.notes);
+  geometry::check_contours(drawn.contours);
+  return drawn;
+}
+
+Ingredients drawn_files(const Case& c) {
+  Ingredients files;
+  const auto add = [&](const std::string& parameter, const std::string& name) {
+    if (!name.empty())
+      files["contents of " + parameter] = fingerprint_of_file(beside(c, name));
+  };
+  switch (c.anatomy.source) {
+    case AnatomySource::contours:
+      add("anatomy.contours.short_axis", c.anatomy.contours.short_axis);
+      add("anatomy.contours.long_axis", c.anatomy.contours.long_axis);
+      add("anatomy.contours.apex_endo", c.anatomy.contours.apex_endo);
+      add("anatomy.contours.apex_epi", c.anatomy.contours.apex_epi);
+      break;
+    case AnatomySource::labels:
+      add("anatomy.labels.file", c.anatomy.labels.file);
+      break;
+    case AnatomySource::guide_points:
+      add("anatomy.guide_points.file", c.anatomy.guide_points.file);
+      break;
+    case AnatomySource::sunnybrook:
+      add_folder(beside(c, c.anatomy.sunnybrook.contours), files);
+      add_folder(beside(c, c.anatomy.sunnybrook.dicom), files);
+      break;
+    default:
+      break;
+  }
+  return files;
+}
+
+std::string describe_phases(const std::map<int, geometry::Contours>& phases) {
+  std::string text;
+  for (const auto& [phase, contours] : phases) {
+    const auto endo = std::count_if(contours.short_axis.begin(), contours.short_axis.end(),
+                                    [](const auto& c) { return c.side == geometry::Side::endo; });
+    text += fmt::format("  phase {}: {} endocardial and {} epicardial loops, cavity {:.2f} ml\n",
+                        phase, endo, static_cast<std::ptrdiff_t>(contours.short_axis.size()) - endo,
+                        1e-3 * volume_of(contours));
+  }
+  const auto by_volume = [](const auto& a, const auto& b) {
+    return volume_of(a.second) < volume_of(b.second);
+  };
+  const auto largest = std::max_element(phases.begin(), phases.end(), by_volume);
+  const auto smallest = std::min_element(phases.begin(), phases.end(), by_volume);
+  return text + fmt::format("  proposed: end-diastole {}, end-systole {}", largest->first,
+                            smallest->first);
+}
+
+std::string describe_volume_curve(const std::vector<double>& volumes) {
+  std::string text;
+  for (std::size_t f = 0; f < volumes.size(); ++f)
+    text += fmt::format("  frame {}: cavity {:.2f} ml\n", f + 1, 1e-3 * volumes[f]);
+  const image::Phases p = image::propose_phases(volumes);
+  return text + fmt::format("  proposed: end-diastole {}, end-systole {}, early diastole {}",
+                            p.end_diastole + 1, p.end_systole + 1, p.early_diastole + 1);
+}
+
+}  // namespace lv::job

@@ -1,0 +1,44 @@
+#pragma once
+
+#include "lv/geometry/contours.hpp"
+#include "lv/job/case.hpp"
+#include "lv/job/workspace.hpp"
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lv::job {
+
+/// The borders of a ventricle that a case names, whatever their form: contours, labels, guide
+/// points.
+struct Drawn {
+  geometry::Contours contours;                            ///< checked
+  std::string source;                                     ///< in words
+  std::optional<double> label_cavity, label_muscle;       ///< volumes of voxels [mm^3]
+  std::optional<std::array<double, 3>> septum;            ///< if the source shows where it is [mm]
+  geometry::BaseAt usual_base = geometry::BaseAt::slice;  ///< unless the case says otherwise
+  std::vector<std::string> notes;
+};
+
+/// Whether the anatomy of a case is drawn, not given as an ellipsoid or a mesh.
+[[nodiscard]] bool is_drawn(const Case& c);
+
+/// Reads what the case names. Throws InputError naming file, slice and remedy; where a choice is
+/// missing (labels, frame, phase), with what there is to choose from.
+[[nodiscard]] Drawn read_drawn(const Case& c);
+
+/// The files that this reads, with what stands for their contents.
+[[nodiscard]] Ingredients drawn_files(const Case& c);
+
+/// All files of a folder, with what stands for their contents.
+void add_folder(const std::filesystem::path& folder, Ingredients& files);
+
+/// "phase 1: 9 endo, 0 epi, 141.30 ml" and so on, a line each, with a proposal of phases.
+[[nodiscard]] std::string describe_phases(const std::map<int, geometry::Contours>& phases);
+
+/// The volume at each frame and the phases proposed from it.
+[[nodiscard]] std::string describe_volume_curve(const std::vector<double>& volumes);
+
+}  // namespace lv::job

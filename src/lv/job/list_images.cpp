@@ -1,0 +1,82 @@
+#include "lv/job/list_images.hpp"
+
+#include "lv/base/check.hpp"
+#include "lv/image/dicom_study.hpp"
+#include "lv/image/label_contours.hpp"
+#include "lv/image/nifti.hpp"
+#include "lv/image/sunnybrook.hpp"
+#include "lv/job/drawn.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace lv::job {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string direction_text(const Vec3& d) {
+  return fmt::format("({:.3f}, {:.3f}, {:.3f})", d.x(), d.y(), d.z());
+}
+
+bool seems_labels(const image::Volume& v) {
+  return std::all_of(v.values.begin(), v.values.end(),
+                     [](float x) { return x == std::round(x) && x >= 0.0F && x < 256.0F; });
+}
+
+std::string list_nifti(const ListOptions& options) {
+  const image::Volume v = image::read_nifti(options.where);
+  std::string text = fmt::format(
+      "{}: {} x {} x {} voxels of {:.3f} x {:.3f} x {:.3f} mm, {} frame{}{}\n"
+      "  axes (LPS): i {}, j {}, k {}; slices across {}\n",
+      v.file, v.size[0], v.size[1], v.size[2], v.spacing.x(), v.spacing.y(), v.spacing.z(),
+      v.frames, v.frames == 1 ? "" : "s",
+      v.time_step > 0.0 ? fmt::format(" {:.0f} ms apart", 1e3 * v.time_step) : "",
+      direction_text(v.directions.col(0)), direction_text(v.directions.col(1)),
+      direction_text(v.directions.col(2)), "ijk"[image::slice_axis(v)]);
+  for (const std::string& note : v.notes)
+    text += fmt::format("  note: {}\n", note);
+  if (!seems_labels(v)) {
+    const auto [least, most] = std::minmax_element(v.values.begin(), v.values.end());
+    return text + fmt::format("  values {:g} to {:g}: an image, no labels\n", *least, *most);
+  }
+  for (int f = 0; f < v.frames; ++f)
+    text += fmt::format("  labels of frame {}: {}\n", f + 1,
+                        image::describe(image::label_volumes(v, f)));
+  if (options.cavity.empty())
+    return text;
+  return text + describe_volume_curve(image::volume_curve(v, options.cavity)) + "\n";
+}
+
+std::string list_dicom(const ListOptions& options) {
+  const image::DicomStudy study = image::read_dicom_study(std::array{options.where});
+  std::string text = image::describe(study);
+  if (study.stacks.empty())
+    text += fmt::format("{} holds no DICOM image with a place in space\n", options.where.string());
+  constexpr std::size_t most = 20;
+  for (std::size_t i = 0; i < std::min(most, study.skipped.size()); ++i)
+    text += fmt::format("skipped {}\n", study.skipped[i]);
+  if (study.skipped.size() > most)
+    text += fmt::format("skipped {} files more\n", study.skipped.size() - most);
+  if (options.contours.empty())
+    return text;
+  const image::DicomStack stack =
+      image::choose_stack(study, options.series, options.where.string(), "--series");
+  const image::DrawnPhases drawn = image::read_sunnybrook(
+      options.contours, stack, image::PixelOrigin::corner, image::DrawnBy::manual);
+  text +=
+      fmt::format("contours of {}\n{}\n", options.contours.string(), describe_phases(drawn.phases));
+  for (const std::string& note : drawn.notes)
+    text += fmt::format("  note: {}\n", note);
+  return text;
+}
+
+}  // namespace
+
+std::string list_images(const ListOptions& options) {
+  return image::is_nifti_name(options.where) ? list_nifti(options) : list_dicom(options);
+}
+
+}  // namespace lv::job
