@@ -2,10 +2,12 @@
 #include "lv/base/launch.hpp"
 #include "lv/base/parallel.hpp"
 #include "lv/base/table.hpp"
+#include "lv/base/units.hpp"
 #include "lv/heartbeat/immersed_beat.hpp"
 #include "lv/job/list_images.hpp"
 #include "lv/job/read_case.hpp"
 #include "lv/job/run.hpp"
+#include "lv/phantom/study.hpp"
 #include "lv/verify/run.hpp"
 
 #include <CLI/CLI.hpp>
@@ -44,6 +46,10 @@ struct Command {
   lv::job::ListOptions images;
   bool list = false;
   lv::verify::Options verify;
+  lv::phantom::Ventricle ventricle;
+  lv::phantom::Scan scan;
+  lv::phantom::StudyFiles study;
+  std::string folder;
   std::string solve_in;  ///< folder for the findings of one problem, see verify::solve_option
 };
 
@@ -107,6 +113,14 @@ int validate(const Command& command, int argc, char** argv) {
   return 0;
 }
 
+int measure_strain(Command& command, int argc, char** argv) {
+  const lv::job::Case c = lv::job::read_case(command.case_file);
+  const lv::parallel::Session session(&argc, &argv);
+  command.run.until = "strain";
+  lv::job::run(c, command.run);
+  return 0;
+}
+
 int verify(const Command& command, int argc, char** argv) {
   if (command.list) {
     fmt::print("{}", lv::verify::list());
@@ -155,6 +169,69 @@ void add_verify(CLI::App& app, Command& command) {
   verify->add_option(lv::verify::solve_option, command.solve_in)->group("");
 }
 
+/// Options that say how the phantom's images are made.
+void add_scan_options(CLI::App& app, lv::phantom::Scan& scan) {
+  const auto number = [&](const char* name, double& value, const char* help, double low,
+                          double high) {
+    app.add_option(name, value, help)->check(CLI::Range(low, high))->capture_default_str();
+  };
+  number("--snr", scan.snr, "mean signal of muscle / deviation of the Rician noise; 0: no noise",
+         0.0, 1e4);
+  number("--shift", scan.shift, "root mean square of the slices' breath-hold shifts [mm]", 0.0,
+         30.0);
+  number("--pixel", scan.pixel, "spacing of pixels [mm]", 0.3, 5.0);
+  number("--field-of-view", scan.field_of_view, "side of the images [mm]", 100.0, 600.0);
+  number("--thickness", scan.thickness, "of slices [mm]", 1.0, 20.0);
+  number("--gap", scan.gap, "between short-axis slices [mm]", 0.0, 20.0);
+  number("--rr", scan.rr, "length of the heart's cycle [s]", 0.3, 3.0);
+  number("--texture", scan.texture, "of muscle, deviation / mean", 0.0, 0.5);
+  app.add_option("--phases", scan.phases, "images per cycle")
+      ->check(CLI::Range(5, 200))
+      ->capture_default_str();
+  app.add_option("--oblique", scan.oblique,
+                 "true: the heart lies as in a chest; false: along the scanner's z axis")
+      ->capture_default_str();
+  app.add_option("--seed", scan.seed, "of noise, shifts and texture")->capture_default_str();
+}
+
+/// Options that say what the phantom's heart is and does. Lengths in mm.
+void add_heart_options(CLI::App& app, lv::phantom::Ventricle& v) {
+  const auto number = [&](const char* name, double& value, const char* help, double low,
+                          double high) {
+    app.add_option(name, value, help)->check(CLI::Range(low, high))->capture_default_str();
+  };
+  const auto angle = [&](const char* name, double& radians, const char* help) {
+    app.add_option_function<double>(
+           name, [&radians](double degrees) { radians = degrees * lv::units::degree; }, help)
+        ->check(CLI::Range(-360.0, 360.0))
+        ->default_str(fmt::format("{:g}", radians / lv::units::degree));
+  };
+  number("--endo-radius", v.shape.endo_radius, "of the ellipsoid at end-diastole [mm]", 5, 60);
+  number("--endo-length", v.shape.endo_length, "its long semi-axis [mm]", 10, 120);
+  number("--epi-radius", v.shape.epi_radius, "[mm]", 6, 80);
+  number("--epi-length", v.shape.epi_length, "[mm]", 12, 140);
+  number("--squeeze", v.squeeze, "ejection fraction that healthy muscle would have", 0, 0.85);
+  number("--shortening", v.shortening, "of the long axis at end-systole", 0, 0.4);
+  angle("--rotation-base", v.rotation_base, "anticlockwise seen from the apex [deg]");
+  angle("--rotation-apex", v.rotation_apex, "anticlockwise seen from the apex [deg]");
+  angle("--scar-angle", v.scar.angle, "its middle, from the septum towards anterior [deg]");
+  angle("--scar-width", v.scar.width, "[deg]");
+  number("--scar-bottom", v.scar.bottom, "height below the base, negative [mm]", -150, 0);
+  number("--scar-top", v.scar.top, "height below the base, negative [mm]", -150, 0);
+  number("--scar-transmurality", v.scar.transmurality, "part of the wall; 0: no scar", 0, 1);
+  number("--akinesia", v.akinesia, "part of the squeeze that the scar loses", 0, 1);
+}
+
+void add_phantom(CLI::App& app, Command& command) {
+  auto* phantom = app.add_subcommand(
+      "phantom", "make a synthetic study whose volumes, scar and strains are known");
+  phantom->add_option("FOLDER", command.folder, "a new folder")->required();
+  add_scan_options(*phantom, command.scan);
+  add_heart_options(*phantom, command.ventricle);
+  phantom->add_option("--dicom", command.study.dicom, "write DICOM files")->capture_default_str();
+  phantom->add_option("--nifti", command.study.nifti, "write NIfTI files")->capture_default_str();
+}
+
 void add_images(CLI::App& app, Command& command) {
   auto* images = app.add_subcommand(
       "images", "list series, slices, phases, labels and volumes of images, to fill in a case");
@@ -184,12 +261,20 @@ int dispatch(int argc, char** argv) {
       app.add_subcommand("run", "run all stages of a case, skipping those that are up to date");
   add_run_options(*run, command);
   run->add_option("--until", command.until,
-                  "last stage: anatomy, mesh, calibrate, unload, beat, results or report");
+                  "last stage: strain, anatomy, mesh, calibrate, unload, beat, results or report");
 
   auto* fit =
       app.add_subcommand("calibrate", "fit parameters to measured volumes, as the case asks");
   add_run_options(*fit, command);
 
+  auto* strain =
+      app.add_subcommand("strain", "measure strain from the cine images that a case names");
+  strain->add_option("CASE", command.case_file, "the case file")->required();
+  strain->add_option("--work", command.run.work,
+                     "work folder (default: the case file's name with .work)");
+  strain->add_flag("--explain", command.run.explain, "say why the stage runs or does not");
+
+  add_phantom(app, command);
   add_verify(app, command);
   add_images(app, command);
   add_page(app, command, "report", "write one page that shows a run, finished or not", 1);
@@ -223,8 +308,15 @@ int dispatch(int argc, char** argv) {
     return validate(command, argc, argv);
   if (*fit)
     command.until = "calibrate";
+  if (*strain)
+    return measure_strain(command, argc, argv);
   if (*run || *fit)
     return run_parallel(command, argc, argv);
+  if (app.got_subcommand("phantom")) {
+    fmt::print("{}", lv::phantom::write_study(command.ventricle, command.scan, command.study,
+                                              command.folder));
+    return 0;
+  }
   if (*time)
     return bench(command, argc, argv);
   for (const char* page : {"report", "compare"})

@@ -9,9 +9,12 @@
 #include "lv/mesh/regions.hpp"
 #include "lv/mesh/wall_mesh.hpp"
 #include "lv/quasi_static/engine.hpp"
+#include "lv/strain/warp.hpp"
 
+#include <array>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -119,6 +122,20 @@ struct Calibration {
   [[nodiscard]] bool asked() const { return passive != calibrate::Passive::none || active; }
 };
 
+/// Strain measured from cine images, or by somebody else. File names as the case file gives them.
+struct StrainStudy {
+  std::string cine, series;               ///< short-axis images
+  std::string contours, long_axis;        ///< drawn at end-diastole
+  std::string es_contours;                ///< drawn at end-systole, for comparison
+  int end_diastole = 1, end_systole = 0;  ///< numbers of the images in order of time
+  std::optional<std::array<double, 3>> septum_point;
+  strain::RegistrationParameters registration;
+  std::string measured, measured_column;  ///< a table of strains instead of images
+  StrainMeasure measured_kind = StrainMeasure::engineering;
+
+  [[nodiscard]] bool asked() const { return !cine.empty(); }
+};
+
 /// All that a case file says, checked once and constant from then on. Member initialisers are the
 /// defaults; names, units, ranges and meanings are in parameters.cpp.
 struct Case {
@@ -143,6 +160,7 @@ struct Case {
   QuasiStatic quasi_static;
   quasi_static::UnloadParameters unloaded{.tolerance = 0.05};
   Calibration calibration;
+  StrainStudy strain;
   heartbeat::Protocol protocol;
   heartbeat::StepControl time;
   heartbeat::OutputSchedule output;

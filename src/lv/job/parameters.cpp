@@ -455,6 +455,50 @@ void declare_unloading(Declarations& d) {
           "equilibria after which the search gives up");
 }
 
+void declare_strain(Declarations& d) {
+  d.stage = Stage::strain;
+  d.table = "strain";
+  d.text("cine", LV_AT(strain.cine),
+         "short-axis cine that strain is measured from: a folder of DICOM files or a NIfTI file "
+         "over time; names are relative to the case file");
+  d.text("series", LV_AT(strain.series),
+         "DICOM: number, UID or description of the series; may be left out if there is one");
+  d.text(
+      "contours", LV_AT(strain.contours),
+      "loops of endocardium and epicardium drawn on the cine at end-diastole: a CSV file in the "
+      "form of anatomy.contours.short_axis, or a folder of text contours in the Sunnybrook form");
+  d.text("long_axis", LV_AT(strain.long_axis),
+         "CSV of curves on long-axis images at end-diastole, for the place of the apex; may be "
+         "left out");
+  d.text("es_contours", LV_AT(strain.es_contours),
+         "CSV of loops drawn at end-systole, which the carried contours are compared with; may be "
+         "left out");
+  d.whole("end_diastole", LV_AT(strain.end_diastole), between(1, 1000),
+          "which image of every slice, in order of time, the contours are drawn on");
+  d.whole("end_systole", LV_AT(strain.end_systole), between(0, 1000),
+          "which image is end-systole; 0: the one with the smallest cavity");
+  d.optional_point("septum_point", LV_AT(strain.septum_point), "mm",
+                   "a point of the middle of the septum in scanner coordinates; none: that of "
+                   "anatomy.contours");
+  d.choice("scheme", LV_AT(strain.registration.scheme), {"direct", "incremental"},
+           "every image is matched with end-diastole, or with the one before it");
+  d.quantity("knot_spacing", LV_AT(strain.registration.knot_spacing), "mm", between(2.0, 50.0),
+             "of the B-spline map");
+  d.quantity("bending", LV_AT(strain.registration.bending), "mm^2", between(0.0, 1e5),
+             "weight of the map's bending energy against the images' difference");
+  d.quantity("smoothing", LV_AT(strain.registration.smoothing), "mm", between(0.0, 10.0),
+             "standard deviation of the Gaussian that images are smoothed with");
+  d.quantity("margin", LV_AT(strain.registration.margin), "mm", between(0.0, 40.0),
+             "pixels up to this distance outside the epicardium count");
+  d.stage = Stage::results;
+  d.text("measured", LV_AT(strain.measured),
+         "CSV of measured strains to compare with, instead of images: slice (1 at the base, one "
+         "per slice of the model), component (cir or rad), segment, and a column per image");
+  d.text("measured_column", LV_AT(strain.measured_column), "the column of measured to take");
+  d.choice("measured_kind", LV_AT(strain.measured_kind), {"green_lagrange", "engineering"},
+           "which strain measured holds: (l^2/L^2 - 1)/2 or l/L - 1");
+}
+
 void declare_protocol(Declarations& d) {
   d.table = "protocol";
   const Range pressure = between(-50.0, 500.0);
@@ -528,6 +572,7 @@ std::vector<Parameter> declare_all() {
   declare_active(d);
   declare_unloading(d);
   declare_calibration(d);
+  declare_strain(d);
   d.stage = Stage::beat;
   declare_engine(d);
   declare_protocol(d);
@@ -590,6 +635,7 @@ const std::vector<Section>& sections() {
       {"calibrate",
        "Fitting of passive and active parameters to measured volumes and strains, with the "
        "quasi-static engine"},
+      {"strain", "Strain measured from cine images, and what the model's is compared with"},
       {"protocol", "Pressures, timings and the ends of the phases"},
       {"time", "Time steps"},
       {"output", "What is kept, and how often"}};

@@ -11,7 +11,7 @@
 namespace lv::job {
 
 /// The first stage whose result a parameter changes.
-enum class Stage { anatomy, mesh, calibrate, unload, beat, results, report };
+enum class Stage { strain, anatomy, mesh, calibrate, unload, beat, results, report };
 
 /// One parameter of a case file, declared once, in parameters.cpp.
 struct Parameter {

@@ -12,6 +12,7 @@
 #include "lv/job/infarct.hpp"
 #include "lv/job/parameters.hpp"
 #include "lv/job/stages.hpp"
+#include "lv/job/strain.hpp"
 #include "lv/job/strain_targets.hpp"
 #include "lv/job/unloading.hpp"
 #include "lv/job/workspace.hpp"
@@ -98,8 +99,20 @@ class Pipeline {
     if (case_.origin.empty())
       log::warn("{}: {}", case_.file.string(), no_parameters);
     Ingredients carried = anatomy_files(case_);  // to the next stage that runs
-    for (std::size_t s = 0; s <= last_; ++s) {
+    Ingredients measured;                        // which the results are compared with
+    if (case_.strain.asked()) {
+      Ingredients ingredients = own_ingredients(case_, Stage::strain);
+      ingredients.merge(strain_files(case_));
+      measured["result of strain"] = fingerprint(ingredients);
+      run_stage(static_cast<std::size_t>(Stage::strain), std::move(ingredients));
+    }
+    for (auto s = static_cast<std::size_t>(Stage::anatomy); s <= last_; ++s) {
       Ingredients ingredients = own_ingredients(case_, static_cast<Stage>(s));
+      if (static_cast<Stage>(s) == Stage::results)
+        ingredients.insert(measured.begin(), measured.end());
+      if (static_cast<Stage>(s) == Stage::results && !case_.strain.measured.empty())
+        ingredients["contents of strain.measured"] =
+            fingerprint_of_file(beside(case_, case_.strain.measured));
       ingredients.merge(carried);
       if (static_cast<Stage>(s) == Stage::mesh)
         ingredients.merge(infarct_files(case_));
@@ -122,6 +135,9 @@ class Pipeline {
   [[nodiscard]] std::size_t last_stage() const {
     if (!options_.until)
       return stage_names.size() - 1;
+    if (*options_.until == "strain" && !case_.strain.asked())
+      throw InputError(case_.file.string(), "has no cine images",
+                       "Name them with strain.cine, and the contours with strain.contours");
     if (*options_.until == "calibrate" && !case_.calibration.asked())
       throw InputError(case_.file.string(), "asks for no calibration",
                        "Set calibrate.passive or calibrate.active, and the measured volumes");
@@ -164,6 +180,9 @@ class Pipeline {
 
   void make(std::size_t s, const std::filesystem::path& part) {
     switch (static_cast<Stage>(s)) {
+      case Stage::strain:
+        on_root([&] { make_strain(case_, part); });
+        break;
       case Stage::anatomy:
         on_root([&] { write_anatomy(shape(), part); });
         break;
@@ -272,6 +291,9 @@ class Pipeline {
     if (stage == Stage::calibrate)
       fmt::print("\n{}\nparameters in {}\n\n", read_file(folder(stage) / "calibration.txt"),
                  (folder(stage) / "calibrated.toml").string());
+    if (stage == Stage::strain)
+      fmt::print("\n{}\nstrain in {}\n\n", read_file(folder(stage) / "strain.txt"),
+                 folder(stage).string());
     if (stage == Stage::results)
       fmt::print("\n{}\nresults in {}\n", read_file(folder(stage) / "summary.txt"),
                  folder(stage).string());

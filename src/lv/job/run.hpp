@@ -18,6 +18,7 @@ struct RunOptions {
 /// Runs all stages of a case, skipping those whose inputs, parameters and program version are
 /// unchanged:
 ///
+///   strain    of the muscle, from cine images             00_strain/, for cases that have them
 ///   anatomy   the surfaces of the wall                    01_anatomy/
 ///   mesh      elements, fibres, regions, quality          02_mesh/
 ///   calibrate parameters from measured volumes            02b_calibrate/, for cases that ask for it

@@ -10,6 +10,8 @@
 #include "lv/job/infarct.hpp"
 #include "lv/job/parameters.hpp"
 #include "lv/job/run.hpp"
+#include "lv/job/strain.hpp"
+#include "lv/job/workspace.hpp"
 #include "lv/mesh/infarct.hpp"
 #include "lv/mesh/quality.hpp"
 #include "lv/mesh/refine.hpp"
@@ -208,6 +210,16 @@ void draw(const mesh::Mesh& mesh, const heartbeat::Beat& beat, const analysis::B
   report::write(report::segments_figure(results), folder / "segments.png");
 }
 
+/// What the model's strains come to beside measured ones, if there are any.
+std::string beside_measured(const Case& c, const MeshResult& mesh, const BeatResult& beat,
+                            const analysis::BeatFields& fields,
+                            const std::filesystem::path& folder) {
+  if (!c.strain.asked() && c.strain.measured.empty())
+    return "";
+  const auto strain = folder.parent_path() / stage_folder(static_cast<std::size_t>(Stage::strain));
+  return "\n" + compare_strain(c, {mesh, beat.beat, fields, make_anatomy(c).frame}, strain, folder);
+}
+
 }  // namespace
 
 MeshResult make_mesh(const Case& c, const Shape& shape) {
@@ -351,7 +363,8 @@ std::string make_results(const Case& c, const MeshResult& mesh, const BeatResult
   report::write_wall(folder / "end_systole.vtu", mesh.mesh, mesh.regions, beat.beat.end_systole,
                      fields.end_systole, fields.end_diastole);
   draw(mesh.mesh, beat.beat, fields, results, folder);
-  return report::summary_text(facts, beat.beat, results);
+  return report::summary_text(facts, beat.beat, results) +
+         beside_measured(c, mesh, beat, fields, folder);
 }
 
 }  // namespace lv::job

@@ -77,8 +77,8 @@ std::string last_line(const std::filesystem::path& file) {
 }  // namespace
 
 std::string stage_folder(std::size_t stage) {
-  static const std::array<std::string, stage_names.size()> numbers{"01", "02", "02b", "02c",
-                                                                   "03", "04", "05"};
+  static const std::array<std::string, stage_names.size()> numbers{"00",  "01", "02", "02b",
+                                                                   "02c", "03", "04", "05"};
   return numbers.at(stage) + "_" + stage_names.at(stage);
 }
 
@@ -168,7 +168,8 @@ std::vector<std::string> state_of(const std::filesystem::path& work) {
     else if (begun)
       state.push_back(fmt::format("{} is unfinished.", stage_folder(s)));
     else if (!whole && static_cast<Stage>(s) != Stage::calibrate &&
-             static_cast<Stage>(s) != Stage::unload)  // which few cases ask for
+             static_cast<Stage>(s) != Stage::unload &&
+             static_cast<Stage>(s) != Stage::strain)  // which few cases ask for
       state.push_back(fmt::format("{} has not been made.", stage_folder(s)));
     else if (const auto source = outdated_source(work, s))
       state.push_back(fmt::format("{} was made from another {} than the one that is there.",

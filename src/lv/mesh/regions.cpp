@@ -11,15 +11,6 @@
 namespace lv::mesh {
 namespace {
 
-/// The sector 1..n whose centre is nearest: sector 1 (anterior) a quarter turn beyond the septum,
-/// the next ones clockwise seen from the base.
-int sector_at(double angle, double septum, int n) {
-  constexpr double turn = 2.0 * std::numbers::pi;
-  const double from_anterior = septum + 0.25 * turn - angle;
-  const int sector = static_cast<int>(std::lround(from_anterior / (turn / n))) % n;
-  return (sector + n) % n + 1;
-}
-
 Vec3 centre(const Mesh& mesh, int cell) {
   Vec3 sum = Vec3::Zero();
   const auto nodes = mesh.cell(cell);
@@ -119,6 +110,13 @@ Regions divide(const Mesh& mesh, const RegionParameters& parameters) {
         aha_segment(third, angle_about(third_centres[third], x), parameters.septum_angle));
   }
   return regions;
+}
+
+int sector_at(double angle, double septum_angle, int sectors) {
+  constexpr double turn = 2.0 * std::numbers::pi;
+  const double from_anterior = septum_angle + 0.25 * turn - angle;
+  const int sector = static_cast<int>(std::lround(from_anterior / (turn / sectors))) % sectors;
+  return (sector + sectors) % sectors + 1;
 }
 
 std::string sector_name(int slice, int sector) {

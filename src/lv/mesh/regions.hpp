@@ -44,6 +44,10 @@ inline constexpr int slice_count = 7;
 
 [[nodiscard]] Regions divide(const Mesh& mesh, const RegionParameters& parameters);
 
+/// The sector, 1 to `sectors`, that holds an angle: sector 1 (anterior) has its middle a quarter
+/// turn beyond the septum's angle, the next ones follow clockwise seen from the base [rad].
+[[nodiscard]] int sector_at(double angle, double septum_angle, int sectors);
+
 /// "ant", "antsept", ... of a sector of a slice.
 [[nodiscard]] std::string sector_name(int slice, int sector);
 

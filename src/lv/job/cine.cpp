@@ -1,0 +1,179 @@
+#include "lv/job/cine.hpp"
+
+#include "lv/base/check.hpp"
+#include "lv/geometry/contour_checks.hpp"
+#include "lv/geometry/contour_measures.hpp"
+#include "lv/geometry/long_axis.hpp"
+#include "lv/image/close_walls.hpp"
+#include "lv/image/dicom_study.hpp"
+#include "lv/image/nifti.hpp"
+#include "lv/image/sunnybrook.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace lv::job {
+namespace {
+
+using geometry::Contour;
+using geometry::Side;
+
+image::DicomStack read_stack(const Case& c) {
+  const std::array<std::filesystem::path, 1> where{beside(c, c.strain.cine)};
+  std::vector<std::string> series;
+  if (!c.strain.series.empty())
+    series.push_back(c.strain.series);
+  return image::choose_stack(image::read_dicom_study(where), series, where.front().string(),
+                             "strain.series");
+}
+
+image::Cine read_cine(const Case& c, const std::optional<image::DicomStack>& stack) {
+  return stack ? image::read_pixels(*stack) : image::read_nifti_cine(beside(c, c.strain.cine));
+}
+
+/// Loops in the Sunnybrook form: of the phase that is followed, and of end-systole if that is said.
+void read_sunnybrook(const Case& c, const image::DicomStack& stack, CineStudy& study) {
+  constexpr double thinnest_wall = 2.0;  // of loops that cross [mm]
+  const std::filesystem::path folder = beside(c, c.strain.contours);
+  image::DrawnPhases drawn =
+      image::read_sunnybrook(folder, stack, image::PixelOrigin::corner, image::DrawnBy::manual);
+  study.notes.insert(study.notes.end(), drawn.notes.begin(), drawn.notes.end());
+  const auto diastole = drawn.phases.find(c.strain.end_diastole);
+  if (diastole == drawn.phases.end())
+    throw InputError(folder.string(),
+                     fmt::format("no contours are drawn on images number {} of the slices",
+                                 c.strain.end_diastole),
+                     "Set strain.end_diastole to the number, in order of time, of those that are");
+  study.drawn = diastole->second;
+  image::close_walls(study.drawn, thinnest_wall, study.notes);
+  geometry::check_contours(study.drawn);
+  if (const auto systole = drawn.phases.find(c.strain.end_systole); systole != drawn.phases.end())
+    study.systolic = systole->second.short_axis;
+}
+
+geometry::Contours read_drawn(const Case& c, const std::string& parameter,
+                              const std::string& file) {
+  if (file.empty())
+    throw InputError(c.file.string(), parameter + " is not set",
+                     "Name the CSV file of the short-axis loops drawn at end-diastole");
+  geometry::ContourFiles files{.short_axis = beside(c, file), .long_axis = {}, .apex = {}};
+  if (!c.strain.long_axis.empty() && parameter == "strain.contours")
+    files.long_axis = beside(c, c.strain.long_axis);
+  return geometry::read_contours(files);
+}
+
+/// The slice whose plane holds a loop.
+std::size_t slice_with(const image::Cine& cine, const Contour& loop) {
+  constexpr double farthest = 1.0;  // [mm]
+  const Vec3 middle = geometry::mean_of(loop.points);
+  std::size_t best = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t s = 0; s < cine.slices.size(); ++s) {
+    const double d = std::abs(cine.slices[s].frames.front().plane.pixel(middle).z());
+    if (d >= least)
+      continue;
+    least = d;
+    best = s;
+  }
+  if (least > farthest)
+    throw InputError(loop.where(),
+                     fmt::format("{} lies {:.1f} mm from the nearest image of the cine",
+                                 geometry::label(loop), least),
+                     "Give the contours that were drawn on these images, and all their slices");
+  return best;
+}
+
+/// The direction about the long axis that sectors are counted from.
+Vec3 septum_point(const Case& c, const geometry::LongAxis& axis, std::vector<std::string>& notes) {
+  const auto& own = c.strain.septum_point;
+  const auto& anatomy = c.anatomy.contours.fit.frame.septum;
+  if (own || anatomy)
+    return Vec3((own ? own : anatomy)->data());
+  notes.emplace_back(
+      "the septum is assumed towards the patient's right: sectors bear the wrong names if it is "
+      "elsewhere (set strain.septum_point)");
+  const Vec3 right = -Vec3::UnitX();
+  return axis.point + 30.0 * (right - right.dot(axis.up) * axis.up).normalized();
+}
+
+strain::Orientation orientation(const Case& c, CineStudy& study) {
+  const geometry::LongAxis axis = geometry::long_axis(study.drawn);
+  strain::Orientation o;
+  o.up = axis.up;
+  const int basal = geometry::slices_from_base(study.drawn).front();
+  o.base = geometry::mean_of(geometry::find(study.drawn.short_axis, basal, Side::endo)->points) +
+           0.5 * study.spacing * axis.up;
+  o.apex = geometry::endo_apex(study.drawn);
+  o.septum = septum_point(c, axis, study.notes);
+  return o;
+}
+
+double spacing_of(const image::Cine& cine) {
+  std::vector<double> heights;
+  const image::Plane& first = cine.slices.front().frames.front().plane;
+  for (const image::CineSlice& slice : cine.slices)
+    heights.push_back(first.pixel(slice.frames.front().plane.origin).z());
+  std::sort(heights.begin(), heights.end());
+  return heights.size() < 2
+             ? 0.0
+             : (heights.back() - heights.front()) / static_cast<double>(heights.size() - 1);
+}
+
+}  // namespace
+
+std::size_t drawn_frame(const Case& c, const image::CineSlice& slice) {
+  const int phase = c.strain.end_diastole;
+  if (phase > static_cast<int>(slice.frames.size()))
+    throw InputError(place_of(c, "strain.end_diastole"),
+                     fmt::format("strain.end_diastole is {}, but {} has {} images", phase,
+                                 slice.name, slice.frames.size()),
+                     "Give the number, in order of time, of the images with the contours");
+  return static_cast<std::size_t>(phase - 1);
+}
+
+CineStudy read_cine_study(const Case& c) {
+  CineStudy study;
+  std::optional<image::DicomStack> stack;
+  if (!image::is_nifti_name(c.strain.cine))
+    stack = read_stack(c);
+  study.cine = read_cine(c, stack);
+  study.notes = study.cine.notes;
+  study.spacing = spacing_of(study.cine);
+  if (stack && std::filesystem::is_directory(beside(c, c.strain.contours)) &&
+      !c.strain.contours.empty())
+    read_sunnybrook(c, *stack, study);
+  else
+    study.drawn = read_drawn(c, "strain.contours", c.strain.contours);
+  for (const Contour& loop : study.drawn.short_axis)
+    study.slice_of.push_back(slice_with(study.cine, loop));
+  if (!c.strain.es_contours.empty())
+    study.systolic = read_drawn(c, "strain.es_contours", c.strain.es_contours).short_axis;
+  study.orientation = orientation(c, study);
+  return study;
+}
+
+std::vector<strain::SliceTask> slice_tasks(const Case& c, const CineStudy& study) {
+  std::vector<strain::SliceTask> tasks;
+  const auto& loops = study.drawn.short_axis;
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    const Contour* epi = geometry::find(loops, loops[i].slice, Side::epi);
+    if (loops[i].side != Side::endo || epi == nullptr)
+      continue;
+    const image::CineSlice& slice = study.cine.slices[study.slice_of[i]];
+    strain::SliceTask task{&slice, {}, static_cast<int>(drawn_frame(c, slice)), loops[i], *epi};
+    for (std::size_t k = 0; k < slice.frames.size(); ++k)
+      task.phases.push_back(static_cast<int>(k) + 1);
+    tasks.push_back(std::move(task));
+  }
+  if (tasks.empty())
+    throw InputError(beside(c, c.strain.contours).string(),
+                     "no slice has both an endocardial and an epicardial loop",
+                     "Strain needs both, drawn at end-diastole");
+  return tasks;
+}
+
+}  // namespace lv::job

@@ -1,0 +1,264 @@
+#include "lv/job/strain.hpp"
+
+#include "lv/base/check.hpp"
+#include "lv/base/log.hpp"
+#include "lv/base/table.hpp"
+#include "lv/base/units.hpp"
+#include "lv/geometry/contour_measures.hpp"
+#include "lv/job/cine.hpp"
+#include "lv/report/overlay.hpp"
+#include "lv/strain/measures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace lv::job {
+namespace {
+
+namespace fs = std::filesystem;
+using geometry::Contour;
+using geometry::Side;
+using strain::TrackedSlice;
+
+constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+constexpr report::Colour drawn_colour = report::hex(0x56b4e9);
+constexpr report::Colour carried_colour = report::hex(0xe69f00);
+constexpr report::Colour given_colour = report::hex(0x009e73);
+
+std::string number(double value) {
+  return Table::number(value, 5);
+}
+
+/// A slice whose map folds, or nearly, was not followed: its muscle has left the plane.
+bool was_followed(const TrackedSlice& slice) {
+  constexpr double folded = 0.1;
+  return slice.smallest_J > folded;
+}
+
+/// Position in a slice's series of a phase.
+std::size_t at_phase(const TrackedSlice& slice, int phase) {
+  const auto& phases = slice.series.phases;
+  return static_cast<std::size_t>(std::find(phases.begin(), phases.end(), phase) - phases.begin());
+}
+
+/// Cavity volume at a phase, from areas times spacing [mm^3].
+double volume_at(const std::vector<TrackedSlice>& slices, double spacing, int phase) {
+  double area = 0.0;
+  for (const TrackedSlice& s : slices) {
+    const std::size_t k = at_phase(s, phase);
+    area += k < s.cavity_areas.size() ? s.cavity_areas[k] : missing;
+  }
+  return spacing * area;
+}
+
+int end_systole(const Case& c, const std::vector<TrackedSlice>& slices) {
+  const std::vector<int>& phases = slices.front().series.phases;
+  if (c.strain.end_systole > 0) {
+    if (std::find(phases.begin(), phases.end(), c.strain.end_systole) == phases.end())
+      throw InputError(place_of(c, "strain.end_systole"),
+                       fmt::format("strain.end_systole is {}, but the cine has {} images a slice",
+                                   c.strain.end_systole, phases.size()),
+                       "Give the number of an image in order of time, or 0");
+    return c.strain.end_systole;
+  }
+  const auto volume = [&](int phase) {
+    const double v = volume_at(slices, 1.0, phase);
+    return std::isnan(v) ? std::numeric_limits<double>::infinity() : v;
+  };
+  return *std::min_element(phases.begin(), phases.end(),
+                           [&](int a, int b) { return volume(a) < volume(b); });
+}
+
+/// How a slice agrees with a loop drawn at end-systole.
+struct Check {
+  double dice = missing, mean = missing, largest = missing, area = missing;
+};
+
+Check check(const CineStudy& study, const TrackedSlice& slice, int phase) {
+  const Contour* given = geometry::find(study.systolic, slice.series.slice, Side::endo);
+  if (given == nullptr)
+    return {};
+  const std::vector<Vec3>& carried = slice.endo[at_phase(slice, phase)].points;
+  const strain::Distance d = strain::distance(given->points, {carried}, true);
+  return {strain::dice(carried, given->points), d.mean, d.largest,
+          strain::loop_area(given->points)};
+}
+
+Table slices_table(const CineStudy& study, const std::vector<TrackedSlice>& slices, int systole) {
+  Table table({"slice", "third", "followed", "residual_es", "largest_residual", "smallest_J",
+               "cavity_area_ed_mm2", "cavity_area_es_mm2", "given_area_es_mm2", "dice_es",
+               "mean_distance_es_mm", "largest_distance_es_mm"});
+  for (const TrackedSlice& s : slices) {
+    const std::size_t k = at_phase(s, systole);
+    double largest = 0.0;
+    for (const strain::Match& m : s.matches)
+      largest = std::max(largest, m.residual);
+    const Check given = check(study, s, systole);
+    static constexpr std::array<const char*, 3> thirds{"basal", "middle", "apical"};
+    table.add_row({std::to_string(s.series.slice), thirds.at(s.series.third),
+                   was_followed(s) ? "yes" : "no", number(s.matches.at(k).residual),
+                   number(largest), number(s.smallest_J), number(s.cavity_areas.front()),
+                   number(s.cavity_areas.at(k)), number(given.area), number(given.dice),
+                   number(given.mean), number(given.largest)});
+  }
+  return table;
+}
+
+Table volumes_table(const std::vector<TrackedSlice>& slices, double spacing) {
+  Table table({"phase", "cavity_volume_ml"});
+  for (const int phase : slices.front().series.phases)
+    table.add_row({std::to_string(phase), number(1e-3 * volume_at(slices, spacing, phase))});
+  return table;
+}
+
+Table contours_table(const std::vector<TrackedSlice>& slices, int phase) {
+  Table table({"slice", "contour", "point", "x_mm", "y_mm", "z_mm"});
+  const auto coordinate = [](double x) { return fmt::format("{:.3f}", x); };
+  for (const TrackedSlice& s : slices)
+    for (const auto* loops : {&s.endo, &s.epi}) {
+      const Contour& loop = (*loops)[at_phase(s, phase)];
+      for (std::size_t i = 0; i < loop.points.size(); ++i)
+        table.add_row({std::to_string(loop.slice), name(loop.side), std::to_string(i + 1),
+                       coordinate(loop.points[i].x()), coordinate(loop.points[i].y()),
+                       coordinate(loop.points[i].z())});
+    }
+  return table;
+}
+
+void draw(const CineStudy& study, const std::vector<strain::SliceTask>& tasks,
+          const std::vector<TrackedSlice>& slices, int phase, bool systole, const fs::path& file) {
+  std::vector<report::Overlay> overlays;
+  for (std::size_t i = 0; i < slices.size(); ++i) {
+    const TrackedSlice& s = slices[i];
+    const std::size_t k = at_phase(s, phase);
+    report::Overlay overlay{fmt::format("slice {}, phase {}", s.series.slice, phase),
+                            &tasks[i].cine->frames.at(phase - 1),
+                            {}};
+    const report::Colour colour = systole ? carried_colour : drawn_colour;
+    overlay.lines.push_back({s.endo[k].points, colour, true, false});
+    overlay.lines.push_back({s.epi[k].points, colour, true, false});
+    if (const Contour* given = geometry::find(study.systolic, s.series.slice, Side::endo);
+        systole && given != nullptr)
+      overlay.lines.push_back({given->points, given_colour, true, true});
+    overlays.push_back(std::move(overlay));
+  }
+  report::write_overlays(overlays,
+                         systole ? "Contours carried from end-diastole (solid) and drawn at "
+                                   "end-systole (dashed)"
+                                 : "Contours drawn at end-diastole",
+                         file);
+}
+
+std::vector<strain::SliceSeries> series_of(const std::vector<TrackedSlice>& slices, bool all) {
+  std::vector<strain::SliceSeries> series;
+  for (const TrackedSlice& s : slices)
+    if (all || was_followed(s))
+      series.push_back(s.series);
+  return series;
+}
+
+/// Strain of every slice; of regions of several slices without those that were not followed.
+std::vector<strain::SegmentStrain> all_segments(const std::vector<TrackedSlice>& slices) {
+  std::vector<strain::SegmentStrain> rows = strain::segments(series_of(slices, true));
+  std::erase_if(rows, [](const strain::SegmentStrain& row) { return row.slice == 0; });
+  for (const strain::SegmentStrain& row : strain::segments(series_of(slices, false)))
+    if (row.slice == 0)
+      rows.push_back(row);
+  return rows;
+}
+
+std::string words(const CineStudy& study, const std::vector<TrackedSlice>& slices, int diastole,
+                  int systole, const std::vector<strain::SegmentStrain>& rows) {
+  std::string text;
+  for (const std::string& note : study.notes)
+    text += fmt::format("note: {}\n", note);
+  for (const TrackedSlice& s : slices)
+    if (!was_followed(s))
+      text += fmt::format(
+          "slice {} was not followed everywhere: the map folds in its wall (least J {:.2f}), as "
+          "when "
+          "muscle leaves the plane or images are far apart in time; it is left out of the AHA "
+          "segments and the whole wall\n",
+          s.series.slice, s.smallest_J);
+  text +=
+      fmt::format("end-diastole: phase {}, cavity {:.1f} ml; end-systole: phase {}, {:.1f} ml\n",
+                  diastole, 1e-3 * volume_at(slices, study.spacing, diastole), systole,
+                  1e-3 * volume_at(slices, study.spacing, systole));
+  for (const strain::SegmentStrain& row : rows)
+    if (row.scheme == "whole" && row.phase == systole)
+      text += fmt::format(
+          "whole wall at end-systole: circumferential strain {:.3f}, radial {:.3f} "
+          "(Green-Lagrange); mid-wall line {:.1f}%, thickness {:+.1f}%\n",
+          row.strain.circumferential, row.strain.radial, 100.0 * row.strain.shortening,
+          100.0 * row.strain.thickening);
+  double given = 0.0;
+  double carried = 0.0;
+  for (const TrackedSlice& s : slices) {
+    const Check c = check(study, s, systole);
+    if (std::isnan(c.area))
+      continue;
+    given += c.area;
+    carried += s.cavity_areas[at_phase(s, systole)];
+    text += fmt::format(
+        "slice {}: Dice with the loop drawn at end-systole {:.3f}, distance {:.1f} mm in the mean, "
+        "{:.1f} mm at most\n",
+        s.series.slice, c.dice, c.mean, c.largest);
+  }
+  if (given > 0.0)
+    text +=
+        fmt::format("slices drawn at end-systole: {:.1f} ml carried, {:.1f} ml drawn ({:+.1f}%)\n",
+                    1e-3 * study.spacing * carried, 1e-3 * study.spacing * given,
+                    100.0 * (carried / given - 1.0));
+  return text;
+}
+
+}  // namespace
+
+Ingredients strain_files(const Case& c) {
+  Ingredients files;
+  const auto add = [&](const std::string& parameter, const std::string& name) {
+    if (name.empty())
+      return;
+    const fs::path path = beside(c, name);
+    if (!fs::is_directory(path)) {
+      files["contents of " + parameter] = fingerprint_of_file(path);
+      return;
+    }
+    Ingredients inside;
+    for (const auto& entry : fs::recursive_directory_iterator(path))
+      if (entry.is_regular_file())
+        inside[entry.path().string()] = fingerprint_of_file(entry.path());
+    files["contents of " + parameter] = fingerprint(inside);
+  };
+  add("strain.cine", c.strain.cine);
+  add("strain.contours", c.strain.contours);
+  add("strain.long_axis", c.strain.long_axis);
+  add("strain.es_contours", c.strain.es_contours);
+  return files;
+}
+
+void make_strain(const Case& c, const fs::path& folder) {
+  const CineStudy study = read_cine_study(c);
+  const std::vector<strain::SliceTask> tasks = slice_tasks(c, study);
+  log::info("following {} slices of {} images", tasks.size(), tasks.front().cine->frames.size());
+  const std::vector<TrackedSlice> slices =
+      strain::track(tasks, study.orientation, c.strain.registration);
+  const int systole = end_systole(c, slices);
+  const std::vector<strain::SegmentStrain> rows = all_segments(slices);
+  strain::segments_table(rows).write_csv(folder / "segments.csv");
+  strain::rotation_table(series_of(slices, true)).write_csv(folder / "rotation.csv");
+  slices_table(study, slices, systole).write_csv(folder / "slices.csv");
+  volumes_table(slices, study.spacing).write_csv(folder / "volumes.csv");
+  contours_table(slices, systole).write_csv(folder / "contours_es.csv");
+  draw(study, tasks, slices, c.strain.end_diastole, false, folder / "end_diastole.png");
+  draw(study, tasks, slices, systole, true, folder / "end_systole.png");
+  write_file(folder / "phases.json", fmt::format("{{\"end_diastole\": {}, \"end_systole\": {}}}\n",
+                                                 c.strain.end_diastole, systole));
+  write_file(folder / "strain.txt", words(study, slices, c.strain.end_diastole, systole, rows));
+}
+
+}  // namespace lv::job

@@ -1,0 +1,46 @@
+#pragma once
+
+#include "lv/analysis/results.hpp"
+#include "lv/geometry/frame.hpp"
+#include "lv/job/case.hpp"
+#include "lv/job/stages.hpp"
+#include "lv/job/workspace.hpp"
+
+#include <filesystem>
+#include <string>
+
+namespace lv::job {
+
+/// The files that strain is measured from, by parameter, with what stands for their contents.
+[[nodiscard]] Ingredients strain_files(const Case& c);
+
+/// Follows the cine of a case and writes
+///
+///   segments.csv    strain per slice, sector and AHA segment at every phase
+///   rotation.csv    of every slice at every phase
+///   slices.csv      how well each slice was followed, and how near to given end-systolic contours
+///   volumes.csv     of the cavity, from the contours carried along
+///   contours_es.csv the contours carried to end-systole
+///   end_diastole.png, end_systole.png
+///   strain.txt      what was found, in words
+///
+/// Throws InputError for images and contours that do not fit together.
+void make_strain(const Case& c, const std::filesystem::path& folder);
+
+/// What of a beat is set beside measured strains and images.
+struct ModelledBeat {
+  const MeshResult& mesh;
+  const heartbeat::Beat& beat;
+  const analysis::BeatFields& fields;
+  geometry::Frame frame;  ///< the model's in image space
+};
+
+/// Sets the strains of a beat beside the measured ones, with their agreement, and lays the model's
+/// outlines over the images: strain_comparison.csv, strain_agreement.json, outlines.csv,
+/// outline_distances.csv, outlines_ed.png, outlines_es.png in `folder`. `strain` is the folder of
+/// make_strain. Returns what was found, in words; nothing if the case has no measured strain.
+[[nodiscard]] std::string compare_strain(const Case& c, const ModelledBeat& model,
+                                         const std::filesystem::path& strain,
+                                         const std::filesystem::path& folder);
+
+}  // namespace lv::job

@@ -1,0 +1,232 @@
+#include "lv/phantom/study.hpp"
+
+#include "lv/base/check.hpp"
+#include "lv/base/table.hpp"
+#include "lv/phantom/files.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string_view>
+#include <thread>
+
+namespace lv::phantom {
+namespace {
+
+namespace fs = std::filesystem;
+using geometry::Contour;
+using geometry::Side;
+
+/// Works on 0..n-1 with every core.
+template <class Work>
+void on_all_cores(std::size_t n, const Work& work) {
+  const std::size_t threads = std::max(1U, std::thread::hardware_concurrency());
+  std::vector<std::jthread> pool;
+  for (std::size_t t = 0; t < threads; ++t)
+    pool.emplace_back([&, t] {
+      for (std::size_t i = t; i < n; i += threads)
+        work(i);
+    });
+}
+
+image::Cine cine_of(const Scanner& scanner, const Scan& scan, const std::vector<ScanPlane>& planes,
+                    std::uint32_t first_number) {
+  const std::vector<double> times = phase_times(scan);
+  image::Cine cine;
+  for (const ScanPlane& plane : planes) {
+    image::CineSlice slice{plane.name, std::vector<image::Picture>(times.size()), {}, scan.rr};
+    for (const double time : times)
+      slice.times.push_back(time * scan.rr);
+    cine.slices.push_back(std::move(slice));
+  }
+  on_all_cores(planes.size() * times.size(), [&](std::size_t n) {
+    const std::size_t s = n / times.size();
+    const std::size_t k = n % times.size();
+    cine.slices[s].frames[k] = scanner.picture(planes[s], times[k], Contrast::cine,
+                                               first_number + static_cast<std::uint32_t>(n));
+  });
+  return cine;
+}
+
+/// Late enhancement is taken when the heart rests, before the atrium contracts.
+constexpr double enhancement_time = 0.7;
+
+image::Cine late_enhancement(const Scanner& scanner, const Scan& scan, const ScanPlanes& planes) {
+  constexpr std::uint32_t first_number = 1000000;
+  image::Cine stack;
+  for (std::size_t s = 0; s < planes.short_axis.size(); ++s)
+    stack.slices.push_back({planes.short_axis[s].name, {}, {enhancement_time * scan.rr}, scan.rr});
+  on_all_cores(planes.short_axis.size(), [&](std::size_t s) {
+    stack.slices[s].frames = {scanner.picture(planes.short_axis[s], enhancement_time,
+                                              Contrast::late_enhancement,
+                                              first_number + static_cast<std::uint32_t>(s))};
+  });
+  return stack;
+}
+
+std::vector<LabelPicture> label_stack(const Scanner& scanner, const ScanPlanes& planes,
+                                      double time) {
+  std::vector<LabelPicture> stack(planes.short_axis.size());
+  on_all_cores(stack.size(),
+               [&](std::size_t s) { stack[s] = scanner.labels(planes.short_axis[s], time); });
+  return stack;
+}
+
+/// Scar is no label of a cine, which does not show it.
+std::vector<LabelPicture> without_scar(std::vector<LabelPicture> stack) {
+  for (LabelPicture& picture : stack)
+    for (std::uint8_t& label : picture.values)
+      label = label == scar ? std::uint8_t{muscle} : label;
+  return stack;
+}
+
+void write_contours(const std::vector<Contour>& contours, std::string_view side,
+                    const fs::path& file) {
+  Table table({"slice", "contour", "point", "x_mm", "y_mm", "z_mm"});
+  const auto number = [](double x) { return fmt::format("{:.4f}", x); };
+  for (const Contour& c : contours) {
+    if (!side.empty() && side != name(c.side))
+      continue;
+    for (std::size_t i = 0; i < c.points.size(); ++i)
+      table.add_row({std::to_string(c.slice), name(c.side), std::to_string(i + 1),
+                     number(c.points[i].x()), number(c.points[i].y()), number(c.points[i].z())});
+  }
+  table.write_csv(file);
+}
+
+void write_all_contours(const Ventricle& v, const Scan& scan, const ScanPlanes& planes,
+                        const Truth& truth, const fs::path& folder) {
+  const std::vector<double> times = phase_times(scan);
+  for (const auto& [state, phase] :
+       {std::pair{"ed", truth.end_diastole}, std::pair{"es", truth.end_systole},
+        std::pair{"early", truth.early_diastole}}) {
+    const geometry::Contours drawn = contours(v, scan, planes, times.at(phase - 1));
+    const auto file = [&](const char* what) {
+      return folder / fmt::format("{}_{}.csv", state, what);
+    };
+    write_contours(drawn.short_axis, "", file("short_axis"));
+    write_contours(drawn.long_axis, "", file("long_axis"));
+    write_contours(drawn.apex, "endo", file("apex_endo"));
+    write_contours(drawn.apex, "epi", file("apex_epi"));
+  }
+}
+
+std::string case_file(const Ventricle& v, const Scan& scan, const StudyFiles& files,
+                      const Truth& truth) {
+  const double middle = 0.5 * v.cavity_apex();
+  const Vec3 p =
+      pose(scan).to_image({0.5 * (v.shape.endo_radius + v.shape.epi_radius), 0.0, middle});
+  const std::string septum = fmt::format(
+      "septum_point = [\"{:.3f} mm\", \"{:.3f} mm\", \"{:.3f} mm\"]\n", p.x(), p.y(), p.z());
+  std::string text =
+      "# A synthetic study: what is true of it is in truth.json and truth_segments.csv.\n"
+      "name = \"phantom\"\n\n[anatomy]\nsource = \"contours\"\n\n[anatomy.contours]  # early "
+      "diastole\n"
+      "short_axis = \"contours/early_short_axis.csv\"\n"
+      "long_axis = \"contours/early_long_axis.csv\"\n"
+      "apex_endo = \"contours/early_apex_endo.csv\"\n"
+      "apex_epi = \"contours/early_apex_epi.csv\"\n" +
+      septum;
+  if (!files.dicom && !files.nifti)
+    return text;
+  text += "\n[strain]\n";
+  text += files.dicom ? "cine = \"dicom\"\nseries = \"cine_short_axis\"\n"
+                      : "cine = \"nifti/cine_short_axis.nii.gz\"\n";
+  return text +
+         fmt::format(
+             "contours = \"contours/ed_short_axis.csv\"\n"
+             "long_axis = \"contours/ed_long_axis.csv\"\n"
+             "es_contours = \"contours/es_short_axis.csv\"\n"
+             "end_diastole = {}\n",
+             truth.end_diastole) +
+         septum;
+}
+
+void check(const Ventricle& v, const Scan& scan) {
+  const geometry::Ellipsoid& e = v.shape;
+  const auto rule = [](bool holds, const std::string& what, const char* remedy) {
+    if (!holds)
+      throw InputError("phantom", what, remedy);
+  };
+  rule(e.endo_radius < e.epi_radius && e.endo_length < e.epi_length,
+       "the endocardium is not inside the epicardium",
+       "Give the epicardium the larger radius and length");
+  rule(e.base_height < e.endo_length && e.base_height > -e.endo_length,
+       "the base lies outside the ventricle", "Choose a base height within its length");
+  rule(scan.field_of_view > 4.0 * e.epi_radius && scan.field_of_view > -1.5 * v.apex(),
+       fmt::format("a field of view of {:g} mm does not hold the ventricle", scan.field_of_view),
+       "Enlarge it to twice the heart's size");
+  rule(v.scar.bottom < v.scar.top || v.scar.transmurality == 0.0,
+       "the scar's bottom is not below its top", "Swap them");
+}
+
+image::Cine one(const image::CineSlice& slice) {
+  image::Cine cine;
+  cine.slices.push_back(slice);
+  return cine;
+}
+
+void write_images(const Scanner& scanner, const Scan& scan, const ScanPlanes& planes,
+                  const StudyFiles& files, const fs::path& folder) {
+  const image::Cine sa = cine_of(scanner, scan, planes.short_axis, 1);
+  const image::Cine la = cine_of(scanner, scan, planes.long_axis, 500000);
+  const image::Cine lge = late_enhancement(scanner, scan, planes);
+  if (files.dicom) {
+    fs::create_directories(folder / "dicom");
+    const StudyHeader header{scan.seed, scan.rr, scan.thickness, scan.thickness + scan.gap};
+    std::vector<Series> series{{1, "cine_short_axis", sa}, {5, "late_enhancement_short_axis", lge}};
+    for (std::size_t k = 0; k < la.slices.size(); ++k)
+      series.push_back(
+          {static_cast<int>(k) + 2, fmt::format("cine_{}", la.slices[k].name), one(la.slices[k])});
+    write_dicom(header, series, folder / "dicom");
+  }
+  if (!files.nifti)
+    return;
+  const fs::path nifti = folder / "nifti";
+  fs::create_directories(nifti);
+  write_nifti(sa, nifti / "cine_short_axis.nii.gz");
+  for (std::size_t k = 0; k < la.slices.size(); ++k)
+    write_nifti(one(la.slices[k]), nifti / fmt::format("cine_long_axis_{}.nii.gz", k + 1));
+  write_nifti(lge, nifti / "late_enhancement.nii.gz");
+  std::vector<std::vector<LabelPicture>> labels;
+  for (const double time : phase_times(scan))
+    labels.push_back(without_scar(label_stack(scanner, planes, time)));
+  write_nifti(labels, scan.rr / scan.phases, nifti / "cine_short_axis_labels.nii.gz");
+  write_nifti({label_stack(scanner, planes, enhancement_time)}, 1.0,
+              nifti / "late_enhancement_labels.nii.gz");
+}
+
+}  // namespace
+
+image::Cine short_axis_cine(const Ventricle& ventricle, const Scan& scan,
+                            const ScanPlanes& planes) {
+  return cine_of(Scanner(ventricle, scan), scan, planes.short_axis, 1);
+}
+
+std::string write_study(const Ventricle& v, const Scan& scan, const StudyFiles& files,
+                        const fs::path& folder) {
+  check(v, scan);
+  if (fs::exists(folder) && !fs::is_empty(folder))
+    throw InputError(folder.string(), "is not empty", "Name a folder that does not exist yet");
+  std::error_code error;
+  fs::create_directories(folder / "contours", error);
+  if (error)
+    throw RunError(fmt::format("{} cannot be made: {}", folder.string(), error.message()),
+                   "Check the permissions, or name another folder");
+  const ScanPlanes all = planes(v, scan);
+  const Truth t = truth(v, scan, all);
+  write_images(Scanner(v, scan), scan, all, files, folder);
+  write_all_contours(v, scan, all, t, folder / "contours");
+  write_file(folder / "truth.json", truth_json(t, v, scan, all));
+  strain::segments_table(t.segments).write_csv(folder / "truth_segments.csv");
+  write_file(folder / "case.toml", case_file(v, scan, files, t));
+  strain::rotation_table(t.slices).write_csv(folder / "truth_rotation.csv");
+  return fmt::format(
+      "wrote {}: {} short-axis slices and {} long axes of {} phases; cavity {:.1f} ml at "
+      "end-diastole, {:.1f} ml at end-systole (phase {}), wall {:.1f} ml, scar {:.1f} ml\n",
+      folder.string(), all.short_axis.size(), all.long_axis.size(), scan.phases,
+      1e-3 * t.cavity_volumes.front(), 1e-3 * t.cavity_volumes.at(t.end_systole - 1), t.end_systole,
+      1e-3 * t.wall_volume, 1e-3 * t.scar_volume);
+}
+
+}  // namespace lv::phantom

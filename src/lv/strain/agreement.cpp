@@ -1,0 +1,135 @@
+#include "lv/strain/agreement.hpp"
+
+#include "lv/base/check.hpp"
+#include "lv/mesh/regions.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace lv::strain {
+namespace {
+
+std::vector<std::string> fields_of(std::string line) {
+  if (!line.empty() && line.back() == '\r')
+    line.pop_back();
+  std::vector<std::string> fields;
+  std::istringstream stream(line);
+  for (std::string field; std::getline(stream, field, ',');)
+    fields.push_back(field);
+  return fields;
+}
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+std::size_t column_of(const std::vector<std::string>& header, const std::string& name,
+                      const std::string& where) {
+  const auto found = std::find(header.begin(), header.end(), name);
+  if (found == header.end())
+    throw InputError(where, fmt::format("has no column \"{}\"", name),
+                     fmt::format("It has {}", fmt::join(header, ", ")));
+  return static_cast<std::size_t>(found - header.begin());
+}
+
+double number_in(const std::string& text, const std::string& where) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
+    throw InputError(where, fmt::format("\"{}\" is not a finite number", text),
+                     "Give the number or remove the line");
+  return value;
+}
+
+void check_segment(const std::string& segment, const std::string& where) {
+  for (int sector = 1; sector <= 6; ++sector)
+    if (segment == mesh::sector_name(1, sector))
+      return;
+  throw InputError(where, fmt::format("unknown segment \"{}\"", segment),
+                   "The segments are Ant, AntSept, InfSept, Inf, InfLat and AntLat");
+}
+
+}  // namespace
+
+Agreement agreement(const std::vector<Pair>& pairs) {
+  constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+  Agreement a;
+  a.count = static_cast<int>(pairs.size());
+  if (pairs.size() < 2) {
+    a.bias = a.deviation = a.lower = a.upper = a.correlation = missing;
+    return a;
+  }
+  const double n = a.count;
+  double x = 0.0;
+  double y = 0.0;
+  for (const Pair& p : pairs) {
+    x += p.measured / n;
+    y += p.model / n;
+  }
+  double xx = 0.0;
+  double yy = 0.0;
+  double xy = 0.0;
+  double squares = 0.0;
+  a.bias = y - x;
+  for (const Pair& p : pairs) {
+    xx += (p.measured - x) * (p.measured - x);
+    yy += (p.model - y) * (p.model - y);
+    xy += (p.measured - x) * (p.model - y);
+    squares += std::pow(p.model - p.measured - a.bias, 2);
+  }
+  a.deviation = std::sqrt(squares / (n - 1.0));
+  a.lower = a.bias - 1.96 * a.deviation;
+  a.upper = a.bias + 1.96 * a.deviation;
+  a.correlation = xx * yy > 0.0 ? xy / std::sqrt(xx * yy) : missing;
+  return a;
+}
+
+Table pairs_table(const std::vector<Pair>& pairs) {
+  Table table({"scheme", "slice", "segment", "measured", "model", "difference"});
+  for (const Pair& p : pairs)
+    table.add_row({p.scheme, p.slice == 0 ? "" : std::to_string(p.slice), p.segment,
+                   Table::number(p.measured, 5), Table::number(p.model, 5),
+                   Table::number(p.model - p.measured, 5)});
+  return table;
+}
+
+std::vector<Measured> read_measured(const std::filesystem::path& file, const std::string& column) {
+  std::istringstream lines(read_file(file));
+  std::string line;
+  std::getline(lines, line);
+  const std::vector<std::string> header = fields_of(line);
+  const std::string first = file.string() + ":1";
+  const std::size_t slice = column_of(header, "slice", first);
+  const std::size_t component = column_of(header, "component", first);
+  const std::size_t segment = column_of(header, "segment", first);
+  const std::size_t value = column_of(header, column, first);
+  std::vector<Measured> measured;
+  for (int number = 2; std::getline(lines, line); ++number) {
+    const std::vector<std::string> fields = fields_of(line);
+    if (fields.empty())
+      continue;
+    const std::string where = fmt::format("{}:{}", file.string(), number);
+    if (fields.size() != header.size())
+      throw InputError(
+          where, fmt::format("{} values in a table of {} columns", fields.size(), header.size()),
+          "Give every line one value per column");
+    Measured m{static_cast<int>(number_in(fields[slice], where)), lower(fields[component]),
+               lower(fields[segment]), number_in(fields[value], where)};
+    check_segment(m.segment, where);
+    if (m.component != "cir" && m.component != "rad")
+      throw InputError(where, fmt::format("unknown component \"{}\"", fields[component]),
+                       "A component is cir (circumferential) or rad (radial)");
+    measured.push_back(m);
+  }
+  return measured;
+}
+
+}  // namespace lv::strain
