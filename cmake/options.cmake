@@ -30,3 +30,7 @@ if(LV_COVERAGE)
 endif()
 set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
 set(CMAKE_CXX_FLAGS_DEBUG "-O1 -g")
+
+# Gmsh and ITK contain copies of Eigen's functions compiled for other processors. None of ours may take their place when the
+# program is loaded: memory of one would be freed by the other.
+set(CMAKE_CXX_VISIBILITY_PRESET hidden)

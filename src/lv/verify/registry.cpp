@@ -150,12 +150,12 @@ std::span<const Problem> problems() {
       {"land2015_problem2_immersed",
        "inflation of a ventricle: Land et al. 2015, problem 2, run to rest (immersed engine)",
        nightly,
-       {2},
+       {1},
        land2015_problem2_immersed},
       {"land2015_problem3_immersed",
        "inflation and contraction: Land et al. 2015, problem 3, run to rest (immersed engine)",
        nightly,
-       {2},
+       {1},
        land2015_problem3_immersed},
   };
   return all;
