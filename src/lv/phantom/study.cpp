@@ -48,16 +48,15 @@ image::Cine cine_of(const Scanner& scanner, const Scan& scan, const std::vector<
   return cine;
 }
 
-/// Late enhancement is taken when the heart rests, before the atrium contracts.
-constexpr double enhancement_time = 0.7;
-
-image::Cine late_enhancement(const Scanner& scanner, const Scan& scan, const ScanPlanes& planes) {
+/// Late enhancement is triggered at a time of the cycle (a fraction of it).
+image::Cine late_enhancement(const Scanner& scanner, const Scan& scan, const ScanPlanes& planes,
+                             double time) {
   constexpr std::uint32_t first_number = 1000000;
   image::Cine stack;
   for (std::size_t s = 0; s < planes.short_axis.size(); ++s)
-    stack.slices.push_back({planes.short_axis[s].name, {}, {enhancement_time * scan.rr}, scan.rr});
+    stack.slices.push_back({planes.short_axis[s].name, {}, {time * scan.rr}, scan.rr});
   on_all_cores(planes.short_axis.size(), [&](std::size_t s) {
-    stack.slices[s].frames = {scanner.picture(planes.short_axis[s], enhancement_time,
+    stack.slices[s].frames = {scanner.picture(planes.short_axis[s], time,
                                               Contrast::late_enhancement,
                                               first_number + static_cast<std::uint32_t>(s))};
   });
@@ -111,28 +110,50 @@ void write_all_contours(const Ventricle& v, const Scan& scan, const ScanPlanes& 
   }
 }
 
-std::string case_file(const Ventricle& v, const Scan& scan, const StudyFiles& files,
-                      const Truth& truth) {
-  const double middle = 0.5 * v.cavity_apex();
-  const Vec3 p =
-      pose(scan).to_image({0.5 * (v.shape.endo_radius + v.shape.epi_radius), 0.0, middle});
-  const std::string septum = fmt::format(
-      "septum_point = [\"{:.3f} mm\", \"{:.3f} mm\", \"{:.3f} mm\"]\n", p.x(), p.y(), p.z());
-  std::string text =
-      "# A synthetic study: what is true of it is in truth.json and truth_segments.csv.\n"
-      "name = \"phantom\"\n\n[anatomy]\nsource = \"contours\"\n\n[anatomy.contours]  # early "
-      "diastole\n"
-      "short_axis = \"contours/early_short_axis.csv\"\n"
-      "long_axis = \"contours/early_long_axis.csv\"\n"
-      "apex_endo = \"contours/early_apex_endo.csv\"\n"
-      "apex_epi = \"contours/early_apex_epi.csv\"\n" +
-      septum;
+/// The wall from the label map of the cine, or from contours where there is none. Labels do not
+/// show the annulus, contours of the long axes end at it. Without long axes, slices of different
+/// breath-holds are moved to where the wall is smoothest.
+std::string anatomy_of_case(const Scan& scan, const StudyFiles& files, const Truth& truth,
+                            const std::string& septum) {
+  if (files.nifti)
+    return fmt::format(
+               "[anatomy]\nsource = \"labels\"\n\n[anatomy.labels]\n"
+               "file = \"nifti/cine_short_axis_labels.nii.gz\"\n"
+               "cavity = [{}]\nmuscle = [{}]\nframe = {}  # early diastole\n\n"
+               "[anatomy.contours]\n",
+               static_cast<int>(cavity), static_cast<int>(muscle), truth.early_diastole) +
+           (scan.shift > 0.0 ? "align_slices = true\n" : "") + septum;
+  return "[anatomy]\nsource = \"contours\"\n\n[anatomy.contours]  # early diastole\n"
+         "short_axis = \"contours/early_short_axis.csv\"\n"
+         "long_axis = \"contours/early_long_axis.csv\"\n"
+         "apex_endo = \"contours/early_apex_endo.csv\"\n"
+         "apex_epi = \"contours/early_apex_epi.csv\"\n"
+         "base_at = \"annulus\"\n" +
+         septum;
+}
+
+/// The scar from its labels, or from the enhanced image: brighter than half of the brightest, for
+/// nulled muscle without noise deviates so little that every pixel with a trace of scar would
+/// count.
+std::string infarct_of_case(const Scan& scan, const StudyFiles& files, const Truth& truth) {
+  if (truth.scar_volume == 0.0 || (!files.dicom && !files.nifti))
+    return "";
+  if (files.nifti)
+    return fmt::format(
+        "\n[infarct]\nsource = \"labels\"\n\n[infarct.labels]\n"
+        "file = \"nifti/late_enhancement_labels.nii.gz\"\n"
+        "scar = [{}]\nmuscle = [{}]\nin_plane = {}\n",
+        static_cast<int>(scar), static_cast<int>(muscle), scan.shift > 0.0);
+  return "\n[infarct]\nsource = \"lge\"\n\n[infarct.lge]\nimage = \"dicom\"\n"
+         "series = [\"late_enhancement_short_axis\"]\nthreshold = \"fwhm\"\n";
+}
+
+std::string strain_of_case(const StudyFiles& files, const Truth& truth, const std::string& septum) {
   if (!files.dicom && !files.nifti)
-    return text;
-  text += "\n[strain]\n";
-  text += files.dicom ? "cine = \"dicom\"\nseries = \"cine_short_axis\"\n"
-                      : "cine = \"nifti/cine_short_axis.nii.gz\"\n";
-  return text +
+    return "";
+  const std::string cine = files.dicom ? "cine = \"dicom\"\nseries = \"cine_short_axis\"\n"
+                                       : "cine = \"nifti/cine_short_axis.nii.gz\"\n";
+  return "\n[strain]\n" + cine +
          fmt::format(
              "contours = \"contours/ed_short_axis.csv\"\n"
              "long_axis = \"contours/ed_long_axis.csv\"\n"
@@ -140,6 +161,19 @@ std::string case_file(const Ventricle& v, const Scan& scan, const StudyFiles& fi
              "end_diastole = {}\n",
              truth.end_diastole) +
          septum;
+}
+
+std::string case_file(const Ventricle& v, const Scan& scan, const StudyFiles& files,
+                      const Truth& truth) {
+  const double middle = 0.5 * v.cavity_apex();
+  const Vec3 p =
+      pose(scan).to_image({0.5 * (v.shape.endo_radius + v.shape.epi_radius), 0.0, middle});
+  const std::string septum = fmt::format(
+      "septum_point = [\"{:.3f} mm\", \"{:.3f} mm\", \"{:.3f} mm\"]\n", p.x(), p.y(), p.z());
+  return "# A synthetic study: what is true of it is in truth.json and truth_segments.csv.\n"
+         "name = \"phantom\"\n\n" +
+         anatomy_of_case(scan, files, truth, septum) + infarct_of_case(scan, files, truth) +
+         strain_of_case(files, truth, septum);
 }
 
 void check(const Ventricle& v, const Scan& scan) {
@@ -166,11 +200,13 @@ image::Cine one(const image::CineSlice& slice) {
   return cine;
 }
 
+/// Late enhancement is taken at `early` (a fraction of the cycle): in the shape from which the
+/// model starts, so that the scar lies in the wall of the case without being carried there.
 void write_images(const Scanner& scanner, const Scan& scan, const ScanPlanes& planes,
-                  const StudyFiles& files, const fs::path& folder) {
+                  const StudyFiles& files, double early, const fs::path& folder) {
   const image::Cine sa = cine_of(scanner, scan, planes.short_axis, 1);
   const image::Cine la = cine_of(scanner, scan, planes.long_axis, 500000);
-  const image::Cine lge = late_enhancement(scanner, scan, planes);
+  const image::Cine lge = late_enhancement(scanner, scan, planes, early);
   if (files.dicom) {
     fs::create_directories(folder / "dicom");
     const StudyHeader header{scan.seed, scan.rr, scan.thickness, scan.thickness + scan.gap};
@@ -192,8 +228,7 @@ void write_images(const Scanner& scanner, const Scan& scan, const ScanPlanes& pl
   for (const double time : phase_times(scan))
     labels.push_back(without_scar(label_stack(scanner, planes, time)));
   write_nifti(labels, scan.rr / scan.phases, nifti / "cine_short_axis_labels.nii.gz");
-  write_nifti({label_stack(scanner, planes, enhancement_time)}, 1.0,
-              nifti / "late_enhancement_labels.nii.gz");
+  write_nifti({label_stack(scanner, planes, early)}, 1.0, nifti / "late_enhancement_labels.nii.gz");
 }
 
 }  // namespace
@@ -215,7 +250,8 @@ std::string write_study(const Ventricle& v, const Scan& scan, const StudyFiles& 
                    "Check the permissions, or name another folder");
   const ScanPlanes all = planes(v, scan);
   const Truth t = truth(v, scan, all);
-  write_images(Scanner(v, scan), scan, all, files, folder);
+  write_images(Scanner(v, scan), scan, all, files, phase_times(scan).at(t.early_diastole - 1),
+               folder);
   write_all_contours(v, scan, all, t, folder / "contours");
   write_file(folder / "truth.json", truth_json(t, v, scan, all));
   strain::segments_table(t.segments).write_csv(folder / "truth_segments.csv");
