@@ -52,7 +52,8 @@ std::optional<Vec2> meeting_point(const Vec2& p0, const Vec2& p1, const Vec2& q0
   const Vec2 p = p1 - p0;
   const Vec2 q = q1 - q0;
   const double det = cross(p, q);
-  if (det == 0.0)
+  constexpr double parallel = 1e-9;  // sine: borders of pixels, turned in space, are nearly so
+  if (std::abs(det) <= parallel * p.norm() * q.norm())
     return std::nullopt;
   const double s = cross(q0 - p0, q) / det;
   const double t = cross(q0 - p0, p) / det;

@@ -364,6 +364,15 @@ GuidePoints read_guide_points(const fs::path& file, std::optional<int> frame, Si
   add_loops(groups, file.string(), found);
   renumber(found);
   add_curves(groups, file.string(), found);
+  if (found.contours.short_axis.empty()) {
+    std::set<std::string> types;
+    for (const auto& [key, rows] : groups)
+      types.insert(rows.front().type);
+    throw InputError(file.string(),
+                     fmt::format("has no points of short-axis loops; its contour types are {}",
+                                 fmt::join(types, ", ")),
+                     "Loops are of the types SAX_LV_ENDOCARDIAL and SAX_LV_EPICARDIAL");
+  }
   return found;
 }
 

@@ -3,11 +3,13 @@
 #include "lv/base/check.hpp"
 #include "lv/image/plane_mask.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 namespace lv::image {
@@ -20,6 +22,9 @@ using Vec2 = Eigen::Vector2d;
 constexpr double largest_island = 0.2;   // of the largest part
 constexpr double largest_hole = 0.3;     // of the filled cavity
 constexpr std::size_t least_points = 8;  // of a border
+constexpr double noted_angle = 15.0;     // of the slices' normal to the long axis [degrees]
+constexpr double largest_angle = 25.0;
+constexpr double distinct = 1.25;  // spread along a long axis to that across it
 
 bool is_one_of(float value, const std::vector<int>& labels) {
   return std::any_of(labels.begin(), labels.end(),
@@ -40,11 +45,48 @@ PlaneMask united(const PlaneMask& a, const PlaneMask& b) {
   return both;
 }
 
+/// Moments of points in space, about the origin.
+struct Moments {
+  double zeroth = 0.0;
+  Vec3 first = Vec3::Zero();
+  Mat3 second = Mat3::Zero();
+
+  void add(const Moments& other) {
+    zeroth += other.zeroth;
+    first += other.first;
+    second += other.second;
+  }
+  [[nodiscard]] Mat3 covariance() const {
+    const Vec3 mean = first / zeroth;
+    return second / zeroth - mean * mean.transpose();
+  }
+};
+
+Moments moments(const PlaneMask& mask, const Plane& plane) {
+  Moments m;
+  for (int j = 0; j < mask.rows; ++j)
+    for (int i = 0; i < mask.columns; ++i)
+      if (mask.at(i, j)) {
+        const Vec3 x = plane.point(i, j);
+        m.add({1.0, x, x * x.transpose()});
+      }
+  return m;
+}
+
+bool touches_edge(const PlaneMask& mask) {
+  for (int j = 0; j < mask.rows; ++j)
+    for (int i = 0; i < mask.columns; ++i)
+      if ((i == 0 || j == 0 || i == mask.columns - 1 || j == mask.rows - 1) && mask.at(i, j))
+        return true;
+  return false;
+}
+
 /// One slice while its borders are drawn.
 struct Slice {
   int number = 0;
   Plane plane;
   PixelLoop endo, epi;
+  Moments cavity;
 
   [[nodiscard]] double pixel_area() const { return plane.spacing_i * plane.spacing_j; }
 };
@@ -56,8 +98,9 @@ class Tracer {
       : volume_(volume), meaning_(meaning), notes_(notes) {}
 
   Slice trace(const Picture& picture, int number) {
-    Slice slice{number, picture.plane, {}, {}};
+    Slice slice{number, picture.plane, {}, {}, {}};
     const PlaneMask cavity = trace_cavity(picture, slice);
+    slice.cavity = moments(cavity, slice.plane);
     trace_body(picture, cavity, slice);
     return slice;
   }
@@ -127,6 +170,8 @@ class Tracer {
     }
     const PlaneMask part = largest(united(cavity, muscle), slice, "the wall");
     const PlaneMask body = filled(part);
+    if (touches_edge(body))
+      note(slice, "the wall reaches the edge of the image; what lies beyond is missing");
     if (body.count() > part.count())
       note(slice,
            fmt::format("holes of {:.0f} mm2 in the wall filled",
@@ -188,6 +233,33 @@ Run main_run(std::vector<Slice>& slices, const std::string& file, std::vector<st
       slices[s].epi.clear();
     }
   return main;
+}
+
+/// Notes or refuses slices that do not lie across the long axis, which is taken as the direction in
+/// which the cavity spreads most. It shows only in a cavity that is clearly longer than wide and
+/// is nearly round across: for a stack of a few slices nothing can be said.
+void check_across(const std::vector<Slice>& slices, const Run& run, const std::string& file,
+                  std::vector<std::string>& notes) {
+  if (run.first == run.last)
+    return;
+  Moments all;
+  for (std::size_t s = run.first; s <= run.last; ++s)
+    all.add(slices[s].cavity);
+  const Eigen::SelfAdjointEigenSolver<Mat3> axes(all.covariance());
+  const Vec3 spread = axes.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+  if (spread[2] < distinct * spread[1] || spread[2] * spread[0] < spread[1] * spread[1])
+    return;
+  const double cosine = std::abs(axes.eigenvectors().col(2).dot(slices.front().plane.normal()));
+  const double angle = std::acos(std::min(1.0, cosine)) * 180.0 / std::numbers::pi;
+  const std::string what = fmt::format(
+      "the normal of the slices lies {:.0f} degrees from the long axis of the cavity", angle);
+  if (angle > largest_angle)
+    throw InputError(file, fmt::format("{}; at most {:g} are allowed", what, largest_angle),
+                     "Resample the label map to slices across the long axis of the ventricle");
+  if (angle > noted_angle)
+    notes.push_back(what +
+                    ": base, apex and regions are the less certain; resample the label map "
+                    "to slices across the long axis");
 }
 
 /// Keeps the epicardium of slices without a cavity only where they continue the apex.
@@ -254,6 +326,7 @@ LabelContours trace_labels(const Volume& volume, const LabelMeaning& meaning, in
   for (const Picture& picture : slices(volume, slice_axis(volume), frame))
     traces.push_back(tracer.trace(picture, ++number));
   const Run run = main_run(traces, volume.file, traced.notes);
+  check_across(traces, run, volume.file, traced.notes);
   keep_apical_muscle(traces, run, traced.notes);
   for (const Slice& slice : traces) {
     if (!slice.endo.empty())

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstring>
 #include <exception>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -84,14 +85,15 @@ void check_right_angles(const fs::path& file, const Mat3& axes) {
   }
 }
 
-/// The bytes of a file, unpacked if it is packed, and its first ones.
+/// The bytes of a file, unpacked if it is packed, its first ones, and all of them if asked for.
 struct Unpacked {
   std::uintmax_t length = 0;
   std::array<char, 352> head{};
+  std::vector<char> all;
 };
 
 /// Reads a file to its end: what the NIfTI library does not, which takes zeros for missing voxels.
-Unpacked unpack(const fs::path& file) {
+Unpacked unpack(const fs::path& file, bool keep = false) {
   const std::unique_ptr<gzFile_s, int (*)(gzFile)> stream(gzopen(file.c_str(), "rb"), gzclose);
   if (!stream)
     fail_damaged(file, "it cannot be opened");
@@ -105,6 +107,8 @@ Unpacked unpack(const fs::path& file) {
       std::memcpy(unpacked.head.data() + unpacked.length, block.data(),
                   std::min<std::size_t>(got, unpacked.head.size() - unpacked.length));
     unpacked.length += static_cast<std::uintmax_t>(got);
+    if (keep)
+      unpacked.all.insert(unpacked.all.end(), block.begin(), block.begin() + got);
     if (got < static_cast<int>(block.size()))
       break;
   }
@@ -271,18 +275,53 @@ fs::path voxel_file(const fs::path& file) {
   return fs::exists(voxels) ? voxels : fs::path(voxels.string() + ".gz");
 }
 
-/// Refuses a file that ends before its voxels do.
-void check_length(const fs::path& file, const Volume& volume) {
-  Unpacked unpacked = unpack(file);
-  const int bits = header_number<std::int16_t>(unpacked.head, 72);
-  const auto offset = header_number<float>(unpacked.head, 108);
-  if (voxel_file(file) != file)
-    unpacked = unpack(voxel_file(file));
-  const std::uintmax_t needed =
-      static_cast<std::uintmax_t>(offset > 0.0F && offset < 1e9F ? offset : 0.0F) +
-      volume.voxels() * static_cast<std::uintmax_t>(volume.frames) * std::max(bits, 0) / 8;
+/// Where the voxels of a file of floating-point numbers lie among its bytes, and how.
+struct Layout {
+  std::size_t offset = 0;
+  bool swapped = false;  ///< in the other byte order
+};
+
+/// Voxels of a file that hold no finite number.
+template <class Stored>
+std::vector<std::size_t> not_finite(const std::vector<char>& bytes, const Layout& layout,
+                                    std::size_t voxels) {
+  std::vector<std::size_t> found;
+  for (std::size_t v = 0; v < voxels; ++v) {
+    std::array<char, sizeof(Stored)> stored{};
+    std::memcpy(stored.data(), bytes.data() + layout.offset + v * sizeof(Stored), sizeof(Stored));
+    if (layout.swapped)
+      std::reverse(stored.begin(), stored.end());
+    if (!std::isfinite(std::bit_cast<Stored>(stored)))
+      found.push_back(v);
+  }
+  return found;
+}
+
+/// Refuses a file that ends before its voxels do. Returns the voxels without a finite number, for
+/// which the NIfTI library takes zeros.
+std::vector<std::size_t> check_voxels(const fs::path& file, const Volume& volume) {
+  constexpr int float32 = 16;  // datatypes of the NIfTI-1 standard
+  constexpr int float64 = 64;
+  const bool beside = voxel_file(file) != file;
+  const std::array<char, 352> head = unpack(file).head;
+  const int type = header_number<std::int16_t>(head, 70);
+  const int bits = header_number<std::int16_t>(head, 72);
+  const auto start = header_number<float>(head, 108);
+  const bool real = type == float32 || type == float64;
+  const Unpacked unpacked = unpack(beside ? voxel_file(file) : file, real);
+  std::int32_t size = 0;
+  std::memcpy(&size, head.data(), sizeof(size));
+  const Layout layout{static_cast<std::size_t>(start > 0.0F && start < 1e9F ? start : 0.0F),
+                      size != 348};
+  const std::size_t voxels = volume.voxels() * static_cast<std::size_t>(volume.frames);
+  const std::uintmax_t needed = layout.offset + voxels * std::max(bits, 0) / 8;
   if (unpacked.length < needed)
     fail_damaged(file, fmt::format("it ends after {} of {} bytes", unpacked.length, needed));
+  if (type == float32 && bits == 32)
+    return not_finite<float>(unpacked.all, layout, voxels);
+  if (type == float64 && bits == 64)
+    return not_finite<double>(unpacked.all, layout, voxels);
+  return {};
 }
 
 void read_values(const fs::path& file, itk::NiftiImageIO& io, Volume& volume) {
@@ -327,8 +366,10 @@ Volume read_nifti(const fs::path& file) {
            "Give an image of grey values or labels");
     Volume volume = read_header(file, *io);
     lay(file, *io, volume);
-    check_length(file, volume);
+    const std::vector<std::size_t> without_value = check_voxels(file, volume);
     read_values(file, *io, volume);
+    for (const std::size_t v : without_value)
+      volume.values[v] = std::numeric_limits<float>::quiet_NaN();
     return volume;
   } catch (const InputError&) {
     throw;
@@ -342,7 +383,19 @@ Volume read_nifti(const fs::path& file) {
 }
 
 Cine read_nifti_cine(const fs::path& file) {
-  return cine_of(read_nifti(file));
+  const Volume volume = read_nifti(file);
+  const auto bad = std::find_if(volume.values.begin(), volume.values.end(),
+                                [](float value) { return std::isnan(value); });
+  if (bad != volume.values.end()) {
+    const auto v = static_cast<std::size_t>(bad - volume.values.begin());
+    const std::size_t in_frame = v % volume.voxels();
+    fail(file,
+         fmt::format("voxel ({}, {}, {}) of frame {} is not a finite number",
+                     in_frame % volume.size[0], in_frame / volume.size[0] % volume.size[1],
+                     in_frame / volume.size[0] / volume.size[1], v / volume.voxels() + 1),
+         "Set voxels without a value to 0");
+  }
+  return cine_of(volume);
 }
 
 }  // namespace lv::image

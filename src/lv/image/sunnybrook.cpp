@@ -123,6 +123,28 @@ Contour read_contour(const fs::path& file, const Place& place, Side side, PixelO
   return contour;
 }
 
+/// Phases are numbers of images in order of time: where a slice lacks one, those of its contours
+/// would be of other times than the other slices'. `drawn` holds a contour file of each slice.
+void check_phases(const DicomStack& stack, const std::map<int, fs::path>& drawn) {
+  const auto images = [&](const auto& entry) {
+    return stack.slices[static_cast<std::size_t>(entry.first) - 1].images.size();
+  };
+  const auto fewest =
+      std::min_element(drawn.begin(), drawn.end(),
+                       [&](const auto& a, const auto& b) { return images(a) < images(b); });
+  const auto most = std::max_element(drawn.begin(), drawn.end(), [&](const auto& a, const auto& b) {
+    return images(a) < images(b);
+  });
+  if (fewest != drawn.end() && images(*fewest) < images(*most))
+    throw InputError(
+        fewest->second.string(),
+        fmt::format("its slice {} has {} image{} where slice {} has {}: the phases of the contours "
+                    "cannot be told by order of time",
+                    fewest->first, images(*fewest), images(*fewest) == 1 ? "" : "s", most->first,
+                    images(*most)),
+        "Give the missing images, or leave out the contours of this slice");
+}
+
 }  // namespace
 
 DrawnPhases read_sunnybrook(const fs::path& folder, const DicomStack& stack, PixelOrigin origin,
@@ -138,6 +160,7 @@ DrawnPhases read_sunnybrook(const fs::path& folder, const DicomStack& stack, Pix
       files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   DrawnPhases drawn;
+  std::map<int, fs::path> drawn_on;
   int others = 0;
   int papillary = 0;
   int unknown = 0;
@@ -152,6 +175,7 @@ DrawnPhases read_sunnybrook(const fs::path& folder, const DicomStack& stack, Pix
       ++papillary;
     } else {
       const Place place = place_of(places, name->instance, file);
+      drawn_on.emplace(place.slice, file);
       drawn.phases[place.phase].short_axis.push_back(
           read_contour(file, place, name->border == "i" ? Side::endo : Side::epi, origin));
     }
@@ -161,6 +185,7 @@ DrawnPhases read_sunnybrook(const fs::path& folder, const DicomStack& stack, Pix
                      fmt::format("holds no contours drawn {}",
                                  drawn_by == DrawnBy::manual ? "by hand" : "automatically"),
                      "Contour files are called IM-0001-0059-icontour-manual.txt and so on");
+  check_phases(stack, drawn_on);
   for (auto& [phase, contours] : drawn.phases)
     std::stable_sort(contours.short_axis.begin(), contours.short_axis.end(),
                      [](const Contour& a, const Contour& b) { return a.slice < b.slice; });

@@ -30,7 +30,8 @@ struct DrawnPhases {
 /// the InstanceNumber of the DICOM image, whose header says slice, plane and time. Contours of
 /// papillary muscles (p1contour, p2contour) and of the other observer are counted in a note. Throws
 /// InputError naming the file, and the line, where an image is missing or not unique, or a point is
-/// no two numbers or lies outside its image.
+/// no two numbers or lies outside its image, or slices with contours have different numbers of
+/// images.
 [[nodiscard]] DrawnPhases read_sunnybrook(const std::filesystem::path& folder,
                                           const DicomStack& stack, PixelOrigin origin,
                                           DrawnBy drawn_by);

@@ -84,6 +84,17 @@ std::size_t slice_with(const image::Cine& cine, const Contour& loop) {
                      fmt::format("{} lies {:.1f} mm from the nearest image of the cine",
                                  geometry::label(loop), least),
                      "Give the contours that were drawn on these images, and all their slices");
+  const image::Plane& plane = cine.slices[best].frames.front().plane;
+  for (const Vec3& x : loop.points) {
+    const Vec3 ij = plane.pixel(x);
+    if (!(ij.x() >= -0.5 && ij.y() >= -0.5 && ij.x() <= plane.columns - 0.5 &&
+          ij.y() <= plane.rows - 0.5))
+      throw InputError(
+          loop.where(),
+          fmt::format("{}: the point ({:.1f}, {:.1f}, {:.1f}) mm lies outside the image of {}",
+                      geometry::label(loop), x.x(), x.y(), x.z(), cine.slices[best].name),
+          "Give the contours that were drawn on these images, in scanner coordinates");
+  }
   return best;
 }
 
@@ -140,6 +151,10 @@ CineStudy read_cine_study(const Case& c) {
   std::optional<image::DicomStack> stack;
   if (!image::is_nifti_name(c.strain.cine))
     stack = read_stack(c);
+  else if (!c.strain.series.empty())
+    throw InputError(place_of(c, "strain.series"),
+                     fmt::format("a NIfTI file has no series \"{}\"", c.strain.series),
+                     "Leave strain.series out, or name a folder of DICOM files");
   study.cine = read_cine(c, stack);
   study.notes = study.cine.notes;
   study.spacing = spacing_of(study.cine);
@@ -155,6 +170,38 @@ CineStudy read_cine_study(const Case& c) {
   study.orientation = orientation(c, study);
   return study;
 }
+
+namespace {
+
+/// What is followed is a number of images, as many in every slice.
+void check_images(const Case& c, const std::vector<strain::SliceTask>& tasks) {
+  const image::CineSlice& first = *tasks.front().cine;
+  const std::size_t images = first.frames.size();
+  if (images < 2)
+    throw InputError(
+        place_of(c, "strain.cine"),
+        fmt::format("{} has one image a slice; strain needs two or more", c.strain.cine),
+        "Name a cine: images of every slice over time");
+  for (const strain::SliceTask& task : tasks)
+    if (task.cine->frames.size() != images)
+      throw InputError(beside(c, c.strain.cine).string(),
+                       fmt::format("{} has {} images and {} has {}", first.name, images,
+                                   task.cine->name, task.cine->frames.size()),
+                       "Give all images of the slices with contours, or leave out the contours of "
+                       "a slice that lacks some");
+  if (c.strain.end_systole > static_cast<int>(images))
+    throw InputError(place_of(c, "strain.end_systole"),
+                     fmt::format("strain.end_systole is {}, but the cine has {} images a slice",
+                                 c.strain.end_systole, images),
+                     "Give the number of an image in order of time, or 0");
+  if (c.strain.end_systole == c.strain.end_diastole)
+    throw InputError(
+        place_of(c, "strain.end_systole"),
+        fmt::format("strain.end_systole and strain.end_diastole are both {}", c.strain.end_systole),
+        "Give the number of another image in order of time, or 0");
+}
+
+}  // namespace
 
 std::vector<strain::SliceTask> slice_tasks(const Case& c, const CineStudy& study) {
   std::vector<strain::SliceTask> tasks;
@@ -173,6 +220,7 @@ std::vector<strain::SliceTask> slice_tasks(const Case& c, const CineStudy& study
     throw InputError(beside(c, c.strain.contours).string(),
                      "no slice has both an endocardial and an epicardial loop",
                      "Strain needs both, drawn at end-diastole");
+  check_images(c, tasks);
   return tasks;
 }
 

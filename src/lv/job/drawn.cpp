@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 namespace lv::job {
 namespace {
@@ -60,6 +61,25 @@ int chosen_frame(const Case& c, const image::Volume& volume) {
       "Choose a frame");
 }
 
+/// A label cannot mean two things.
+void check_meaning(const Case& c) {
+  const LabelAnatomy& a = c.anatomy.labels;
+  std::map<int, std::string> meaning;
+  const auto add = [&](const std::string& parameter, std::vector<int> labels) {
+    std::sort(labels.begin(), labels.end());
+    labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
+    for (const int label : labels)
+      if (const auto [other, fresh] = meaning.emplace(label, parameter); !fresh)
+        throw InputError(place_of(c, parameter),
+                         fmt::format("the label {} is listed under {} and under {}", label,
+                                     other->second, parameter),
+                         "List every label under one meaning");
+  };
+  add("anatomy.labels.cavity", a.cavity);
+  add("anatomy.labels.muscle", a.muscle);
+  add("anatomy.labels.right_ventricle", a.right_ventricle);
+}
+
 Drawn from_labels(const Case& c) {
   const LabelAnatomy& a = c.anatomy.labels;
   const fs::path file = named(c, "anatomy.labels.file", a.file, "the NIfTI label map");
@@ -71,6 +91,7 @@ Drawn from_labels(const Case& c) {
                        fmt::format("{} is not set; {} has the labels {}", parameter, volume.file,
                                    image::describe(image::label_volumes(volume))),
                        "Say which labels mean it");
+  check_meaning(c);
   const int frame = chosen_frame(c, volume);
   const auto require = [&](const char* parameter, const std::vector<int>& labels) {
     image::require_labels(volume, frame, labels, place_of(c, parameter), parameter);

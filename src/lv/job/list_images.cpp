@@ -26,6 +26,20 @@ bool seems_labels(const image::Volume& v) {
                      [](float x) { return x == std::round(x) && x >= 0.0F && x < 256.0F; });
 }
 
+/// The range of the values of an image, and how many are none.
+std::string describe_values(const image::Volume& v) {
+  std::vector<float> values = v.values;
+  std::erase_if(values, [](float x) { return std::isnan(x); });
+  std::string text;
+  if (const std::size_t none = v.values.size() - values.size(); none > 0)
+    text =
+        fmt::format("  note: {} voxel{} no finite number\n", none, none == 1 ? " holds" : "s hold");
+  if (values.empty())
+    return text;
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  return text + fmt::format("  values {:g} to {:g}: an image, no labels\n", *least, *most);
+}
+
 std::string list_nifti(const ListOptions& options) {
   const image::Volume v = image::read_nifti(options.where);
   std::string text = fmt::format(
@@ -39,14 +53,20 @@ std::string list_nifti(const ListOptions& options) {
   for (const std::string& note : v.notes)
     text += fmt::format("  note: {}\n", note);
   if (!seems_labels(v)) {
-    const auto [least, most] = std::minmax_element(v.values.begin(), v.values.end());
-    return text + fmt::format("  values {:g} to {:g}: an image, no labels\n", *least, *most);
+    if (!options.cavity.empty())
+      throw InputError(v.file, "holds values that are no labels (whole numbers from 0 to 255)",
+                       "Leave --cavity out, or give a label map");
+    return text + describe_values(v);
   }
   for (int f = 0; f < v.frames; ++f)
     text += fmt::format("  labels of frame {}: {}\n", f + 1,
                         image::describe(image::label_volumes(v, f)));
   if (options.cavity.empty())
     return text;
+  for (const int label : options.cavity)
+    if (std::find(v.values.begin(), v.values.end(), static_cast<float>(label)) == v.values.end())
+      throw InputError("--cavity", fmt::format("no voxel of {} has the label {}", v.file, label),
+                       fmt::format("Frame 1 has {}", image::describe(image::label_volumes(v))));
   return text + describe_volume_curve(image::volume_curve(v, options.cavity)) + "\n";
 }
 
@@ -54,7 +74,15 @@ std::string list_dicom(const ListOptions& options) {
   const image::DicomStudy study = image::read_dicom_study(std::array{options.where});
   std::string text = image::describe(study);
   if (study.stacks.empty())
-    text += fmt::format("{} holds no DICOM image with a place in space\n", options.where.string());
+    throw InputError(
+        options.where.string(),
+        fmt::format("holds no DICOM image with a place in space{}",
+                    study.skipped.empty()
+                        ? ", nor any other file"
+                        : fmt::format("; {} file{} skipped, the first {}", study.skipped.size(),
+                                      study.skipped.size() == 1 ? " was" : "s were",
+                                      study.skipped.front())),
+        "Name the folder with the images of the scanner");
   constexpr std::size_t most = 20;
   for (std::size_t i = 0; i < std::min(most, study.skipped.size()); ++i)
     text += fmt::format("skipped {}\n", study.skipped[i]);

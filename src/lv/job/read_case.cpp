@@ -104,6 +104,19 @@ class CaseReader {
          "must leave time for contraction_ramp and contraction_window");
     rule(p.calcium.Ca_max > p.calcium.Ca_0, "calcium.Ca_max", "must be larger than Ca_0");
     check_calibration();
+    check_strain_study();
+  }
+
+  void check_strain_study() {
+    const StrainStudy& s = case_.strain;
+    for (const auto& [name, place] : case_.origin)
+      if (name.starts_with("strain.") && !name.starts_with("strain.measured"))
+        rule(s.asked(), name, "says nothing without the images of strain.cine");
+    for (const char* name : {"strain.measured_column", "strain.measured_kind"})
+      rule(!s.measured.empty() || case_.origin.count(name) == 0, name,
+           "says nothing without strain.measured");
+    rule(s.measured.empty() || !s.measured_column.empty(), "strain.measured",
+         "needs strain.measured_column, the name of the column that holds end-systole");
   }
 
   void check_calibration() {

@@ -57,14 +57,8 @@ double volume_at(const std::vector<TrackedSlice>& slices, double spacing, int ph
 
 int end_systole(const Case& c, const std::vector<TrackedSlice>& slices) {
   const std::vector<int>& phases = slices.front().series.phases;
-  if (c.strain.end_systole > 0) {
-    if (std::find(phases.begin(), phases.end(), c.strain.end_systole) == phases.end())
-      throw InputError(place_of(c, "strain.end_systole"),
-                       fmt::format("strain.end_systole is {}, but the cine has {} images a slice",
-                                   c.strain.end_systole, phases.size()),
-                       "Give the number of an image in order of time, or 0");
+  if (c.strain.end_systole > 0)
     return c.strain.end_systole;
-  }
   const auto volume = [&](int phase) {
     const double v = volume_at(slices, 1.0, phase);
     return std::isnan(v) ? std::numeric_limits<double>::infinity() : v;
@@ -239,6 +233,21 @@ Ingredients strain_files(const Case& c) {
   add("strain.long_axis", c.strain.long_axis);
   add("strain.es_contours", c.strain.es_contours);
   return files;
+}
+
+std::string check_strain(const Case& c) {
+  std::string text;
+  if (c.strain.asked()) {
+    const CineStudy study = read_cine_study(c);
+    const std::vector<strain::SliceTask> tasks = slice_tasks(c, study);
+    text += fmt::format("  strain: {} slices of {} images to follow\n", tasks.size(),
+                        tasks.front().cine->frames.size());
+    for (const std::string& note : study.notes)
+      text += fmt::format("  note: {}\n", note);
+  }
+  if (!c.strain.measured.empty())
+    text += fmt::format("  {} measured strains to compare with\n", measured_strains(c).size());
+  return text;
 }
 
 void make_strain(const Case& c, const fs::path& folder) {

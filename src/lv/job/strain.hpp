@@ -5,14 +5,24 @@
 #include "lv/job/case.hpp"
 #include "lv/job/stages.hpp"
 #include "lv/job/workspace.hpp"
+#include "lv/strain/agreement.hpp"
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace lv::job {
 
 /// The files that strain is measured from, by parameter, with what stands for their contents.
 [[nodiscard]] Ingredients strain_files(const Case& c);
+
+/// The table strain.measured. Throws InputError where it is no such table or has no line that the
+/// model's regions can be compared with.
+[[nodiscard]] std::vector<strain::Measured> measured_strains(const Case& c);
+
+/// Reads all that [strain] names without following anything. Returns what there is, in words.
+/// Throws InputError where images, contours and tables do not fit together.
+[[nodiscard]] std::string check_strain(const Case& c);
 
 /// Follows the cine of a case and writes
 ///

@@ -69,18 +69,10 @@ void add(Pair pair, double model, std::vector<Pair>& pairs) {
 
 /// With a table of strains: slice k is the model's slice k.
 Pairs from_table(const Case& c, const ModelledBeat& model) {
-  if (c.strain.measured_column.empty())
-    throw InputError(place_of(c, "strain.measured"), "strain.measured_column is not set",
-                     "Name the column of the table that holds end-systole");
-  const fs::path file = beside(c, c.strain.measured);
   const ModelStrain strains(model, c.strain.measured_kind);
   const mesh::Regions& regions = model.mesh.regions;
   Pairs pairs;
-  for (const strain::Measured& m : strain::read_measured(file, c.strain.measured_column)) {
-    if (m.slice < 1 || m.slice > mesh::slice_count || mesh::sectors_of_slice(m.slice) != 6)
-      throw InputError(file.string(),
-                       fmt::format("slice {} has no six sectors in the model", m.slice),
-                       "Slices 1 (base) to 5 have; leave the others out");
+  for (const strain::Measured& m : measured_strains(c)) {
     const std::size_t component = m.component == "cir" ? 0 : 1;
     add({"sector", m.slice, m.segment, m.value, 0.0},
         strains.mean(component,
@@ -302,6 +294,20 @@ std::string write_outlines(const ModelledBeat& model, const CineStudy& study, in
 }
 
 }  // namespace
+
+std::vector<strain::Measured> measured_strains(const Case& c) {
+  if (c.strain.measured_column.empty())
+    throw InputError(place_of(c, "strain.measured"), "strain.measured_column is not set",
+                     "Name the column of the table that holds end-systole");
+  const fs::path file = beside(c, c.strain.measured);
+  std::vector<strain::Measured> measured = strain::read_measured(file, c.strain.measured_column);
+  for (const strain::Measured& m : measured)
+    if (m.slice < 1 || m.slice > mesh::slice_count || mesh::sectors_of_slice(m.slice) != 6)
+      throw InputError(file.string(),
+                       fmt::format("slice {} has no six sectors in the model", m.slice),
+                       "Slices 1 (base) to 5 have; leave the others out");
+  return measured;
+}
 
 std::string compare_strain(const Case& c, const ModelledBeat& model, const fs::path& strain,
                            const fs::path& folder) {

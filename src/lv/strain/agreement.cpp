@@ -49,6 +49,14 @@ double number_in(const std::string& text, const std::string& where) {
   return value;
 }
 
+int whole_number_in(const std::string& text, const std::string& where) {
+  const double value = number_in(text, where);
+  if (value != std::round(value) || std::abs(value) > 1e6)
+    throw InputError(where, fmt::format("\"{}\" is not the number of a slice", text),
+                     "Slices have whole numbers, 1 at the base");
+  return static_cast<int>(value);
+}
+
 void check_segment(const std::string& segment, const std::string& where) {
   for (int sector = 1; sector <= 6; ++sector)
     if (segment == mesh::sector_name(1, sector))
@@ -121,14 +129,23 @@ std::vector<Measured> read_measured(const std::filesystem::path& file, const std
       throw InputError(
           where, fmt::format("{} values in a table of {} columns", fields.size(), header.size()),
           "Give every line one value per column");
-    Measured m{static_cast<int>(number_in(fields[slice], where)), lower(fields[component]),
+    Measured m{whole_number_in(fields[slice], where), lower(fields[component]),
                lower(fields[segment]), number_in(fields[value], where)};
     check_segment(m.segment, where);
     if (m.component != "cir" && m.component != "rad")
       throw InputError(where, fmt::format("unknown component \"{}\"", fields[component]),
                        "A component is cir (circumferential) or rad (radial)");
+    for (const Measured& other : measured)
+      if (other.slice == m.slice && other.component == m.component && other.segment == m.segment)
+        throw InputError(where,
+                         fmt::format("{} strain of slice {}, segment {}, is given twice",
+                                     m.component, m.slice, m.segment),
+                         "Keep one of the lines");
     measured.push_back(m);
   }
+  if (measured.empty())
+    throw InputError(file.string(), "has no line of strains",
+                     "Give at least one line below the first");
   return measured;
 }
 

@@ -11,6 +11,7 @@
 #include "geometry/drawn_ellipsoid.hpp"
 #include "support/scanner_files.hpp"
 #include "support/temporary_folder.hpp"
+#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
@@ -154,6 +155,61 @@ TEST_CASE("muscle beyond the cavity's apex shows the epicardium", "[unit][image]
   const geometry::Ellipsoid e;
   CHECK(report.volume_cavity + report.volume_wall ==
         Approx(volume(e, e.epi_radius, e.epi_length)).epsilon(0.03));
+}
+
+namespace {
+
+/// The map of a ventricle that stands upright, of cubic voxels turned about x by an angle.
+Volume turned(double angle) {
+  const geometry::Ellipsoid e;
+  const Mat3 directions = Eigen::AngleAxisd(angle, Vec3::UnitX()).toRotationMatrix();
+  const Vec3 spacing(2.5, 2.5, 2.5);
+  const std::array<int, 3> size{48, 48, 48};
+  const Vec3 origin = Vec3(0.0, 0.0, -35.0) - directions * Vec3::Constant(0.5 * 47.0 * 2.5);
+  const test::TemporaryFolder folder;
+  test::write_bytes(folder / "map.nii", test::nifti_bytes(test::label_map(
+                                            size, directions, spacing, origin,
+                                            [&](const Vec3& X) { return ventricle(e, X); })));
+  return read_nifti(folder / "map.nii");
+}
+
+}  // namespace
+
+TEST_CASE("slices that do not lie across the long axis are noted, then refused", "[unit][image]") {
+  const double degree = pi / 180.0;
+  const auto notes = [&](double angle) {
+    return all(trace_labels(turned(angle * degree), {{1}, {2}, {}}, 0).notes);
+  };
+  CHECK_THAT(notes(0.0), !Contains("from the long axis"));
+  CHECK_THAT(notes(10.0), !Contains("from the long axis"));
+  CHECK_THAT(notes(20.0), Contains("lies 20 degrees from the long axis of the cavity"));
+  for (const double angle : {30.0, 60.0, 90.0})
+    CHECK_THROWS_WITH(notes(angle), Contains("map.nii: the normal of the slices lies ") &&
+                                        Contains("at most 25 are allowed"));
+}
+
+TEST_CASE("the borders of cubic voxels are loops that do not cross themselves", "[unit][image]") {
+  // straight runs of pixels, turned in space: segments in one line, but for rounding
+  for (const double angle : {0.0, 3.0, 7.0, 11.0}) {
+    LabelContours labels = trace_labels(turned(angle * pi / 180.0), {{1}, {2}, {}}, 0);
+    close_walls(labels.contours, 1.0, labels.notes);  // at the base, which the slices cut askew
+    CHECK_NOTHROW(geometry::check_contours(labels.contours));
+  }
+}
+
+TEST_CASE("a wall that the edge of the image cuts is noted", "[unit][image]") {
+  Volume map = turned(0.0);
+  const int cut = 14;  // columns of pixels: 35 mm, where the epicardium starts 25 mm from the edge
+  Volume narrow = map;
+  narrow.size[0] -= cut;
+  narrow.values.clear();
+  for (int k = 0; k < map.size[2]; ++k)
+    for (int j = 0; j < map.size[1]; ++j)
+      for (int i = cut; i < map.size[0]; ++i)
+        narrow.values.push_back(map.at(i, j, k));
+  CHECK_THAT(all(trace_labels(map, {{1}, {2}, {}}, 0).notes), !Contains("edge of the image"));
+  CHECK_THAT(all(trace_labels(narrow, {{1}, {2}, {}}, 0).notes),
+             Contains("the wall reaches the edge of the image"));
 }
 
 TEST_CASE("swapped labels and a cavity in two parts are refused", "[unit][image]") {

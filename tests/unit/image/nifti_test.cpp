@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace {
 
@@ -97,6 +98,24 @@ TEST_CASE("a sheared sform and a sform that contradicts the qform are refused", 
   test::NiftiSpec contradiction = small(oblique());
   contradiction.qform_code = 1;
   CHECK_THAT(complaint(contradiction), Contains("its sform and its qform put a corner"));
+}
+
+TEST_CASE("a voxel that is not a number stays one and is named", "[unit][image]") {
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    test::NiftiSpec spec = small(oblique());
+    spec.floating = true;
+    spec.values[1 + 3 * 2 + 12 * 3] = bad;
+    const test::TemporaryFolder folder;
+    test::write_bytes(folder / "x.nii", test::nifti_bytes(spec));
+    const Volume v = read_nifti(folder / "x.nii");
+    CHECK(std::isnan(v.at(1, 2, 3)));
+    CHECK(std::count_if(v.values.begin(), v.values.end(), [](float x) { return std::isnan(x); }) ==
+          1);
+    CHECK_THROWS_WITH(label_volumes(v), Contains("voxel (1, 2, 3)"));
+    CHECK_THROWS_WITH(read_nifti_cine(folder / "x.nii"),
+                      Contains("voxel (1, 2, 3) of frame 1 is not a finite number"));
+  }
 }
 
 TEST_CASE("a file that does not say how it lies in space is noted", "[unit][image]") {

@@ -57,6 +57,22 @@ TEST_CASE("a patient's end-diastolic cavity from contours with their DICOM image
   CHECK(report.volume_wall == Approx((302.5 - 191.3) * 1e3).epsilon(0.06));
 }
 
+TEST_CASE(
+    "contours on slices with different numbers of images are refused, for their phases would "
+    "be mixed",
+    "[unit][image][data]") {
+  if (!there())
+    return;
+  DicomStack stack =
+      choose_stack(read_dicom_study(std::array{patient() / "dicom"}), {}, "dicom", "series");
+  for (DicomSlice& slice : stack.slices)
+    std::erase_if(slice.images, [](const DicomImage& image) { return image.instance == 110; });
+  CHECK_THROWS_WITH(
+      read_sunnybrook(patient() / "contours", stack, PixelOrigin::corner, DrawnBy::manual),
+      Catch::Matchers::Contains("has 2 images where slice") &&
+          Catch::Matchers::Contains("the phases of the contours cannot be told"));
+}
+
 TEST_CASE("the same patient's cavity from a map of labels", "[unit][image][data]") {
   if (!there())
     return;
