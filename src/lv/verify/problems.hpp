@@ -45,7 +45,5 @@ void other_ventricles(Findings& found);
 
 // both engines
 void engines_agree(Findings& found);
-void land2015_problem2_immersed(Findings& found);
-void land2015_problem3_immersed(Findings& found);
 
 }  // namespace lv::verify

@@ -147,16 +147,6 @@ std::span<const Problem> problems() {
        nightly,
        {2},
        engines_agree},
-      {"land2015_problem2_immersed",
-       "inflation of a ventricle: Land et al. 2015, problem 2, run to rest (immersed engine)",
-       nightly,
-       {1},
-       land2015_problem2_immersed},
-      {"land2015_problem3_immersed",
-       "inflation and contraction: Land et al. 2015, problem 3, run to rest (immersed engine)",
-       nightly,
-       {1},
-       land2015_problem3_immersed},
   };
   return all;
 }
