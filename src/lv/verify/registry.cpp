@@ -93,7 +93,7 @@ std::span<const Problem> problems() {
        land2015_problem2},
       {"land2015_problem3",
        "inflation and contraction: Land et al. 2015, problem 3 (quasi-static engine)",
-       nightly,
+       brief,
        {2},
        land2015_problem3},
       {"calibration_twin",
