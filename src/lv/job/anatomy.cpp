@@ -21,8 +21,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* assumed_septum =
     "the septum is assumed at the first point of the basal endocardial loop: regions bear the "
-    "wrong "
-    "names if it is elsewhere (set anatomy.contours.septum_point)";
+    "wrong names if it is elsewhere (set anatomy.contours.septum_point)";
 
 geometry::BaseAt base_at(const Case& c, const Drawn& drawn) {
   switch (c.anatomy.contours.base_at) {
