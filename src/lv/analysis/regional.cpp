@@ -61,11 +61,9 @@ std::vector<CellQuantity> quantities(const std::vector<CellFields>& now,
     strains.push_back(then.empty() ? strain(now[c]) : strain(now[c], then[c]));
   Columns q(now.size());
   q.add("active_tension", "kPa", [&](auto c) { return now[c].tension; });
-  q.add("fibre_stress", "kPa", [&](auto c) { return now[c].along_fibre(now[c].cauchy_total()); });
-  q.add("fibre_stress_passive", "kPa",
-        [&](auto c) { return now[c].along_fibre(now[c].cauchy_passive); });
-  q.add("fibre_stress_active", "kPa",
-        [&](auto c) { return now[c].along_fibre(now[c].cauchy_active); });
+  q.add("fibre_stress", "kPa", [&](auto c) { return now[c].fibre_stress(); });
+  q.add("fibre_stress_passive", "kPa", [&](auto c) { return now[c].fibre_stress_passive; });
+  q.add("fibre_stress_active", "kPa", [&](auto c) { return now[c].fibre_stress_active; });
   q.add("fibre_stretch", "1", [&](auto c) { return now[c].fibre_stretch; });
   q.add("fibre_strain", "1", [&](auto c) { return strains[c].fibre; });
   q.add("circumferential_strain", "1", [&](auto c) { return strains[c].circumferential; });

@@ -31,6 +31,8 @@ void for_numbers(Fields& c, const F& f) {
   all(c.axes.radial);
   all(c.cauchy_passive);
   all(c.cauchy_active);
+  f(c.fibre_stress_passive);
+  f(c.fibre_stress_active);
 }
 
 void add(CellFields& cell, const solid::PointSample& p) {
@@ -50,6 +52,9 @@ void add(CellFields& cell, const solid::PointSample& p) {
   cell.axes.radial += w * p.axes.radial;
   cell.cauchy_passive += w * p.cauchy_passive;
   cell.cauchy_active += w * p.cauchy_active;
+  const Vec3 f = (p.F * p.fibre_frame.col(0)).normalized();
+  cell.fibre_stress_passive += w * f.dot(p.cauchy_passive * f);
+  cell.fibre_stress_active += w * f.dot(p.cauchy_active * f);
 }
 
 /// Sums to means; averaged directions are made orthonormal again.
@@ -128,7 +133,19 @@ FieldAnalysis::FieldAnalysis(const mesh::Mesh& mesh, const mesh::FibreRule& fibr
     : mesh_(mesh), wall_(mesh, fibres, without_penalty(material)), base_(mesh, support) {}
 
 std::vector<CellFields> FieldAnalysis::fields(const heartbeat::Snapshot& snapshot) const {
-  return cell_fields(wall_, snapshot, wall_pressure(mesh_, wall_, base_, snapshot));
+  if (snapshot.stress.empty())
+    return cell_fields(wall_, snapshot, wall_pressure(mesh_, wall_, base_, snapshot));
+  std::vector<CellFields> cells = shape_fields(wall_, mesh_, snapshot.positions);
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    const solid::CellStress& s = snapshot.stress[c];
+    cells[c].tension = s.tension;
+    cells[c].pressure = s.pressure;
+    cells[c].cauchy_passive = s.cauchy_passive;
+    cells[c].cauchy_active = s.cauchy_active;
+    cells[c].fibre_stress_passive = s.fibre_stress_passive;
+    cells[c].fibre_stress_active = s.fibre_stress_active;
+  }
+  return cells;
 }
 
 std::vector<CellFields> FieldAnalysis::at_rest() const {

@@ -24,16 +24,18 @@ struct CellFields {
   mesh::WallAxes axes;                  ///< of the undeformed wall
   Mat3 cauchy_passive = Mat3::Zero();   ///< sigma of (2.19), without -p [kPa]
   Mat3 cauchy_active = Mat3::Zero();    ///< (2.22) [kPa]
+  /// Along the deformed fibre, f.sigma f with f = F f0/|F f0|. Not what the mean tensors and f0
+  /// give: fibres turn by tens of degrees within a large element [kPa].
+  double fibre_stress_passive = 0.0, fibre_stress_active = 0.0;
 
   /// sigma = sigma^p + sigma^a - p (2.6), without the small viscous part [kPa].
   [[nodiscard]] Mat3 cauchy_total() const {
     return cauchy_passive + cauchy_active - pressure * Mat3::Identity();
   }
 
-  /// Component of a Cauchy stress along the deformed fibre, f.sigma f with f = F f0/|F f0| [kPa].
-  [[nodiscard]] double along_fibre(const Mat3& cauchy) const {
-    const Vec3 f = (F * fibre_frame.col(0)).normalized();
-    return f.dot(cauchy * f);
+  /// f.sigma f of the whole sigma [kPa].
+  [[nodiscard]] double fibre_stress() const {
+    return fibre_stress_passive + fibre_stress_active - pressure;
   }
 };
 
@@ -47,7 +49,8 @@ struct CellFields {
 [[nodiscard]] std::vector<CellFields> shape_fields(const solid::Wall& wall, const mesh::Mesh& mesh,
                                                    const std::vector<Vec3>& positions);
 
-/// Turns a wall's snapshots into fields, with the p that balances its forces (wall_pressure.hpp).
+/// Turns a wall's snapshots into fields, with the stresses and p that the snapshot brings or else
+/// those of its nodes' tension and the p that balances its forces (wall_pressure.hpp).
 /// All is collective; fields are on the root, empty on other ranks.
 class FieldAnalysis {
  public:

@@ -2,6 +2,7 @@
 
 #include "lv/base/tensor.hpp"
 #include "lv/heartbeat/protocol.hpp"
+#include "lv/solid/cell_stress.hpp"
 
 #include <vector>
 
@@ -29,7 +30,9 @@ struct Snapshot {
   double pressure = 0.0;        ///< on the endocardium [kPa]
   double volume = 0.0;          ///< [mm^3]
   std::vector<Vec3> positions;  ///< of the nodes [mm]
-  std::vector<double> tension;  ///< per node [kPa]
+  std::vector<double> tension;  ///< per node, of the immersed engine; else empty [kPa]
+  /// Per element, of the quasi-static engine, which knows p; else empty.
+  std::vector<solid::CellStress> stress;
 };
 
 /// What a beat comes to, whichever engine ran it.

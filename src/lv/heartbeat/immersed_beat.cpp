@@ -278,7 +278,8 @@ Snapshot ImmersedRun::snapshot() const {
           loads_now().pressure,
           model_.cavity_volume(),
           {x.begin(), x.end()},
-          {tension.begin(), tension.end()}};
+          {tension.begin(), tension.end()},
+          {}};
 }
 
 void ImmersedRun::observe() {

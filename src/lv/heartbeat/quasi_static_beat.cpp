@@ -21,8 +21,7 @@ class QuasiStaticRun {
   QuasiStaticRun(const QuasiStaticSetup& setup, const Observers& observers)
       : setup_(setup),
         observers_(observers),
-        engine_(setup.mesh, setup.fibres, setup.muscle, setup.parameters),
-        wall_(setup.mesh, setup.fibres, setup.muscle.material) {
+        engine_(setup.mesh, setup.fibres, setup.muscle, setup.parameters) {
     record({engine_.loads(), 0.0, 0.0, engine_.cavity_volume(), {}});
   }
 
@@ -90,7 +89,7 @@ class QuasiStaticRun {
                                : std::numeric_limits<double>::quiet_NaN();
   }
 
-  /// The engine's present state; tension per node from the nodes' stretch.
+  /// The engine's present state.
   [[nodiscard]] Snapshot state() const {
     Snapshot s;
     s.time = run_.time;
@@ -98,17 +97,13 @@ class QuasiStaticRun {
     s.pressure = engine_.loads().pressure;
     s.volume = engine_.cavity_volume();
     s.positions = engine_.state().positions;
-    std::vector<double> stretch(s.positions.size());
-    wall_.nodal_stretch(s.positions, stretch);
-    for (const double lambda : stretch)
-      s.tension.push_back(setup_.muscle.contractility.at(lambda, engine_.loads().activation).value);
+    s.stress = engine_.equations().cell_stress(engine_.state(), engine_.loads().activation);
     return s;
   }
 
   const QuasiStaticSetup& setup_;
   const Observers& observers_;
   Engine engine_;
-  solid::Wall wall_;
   RunState run_;
 };
 

@@ -33,16 +33,23 @@ void store(const Snapshot& s, const std::string& name, Archive& archive) {
   archive.set(name + ".numbers", {s.time, number(s.phase), s.pressure, s.volume});
   archive.set(name + ".positions", flat(s.positions));
   archive.set(name + ".tension", s.tension);
+  std::vector<double> stress(solid::CellStress::numbers * s.stress.size());
+  std::memcpy(stress.data(), s.stress.data(), sizeof(double) * stress.size());
+  archive.set(name + ".stress", std::move(stress));
 }
 
 Snapshot load_snapshot(const Archive& archive, const std::string& name) {
   const auto& n = archive.get(name + ".numbers");
+  const auto& numbers = archive.get(name + ".stress");
+  std::vector<solid::CellStress> stress(numbers.size() / solid::CellStress::numbers);
+  std::memcpy(static_cast<void*>(stress.data()), numbers.data(), sizeof(double) * numbers.size());
   return {n.at(0),
           phase_of(n.at(1)),
           n.at(2),
           n.at(3),
           vectors(archive.get(name + ".positions")),
-          archive.get(name + ".tension")};
+          archive.get(name + ".tension"),
+          std::move(stress)};
 }
 
 void store(const std::vector<CurveRow>& curves, Archive& archive) {

@@ -45,7 +45,9 @@ mesh::WallMeshParameters mesh_parameters(const Case& c) {
     return c.mesh;
   return {.edge_length = 0.5 * c.quasi_static.edge_length,
           .layers = 2 * c.quasi_static.layers,
-          .order = 2};
+          .order = 2,
+          .apex = c.quasi_static.apex,
+          .endocardium = c.quasi_static.endocardium};
 }
 
 heartbeat::Protocol protocol(const Case& c) {

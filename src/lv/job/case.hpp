@@ -98,6 +98,7 @@ struct QuasiStatic {
   int order = 2;             ///< of its finite elements
   double edge_length = 7.0;  ///< target, of quadratic elements [mm]
   int layers = 0;            ///< quadratic elements through the wall; 0: as edge_length asks
+  double apex = 0.3, endocardium = 0.5;  ///< see mesh::WallMeshParameters
   material::Volumetric stabilisation = quasi_static::Muscle{}.stabilisation;
   quasi_static::Parameters solver;
 };

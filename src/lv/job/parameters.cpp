@@ -163,6 +163,11 @@ void declare_mesh(Declarations& d) {
              "target length of the edges of quadratic elements");
   d.whole("layers", LV_AT(quasi_static.layers), between(0, 20),
           "quadratic elements through the wall; 0: as edge_length asks");
+  d.number("apex", LV_AT(quasi_static.apex), between(0.1, 1.0),
+           "length along the wall of quadratic elements next to the apex, as a fraction of that in "
+           "an even mesh of as many elements; others are longer");
+  d.number("endocardium", LV_AT(quasi_static.endocardium), between(0.1, 1.0),
+           "the same through the wall, next to the endocardium");
   d.table = "fibres";
   const Range angle = between(-90.0, 90.0);
   d.quantity("helix_endo", LV_AT(fibres.helix_endo), "deg", angle,

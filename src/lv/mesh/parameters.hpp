@@ -13,6 +13,10 @@ struct WallMeshParameters {
   int layers = 0;            ///< elements through the wall; 0: as the edge length asks, at least 3
   int order =
       1;  ///< of the mesh; 2: even numbers of elements, which hang together as quadratic ones
+  /// Lengths of the elements next to the apex, along the wall, and next to the endocardium, through
+  /// it, as fractions of those of an even mesh with as many elements. Others are longer: where
+  /// fibres run together at the apex the solution is steep.
+  double apex = 1.0, endocardium = 1.0;
 };
 
 /// How the sides of the wall are recognised in a file.

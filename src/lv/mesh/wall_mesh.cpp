@@ -18,6 +18,11 @@ double interpolate(const std::vector<double>& x, const std::vector<double>& y, d
   return (1.0 - w) * y[upper - 1] + w * y[upper];
 }
 
+/// From [0, 1] to itself with this slope at 0: s (slope + (1 - slope) s).
+double graded(double s, double slope) {
+  return s * (slope + (1.0 - slope) * s);
+}
+
 /// The mean meridian of the middle surface, from apex to base.
 struct Meridian {
   std::vector<double> u;         ///< wall coordinate
@@ -222,11 +227,12 @@ void add_side(const Lattice& p, bool mirrored, std::vector<int>& faces) {
 /// Stacks the quadrilaterals through the wall.
 class Extrusion {
  public:
-  Extrusion(const QuadMesh& quads, const WallMap& wall, int layers, int order)
+  Extrusion(const QuadMesh& quads, const WallMap& wall, int layers,
+            const WallMeshParameters& parameters)
       : quads_(quads), layers_(layers), per_layer_(static_cast<int>(quads.points.size())) {
-    mesh_.order = order;
-    add_nodes(wall);
-    order == 2 ? add_quadratic() : add_linear();
+    mesh_.order = parameters.order;
+    add_nodes(wall, parameters);
+    parameters.order == 2 ? add_quadratic() : add_linear();
     mesh_.infarct.assign(mesh_.nodes.size(), 0.0);
   }
 
@@ -238,11 +244,11 @@ class Extrusion {
     return node(layer, quads_.base_ring[i % quads_.base_ring.size()]);
   }
 
-  void add_nodes(const WallMap& wall) {
+  void add_nodes(const WallMap& wall, const WallMeshParameters& parameters) {
     for (int l = 0; l <= layers_; ++l) {
-      const double t = static_cast<double>(l) / layers_;
+      const double t = graded(static_cast<double>(l) / layers_, parameters.endocardium);
       for (const SurfacePoint& p : quads_.points) {
-        mesh_.nodes.push_back(wall(p.u, p.theta, t));
+        mesh_.nodes.push_back(wall(graded(p.u, parameters.apex), p.theta, t));
         mesh_.transmural.push_back(t);
       }
     }
@@ -308,7 +314,7 @@ Mesh wall_mesh(const WallMap& wall, const WallMeshParameters& parameters) {
   const Meridian meridian = mean_meridian(wall);
   const Counts counts = count_elements(meridian, parameters);
   const QuadMesh quads = QuadMesher(meridian, counts, parameters.order).mesh();
-  return Extrusion(quads, wall, counts.layers, parameters.order).mesh();
+  return Extrusion(quads, wall, counts.layers, parameters).mesh();
 }
 
 }  // namespace lv::mesh

@@ -2,6 +2,7 @@
 
 #include "lv/base/check.hpp"
 #include "lv/base/parallel.hpp"
+#include "lv/quasi_static/constitution.hpp"
 
 #include <Eigen/Geometry>
 
@@ -9,52 +10,6 @@ namespace lv::quasi_static {
 namespace {
 
 using material::Tangent;
-
-/// The unknowns of one element and where they belong.
-struct ElementState {
-  Eigen::Matrix3Xd x;
-  Eigen::VectorXd p;
-};
-
-ElementState gather(const ReferenceWall& wall, int e, const State& state) {
-  const auto nodes = wall.elements.element(e);
-  const auto pressures = wall.pressures.element(e);
-  ElementState s{Eigen::Matrix3Xd(3, nodes.size()), Eigen::VectorXd(pressures.size())};
-  for (std::size_t a = 0; a < nodes.size(); ++a)
-    s.x.col(static_cast<Eigen::Index>(a)) = state.positions[nodes[a]];
-  for (std::size_t m = 0; m < pressures.size(); ++m)
-    s.p[static_cast<Eigen::Index>(m)] = state.pressures[pressures[m]];
-  return s;
-}
-
-/// Stress and, where asked for, tangent at one point, with the second index of F in the fibre
-/// frame, and without the pressure's part.
-struct Constitution {
-  const Muscle& muscle;
-  double activation;
-
-  [[nodiscard]] Tension tension(const Mat3& F, double M) const {
-    Tension T = muscle.contractility.at(F.col(0).norm(), activation);
-    T.value *= muscle.material.infarct.active(M);
-    T.derivative *= muscle.material.infarct.active(M);
-    return T;
-  }
-  [[nodiscard]] Mat3 stress(const Mat3& F, double M) const {
-    Mat3 P = muscle.material.infarct.passive(M) *
-             std::visit([&](const auto& law) { return law.stress(F); }, muscle.material.passive);
-    P.col(0) += material::active_stress_column(F, determinant(F), tension(F, M).value,
-                                               muscle.material.active_form);
-    return P + muscle.stabilisation.stress(F);
-  }
-  [[nodiscard]] Tangent<double> tangent(const Mat3& F, double M) const {
-    const Tension T = tension(F, M);
-    return muscle.stabilisation.tangent(F) +
-           muscle.material.infarct.passive(M) *
-               std::visit([&](const auto& law) { return law.tangent(F); },
-                          muscle.material.passive) +
-           material::active_tangent(F, T.value, T.derivative, muscle.material.active_form);
-  }
-};
 
 /// The mean shear modulus of a tangent dP/dF [kPa]: of its nine directions the one that changes
 /// volume is left out; isotropic linear elasticity gives mu.
@@ -154,11 +109,23 @@ Muscle for_order(Muscle muscle, int order) {
 
 }  // namespace
 
+ElementState element_state(const ReferenceWall& wall, int e, const State& state) {
+  const auto nodes = wall.elements.element(e);
+  const auto pressures = wall.pressures.element(e);
+  ElementState s{Eigen::Matrix3Xd(3, nodes.size()), Eigen::VectorXd(pressures.size())};
+  for (std::size_t a = 0; a < nodes.size(); ++a)
+    s.x.col(static_cast<Eigen::Index>(a)) = state.positions[nodes[a]];
+  for (std::size_t m = 0; m < pressures.size(); ++m)
+    s.p[static_cast<Eigen::Index>(m)] = state.pressures[pressures[m]];
+  return s;
+}
+
 Equations::Equations(const mesh::Mesh& mesh, const mesh::FibreRule& fibres, const Muscle& muscle)
     : mesh_(mesh),
       wall_(reference_wall(mesh, fibres)),
       sides_(mesh::sides(mesh, mesh.endo)),
       side_shapes_(solid::side_shapes(mesh.kind, mesh.order)),
+      fibres_(fibres),
       muscle_(for_order(muscle, mesh.order)),
       base_(mesh, muscle.base) {}
 
@@ -197,7 +164,7 @@ std::vector<double> Equations::residual(const State& state, const Loads& loads) 
   bool inverted = false;
   for (std::size_t i = 0; i < wall_.points.size(); ++i) {
     const int e = wall_.first_element + static_cast<int>(i);
-    const ElementState s = gather(wall_, e, state);
+    const ElementState s = element_state(wall_, e, state);
     Eigen::Matrix3Xd force = Eigen::Matrix3Xd::Zero(3, s.x.cols());
     Eigen::VectorXd swelling = Eigen::VectorXd::Zero(s.p.size());
     for (std::size_t q = 0; q < wall_.points[i].size(); ++q) {
@@ -244,7 +211,7 @@ void Equations::tangent(const State& state, const Loads& loads, SparseMatrix& K)
   for (std::size_t i = 0; i < wall_.points.size(); ++i) {
     const int e = wall_.first_element + static_cast<int>(i);
     const std::vector<int> at = unknowns(wall_, e, node_count());
-    K.add(at, element.compute(wall_.points[i], gather(wall_, e, state), law,
+    K.add(at, element.compute(wall_.points[i], element_state(wall_, e, state), law,
                               wall_.pressure_shapes.value));
     K.add_pressure_mass(std::span(at).last(wall_.pressures.nodes_per_element),
                         element.pressure_mass());
@@ -280,7 +247,7 @@ double Equations::mean_tension(const State& state, double activation) const {
   const Constitution law{muscle_, activation};
   std::array<double, 2> sums{};
   for (std::size_t i = 0; i < wall_.points.size(); ++i) {
-    const ElementState s = gather(wall_, wall_.first_element + static_cast<int>(i), state);
+    const ElementState s = element_state(wall_, wall_.first_element + static_cast<int>(i), state);
     for (const Point& point : wall_.points[i]) {
       const Mat3 F = s.x * point.gradient.transpose();
       sums[0] += point.volume * law.tension(F, point.infarct).value;

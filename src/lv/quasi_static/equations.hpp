@@ -4,6 +4,7 @@
 #include "lv/quasi_static/reference_wall.hpp"
 #include "lv/quasi_static/sparse.hpp"
 #include "lv/solid/boundary.hpp"
+#include "lv/solid/cell_stress.hpp"
 #include "lv/solid/wall.hpp"
 
 #include <vector>
@@ -38,6 +39,15 @@ struct State {
   std::vector<Vec3> positions;
   std::vector<double> pressures;
 };
+
+/// The unknowns of one element.
+struct ElementState {
+  Eigen::Matrix3Xd x;  ///< of its nodes [mm]
+  Eigen::VectorXd p;   ///< its pressures [kPa]
+};
+
+[[nodiscard]] ElementState element_state(const ReferenceWall& wall, int element,
+                                         const State& state);
 
 /// Equilibrium of the incompressible wall in weak form, for all test functions phi_a and q_m:
 ///
@@ -79,6 +89,11 @@ class Equations {
   /// Volume-weighted mean over the wall of T with the infarct's factor [kPa].
   [[nodiscard]] double mean_tension(const State& state, double activation) const;
 
+  /// Stress in every linear cell of the mesh, complete on every rank: means over the cell of what
+  /// the elements' own displacement and pressure give. Collective.
+  [[nodiscard]] std::vector<solid::CellStress> cell_stress(const State& state,
+                                                           double activation) const;
+
  private:
   template <class Visit>
   void for_sides(const State& state, const Visit& visit) const;
@@ -87,6 +102,7 @@ class Equations {
   ReferenceWall wall_;
   mesh::ElementNodes sides_;  ///< of the endocardium
   solid::ShapeTable side_shapes_;
+  mesh::FibreRule fibres_;
   Muscle muscle_;
   solid::BasalPenalty base_;
 };

@@ -2,8 +2,6 @@
 
 #include "lv/quasi_static/equations.hpp"
 
-#include <stdexcept>
-
 namespace lv::quasi_static {
 
 struct NewtonParameters {
@@ -17,12 +15,6 @@ struct NewtonParameters {
 struct NewtonReport {
   int iterations = 0;
   int factorisations = 0;
-};
-
-/// Newton's method did not find the equilibrium; says why.
-class NoConvergence : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
 };
 
 /// Damped Newton with the error-oriented monotonicity test (P. Deuflhard, Newton Methods for

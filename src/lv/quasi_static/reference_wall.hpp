@@ -2,6 +2,7 @@
 
 #include "lv/mesh/fibres.hpp"
 #include "lv/mesh/quadratic.hpp"
+#include "lv/quasi_static/reference_points.hpp"
 #include "lv/solid/shape_table.hpp"
 
 #include <Eigen/Core>
@@ -10,14 +11,6 @@
 
 /// Implicit equilibrium of the wall without inertia.
 namespace lv::quasi_static {
-
-/// What the equations need of the undeformed wall at one quadrature point.
-struct Point {
-  Eigen::Matrix3Xd
-      gradient;         ///< d phi_a/dX in the fibre frame, 3 x nodes: F' = sum_a x_a (x) gradient_a
-  double volume = 0.0;  ///< [mm^3]
-  double infarct = 0.0;  ///< M
-};
 
 /// The wall as finite elements of its mesh's order: displacement at the nodes, and the pressure
 /// that keeps it incompressible (Q1/P0, Q2/P1 or P2/P1).

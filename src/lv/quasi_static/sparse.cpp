@@ -173,13 +173,15 @@ class SparseMatrix::Implementation {
     check(KSPSolve(ksp_, b_, x_));
     KSPConvergedReason reason{};
     check(KSPGetConvergedReason(ksp_, &reason));
+    if (reason < 0 && parameters_.method == LinearMethod::iterative)
+      throw NoConvergence(
+          fmt::format("GMRES does not solve the linear equations ({}); "
+                      "quasi_static.linear_solver = \"direct\" would",
+                      KSPConvergedReasons[reason]));
     if (reason < 0)
       throw RunError(
           fmt::format("The linear equations could not be solved ({})", KSPConvergedReasons[reason]),
-          parameters_.method == LinearMethod::direct
-              ? "A wall that nothing holds is the usual reason: look at the base"
-              : "Set quasi_static.linear_solver to \"direct\", or give quasi_static.first_step a "
-                "smaller value");
+          "A wall that nothing holds is the usual reason: look at the base");
     check(VecScatterBegin(to_all_, x_, everything_, INSERT_VALUES, SCATTER_FORWARD));
     check(VecScatterEnd(to_all_, x_, everything_, INSERT_VALUES, SCATTER_FORWARD));
     const PetscScalar* values = nullptr;

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <span>
+#include <stdexcept>
 #include <vector>
 
 /// Sparse linear algebra by PETSc; its headers stay in sparse.cpp.
@@ -18,6 +19,13 @@ struct Pattern {
 
   [[nodiscard]] int displacements() const { return 3 * nodes; }
   [[nodiscard]] int size() const { return displacements() + pressures; }
+};
+
+/// Iterations did not find what they look for, an equilibrium or the solution of a linear system;
+/// says why. Shorter steps may help.
+class NoConvergence : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
 };
 
 /// How systems are solved.
@@ -61,7 +69,7 @@ class SparseMatrix {
   void finish();
 
   /// Solves K x = b; b and x complete on every rank. The factorisation is kept until the matrix
-  /// changes. Throws RunError when the matrix is singular or the iterations do not converge.
+  /// changes. Throws RunError when the matrix is singular, NoConvergence when iterations fail.
   /// Collective.
   [[nodiscard]] std::vector<double> solve(std::span<const double> b);
 

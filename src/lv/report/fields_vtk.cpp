@@ -174,11 +174,9 @@ void add_stresses(Arrays& arrays, const std::vector<CellFields>& now) {
   arrays.tensor("cauchy_total", [&](auto c) { return now[c].cauchy_total(); });
   arrays.tensor("cauchy_passive", [&](auto c) { return now[c].cauchy_passive; });
   arrays.tensor("cauchy_active", [&](auto c) { return now[c].cauchy_active; });
-  arrays.scalar("fibre_stress", [&](auto c) { return now[c].along_fibre(now[c].cauchy_total()); });
-  arrays.scalar("fibre_stress_passive",
-                [&](auto c) { return now[c].along_fibre(now[c].cauchy_passive); });
-  arrays.scalar("fibre_stress_active",
-                [&](auto c) { return now[c].along_fibre(now[c].cauchy_active); });
+  arrays.scalar("fibre_stress", [&](auto c) { return now[c].fibre_stress(); });
+  arrays.scalar("fibre_stress_passive", [&](auto c) { return now[c].fibre_stress_passive; });
+  arrays.scalar("fibre_stress_active", [&](auto c) { return now[c].fibre_stress_active; });
   arrays.scalar("active_tension", [&](auto c) { return now[c].tension; });
   arrays.scalar("pressure", [&](auto c) { return now[c].pressure; });
 }

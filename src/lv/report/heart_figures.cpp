@@ -257,7 +257,7 @@ Figure states_figure(const Mesh& mesh, const heartbeat::Beat& beat,
 
 Figure stress_figure(const Mesh& mesh, const heartbeat::Beat& beat,
                      const analysis::BeatFields& fields) {
-  const auto stress = [](const CellFields& c) { return c.along_fibre(c.cauchy_total()); };
+  const auto stress = [](const CellFields& c) { return c.fibre_stress(); };
   const auto tension = [](const CellFields& c) { return c.tension; };
   const Camera camera = camera_for(mesh, beat);
   const auto panel = [&](const char* title, const heartbeat::Snapshot& state,

@@ -62,37 +62,72 @@ ShapeTable tabulate(const dealii::FiniteElement<dim>& fe, const std::vector<unsi
   return table;
 }
 
-template <int dim>
-ShapeTable displacement(CellKind kind, int order) {
+dealii::Quadrature<3> quadrature(const ReferencePoints& at) {
+  std::vector<dealii::Point<3>> points;
+  for (const Vec3& xi : at.places)
+    points.emplace_back(xi.x(), xi.y(), xi.z());
+  return {points, at.weights};
+}
+
+/// Calls f with the finite element of the displacement.
+template <int dim, class F>
+auto with_displacement(CellKind kind, int order, const F& f) {
   LV_CHECK(order == 1 || order == 2);
-  const auto make = [&](const dealii::FiniteElement<dim>& fe) {
-    return tabulate(fe, numbering(fe, kind, order), quadrature<dim>(kind, order));
-  };
   if (kind == CellKind::hexahedron)
-    return make(dealii::FE_Q<dim>(order));
-  return make(dealii::FE_SimplexP<dim>(order));
+    return f(dealii::FE_Q<dim>(order));
+  return f(dealii::FE_SimplexP<dim>(order));
 }
 
-}  // namespace
-
-ShapeTable element_shapes(CellKind kind, int order) {
-  return displacement<3>(kind, order);
+template <int dim>
+ShapeTable displacement(CellKind kind, int order, const dealii::Quadrature<dim>& rule) {
+  return with_displacement<dim>(kind, order, [&](const auto& fe) {
+    return tabulate<dim>(fe, numbering<dim>(fe, kind, order), rule);
+  });
 }
 
-ShapeTable side_shapes(CellKind kind, int order) {
-  return displacement<2>(kind, order);
-}
-
-ShapeTable pressure_shapes(CellKind kind, int order) {
+ShapeTable pressure(CellKind kind, int order, const dealii::Quadrature<3>& rule) {
   const auto make = [&](const dealii::FiniteElement<3>& fe) {
     std::vector<unsigned> all(fe.dofs_per_cell);
     std::iota(all.begin(), all.end(), 0U);
-    return tabulate(fe, all, quadrature<3>(kind, order));
+    return tabulate(fe, all, rule);
   };
   if (kind == CellKind::hexahedron)
     return make(dealii::FE_DGP<3>(order - 1));
   LV_CHECK(order == 2);
   return make(dealii::FE_SimplexP<3>(1));
+}
+
+}  // namespace
+
+ShapeTable element_shapes(CellKind kind, int order) {
+  return displacement<3>(kind, order, quadrature<3>(kind, order));
+}
+
+ShapeTable side_shapes(CellKind kind, int order) {
+  return displacement<2>(kind, order, quadrature<2>(kind, order));
+}
+
+ShapeTable pressure_shapes(CellKind kind, int order) {
+  return pressure(kind, order, quadrature<3>(kind, order));
+}
+
+ShapeTable element_shapes(CellKind kind, int order, const ReferencePoints& points) {
+  return displacement<3>(kind, order, quadrature(points));
+}
+
+ShapeTable pressure_shapes(CellKind kind, int order, const ReferencePoints& points) {
+  return pressure(kind, order, quadrature(points));
+}
+
+std::vector<Vec3> node_places(CellKind kind, int order) {
+  return with_displacement<3>(kind, order, [&](const auto& fe) {
+    std::vector<Vec3> places;
+    for (const unsigned number : numbering<3>(fe, kind, order)) {
+      const auto& p = fe.get_unit_support_points()[number];
+      places.emplace_back(p[0], p[1], p[2]);
+    }
+    return places;
+  });
 }
 
 }  // namespace lv::solid

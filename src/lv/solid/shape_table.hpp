@@ -19,6 +19,12 @@ struct ShapeTable {
   [[nodiscard]] int nodes() const { return static_cast<int>(value.cols()); }
 };
 
+/// Places in a reference element and the weights of a rule that has them as its points.
+struct ReferencePoints {
+  std::vector<Vec3> places;
+  std::vector<double> weights;
+};
+
 /// The displacement of hexahedra (order + 1 Gauss points in each direction) or tetrahedra (a rule
 /// exact for degree 3 at least), with nodes in the order of mesh::elements.
 [[nodiscard]] ShapeTable element_shapes(mesh::CellKind kind, int order);
@@ -31,5 +37,14 @@ struct ShapeTable {
 /// or linear: Q2/P1). Quadratic tetrahedra: linear and continuous, one value per corner
 /// (Taylor-Hood).
 [[nodiscard]] ShapeTable pressure_shapes(mesh::CellKind kind, int order);
+
+/// Displacement and pressure at other points of the reference element.
+[[nodiscard]] ShapeTable element_shapes(mesh::CellKind kind, int order,
+                                        const ReferencePoints& points);
+[[nodiscard]] ShapeTable pressure_shapes(mesh::CellKind kind, int order,
+                                         const ReferencePoints& points);
+
+/// Where an element's nodes lie in the reference element, in the order of mesh::elements.
+[[nodiscard]] std::vector<Vec3> node_places(mesh::CellKind kind, int order);
 
 }  // namespace lv::solid

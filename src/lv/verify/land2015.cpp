@@ -1,6 +1,7 @@
 #include "lv/verify/land2015.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/geometry/ellipsoid.hpp"
 #include "lv/mesh/refine.hpp"
 #include "lv/mesh/surface.hpp"
 #include "lv/mesh/wall_mesh.hpp"
@@ -67,51 +68,17 @@ int LandBeam::watched_node(const mesh::Mesh& mesh) const {
   throw LogicError("the beam has no node at (10, 0.5, 1)");
 }
 
-namespace {
-
-/// Semi-axes of the ellipsoid at the transmural coordinate t [mm].
-struct SemiAxes {
-  explicit SemiAxes(double t) : radius(7.0 + 3.0 * t), length(17.0 + 3.0 * t) {}
-
-  /// The parametric angle from the apex to the base [rad].
-  [[nodiscard]] double base_angle() const {
-    return std::numbers::pi - std::acos(LandEllipsoid::base_height / length);
-  }
-
-  double radius, length;
-};
-
-/// u from 0 at the apex to 1 at the base.
-Vec3 land_point(double u, double theta, double t) {
-  const SemiAxes a(t);
-  const double psi = u * a.base_angle();
-  return {a.radius * std::sin(psi) * std::cos(theta), a.radius * std::sin(psi) * std::sin(theta),
-          -a.length * std::cos(psi) - LandEllipsoid::base_height};
-}
-
-/// From [0, 1] to itself, with this slope at 0.
-double graded(double s, double slope) {
-  return s * (slope + (1.0 - slope) * s);
-}
-
-}  // namespace
-
 mesh::Mesh LandEllipsoid::mesh(const mesh::WallMeshParameters& parameters) {
-  return mesh::wall_mesh(land_point, parameters);
+  const geometry::Ellipsoid wall{7.0, 17.0, 10.0, 20.0, base_height};
+  return mesh::wall_mesh([&](double u, double theta, double t) { return wall.point(u, theta, t); },
+                         parameters);
 }
 
 mesh::Mesh LandEllipsoid::graded_mesh(const mesh::WallMeshParameters& parameters) {
-  mesh::Mesh mesh = LandEllipsoid::mesh(parameters);
-  for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
-    Vec3& X = mesh.nodes[n];
-    double& t = mesh.transmural[n];
-    const SemiAxes a(t);
-    const double psi =
-        std::atan2(std::hypot(X.x(), X.y()) / a.radius, -(X.z() + base_height) / a.length);
-    t = graded(t, 0.5);
-    X = land_point(graded(psi / a.base_angle(), 0.3), std::atan2(X.y(), X.x()), t);
-  }
-  return mesh;
+  mesh::WallMeshParameters graded = parameters;
+  graded.apex = 0.3;
+  graded.endocardium = 0.5;
+  return mesh(graded);
 }
 
 LandApex land_apex(const mesh::Mesh& mesh, std::span<const Vec3> positions) {

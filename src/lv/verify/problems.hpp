@@ -30,6 +30,8 @@ void no_locking(Findings& found);
 void land2015_problem1(Findings& found);
 void land2015_problem2(Findings& found);
 void land2015_problem3(Findings& found);
+void land2015_problem2_immersed(Findings& found);
+void land2015_problem3_immersed(Findings& found);
 void calibration_twin(Findings& found);
 void strain_twin(Findings& found);
 void unloading_round_trip(Findings& found);

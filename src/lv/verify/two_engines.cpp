@@ -16,7 +16,6 @@ namespace {
 using analysis::CellFields;
 using heartbeat::Beat;
 using quasi_static::Contractility;
-using Kind = solid::BasalSupport::Kind;
 
 constexpr double ml = 1e3;  ///< [mm^3]
 
@@ -34,9 +33,10 @@ Answer immersed_answer(const Findings& found) {
 }
 
 Answer quasi_static_answer() {
-  const mesh::Mesh mesh = ideal_mesh({.edge_length = 2.25, .order = 2});
+  const mesh::Mesh mesh =
+      ideal_mesh({.edge_length = 2.5, .order = 2, .apex = 0.3, .endocardium = 0.5});
   const heartbeat::Protocol protocol;
-  const solid::BasalSupport base{Kind::sliding, quasi_static::rigid_base};
+  const solid::BasalSupport base;  // the immersed engine's springs
   const quasi_static::Muscle muscle{
       {}, Contractility({}, protocol.calcium.Ca_0, protocol.calcium.Ca_max), base};
   const Beat beat = heartbeat::run_quasi_static_beat({mesh, {}, muscle, {}, protocol}, {});

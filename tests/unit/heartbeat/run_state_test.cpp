@@ -10,6 +10,18 @@ namespace {
 using namespace lv;
 using namespace heartbeat;
 
+/// Stresses whose every number differs.
+solid::CellStress stress(double seed) {
+  solid::CellStress s;
+  s.tension = seed + 0.6;
+  s.pressure = seed + 0.7;
+  s.cauchy_passive << 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, seed;
+  s.cauchy_active << seed, 9.0, 10.0, 11.0, 12.0, 13.0, 14.0, 15.0, 16.0;
+  s.fibre_stress_passive = seed + 0.8;
+  s.fibre_stress_active = seed + 0.9;
+  return s;
+}
+
 /// A snapshot whose every number differs from those of other seeds.
 Snapshot snapshot(double seed, Phase phase) {
   return {seed + 0.1,
@@ -17,7 +29,8 @@ Snapshot snapshot(double seed, Phase phase) {
           seed + 0.2,
           seed + 0.3,
           {{seed, 1.0, 2.0}, {3.0, seed, 4.0}},
-          {seed + 0.4, seed + 0.5}};
+          {seed + 0.4, seed + 0.5},
+          {stress(seed), stress(seed + 0.5)}};
 }
 
 void check_equal(const Snapshot& a, const Snapshot& b) {
@@ -27,6 +40,15 @@ void check_equal(const Snapshot& a, const Snapshot& b) {
   CHECK(a.volume == b.volume);
   CHECK(a.positions == b.positions);
   CHECK(a.tension == b.tension);
+  REQUIRE(a.stress.size() == b.stress.size());
+  for (std::size_t c = 0; c < a.stress.size(); ++c) {
+    CHECK(a.stress[c].tension == b.stress[c].tension);
+    CHECK(a.stress[c].pressure == b.stress[c].pressure);
+    CHECK(a.stress[c].cauchy_passive == b.stress[c].cauchy_passive);
+    CHECK(a.stress[c].cauchy_active == b.stress[c].cauchy_active);
+    CHECK(a.stress[c].fibre_stress_passive == b.stress[c].fibre_stress_passive);
+    CHECK(a.stress[c].fibre_stress_active == b.stress[c].fibre_stress_active);
+  }
 }
 
 void check_equal(const CurveRow& a, const CurveRow& b) {

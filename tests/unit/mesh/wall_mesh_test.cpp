@@ -48,6 +48,37 @@ std::vector<mesh::FaceKey> keys(const std::vector<const mesh::Surface*>& surface
 
 }  // namespace
 
+TEST_CASE("elements become smaller towards the apex and the endocardium", "[unit][mesh]") {
+  const Ellipsoid v;
+  const auto wall = [&](double u, double theta, double t) { return v.point(u, theta, t); };
+  const mesh::Mesh even = mesh::wall_mesh(wall, {.edge_length = 3.0});
+  const mesh::Mesh graded =
+      mesh::wall_mesh(wall, {.edge_length = 3.0, .apex = 0.3, .endocardium = 0.5});
+  REQUIRE(graded.cells == even.cells);
+  // along the axis: the depths of the second layer's nodes; along the endocardium: the distance of
+  // the apex from the nodes around it
+  const auto second_depth = [](const mesh::Mesh& m) {
+    double least = 1.0;
+    for (const double t : m.transmural)
+      if (t > 1e-9)
+        least = std::min(least, t);
+    return least;
+  };
+  const auto apical_edge = [](const mesh::Mesh& m) {
+    double least = 1e9;
+    for (const Vec3& X : m.nodes)
+      if (X.z() < -79.0 && X.z() > -80.5 && X.head<2>().norm() > 1e-6)
+        least = std::min(least, X.head<2>().norm());
+    return least;
+  };
+  const double layers = std::round(1.0 / second_depth(even));
+  CHECK(second_depth(graded) == Approx((0.5 + 0.5 / layers) / layers));
+  CHECK(apical_edge(graded) < 0.4 * apical_edge(even));
+  const mesh::Quality quality = mesh::quality(graded);
+  CHECK(quality.scaled_jacobian.min > 0.3);
+  CHECK(quality.wall_volume == Approx(mesh::quality(even).wall_volume).epsilon(0.01));
+}
+
 TEST_CASE("wall meshes have well-shaped cells", "[unit][mesh]") {
   for_every_mesh([](const Ellipsoid&, double, const mesh::Mesh& mesh) {
     const mesh::Quality quality = mesh::quality(mesh);

@@ -1,5 +1,6 @@
 #include "lv/base/check.hpp"
 #include "lv/geometry/ellipsoid.hpp"
+#include "lv/mesh/cell.hpp"
 #include "lv/mesh/refine.hpp"
 #include "lv/mesh/surface.hpp"
 #include "lv/mesh/wall_mesh.hpp"
@@ -146,6 +147,37 @@ TEST_CASE("quadratic elements fill the wall and follow its surfaces", "[unit][qu
       volume += point.volume;
   CHECK(volume == Approx(114240.0).epsilon(1e-3));
   CHECK(solid::Cavity(mesh).volume(mesh.nodes) == Approx(70790.0).epsilon(1e-3));
+}
+
+TEST_CASE("cells have the stress of the elements they are parts of", "[unit][quasi_static]") {
+  Mat3 F;
+  F << 1.1, 0.05, 0.0, 0.02, 0.95, 0.04, 0.0, 0.03, 0.9;
+  F /= std::cbrt(F.determinant());
+  constexpr double p = -7.0;  // the elements' tension that holds J = 1
+  for (const Mesh& mesh : meshes()) {
+    Muscle rubber = muscle();
+    rubber.material.passive = material::NeoHookean{5.0};
+    const Equations equations(mesh, {}, rubber);
+    State s = equations.rest();
+    for (Vec3& x : s.positions)
+      x = F * x;
+    const bool is_hexahedron = mesh.kind == CellKind::hexahedron;
+    const std::size_t per_element = is_hexahedron ? (mesh.order == 2 ? 4 : 1) : 1;
+    for (std::size_t m = 0; m < s.pressures.size(); m += per_element)
+      s.pressures[m] = p;  // the constant mode of each hexahedron; every corner of tetrahedra
+    const auto stress = equations.cell_stress(s, 1.0);
+    REQUIRE(stress.size() == static_cast<std::size_t>(mesh.cell_count()));
+    const Mat3 P = material::NeoHookean{5.0}.stress(F);
+    double tension = 0.0, volume = 0.0;
+    for (int c = 0; c < mesh.cell_count(); ++c) {
+      CHECK(stress[c].pressure == Approx(-p).epsilon(1e-9));
+      CHECK((stress[c].cauchy_passive - P * F.transpose()).norm() < 1e-9);
+      CHECK(stress[c].cauchy_active.trace() > 0.0);
+      tension += mesh::cell_volume(mesh, c) * stress[c].tension;
+      volume += mesh::cell_volume(mesh, c);
+    }
+    CHECK(tension / volume == Approx(equations.mean_tension(s, 1.0)).epsilon(0.02));
+  }
 }
 
 TEST_CASE("linear tetrahedra are refused", "[unit][quasi_static]") {

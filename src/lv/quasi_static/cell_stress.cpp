@@ -1,0 +1,131 @@
+#include "lv/base/check.hpp"
+#include "lv/base/parallel.hpp"
+#include "lv/quasi_static/constitution.hpp"
+#include "lv/quasi_static/equations.hpp"
+#include "lv/solid/element.hpp"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+/// Stress of the mesh's linear cells from the quadratic elements that they are parts of.
+namespace lv::quasi_static {
+namespace {
+
+using mesh::CellKind;
+using solid::CellStress;
+
+/// The quadrature points of a linear cell whose corners lie at these places of a reference element.
+template <class E>
+solid::ReferencePoints points_of_part(const std::vector<Vec3>& corners) {
+  constexpr auto rule = E::full_quadrature();
+  solid::ReferencePoints points;
+  for (int q = 0; q < E::points; ++q) {
+    Vec3 place = Vec3::Zero();
+    Mat3 jacobian = Mat3::Zero();
+    for (int a = 0; a < E::nodes; ++a) {
+      place += rule.value[q][a] * corners[a];
+      jacobian += corners[a] * Vec3(rule.gradient[q][a].data()).transpose();
+    }
+    points.places.push_back(place);
+    points.weights.push_back(rule.weight[q] * std::abs(jacobian.determinant()));
+  }
+  return points;
+}
+
+/// Shapes of displacement and pressure at the quadrature points of a part.
+struct PartShapes {
+  solid::ShapeTable displacement, pressure;
+};
+
+/// The tables of parts, made once for each way in which a part lies in its element.
+class PartTables {
+ public:
+  explicit PartTables(const mesh::Mesh& mesh)
+      : mesh_(mesh), places_(solid::node_places(mesh.kind, mesh.order)) {}
+
+  const PartShapes& of(int cell, std::span<const int> element) {
+    std::vector<int> where;
+    for (const int node : mesh_.cell(cell))
+      where.push_back(
+          static_cast<int>(std::find(element.begin(), element.end(), node) - element.begin()));
+    const auto [entry, added] = tables_.try_emplace(where);
+    if (added)
+      entry->second = make(where);
+    return entry->second;
+  }
+
+ private:
+  [[nodiscard]] PartShapes make(const std::vector<int>& where) const {
+    std::vector<Vec3> corners;
+    for (const int a : where)
+      corners.push_back(places_.at(a));
+    const auto points = mesh_.kind == CellKind::hexahedron ? points_of_part<solid::Hex8>(corners)
+                                                           : points_of_part<solid::Tet4>(corners);
+    return {solid::element_shapes(mesh_.kind, mesh_.order, points),
+            solid::pressure_shapes(mesh_.kind, mesh_.order, points)};
+  }
+
+  const mesh::Mesh& mesh_;
+  std::vector<Vec3> places_;
+  std::map<std::vector<int>, PartShapes> tables_;
+};
+
+/// The stresses at one point. P has its second index in the fibre frame as F has, so that sigma =
+/// P F^T / J, and the first column of F is F f0.
+CellStress point_stress(const Mat3& F, double p, double M, const Constitution& law) {
+  const double J = determinant(F);
+  const Vec3 f = F.col(0).normalized();
+  const Mat3 stabilisation = law.muscle.stabilisation.stress(F) * F.transpose() / J;
+  CellStress s;
+  s.tension = law.tension(F, M).value;
+  s.pressure = -(p + stabilisation.trace() / 3.0);
+  s.cauchy_passive = law.passive(F, M) * F.transpose() / J;
+  s.cauchy_active = law.active_column(F, s.tension) * F.col(0).transpose() / J;
+  s.fibre_stress_passive = f.dot(s.cauchy_passive * f);
+  s.fibre_stress_active = f.dot(s.cauchy_active * f);
+  return s;
+}
+
+/// sum += weight * s
+void add(double weight, const CellStress& s, CellStress& sum) {
+  sum.tension += weight * s.tension;
+  sum.pressure += weight * s.pressure;
+  sum.cauchy_passive += weight * s.cauchy_passive;
+  sum.cauchy_active += weight * s.cauchy_active;
+  sum.fibre_stress_passive += weight * s.fibre_stress_passive;
+  sum.fibre_stress_active += weight * s.fibre_stress_active;
+}
+
+}  // namespace
+
+std::vector<CellStress> Equations::cell_stress(const State& state, double activation) const {
+  const Constitution law{muscle_, activation};
+  const PointMaker maker(mesh_, fibres_);
+  PartTables tables(mesh_);
+  const int parts = mesh_.order == 2 ? 8 : 1;
+  std::vector<CellStress> result(mesh_.cell_count());
+  for (std::size_t i = 0; i < wall_.points.size(); ++i) {
+    const int e = wall_.first_element + static_cast<int>(i);
+    const auto nodes = wall_.elements.element(e);
+    const ElementState s = element_state(wall_, e, state);
+    for (int cell = parts * e; cell < parts * (e + 1); ++cell) {
+      const PartShapes& shapes = tables.of(cell, nodes);
+      const auto points = maker.points(shapes.displacement, e, nodes);
+      const double volume =
+          std::accumulate(points.begin(), points.end(), 0.0,
+                          [](double sum, const Point& point) { return sum + point.volume; });
+      for (std::size_t q = 0; q < points.size(); ++q) {
+        const Mat3 F = s.x * points[q].gradient.transpose();
+        const double p = shapes.pressure.value.row(static_cast<Eigen::Index>(q)).dot(s.p);
+        add(points[q].volume / volume, point_stress(F, p, points[q].infarct, law), result[cell]);
+      }
+    }
+  }
+  parallel::sum({&result.front().tension, CellStress::numbers * result.size()});
+  return result;
+}
+
+}  // namespace lv::quasi_static
