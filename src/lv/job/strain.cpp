@@ -180,7 +180,7 @@ std::string words_of_muscle(const std::vector<TrackedSlice>& muscle,
                              : "note: motion through the short-axis planes was not followed, for "
                                "strain.long_axis_cine names no images: on a phantom that shortens "
                                "by 12% along its axis this costs 0.036 rms of segments' "
-                               "circumferential strain and 1.6 degrees of rotation\n";
+                               "circumferential strain and 2 degrees of rotation\n";
   for (const TrackedSlice& s : muscle)
     if (!was_followed(s))
       text += fmt::format(
