@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""A synthetic study through the program to the mesh, compared with what is true of it.
-Usage: phantom.py VENTRICLE [OPTION OF `ventricle phantom` ...]; without options, the studies of the list below."""
+"""A synthetic study through the program to the mesh or to strain, compared with what is true of it.
+Usage: phantom.py VENTRICLE [strain] [OPTION OF `ventricle phantom` ...]; without options, the studies of the lists below."""
 import base64
 import csv
 import json
@@ -20,8 +20,14 @@ studies = [
     [*small, "--dicom", "false", "--snr", "20", "--shift", "3"],
     [*small, "--nifti", "false"],
 ]
-if len(sys.argv) > 2:
-    studies = [sys.argv[2:]]
+# Physiological shortening, noise and breath-holds; 14 phases, of which the sixth is end-systole.
+moving = ["--phases", "14", "--field-of-view", "150", "--nifti", "false", "--shortening", "0.12", "--snr", "20", "--shift", "3"]
+of_strain = sys.argv[2:3] == ["strain"]
+options = sys.argv[3 if of_strain else 2:]
+if of_strain:
+    studies = [[*moving, "--seed", "3"]]
+if options:
+    studies = [options]
 rows, columns = 61, 90  # of points on each surface in surfaces.vtu
 failures = []
 
@@ -121,8 +127,51 @@ def compare(options, folder):
     check(f"{name}: scar volume (%)", 100 * (scar / truth["scar_volume_ml"] - 1), 5, 7 if labels else 0)
 
 
+def rms(differences):
+    return (sum(d * d for d in differences) / len(differences)) ** 0.5
+
+
+def at_end_systole(file, phase, key, value):
+    """A column of a table at end-systole, by the key that a row has."""
+    return {key(r): float(r[value]) for r in csv.DictReader(file.open()) if int(r["phase"]) == phase}
+
+
+def strain_errors(study, case, work, phase):
+    """Model minus truth at end-systole: circumferential strain per AHA segment, and rotation per slice (degrees)."""
+    subprocess.run([program, "strain", case, "--work", work], check=True, stdout=subprocess.DEVNULL)
+    found = []
+    for name, value in [("segments", "circumferential_strain"), ("rotation", "rotation_deg")]:
+        def key(row):
+            return (row.get("scheme", ""), row["slice"], row.get("segment", ""))
+        truth = at_end_systole(study / f"truth_{name}.csv", phase, key, value)
+        measured = at_end_systole(work / "00_strain" / f"{name}.csv", phase, key, value)
+        found.append([measured[k] - true for k, true in truth.items() if k[0] in ("", "aha17")])
+    return found
+
+
+def compare_strain(options, folder):
+    name = " ".join(options)
+    study, work = folder / "study", folder / "work"
+    subprocess.run([program, "phantom", study, *options], check=True, stdout=subprocess.DEVNULL)
+    truth = json.loads((study / "truth.json").read_text())
+    phase = truth["end_systole"]["phase"]
+    segments, rotation = strain_errors(study, study / "case.toml", work, phase)
+    check(f"{name}: AHA segments that are missing", 16 - len(segments), 0)
+    check(f"{name}: circumferential strain of AHA segments, rms", rms(segments), 0.02)
+    check(f"{name}: rotation of slices, rms (degrees)", rms(rotation), 1)
+    moved = at_end_systole(work / "00_strain" / "axial_motion.csv", phase, lambda r: int(r["slice"]), "axial_displacement_mm")
+    true = {s["slice"]: s["through_plane_motion_at_end_systole_mm"] for s in truth["short_axis"]}
+    check(f"{name}: motion through the planes, rms (mm)", rms([u - true[k] for k, u in moved.items()]), 1)
+    # What the long axes are for: these checks must be able to fail.
+    blind = study / "blind.toml"
+    blind.write_text(re.sub(r"(?m)^long_axis_cine.*\n", "", (study / "case.toml").read_text()))
+    segments, rotation = strain_errors(study, blind, folder / "blind", phase)
+    print(f"      without long axes: {rms(segments):.3g} and {rms(rotation):.3g} degrees", flush=True)
+    check(f"{name}: without long axes, strain not off by 0.025", max(0, 0.025 - rms(segments)), 0)
+
+
 for options in studies:
     with tempfile.TemporaryDirectory(prefix="ventricle_phantom_") as temporary:
-        compare(options, pathlib.Path(temporary))
+        (compare_strain if of_strain else compare)(options, pathlib.Path(temporary))
 print(f"{len(failures)} failed")
 sys.exit(1 if failures else 0)

@@ -153,30 +153,6 @@ int count_images(const std::vector<Contour>& contours) {
   return static_cast<int>(images.size());
 }
 
-/// How the slices, from base to apex, have to move in image space [mm].
-std::vector<Vec3> slice_shifts(const Contours& contours, const SplineFitParameters& parameters) {
-  const std::vector<int> slices = slices_from_base(contours);
-  const bool shown = count_images(contours.long_axis) >= 2;
-  if (shown ? !parameters.correct_shifts : !parameters.align_slices)
-    return std::vector<Vec3>(slices.size(), Vec3::Zero());
-  const Frame frame = model_frame(contours, parameters.frame);
-  const Sampler sampler(contours, frame, parameters);
-  std::vector<Vec3> shifts = fit_surfaces(sampler.movable_data(), parameters).shifts;
-  for (std::size_t k = 0; k < slices.size(); ++k) {
-    shifts[k] = frame.axes * shifts[k];
-    if (shifts[k].norm() > parameters.largest_shift)
-      throw InputError(find(contours.short_axis, slices[k], Side::endo)->where(),
-                       fmt::format("slice {} lies {:.1f} mm from where {} put "
-                                   "it; at most {:g} mm are accepted",
-                                   slices[k], shifts[k].norm(),
-                                   shown ? "the long-axis contours" : "its neighbours",
-                                   parameters.largest_shift),
-                       "Check that all contours show the same time of the heartbeat, or redraw "
-                       "the slice");
-  }
-  return shifts;
-}
-
 Contours moved(Contours contours, const std::vector<Vec3>& shifts) {
   const std::vector<int> slices = slices_from_base(contours);
   for (Contour& c : contours.short_axis) {
@@ -303,6 +279,29 @@ Vec3 SplineWall::point(double u, double theta, double t) const {
   if (u == 1.0)
     x.z() = 0.0;  // rounding off
   return x;
+}
+
+std::vector<Vec3> slice_shifts(const Contours& contours, const SplineFitParameters& parameters) {
+  const std::vector<int> slices = slices_from_base(contours);
+  const bool shown = count_images(contours.long_axis) >= 2;
+  if (shown ? !parameters.correct_shifts : !parameters.align_slices)
+    return std::vector<Vec3>(slices.size(), Vec3::Zero());
+  const Frame frame = model_frame(contours, parameters.frame);
+  const Sampler sampler(contours, frame, parameters);
+  std::vector<Vec3> shifts = fit_surfaces(sampler.movable_data(), parameters).shifts;
+  for (std::size_t k = 0; k < slices.size(); ++k) {
+    shifts[k] = frame.axes * shifts[k];
+    if (shifts[k].norm() > parameters.largest_shift)
+      throw InputError(find(contours.short_axis, slices[k], Side::endo)->where(),
+                       fmt::format("slice {} lies {:.1f} mm from where {} put "
+                                   "it; at most {:g} mm are accepted",
+                                   slices[k], shifts[k].norm(),
+                                   shown ? "the long-axis contours" : "its neighbours",
+                                   parameters.largest_shift),
+                       "Check that all contours show the same time of the heartbeat, or redraw "
+                       "the slice");
+  }
+  return shifts;
 }
 
 SplineWall fit_spline_wall(const Contours& contours, const SplineFitParameters& parameters) {

@@ -6,6 +6,8 @@
 #include "lv/geometry/meridian_map.hpp"
 #include "lv/geometry/parameters.hpp"
 
+#include <vector>
+
 namespace lv::geometry {
 
 /// The wall of the left ventricle between two spline surfaces, in the model frame: z along the long
@@ -29,6 +31,13 @@ class SplineWall {
   MeridianMaps maps_;
   FitReport report_;
 };
+
+/// How the slices, from base to apex, have to move in their planes to agree with the contours of
+/// two or more long-axis images, or without these and with align_slices to make the wall smooth
+/// [mm, image space]; zero where neither is given. They are the shifts that fit_surfaces finds.
+/// @throws InputError if one is larger than the largest shift.
+[[nodiscard]] std::vector<Vec3> slice_shifts(const Contours& contours,
+                                             const SplineFitParameters& parameters);
 
 /// Fits the wall to contours that check_contours accepts: the frame by model_frame, the surfaces by
 /// fit_surfaces. With contours of two or more long-axis images the slices are first moved in their

@@ -125,10 +125,11 @@ struct Calibration {
 
 /// Strain measured from cine images, or by somebody else. File names as the case file gives them.
 struct StrainStudy {
-  std::string cine, series;               ///< short-axis images
-  std::string contours, long_axis;        ///< drawn at end-diastole
-  std::string es_contours;                ///< drawn at end-systole, for comparison
-  int end_diastole = 1, end_systole = 0;  ///< numbers of the images in order of time
+  std::string cine, series;                 ///< short-axis images
+  std::vector<std::string> long_axis_cine;  ///< long-axis images
+  std::string contours, long_axis;          ///< drawn at end-diastole
+  std::string es_contours;                  ///< drawn at end-systole, for comparison
+  int end_diastole = 1, end_systole = 0;    ///< numbers of the images in order of time
   std::optional<std::array<double, 3>> septum_point;
   strain::RegistrationParameters registration;
   std::string measured, measured_column;  ///< a table of strains instead of images

@@ -4,6 +4,7 @@
 #include "lv/geometry/contour_checks.hpp"
 #include "lv/geometry/contour_measures.hpp"
 #include "lv/geometry/long_axis.hpp"
+#include "lv/geometry/spline_wall.hpp"
 #include "lv/image/close_walls.hpp"
 #include "lv/image/dicom_study.hpp"
 #include "lv/image/nifti.hpp"
@@ -22,17 +23,12 @@ namespace {
 using geometry::Contour;
 using geometry::Side;
 
-image::DicomStack read_stack(const Case& c) {
-  const std::array<std::filesystem::path, 1> where{beside(c, c.strain.cine)};
-  std::vector<std::string> series;
-  if (!c.strain.series.empty())
-    series.push_back(c.strain.series);
-  return image::choose_stack(image::read_dicom_study(where), series, where.front().string(),
-                             "strain.series");
-}
-
-image::Cine read_cine(const Case& c, const std::optional<image::DicomStack>& stack) {
-  return stack ? image::read_pixels(*stack) : image::read_nifti_cine(beside(c, c.strain.cine));
+image::DicomStack choose(const Case& c, const image::DicomStudy& dicom, const std::string& series,
+                         const std::string& parameter) {
+  std::vector<std::string> names;
+  if (!series.empty())
+    names.push_back(series);
+  return image::choose_stack(dicom, names, beside(c, c.strain.cine).string(), parameter);
 }
 
 /// Loops in the Sunnybrook form: of the phase that is followed, and of end-systole if that is said.
@@ -66,6 +62,56 @@ geometry::Contours read_drawn(const Case& c, const std::string& parameter,
   return geometry::read_contours(files);
 }
 
+void check_inside(const Contour& line, const image::CineSlice& slice) {
+  const image::Plane& plane = slice.frames.front().plane;
+  for (const Vec3& x : line.points) {
+    const Vec3 ij = plane.pixel(x);
+    if (!(ij.x() >= -0.5 && ij.y() >= -0.5 && ij.x() <= plane.columns - 0.5 &&
+          ij.y() <= plane.rows - 0.5))
+      throw InputError(
+          line.where(),
+          fmt::format("{}: the point ({:.1f}, {:.1f}, {:.1f}) mm lies outside the image of {}",
+                      geometry::label(line), x.x(), x.y(), x.z(), slice.name),
+          "Give the contours that were drawn on these images, in scanner coordinates");
+  }
+}
+
+/// A long-axis cine with the curves that lie on it.
+LongAxisView read_view(const Case& c, const std::optional<image::DicomStudy>& dicom,
+                       const std::string& name, const std::vector<Contour>& curves) {
+  constexpr double farthest = 1.0;  // [mm]
+  LongAxisView view;
+  const bool nifti = image::is_nifti_name(name);
+  if (!nifti && !dicom)
+    throw InputError(
+        place_of(c, "strain.long_axis_cine"),
+        fmt::format("\"{}\" is no NIfTI file, and strain.cine is no DICOM folder", name),
+        "Name NIfTI files, or series of the folder strain.cine");
+  view.cine = nifti ? image::read_nifti_cine(beside(c, name))
+                    : image::read_pixels(choose(c, *dicom, name, "strain.long_axis_cine"));
+  if (view.cine.slices.size() != 1 || view.cine.slices.front().frames.size() < 2)
+    throw InputError(place_of(c, "strain.long_axis_cine"),
+                     fmt::format("\"{}\" has {} planes of {} images", name, view.cine.slices.size(),
+                                 view.cine.slices.front().frames.size()),
+                     "Name cines of one long-axis plane each, of two or more images");
+  (void)drawn_frame(c, view.cine.slices.front());
+  const image::Plane& plane = view.cine.slices.front().frames.front().plane;
+  const auto lies_on = [&](const Contour& curve) {
+    return std::all_of(curve.points.begin(), curve.points.end(),
+                       [&](const Vec3& x) { return std::abs(plane.pixel(x).z()) < farthest; });
+  };
+  for (const Contour& curve : curves)
+    if (lies_on(curve))
+      (curve.side == Side::endo ? view.endo : view.epi) = curve;
+  if (view.endo.points.empty() || view.epi.points.empty())
+    throw InputError(place_of(c, "strain.long_axis_cine"),
+                     fmt::format("no curves of endocardium and epicardium lie on \"{}\"", name),
+                     "Give the curves drawn on it at end-diastole in strain.long_axis");
+  for (const Contour* curve : {&view.endo, &view.epi})
+    check_inside(*curve, view.cine.slices.front());
+  return view;
+}
+
 /// The slice whose plane holds a loop.
 std::size_t slice_with(const image::Cine& cine, const Contour& loop) {
   constexpr double farthest = 1.0;  // [mm]
@@ -84,17 +130,7 @@ std::size_t slice_with(const image::Cine& cine, const Contour& loop) {
                      fmt::format("{} lies {:.1f} mm from the nearest image of the cine",
                                  geometry::label(loop), least),
                      "Give the contours that were drawn on these images, and all their slices");
-  const image::Plane& plane = cine.slices[best].frames.front().plane;
-  for (const Vec3& x : loop.points) {
-    const Vec3 ij = plane.pixel(x);
-    if (!(ij.x() >= -0.5 && ij.y() >= -0.5 && ij.x() <= plane.columns - 0.5 &&
-          ij.y() <= plane.rows - 0.5))
-      throw InputError(
-          loop.where(),
-          fmt::format("{}: the point ({:.1f}, {:.1f}, {:.1f}) mm lies outside the image of {}",
-                      geometry::label(loop), x.x(), x.y(), x.z(), cine.slices[best].name),
-          "Give the contours that were drawn on these images, in scanner coordinates");
-  }
+  check_inside(loop, cine.slices[best]);
   return best;
 }
 
@@ -123,6 +159,40 @@ strain::Orientation orientation(const Case& c, CineStudy& study) {
   return o;
 }
 
+/// Muscle is followed from slice to slice: their pixels must lie one above the other.
+void check_stack(const Case& c, const CineStudy& study) {
+  constexpr double same = 0.01;  // [pixel]
+  const image::CineSlice& first = study.cine.slices[study.slice_of.front()];
+  const image::Plane& plane = first.frames.front().plane;
+  for (const std::size_t s : study.slice_of) {
+    const image::CineSlice& slice = study.cine.slices[s];
+    const image::Plane& other = slice.frames.front().plane;
+    const Vec3 origin = plane.pixel(other.origin);
+    const Vec3 end = plane.pixel(other.point(plane.columns - 1, plane.rows - 1));
+    const strain::Vec2 corner(plane.columns - 1, plane.rows - 1);
+    if (other.columns != plane.columns || other.rows != plane.rows ||
+        origin.head<2>().norm() > same || (end.head<2>() - corner).norm() > same)
+      throw InputError(
+          place_of(c, "strain.long_axis_cine"),
+          fmt::format("the pixels of {} do not lie above those of {}", slice.name, first.name),
+          "Leave strain.long_axis_cine out, or give slices of one stack");
+  }
+}
+
+/// How the slices have to move in their planes to agree with the long axes.
+std::map<int, Vec3> breath_hold_shifts(const Case& c, const CineStudy& study) {
+  geometry::SplineFitParameters fit = c.anatomy.contours.fit;
+  fit.frame.base_at = geometry::BaseAt::slice;
+  const Vec3& septum = study.orientation.septum;
+  fit.frame.septum = {septum.x(), septum.y(), septum.z()};
+  const std::vector<int> slices = geometry::slices_from_base(study.drawn);
+  const std::vector<Vec3> shifts = geometry::slice_shifts(study.drawn, fit);
+  std::map<int, Vec3> shift_of;
+  for (std::size_t k = 0; k < slices.size(); ++k)
+    shift_of[slices[k]] = shifts[k];
+  return shift_of;
+}
+
 double spacing_of(const image::Cine& cine) {
   std::vector<double> heights;
   const image::Plane& first = cine.slices.front().frames.front().plane;
@@ -148,14 +218,19 @@ std::size_t drawn_frame(const Case& c, const image::CineSlice& slice) {
 
 CineStudy read_cine_study(const Case& c) {
   CineStudy study;
+  std::optional<image::DicomStudy> dicom;
   std::optional<image::DicomStack> stack;
-  if (!image::is_nifti_name(c.strain.cine))
-    stack = read_stack(c);
-  else if (!c.strain.series.empty())
+  if (!image::is_nifti_name(c.strain.cine)) {
+    const std::array<std::filesystem::path, 1> where{beside(c, c.strain.cine)};
+    dicom = image::read_dicom_study(where);
+    stack = choose(c, *dicom, c.strain.series, "strain.series");
+  } else if (!c.strain.series.empty()) {
     throw InputError(place_of(c, "strain.series"),
                      fmt::format("a NIfTI file has no series \"{}\"", c.strain.series),
                      "Leave strain.series out, or name a folder of DICOM files");
-  study.cine = read_cine(c, stack);
+  }
+  study.cine =
+      stack ? image::read_pixels(*stack) : image::read_nifti_cine(beside(c, c.strain.cine));
   study.notes = study.cine.notes;
   study.spacing = spacing_of(study.cine);
   if (stack && std::filesystem::is_directory(beside(c, c.strain.contours)) &&
@@ -168,6 +243,12 @@ CineStudy read_cine_study(const Case& c) {
   if (!c.strain.es_contours.empty())
     study.systolic = read_drawn(c, "strain.es_contours", c.strain.es_contours).short_axis;
   study.orientation = orientation(c, study);
+  for (const std::string& name : c.strain.long_axis_cine)
+    study.long_axis.push_back(read_view(c, dicom, name, study.drawn.long_axis));
+  if (!study.long_axis.empty()) {
+    check_stack(c, study);
+    study.shift_of = breath_hold_shifts(c, study);
+  }
   return study;
 }
 

@@ -5,11 +5,18 @@
 #include "lv/job/case.hpp"
 #include "lv/strain/track.hpp"
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace lv::job {
+
+/// A long-axis cine and the wall drawn on it at end-diastole.
+struct LongAxisView {
+  image::Cine cine;
+  geometry::Contour endo, epi;
+};
 
 /// A case's short-axis cine and what is drawn on it.
 struct CineStudy {
@@ -17,6 +24,8 @@ struct CineStudy {
   geometry::Contours drawn;                 ///< at end-diastole
   std::vector<geometry::Contour> systolic;  ///< at end-systole, for comparison; may be empty
   std::vector<std::size_t> slice_of;        ///< the cine's slice of each of drawn.short_axis
+  std::vector<LongAxisView> long_axis;
+  std::map<int, Vec3> shift_of;  ///< how slices would move to agree with the long axes [mm]
   strain::Orientation orientation;
   double spacing = 0.0;  ///< between slices [mm]
   std::vector<std::string> notes;

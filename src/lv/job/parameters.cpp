@@ -472,9 +472,14 @@ void declare_strain(Declarations& d) {
       "contours", LV_AT(strain.contours),
       "loops of endocardium and epicardium drawn on the cine at end-diastole: a CSV file in the "
       "form of anatomy.contours.short_axis, or a folder of text contours in the Sunnybrook form");
-  d.text("long_axis", LV_AT(strain.long_axis),
-         "CSV of curves on long-axis images at end-diastole, for the place of the apex; may be "
-         "left out");
+  d.text(
+      "long_axis", LV_AT(strain.long_axis),
+      "CSV of curves on long-axis images at end-diastole, for the place of the apex and to follow "
+      "long_axis_cine; may be left out");
+  d.text_list("long_axis_cine", LV_AT(strain.long_axis_cine),
+              "long-axis cines that show how far muscle moves through the short-axis planes, with "
+              "the curves of long_axis: NIfTI files, or series of the DICOM folder cine; [] leaves "
+              "that motion unseen");
   d.text("es_contours", LV_AT(strain.es_contours),
          "CSV of loops drawn at end-systole, which the carried contours are compared with; may be "
          "left out");

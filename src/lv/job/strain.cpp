@@ -5,7 +5,9 @@
 #include "lv/base/table.hpp"
 #include "lv/base/units.hpp"
 #include "lv/geometry/contour_measures.hpp"
+#include "lv/image/nifti.hpp"
 #include "lv/job/cine.hpp"
+#include "lv/job/through_plane.hpp"
 #include "lv/report/overlay.hpp"
 #include "lv/strain/measures.hpp"
 
@@ -15,6 +17,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 
 namespace lv::job {
 namespace {
@@ -82,20 +85,24 @@ Check check(const CineStudy& study, const TrackedSlice& slice, int phase) {
           strain::loop_area(given->points)};
 }
 
-Table slices_table(const CineStudy& study, const std::vector<TrackedSlice>& slices, int systole) {
+/// Residuals and least J are those of the muscle's strain, contours those of the images' planes.
+Table slices_table(const CineStudy& study, const std::vector<TrackedSlice>& slices,
+                   const std::vector<TrackedSlice>& muscle, int systole) {
   Table table({"slice", "third", "followed", "residual_es", "largest_residual", "smallest_J",
                "cavity_area_ed_mm2", "cavity_area_es_mm2", "given_area_es_mm2", "dice_es",
                "mean_distance_es_mm", "largest_distance_es_mm"});
-  for (const TrackedSlice& s : slices) {
+  for (std::size_t i = 0; i < slices.size(); ++i) {
+    const TrackedSlice& s = slices[i];
+    const TrackedSlice& m = muscle[i];
     const std::size_t k = at_phase(s, systole);
     double largest = 0.0;
-    for (const strain::Match& m : s.matches)
-      largest = std::max(largest, m.residual);
+    for (const strain::Match& match : m.matches)
+      largest = std::max(largest, match.residual);
     const Check given = check(study, s, systole);
     static constexpr std::array<const char*, 3> thirds{"basal", "middle", "apical"};
     table.add_row({std::to_string(s.series.slice), thirds.at(s.series.third),
-                   was_followed(s) ? "yes" : "no", number(s.matches.at(k).residual),
-                   number(largest), number(s.smallest_J), number(s.cavity_areas.front()),
+                   was_followed(m) ? "yes" : "no", number(m.matches.at(k).residual),
+                   number(largest), number(m.smallest_J), number(s.cavity_areas.front()),
                    number(s.cavity_areas.at(k)), number(given.area), number(given.dice),
                    number(given.mean), number(given.largest)});
   }
@@ -165,12 +172,16 @@ std::vector<strain::SegmentStrain> all_segments(const std::vector<TrackedSlice>&
   return rows;
 }
 
-std::string words(const CineStudy& study, const std::vector<TrackedSlice>& slices, int diastole,
-                  int systole, const std::vector<strain::SegmentStrain>& rows) {
-  std::string text;
-  for (const std::string& note : study.notes)
-    text += fmt::format("note: {}\n", note);
-  for (const TrackedSlice& s : slices)
+/// What was found of strain and of motion through the planes.
+std::string words_of_muscle(const std::vector<TrackedSlice>& muscle,
+                            const std::optional<ThroughPlane>& through, int systole,
+                            const std::vector<strain::SegmentStrain>& rows) {
+  std::string text = through ? words_of(*through, systole)
+                             : "note: motion through the short-axis planes was not followed, for "
+                               "strain.long_axis_cine names no images: on a phantom that shortens "
+                               "by 12% along its axis this costs 0.036 rms of segments' "
+                               "circumferential strain and 2 degrees of rotation\n";
+  for (const TrackedSlice& s : muscle)
     if (!was_followed(s))
       text += fmt::format(
           "slice {} was not followed everywhere: the map folds in its wall (least J {:.2f}), as "
@@ -178,10 +189,6 @@ std::string words(const CineStudy& study, const std::vector<TrackedSlice>& slice
           "muscle leaves the plane or images are far apart in time; it is left out of the AHA "
           "segments and the whole wall\n",
           s.series.slice, s.smallest_J);
-  text +=
-      fmt::format("end-diastole: phase {}, cavity {:.1f} ml; end-systole: phase {}, {:.1f} ml\n",
-                  diastole, 1e-3 * volume_at(slices, study.spacing, diastole), systole,
-                  1e-3 * volume_at(slices, study.spacing, systole));
   for (const strain::SegmentStrain& row : rows)
     if (row.scheme == "whole" && row.phase == systole)
       text += fmt::format(
@@ -189,6 +196,18 @@ std::string words(const CineStudy& study, const std::vector<TrackedSlice>& slice
           "(Green-Lagrange); mid-wall line {:.1f}%, thickness {:+.1f}%\n",
           row.strain.circumferential, row.strain.radial, 100.0 * row.strain.shortening,
           100.0 * row.strain.thickening);
+  return text;
+}
+
+std::string words(const CineStudy& study, const std::vector<TrackedSlice>& slices, int diastole,
+                  int systole) {
+  std::string text;
+  for (const std::string& note : study.notes)
+    text += fmt::format("note: {}\n", note);
+  text +=
+      fmt::format("end-diastole: phase {}, cavity {:.1f} ml; end-systole: phase {}, {:.1f} ml\n",
+                  diastole, 1e-3 * volume_at(slices, study.spacing, diastole), systole,
+                  1e-3 * volume_at(slices, study.spacing, systole));
   double given = 0.0;
   double carried = 0.0;
   for (const TrackedSlice& s : slices) {
@@ -232,6 +251,9 @@ Ingredients strain_files(const Case& c) {
   add("strain.contours", c.strain.contours);
   add("strain.long_axis", c.strain.long_axis);
   add("strain.es_contours", c.strain.es_contours);
+  for (const std::string& name : c.strain.long_axis_cine)
+    if (image::is_nifti_name(name))
+      add("strain.long_axis_cine " + name, name);
   return files;
 }
 
@@ -240,8 +262,8 @@ std::string check_strain(const Case& c) {
   if (c.strain.asked()) {
     const CineStudy study = read_cine_study(c);
     const std::vector<strain::SliceTask> tasks = slice_tasks(c, study);
-    text += fmt::format("  strain: {} slices of {} images to follow\n", tasks.size(),
-                        tasks.front().cine->frames.size());
+    text += fmt::format("  strain: {} slices of {} images to follow, {} long-axis views\n",
+                        tasks.size(), tasks.front().cine->frames.size(), study.long_axis.size());
     for (const std::string& note : study.notes)
       text += fmt::format("  note: {}\n", note);
   }
@@ -257,17 +279,23 @@ void make_strain(const Case& c, const fs::path& folder) {
   const std::vector<TrackedSlice> slices =
       strain::track(tasks, study.orientation, c.strain.registration);
   const int systole = end_systole(c, slices);
-  const std::vector<strain::SegmentStrain> rows = all_segments(slices);
+  const std::optional<ThroughPlane> through = follow_through_planes(c, study, tasks);
+  const std::vector<TrackedSlice> muscle =
+      through ? strain::track(through->tasks, study.orientation, c.strain.registration) : slices;
+  const std::vector<strain::SegmentStrain> rows = all_segments(muscle);
   strain::segments_table(rows).write_csv(folder / "segments.csv");
-  strain::rotation_table(series_of(slices, true)).write_csv(folder / "rotation.csv");
-  slices_table(study, slices, systole).write_csv(folder / "slices.csv");
+  strain::rotation_table(series_of(muscle, true)).write_csv(folder / "rotation.csv");
+  if (through)
+    axial_table(*through).write_csv(folder / "axial_motion.csv");
+  slices_table(study, slices, muscle, systole).write_csv(folder / "slices.csv");
   volumes_table(slices, study.spacing).write_csv(folder / "volumes.csv");
   contours_table(slices, systole).write_csv(folder / "contours_es.csv");
   draw(study, tasks, slices, c.strain.end_diastole, false, folder / "end_diastole.png");
   draw(study, tasks, slices, systole, true, folder / "end_systole.png");
   write_file(folder / "phases.json", fmt::format("{{\"end_diastole\": {}, \"end_systole\": {}}}\n",
                                                  c.strain.end_diastole, systole));
-  write_file(folder / "strain.txt", words(study, slices, c.strain.end_diastole, systole, rows));
+  write_file(folder / "strain.txt", words(study, slices, c.strain.end_diastole, systole) +
+                                        words_of_muscle(muscle, through, systole, rows));
 }
 
 }  // namespace lv::job

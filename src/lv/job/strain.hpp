@@ -26,6 +26,7 @@ namespace lv::job {
 
 /// Follows the cine of a case and writes
 ///
+///   axial_motion.csv motion of the slices' muscle along the axis, if long-axis images show it
 ///   segments.csv    strain per slice, sector and AHA segment at every phase
 ///   rotation.csv    of every slice at every phase
 ///   slices.csv      how well each slice was followed, and how near to given end-systolic contours

@@ -151,8 +151,13 @@ std::string infarct_of_case(const Scan& scan, const StudyFiles& files, const Tru
 std::string strain_of_case(const StudyFiles& files, const Truth& truth, const std::string& septum) {
   if (!files.dicom && !files.nifti)
     return "";
-  const std::string cine = files.dicom ? "cine = \"dicom\"\nseries = \"cine_short_axis\"\n"
-                                       : "cine = \"nifti/cine_short_axis.nii.gz\"\n";
+  const std::string cine =
+      files.dicom ? "cine = \"dicom\"\nseries = \"cine_short_axis\"\n"
+                    "long_axis_cine = [\"cine_four chambers\", \"cine_two chambers\", "
+                    "\"cine_three chambers\"]\n"
+                  : "cine = \"nifti/cine_short_axis.nii.gz\"\n"
+                    "long_axis_cine = [\"nifti/cine_long_axis_1.nii.gz\", "
+                    "\"nifti/cine_long_axis_2.nii.gz\", \"nifti/cine_long_axis_3.nii.gz\"]\n";
   return "\n[strain]\n" + cine +
          fmt::format(
              "contours = \"contours/ed_short_axis.csv\"\n"

@@ -1,13 +1,11 @@
 #include "lv/strain/warp.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/strain/grey_image.hpp"
 
 #include <Eigen/Cholesky>
 #include <fmt/format.h>
-#include <itkBSplineInterpolateImageFunction.h>
 #include <itkBSplineTransform.h>
-#include <itkImage.h>
-#include <itkSmoothingRecursiveGaussianImageFilter.h>
 
 #include <algorithm>
 #include <array>
@@ -20,14 +18,7 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using GreyImage = itk::Image<double, 2>;
 using Spline = itk::BSplineTransform<double, 2, 3>;
-using Interpolator = itk::BSplineInterpolateImageFunction<GreyImage, double, double>;
-
-/// A part of an image, in pixels.
-struct Window {
-  int left, top, columns, rows;
-};
 
 double distance_to_segment(const Vec2& x, const Vec2& a, const Vec2& b) {
   const Vec2 ab = b - a;
@@ -66,41 +57,6 @@ Window window(const image::Plane& plane, const std::vector<Vec2>& outline, doubl
   const int top = pixel(low.y() - room, plane.spacing_j, plane.rows);
   const int bottom = pixel(high.y() + room, plane.spacing_j, plane.rows);
   return {left, top, right - left + 1, bottom - top + 1};
-}
-
-GreyImage::Pointer cropped(const image::Picture& picture, const Window& w) {
-  const auto image = GreyImage::New();
-  GreyImage::SizeType size{};
-  size[0] = w.columns;
-  size[1] = w.rows;
-  image->SetRegions(size);
-  const std::array<double, 2> spacing{picture.plane.spacing_i, picture.plane.spacing_j};
-  const std::array<double, 2> origin{w.left * spacing[0], w.top * spacing[1]};
-  image->SetSpacing(spacing.data());
-  image->SetOrigin(origin.data());
-  image->Allocate();
-  double* out = image->GetBufferPointer();
-  for (int j = 0; j < w.rows; ++j)
-    for (int i = 0; i < w.columns; ++i)
-      *out++ = picture.at(w.left + i, w.top + j);
-  return image;
-}
-
-/// Grey values between pixels, by cubic B-splines.
-Interpolator::Pointer interpolated(const GreyImage* image, double smoothing) {
-  const auto interpolator = Interpolator::New();
-  interpolator->SetSplineOrder(3);
-  if (smoothing > 0.0) {
-    const auto filter = itk::SmoothingRecursiveGaussianImageFilter<GreyImage, GreyImage>::New();
-    filter->SetInput(image);
-    filter->SetSigma(smoothing);
-    filter->SetNumberOfWorkUnits(1);
-    filter->Update();
-    interpolator->SetInputImage(filter->GetOutput());
-  } else {
-    interpolator->SetInputImage(image);
-  }
-  return interpolator;
 }
 
 /// Value and derivatives of the four cubic B-splines on one interval, at x in [0, 1].

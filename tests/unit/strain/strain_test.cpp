@@ -1,7 +1,9 @@
 #include "lv/base/check.hpp"
 #include "lv/phantom/study.hpp"
 #include "lv/strain/agreement.hpp"
+#include "lv/strain/axial_motion.hpp"
 #include "lv/strain/measures.hpp"
+#include "lv/strain/reslice.hpp"
 #include "lv/strain/track.hpp"
 
 #include "support/temporary_folder.hpp"
@@ -9,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 using namespace lv;
@@ -165,4 +168,80 @@ TEST_CASE("strain and rotation of noisy phantom slices are found", "[strain]") {
             std::pow(found[i].strain.circumferential - true_ones[i].strain.circumferential, 2) / 12;
   }
   CHECK(std::sqrt(squares) < 0.02);
+}
+
+namespace {
+
+/// Slices at the given heights with grey values from a function of place [mm].
+std::vector<image::CineSlice> stack_of(const std::vector<double>& heights, int images,
+                                       const std::function<double(const Vec3&)>& grey) {
+  std::vector<image::CineSlice> stack;
+  for (const double height : heights) {
+    image::Picture picture;
+    picture.plane.origin = {-10.0, 5.0, height};
+    picture.plane.columns = 24;
+    picture.plane.rows = 20;
+    for (int j = 0; j < picture.plane.rows; ++j)
+      for (int i = 0; i < picture.plane.columns; ++i)
+        picture.values.push_back(static_cast<float>(grey(picture.plane.point(i, j))));
+    stack.push_back({"slice", std::vector<image::Picture>(images, picture), {}, 0.0});
+  }
+  return stack;
+}
+
+}  // namespace
+
+TEST_CASE("a cubic along the normal is followed through the slices exactly", "[strain]") {
+  const auto grey = [](const Vec3& x) {
+    return x.z() * x.z() * x.z() / 100.0 - x.z() + x.x() * x.z();
+  };
+  const auto stack = stack_of({24.0, 16.0, 8.0, 0.0, -8.0}, 3, grey);
+  const auto u = [](const Vec3& X, int step) { return -1.5 * step + 0.1 * X.x(); };
+  const MuscleSlice found = follow_muscle(stack, 2, 1, u);
+  const image::Plane& plane = stack[2].frames[0].plane;
+  for (const auto& [image, step] : {std::pair{1, 0}, {2, 1}, {0, 2}}) {
+    const Vec3 X = plane.point(7, 3);
+    const Vec3 x = X + (step == 0 ? 0.0 : u(X, step)) * Vec3::UnitZ();
+    CHECK(found.images.frames[image].at(7, 3) == Approx(grey(x)));
+  }
+  CHECK(found.beyond == 0.0);
+}
+
+TEST_CASE("muscle that leaves the stack is said to and takes the end slice", "[strain]") {
+  const auto stack = stack_of({8.0, 0.0}, 2, [](const Vec3& x) { return x.z(); });
+  const MuscleSlice found = follow_muscle(stack, 1, 0, [](const Vec3&, int) { return -3.0; });
+  CHECK(found.beyond == Approx(3.0));
+  CHECK(found.images.frames[1].at(4, 4) == Approx(0.0));
+}
+
+TEST_CASE("a moved picture shows what was elsewhere", "[strain]") {
+  const auto grey = [](const Vec3& x) { return std::sin(0.5 * x.x()) * std::cos(0.4 * x.y()); };
+  const image::Picture picture = stack_of({0.0}, 1, grey).front().frames.front();
+  const Vec3 shift(1.3, -0.6, 5.0);
+  const Vec3 x = picture.plane.point(12, 10);
+  CHECK(moved(picture, shift).at(12, 10) == Approx(grey(x - Vec3(1.3, -0.6, 0.0))).margin(1e-3));
+}
+
+TEST_CASE("long axes of a noisy phantom show how far the base moves", "[strain]") {
+  phantom::Ventricle v;
+  v.shortening = 0.14;
+  const phantom::Scan scan{.field_of_view = 150, .phases = 8, .snr = 20.0, .seed = 4};
+  const phantom::ScanPlanes all = phantom::planes(v, scan);
+  phantom::ScanPlanes views;
+  views.short_axis = {all.long_axis[0], all.long_axis[1]};
+  const image::Cine cine = phantom::short_axis_cine(v, scan, views);
+  const geometry::Contours drawn = phantom::contours(v, scan, all, 0.0);
+  std::vector<LongAxisTask> tasks;
+  for (int view = 1; view <= 2; ++view)
+    tasks.push_back({&cine.slices[view - 1], 0,
+                     *geometry::find(drawn.long_axis, view, geometry::Side::endo),
+                     *geometry::find(drawn.long_axis, view, geometry::Side::epi)});
+  const geometry::Frame pose = phantom::pose(scan);
+  geometry::Frame frame = pose;
+  frame.origin = pose.to_image({0, 0, v.cavity_apex()});
+  const AxialMotion axial(tasks, frame, 16, {});  // twice as many steps as images
+  const phantom::Motion systole(v, phantom::contraction(3.0 / 8.0));
+  for (const double Z : {-5.0, -30.0, -55.0, -80.0})
+    CHECK(std::abs(axial(pose.to_image({0, 0, Z}), 6) - (systole.z(Z) - Z)) < 1.5);
+  CHECK(std::abs(axial(pose.to_image({0, 0, -40}), 0)) < 1e-9);
 }
