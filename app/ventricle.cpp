@@ -322,8 +322,10 @@ int dispatch(int argc, char** argv) {
   for (const char* page : {"report", "compare"})
     if (app.got_subcommand(page))
       return write_page(command, page, argc, argv);
-  if (app.got_subcommand("images"))
+  if (app.got_subcommand("images")) {
     fmt::print("{}", lv::job::list_images(command.images));
+    return 0;
+  }
   if (app.got_subcommand("verify"))
     return verify(command, argc, argv);
   if (*list)

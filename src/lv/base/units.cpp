@@ -1,5 +1,6 @@
 #include "lv/base/units.hpp"
 
+#include "lv/base/lines.hpp"
 #include "lv/base/nearest.hpp"
 
 #include <fmt/format.h>
@@ -155,13 +156,6 @@ class UnitParser {
   std::string_view text_;
   std::size_t at_ = 0;
 };
-
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos)
-    return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
 
 }  // namespace
 

@@ -1,6 +1,7 @@
 #include "lv/geometry/contours.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/lines.hpp"
 #include "lv/geometry/contour_checks.hpp"
 
 #include <fmt/format.h>
@@ -9,7 +10,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <string_view>
 #include <utility>
@@ -33,29 +33,11 @@ struct Row {
   int line;
 };
 
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos)
-    return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
-std::vector<std::string_view> fields_of(std::string_view line) {
-  std::vector<std::string_view> fields;
-  for (;;) {
-    const auto comma = line.find(',');
-    fields.push_back(trimmed(line.substr(0, comma)));
-    if (comma == std::string_view::npos)
-      return fields;
-    line.remove_prefix(comma + 1);
-  }
-}
-
 /// One contour file, read line by line.
 class Table {
  public:
-  explicit Table(const std::filesystem::path& path) : file_(path.string()), stream_(path) {
-    if (!stream_)
+  explicit Table(const std::filesystem::path& path) : file_(path.string()), lines_(path) {
+    if (!lines_.is_open())
       throw InputError(file_, "the contour file cannot be opened",
                        "Check the name and that it can be read");
     read_header();
@@ -63,55 +45,42 @@ class Table {
 
   std::vector<Row> rows() {
     std::vector<Row> rows;
-    while (next_line())
+    while (lines_.next())
       rows.push_back(row());
     if (rows.empty())
-      throw InputError(where(), "the contour file holds no points",
+      throw InputError(lines_.where(), "the contour file holds no points",
                        "Write one line per point after the line of column names");
     return rows;
   }
 
  private:
-  [[nodiscard]] std::string where() const { return fmt::format("{}:{}", file_, line_); }
-
-  /// The next line that is not blank.
-  bool next_line() {
-    while (std::getline(stream_, text_)) {
-      ++line_;
-      if (line_ == 1 && text_.starts_with("\xEF\xBB\xBF"))
-        text_.erase(0, 3);
-      if (!trimmed(text_).empty())
-        return true;
-    }
-    return false;
-  }
-
   void read_header() {
-    if (!next_line())
+    if (!lines_.next())
       throw InputError(file_, "the contour file is empty", column_rule);
-    const auto fields = fields_of(text_);
+    const auto fields = fields_of(lines_.text(), ',');
     width_ = fields.size();
     at_.fill(width_);
     for (std::size_t i = 0; i < width_; ++i) {
       const auto* found = std::find(column_names.begin(), column_names.end(), fields[i]);
       if (found == column_names.end())
-        throw InputError(where(), fmt::format("unknown column \"{}\"", fields[i]), column_rule);
+        throw InputError(lines_.where(), fmt::format("unknown column \"{}\"", fields[i]),
+                         column_rule);
       auto& at = at_[found - column_names.begin()];
       if (at != width_)
-        throw InputError(where(), fmt::format("column \"{}\" appears twice", fields[i]),
+        throw InputError(lines_.where(), fmt::format("column \"{}\" appears twice", fields[i]),
                          column_rule);
       at = i;
     }
     for (int c = 0; c < columns_needed; ++c)
       if (at_[c] == width_)
-        throw InputError(where(), fmt::format("column \"{}\" is missing", column_names[c]),
+        throw InputError(lines_.where(), fmt::format("column \"{}\" is missing", column_names[c]),
                          column_rule);
   }
 
   [[nodiscard]] Row row() const {
-    const auto fields = fields_of(text_);
+    const auto fields = fields_of(lines_.text(), ',');
     if (fields.size() != width_)
-      throw InputError(where(),
+      throw InputError(lines_.where(),
                        fmt::format("{} values in a table of {} columns", fields.size(), width_),
                        "Give every line one value per column");
     const auto field = [&](Column c) { return fields[at_[c]]; };
@@ -120,7 +89,7 @@ class Table {
             side(field(contour)),
             {coordinate(field(x_mm), "x_mm"), coordinate(field(y_mm), "y_mm"),
              coordinate(field(z_mm), "z_mm")},
-            line_};
+            lines_.number()};
   }
 
   template <class Number>
@@ -133,7 +102,7 @@ class Table {
   [[nodiscard]] int whole_number(std::string_view text, const char* column) const {
     int value = 0;
     if (!parse(text, value))
-      throw InputError(where(), fmt::format("{} \"{}\" is not a whole number", column, text),
+      throw InputError(lines_.where(), fmt::format("{} \"{}\" is not a whole number", column, text),
                        "Number slices and points 1, 2, 3 and so on");
     return value;
   }
@@ -141,7 +110,8 @@ class Table {
   [[nodiscard]] double coordinate(std::string_view text, const char* column) const {
     double value = 0.0;
     if (!parse(text, value) || !std::isfinite(value))
-      throw InputError(where(), fmt::format("{} \"{}\" is not a finite number", column, text),
+      throw InputError(lines_.where(),
+                       fmt::format("{} \"{}\" is not a finite number", column, text),
                        "Give the point's position in scanner millimetres or remove the line");
     return value;
   }
@@ -151,14 +121,12 @@ class Table {
       return Side::endo;
     if (text == "epi")
       return Side::epi;
-    throw InputError(where(), fmt::format("unknown contour \"{}\"", text),
+    throw InputError(lines_.where(), fmt::format("unknown contour \"{}\"", text),
                      "A contour is endo (inner border of the muscle) or epi (outer border)");
   }
 
   std::string file_;
-  std::ifstream stream_;
-  std::string text_;
-  int line_ = 0;
+  LineReader lines_;
   std::size_t width_ = 0;
   std::array<std::size_t, column_count> at_{};  ///< position of each column; width_: not there
 };

@@ -1,6 +1,7 @@
 #include "lv/image/dicom_file.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/lines.hpp"
 
 #include <fmt/format.h>
 #include <gdcmImageReader.h>
@@ -87,14 +88,6 @@ bool survives(const Work& work) {
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   return WIFEXITED(status) && WEXITSTATUS(status) == 0;
-}
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view blank(" \t\r\n\0", 5);
-  const auto first = text.find_first_not_of(blank);
-  if (first == std::string_view::npos)
-    return {};
-  return text.substr(first, text.find_last_not_of(blank) - first + 1);
 }
 
 std::optional<double> number_of(std::string_view text) {

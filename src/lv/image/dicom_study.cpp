@@ -327,18 +327,23 @@ std::string describe(const DicomStudy& study) {
   return text;
 }
 
+void require_images(const DicomStudy& study, const std::string& where) {
+  if (!study.stacks.empty())
+    return;
+  throw InputError(
+      where,
+      fmt::format(
+          "holds no DICOM image with a place in space{}",
+          study.skipped.empty()
+              ? ", nor any other file"
+              : fmt::format("; {} file{} skipped, the first: {}", study.skipped.size(),
+                            study.skipped.size() == 1 ? " was" : "s were", study.skipped.front())),
+      "Name the folder with the images of the scanner");
+}
+
 DicomStack choose_stack(const DicomStudy& study, std::span<const std::string> series,
                         const std::string& where, const std::string& parameter) {
-  if (study.stacks.empty())
-    throw InputError(
-        where,
-        fmt::format("holds no DICOM image with a place in space{}",
-                    study.skipped.empty()
-                        ? ""
-                        : fmt::format("; {} file{} skipped, the first: {}", study.skipped.size(),
-                                      study.skipped.size() == 1 ? " was" : "s were",
-                                      study.skipped.front())),
-        "Name the folder with the images of the scanner");
+  require_images(study, where);
   if (series.empty() && study.stacks.size() > 1)
     fail_choice(study, where, fmt::format("holds {} stacks of images", study.stacks.size()),
                 parameter);

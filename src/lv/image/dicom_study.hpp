@@ -42,6 +42,10 @@ struct DicomStudy {
 /// A line per stack: key, description, slices, images per slice, size, spacing, orientation, RR.
 [[nodiscard]] std::string describe(const DicomStudy& study);
 
+/// Throws InputError with the reason why the first file was skipped unless there is a stack;
+/// `where` names the files.
+void require_images(const DicomStudy& study, const std::string& where);
+
 /// The stacks that a user names, joined to one: each name is a key, a series number, a
 /// SeriesInstanceUID or a description (then all series that bear it). Without names there must be
 /// one stack only. `where` and `parameter` are for messages. Throws InputError with the list of

@@ -1,6 +1,7 @@
 #include "lv/image/guide_points.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/lines.hpp"
 #include "lv/geometry/contour_measures.hpp"
 
 #include <Eigen/Geometry>
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <numbers>
 #include <set>
@@ -42,29 +42,20 @@ std::string lower(std::string_view text) {
   return result;
 }
 
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r\"");
-  return first == std::string_view::npos
-             ? std::string_view()
-             : text.substr(first, text.find_last_not_of(" \t\r\"") - first + 1);
-}
-
-std::vector<std::string_view> fields_of(std::string_view line) {
-  std::vector<std::string_view> fields;
-  for (;;) {
-    const auto tab = line.find('\t');
-    fields.push_back(trimmed(line.substr(0, tab)));
-    if (tab == std::string_view::npos)
-      return fields;
-    line.remove_prefix(tab + 1);
-  }
+/// The fields of a line, without quotation marks.
+std::vector<std::string_view> columns_of(std::string_view line) {
+  std::vector<std::string_view> fields = fields_of(line, '\t');
+  for (std::string_view& field : fields)
+    if (field.size() > 1 && field.front() == '"' && field.back() == '"')
+      field = trimmed(field.substr(1, field.size() - 2));
+  return fields;
 }
 
 /// The file, line by line.
 class List {
  public:
-  explicit List(const fs::path& file) : file_(file.string()), stream_(file) {
-    if (!stream_ || !fs::is_regular_file(file))
+  explicit List(const fs::path& file) : file_(file.string()), lines_(file) {
+    if (!lines_.is_open())
       throw InputError(file_, "the list of points cannot be opened",
                        "Check the name and that it can be read");
     read_header();
@@ -72,7 +63,7 @@ class List {
 
   std::vector<Row> rows() {
     std::vector<Row> rows;
-    while (next_line())
+    while (lines_.next())
       rows.push_back(row());
     if (rows.empty())
       throw InputError(file_, "the list holds no points", "Write one point a line");
@@ -80,23 +71,10 @@ class List {
   }
 
  private:
-  [[nodiscard]] std::string where() const { return fmt::format("{}:{}", file_, line_); }
-
-  bool next_line() {
-    while (std::getline(stream_, text_)) {
-      ++line_;
-      if (line_ == 1 && text_.starts_with("\xEF\xBB\xBF"))
-        text_.erase(0, 3);
-      if (!trimmed(text_).empty())
-        return true;
-    }
-    return false;
-  }
-
   void read_header() {
-    if (!next_line())
+    if (!lines_.next())
       throw InputError(file_, "the list of points is empty", column_rule);
-    const auto fields = fields_of(text_);
+    const auto fields = columns_of(lines_.text());
     width_ = fields.size();
     const auto column = [&](const std::vector<std::string>& names) {
       for (std::size_t i = 0; i < fields.size(); ++i)
@@ -110,17 +88,18 @@ class List {
     const std::array<const char*, 5> needed{"x", "y", "z", "contour type", "slice"};
     for (std::size_t c = 0; c < needed.size(); ++c)
       if (at_[c] < 0)
-        throw InputError(where(), fmt::format("column \"{}\" is missing", needed[c]), column_rule);
+        throw InputError(lines_.where(), fmt::format("column \"{}\" is missing", needed[c]),
+                         column_rule);
   }
 
   [[nodiscard]] Row row() const {
-    const auto fields = fields_of(text_);
+    const auto fields = columns_of(lines_.text());
     if (fields.size() < width_)
-      throw InputError(where(),
+      throw InputError(lines_.where(),
                        fmt::format("{} values in a table of {} columns", fields.size(), width_),
                        "Give every line one value per column, separated by tabs");
     Row row;
-    row.line = line_;
+    row.line = lines_.number();
     for (int d = 0; d < 3; ++d)
       row.x[d] = number(fields[at_[d]]);
     row.type = fields[at_[3]];
@@ -134,7 +113,7 @@ class List {
     const char* end = text.data() + text.size();
     const auto result = std::from_chars(text.data(), end, value);
     if (result.ec != std::errc() || result.ptr != end || !std::isfinite(value))
-      throw InputError(where(), fmt::format("\"{}\" is not a finite number", text),
+      throw InputError(lines_.where(), fmt::format("\"{}\" is not a finite number", text),
                        "Give positions in scanner millimetres");
     return value;
   }
@@ -143,15 +122,13 @@ class List {
   [[nodiscard]] int whole(std::string_view text) const {
     const double value = number(text);
     if (value != std::round(value) || std::abs(value) > 1e9)
-      throw InputError(where(), fmt::format("\"{}\" is not a whole number", text),
+      throw InputError(lines_.where(), fmt::format("\"{}\" is not a whole number", text),
                        "Number slices and times 0, 1, 2 and so on");
     return static_cast<int>(value);
   }
 
   std::string file_;
-  std::ifstream stream_;
-  std::string text_;
-  int line_ = 0;
+  LineReader lines_;
   std::size_t width_ = 0;
   std::array<int, 6> at_{};
 };

@@ -2,6 +2,7 @@
 
 #include "lv/base/check.hpp"
 #include "lv/image/plane_mask.hpp"
+#include "lv/image/short_axis_labels.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <fmt/format.h>
@@ -122,7 +123,7 @@ class Tracer {
     if (found.size() > 1) {
       const double second = static_cast<double>(found[1].count()) * slice.pixel_area();
       const double first = static_cast<double>(found[0].count()) * slice.pixel_area();
-      if (second >= largest_island * first)
+      if (second >= largest_island * first && outline(found[0]).size() >= least_points)
         refuse(slice,
                fmt::format("{} is in {} parts, the largest of {:.0f} and {:.0f} mm2", of,
                            found.size(), first, second),
@@ -318,12 +319,15 @@ double volume_of(const Volume& volume, const std::vector<int>& labels, int frame
 }  // namespace
 
 LabelContours trace_labels(const Volume& volume, const LabelMeaning& meaning, int frame) {
+  const std::optional<Volume> resampled =
+      on_short_axis(volume, meaning.cavity, meaning.muscle, frame);
+  const Volume& stack = resampled ? *resampled : volume;
   LabelContours traced;
-  traced.notes = volume.notes;
-  Tracer tracer(volume, meaning, traced.notes);
+  traced.notes = stack.notes;
+  Tracer tracer(stack, meaning, traced.notes);
   std::vector<Slice> traces;
   int number = 0;
-  for (const Picture& picture : slices(volume, slice_axis(volume), frame))
+  for (const Picture& picture : slices(stack, slice_axis(stack), resampled ? 0 : frame))
     traces.push_back(tracer.trace(picture, ++number));
   const Run run = main_run(traces, volume.file, traced.notes);
   check_across(traces, run, volume.file, traced.notes);

@@ -32,14 +32,15 @@ struct LabelContours {
 /// - Muscle or other labels that the cavity encloses count to the cavity (papillary muscles); more
 ///   than 30% of a slice is refused, for then the labels seem swapped.
 /// - Of several parts the largest is taken and the rest dropped; a second part of 20% or more is
-///   refused.
+///   refused, unless the largest is too small for a border.
 /// - Where the muscle is open on part of a slice the loops touch or cross: see close_walls.
 /// - A gap of one slice in the cavity is left to the fit; behind a wider one parts of less than 20%
 ///   of the cavity are dropped, larger ones refused.
-/// - Slices whose normal lies more than 25 degrees from the long axis of the cavity are refused,
-/// more
-///   than 15 noted. The long axis is the principal axis of the cavity's pixels, if their standard
-///   deviation along it is 1.25 times the next one and the next is nearer to the third.
+/// - A map of small voxels whose slices lie askew to the long axis is first resampled: see
+///   on_short_axis. Otherwise slices whose normal lies more than 25 degrees from the long axis of
+///   the cavity are refused, more than 15 noted. The long axis is then the principal axis of the
+///   cavity's pixels, if their standard deviation along it is 1.25 times the next one and the next
+///   is nearer to the third.
 /// - A wall that reaches the edge of the image is noted.
 /// - Slices with muscle alone count beyond the apex (the end with the smaller cavity), next to it;
 ///   elsewhere they are left out.

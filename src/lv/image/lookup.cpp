@@ -13,8 +13,11 @@ bool is_one_of(float value, const std::vector<int>& labels) {
                      [value](int label) { return value == static_cast<float>(label); });
 }
 
-/// Of a point over the pixels of a picture, linear between them; NaN outside.
-double bilinear(const Picture& picture, double i, double j) {
+/// Of a point above or below a picture: linear between its pixels; NaN beyond them.
+double bilinear(const Picture& picture, const Vec3& place) {
+  const Vec3 pixel = picture.plane.pixel(place);
+  const double i = pixel.x();
+  const double j = pixel.y();
   const int columns = picture.plane.columns;
   const int rows = picture.plane.rows;
   if (!(i >= -0.5 && j >= -0.5 && i <= columns - 0.5 && j <= rows - 0.5))
@@ -27,6 +30,24 @@ double bilinear(const Picture& picture, double i, double j) {
   const double v = y - j0;
   return (1 - u) * (1 - v) * picture.at(i0, j0) + u * (1 - v) * picture.at(i0 + 1, j0) +
          (1 - u) * v * picture.at(i0, j0 + 1) + u * v * picture.at(i0 + 1, j0 + 1);
+}
+
+/// A slice and its signed distance from a point, along the normal of the first slice [mm].
+struct Level {
+  const Picture* picture;
+  double height;
+};
+
+std::vector<Level> levels_by_distance(const Cine& stack, const Vec3& x) {
+  std::vector<Level> levels;
+  for (const CineSlice& slice : stack.slices) {
+    const Picture& picture = slice.frames.front();
+    const Vec3 normal = stack.slices.front().frames.front().plane.normal();
+    levels.push_back({&picture, normal.dot(picture.plane.origin - x)});
+  }
+  std::sort(levels.begin(), levels.end(),
+            [](const Level& a, const Level& b) { return std::abs(a.height) < std::abs(b.height); });
+  return levels;
 }
 
 }  // namespace
@@ -86,27 +107,22 @@ std::vector<Vec3> slice_moves(const Volume& volume, const std::vector<int>& labe
 
 double sample(const Cine& stack, const Vec3& x) {
   constexpr double alone = 5.0;  // half a slab [mm]
-  const Picture* nearest = nullptr;
-  double distance = std::numeric_limits<double>::infinity();
-  for (const CineSlice& slice : stack.slices) {
-    const double d = std::abs(slice.frames.front().plane.pixel(x).z());
-    if (d < distance) {
-      distance = d;
-      nearest = &slice.frames.front();
-    }
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<Level> levels = levels_by_distance(stack, x);
+  if (levels.empty())
+    return nan;
+  const Level& nearest = levels.front();
+  const double value = bilinear(*nearest.picture, x);
+  const auto other = std::find_if(levels.begin(), levels.end(), [&](const Level& level) {
+    return level.height * nearest.height < 0.0;
+  });
+  if (other != levels.end()) {
+    const double further = bilinear(*other->picture, x);
+    const double u = nearest.height / (nearest.height - other->height);
+    return std::isnan(further) ? value : (1.0 - u) * value + u * further;
   }
-  if (nearest == nullptr)
-    return std::numeric_limits<double>::quiet_NaN();
-  double neighbour = std::numeric_limits<double>::infinity();
-  for (const CineSlice& slice : stack.slices)
-    if (&slice.frames.front() != nearest)
-      neighbour = std::min(neighbour,
-                           std::abs(slice.frames.front().plane.pixel(nearest->plane.origin).z()));
-  const double half = std::isfinite(neighbour) ? 0.5 * neighbour : alone;
-  if (distance > half + 1e-6)
-    return std::numeric_limits<double>::quiet_NaN();
-  const Vec3 ij = nearest->plane.pixel(x);
-  return bilinear(*nearest, ij.x(), ij.y());
+  const double half = levels.size() > 1 ? 0.5 * std::abs(levels[1].height - nearest.height) : alone;
+  return std::abs(nearest.height) > half + 1e-6 ? nan : value;
 }
 
 }  // namespace lv::image

@@ -25,9 +25,10 @@ struct Weighted {
 [[nodiscard]] std::vector<Vec3> slice_moves(const Volume& volume, const std::vector<int>& labels,
                                             std::span<const Weighted> wall);
 
-/// The value of a stack of images (first frames) at x: linear between the pixels of the nearest
-/// slice; NaN beyond its pixels, or farther from it than half the way to its neighbour (for a
-/// single slice, 5 mm).
+/// The value of a stack of images (first frames) at x, linear between the pixels of a slice and
+/// between the two slices that x lies between: an edge across a slab makes it half as bright, and
+/// is so found within the slab. Beyond the first and the last slice theirs, up to half the way to
+/// where the next would be (for a single slice, 5 mm); NaN farther and beyond the pixels.
 [[nodiscard]] double sample(const Cine& stack, const Vec3& x);
 
 }  // namespace lv::image

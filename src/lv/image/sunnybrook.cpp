@@ -1,15 +1,16 @@
 #include "lv/image/sunnybrook.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/lines.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <optional>
 #include <regex>
+#include <string_view>
 
 namespace lv::image {
 namespace {
@@ -72,7 +73,7 @@ Place place_of(const std::multimap<int, Place>& places, int instance, const fs::
 }
 
 /// Two numbers, separated by blanks or a comma.
-std::optional<Eigen::Vector2d> parse_point(const std::string& line) {
+std::optional<Eigen::Vector2d> parse_point(std::string_view line) {
   Eigen::Vector2d x;
   const char* at = line.data();
   const char* end = line.data() + line.size();
@@ -92,29 +93,26 @@ std::optional<Eigen::Vector2d> parse_point(const std::string& line) {
 }
 
 Contour read_contour(const fs::path& file, const Place& place, Side side, PixelOrigin origin) {
-  std::ifstream stream(file);
-  if (!stream)
+  LineReader lines(file);
+  if (!lines.is_open())
     throw InputError(file.string(), "the contour file cannot be opened",
                      "Check that it can be read");
   const Plane& plane = place.image->plane;
   const double shift = origin == PixelOrigin::corner ? 0.5 : 0.0;
   Contour contour{place.slice, side, {}, file.string(), {}};
-  std::string text;
-  for (int line = 1; std::getline(stream, text); ++line) {
-    if (text.find_first_not_of(" \t\r") == std::string::npos)
-      continue;
-    const auto x = parse_point(text);
+  while (lines.next()) {
+    const auto x = parse_point(lines.text());
     if (!x)
-      throw InputError(fmt::format("{}:{}", file.string(), line), "is no point \"x y\"",
+      throw InputError(lines.where(), "is no point \"x y\"",
                        "Give one point a line: two numbers, in pixels");
     if (x->x() < -1.0 || x->y() < -1.0 || x->x() > plane.columns + 1.0 || x->y() > plane.rows + 1.0)
       throw InputError(
-          fmt::format("{}:{}", file.string(), line),
+          lines.where(),
           fmt::format("the point ({:g}, {:g}) lies outside the image of {} x {} pixels", x->x(),
                       x->y(), plane.columns, plane.rows),
           "Coordinates are in pixels of the DICOM image");
     contour.points.push_back(plane.point(x->x() - shift, x->y() - shift));
-    contour.lines.push_back(line);
+    contour.lines.push_back(lines.number());
   }
   if (contour.points.empty())
     throw InputError(file.string(), "the contour file holds no points",

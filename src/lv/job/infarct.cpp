@@ -47,9 +47,15 @@ std::string file_of(const Case& c, const std::string& parameter, const std::stri
   return beside(c, name).string();
 }
 
-/// The infarcted elements, of which there must be one; `where` is the infarct's place in words.
-Infarcted checked(const Case& c, const Shape& shape, const Mesh& mesh, Infarcted&& infarcted,
-                  const std::string& where) {
+/// What is infarcted of the wall, per element.
+struct Infarct {
+  Infarcted elements;        ///< whose centre is
+  std::vector<double> part;  ///< of its volume
+};
+
+/// Throws unless an element is infarcted; `where` is the infarct's place in words.
+void check_found(const Case& c, const Shape& shape, const Mesh& mesh, const Infarcted& infarcted,
+                 const std::string& where) {
   if (std::find(infarcted.begin(), infarcted.end(), true) == infarcted.end())
     throw InputError(
         place_of(c, "infarct.source"),
@@ -57,21 +63,27 @@ Infarcted checked(const Case& c, const Shape& shape, const Mesh& mesh, Infarcted
                     "in image space",
                     where, place_of_wall(shape, mesh)),
         "Check the infarct's place, its unit and its size");
-  return std::move(infarcted);
 }
 
-Infarcted described(const Case& c, const Shape& shape, const Mesh& mesh) {
-  return checked(c, shape, mesh, mesh::infarcted_as_described(mesh, c.scar.described, c.regions),
-                 "as infarct.described says");
+Infarct within(const Case& c, const Shape& shape, const Mesh& mesh, const mesh::Region& region,
+               const std::string& where) {
+  Infarct infarct{mesh::infarcted_where(mesh, region), {}};
+  check_found(c, shape, mesh, infarct.elements, where);
+  infarct.part = mesh::infarcted_part(mesh, region);
+  return infarct;
 }
 
-Infarcted within_surface(const Case& c, const Shape& shape, const Mesh& mesh) {
+Infarct described(const Case& c, const Shape& shape, const Mesh& mesh) {
+  return within(c, shape, mesh, mesh::described_region(mesh, c.scar.described, c.regions),
+                "as infarct.described says");
+}
+
+Infarct within_surface(const Case& c, const Shape& shape, const Mesh& mesh) {
   const std::string file = file_of(c, "infarct.surface.file", c.scar.surface);
   const mesh::ClosedSurface surface = mesh::read_closed_surface(file, c.scar.length_unit);
-  return checked(
+  return within(
       c, shape, mesh,
-      mesh::infarcted_where(
-          mesh, [&](const Vec3& X) { return surface.contains(shape.frame.to_image(X)); }),
+      [&](const Vec3& X, double) { return surface.contains(shape.frame.to_image(X)); },
       fmt::format("{}: {}", file, format_box(surface.box())));
 }
 
@@ -89,48 +101,55 @@ Vec3 in_images(const Case& c, const Shape& shape, const Vec3& X) {
   return shape.frame.to_image(X) - Vec3(c.scar.shift[0], c.scar.shift[1], c.scar.shift[2]);
 }
 
-Infarcted within_nifti(const Case& c, const Shape& shape, const Mesh& mesh,
-                       const std::string& file) {
+/// How the slices of a map move until the middle of its muscle lies on that of the wall.
+std::vector<Vec3> moves_onto_wall(const Case& c, const Shape& shape, const Mesh& mesh,
+                                  const image::Volume& volume, std::vector<int> muscle) {
+  if (c.scar.muscle.empty())
+    throw InputError(place_of(c, "infarct.labels.in_plane"),
+                     "infarct.labels.muscle is not set: the slices are moved by the middle of all "
+                     "muscle",
+                     "Name the labels of healthy muscle too");
+  image::require_labels(volume, 0, c.scar.muscle, place_of(c, "infarct.labels.muscle"),
+                        "infarct.labels.muscle");
+  muscle.insert(muscle.end(), c.scar.muscle.begin(), c.scar.muscle.end());
+  std::vector<image::Weighted> wall;
+  for (int cell = 0; cell < mesh.cell_count(); ++cell)
+    wall.push_back(
+        {in_images(c, shape, mesh::cell_centre(mesh, cell)), mesh::cell_volume(mesh, cell)});
+  std::vector<Vec3> moves = image::slice_moves(volume, muscle, wall);
+  for (std::size_t s = 0; s < moves.size(); ++s)
+    if (moves[s].norm() > c.anatomy.contours.fit.largest_shift)
+      throw InputError(
+          place_of(c, "infarct.labels.in_plane"),
+          fmt::format("slice {} of {} would have to move by {:.1f} mm; at most {:g} mm are "
+                      "accepted",
+                      s + 1, volume.file, moves[s].norm(), c.anatomy.contours.fit.largest_shift),
+          "Check that both images share the scanner's coordinates, or set infarct.shift");
+  return moves;
+}
+
+/// Scar and its dark core.
+std::vector<int> infarcted_labels(const Case& c) {
+  std::vector<int> labels = c.scar.scar;
+  labels.insert(labels.end(), c.scar.no_reflow.begin(), c.scar.no_reflow.end());
+  return labels;
+}
+
+Infarct within_nifti(const Case& c, const Shape& shape, const Mesh& mesh, const std::string& file) {
   const image::Volume volume = image::read_nifti(file);
-  std::vector<int> wanted = c.scar.scar;
-  wanted.insert(wanted.end(), c.scar.no_reflow.begin(), c.scar.no_reflow.end());
   image::require_labels(volume, 0, c.scar.scar, place_of(c, "infarct.labels.scar"),
                         "infarct.labels.scar");
   image::require_labels(volume, 0, c.scar.no_reflow, place_of(c, "infarct.labels.no_reflow"),
                         "infarct.labels.no_reflow");
-  std::vector<Vec3> moves;
-  if (c.scar.in_plane) {
-    if (c.scar.muscle.empty())
-      throw InputError(
-          place_of(c, "infarct.labels.in_plane"),
-          "infarct.labels.muscle is not set: the slices are moved by the middle of all "
-          "muscle",
-          "Name the labels of healthy muscle too");
-    image::require_labels(volume, 0, c.scar.muscle, place_of(c, "infarct.labels.muscle"),
-                          "infarct.labels.muscle");
-    std::vector<int> muscle = wanted;
-    muscle.insert(muscle.end(), c.scar.muscle.begin(), c.scar.muscle.end());
-    std::vector<image::Weighted> wall;
-    for (int cell = 0; cell < mesh.cell_count(); ++cell)
-      wall.push_back(
-          {in_images(c, shape, mesh::cell_centre(mesh, cell)), mesh::cell_volume(mesh, cell)});
-    moves = image::slice_moves(volume, muscle, wall);
-    for (std::size_t s = 0; s < moves.size(); ++s)
-      if (moves[s].norm() > c.anatomy.contours.fit.largest_shift)
-        throw InputError(
-            place_of(c, "infarct.labels.in_plane"),
-            fmt::format("slice {} of {} would have to move by {:.1f} mm; at most {:g} mm are "
-                        "accepted",
-                        s + 1, file, moves[s].norm(), c.anatomy.contours.fit.largest_shift),
-            "Check that both images share the scanner's coordinates, or set infarct.shift");
-  }
-  return checked(c, shape, mesh,
-                 mesh::infarcted_where(mesh,
-                                       [&](const Vec3& X) {
-                                         return image::has_label(volume, in_images(c, shape, X),
-                                                                 wanted, moves);
-                                       }),
-                 fmt::format("in {}", file));
+  const std::vector<int> wanted = infarcted_labels(c);
+  const std::vector<Vec3> moves =
+      c.scar.in_plane ? moves_onto_wall(c, shape, mesh, volume, wanted) : std::vector<Vec3>{};
+  return within(
+      c, shape, mesh,
+      [&](const Vec3& X, double) {
+        return image::has_label(volume, in_images(c, shape, X), wanted, moves);
+      },
+      fmt::format("in {}", file));
 }
 
 /// The brightness at the centre of every element; NaN outside the image.
@@ -193,58 +212,72 @@ double scar_threshold(const Case& c, const Mesh& mesh, const std::vector<double>
   return mean + lge.deviations * std::sqrt(std::max(0.0, second / V - mean * mean));
 }
 
-Infarcted by_brightness(const Case& c, const Shape& shape, const Mesh& mesh) {
-  const std::vector<double> values = brightness(c, shape, mesh, read_lge(c));
+Infarct by_brightness(const Case& c, const Shape& shape, const Mesh& mesh) {
+  const image::Cine lge = read_lge(c);
+  const std::vector<double> values = brightness(c, shape, mesh, lge);
   if (std::all_of(values.begin(), values.end(), [](double v) { return std::isnan(v); }))
     throw InputError(place_of(c, "infarct.lge.image"),
                      fmt::format("{} shows nothing of the wall, which reaches {} in image space",
                                  c.scar.lge.image, place_of_wall(shape, mesh)),
                      "Check that both share the scanner's coordinates");
   const double threshold = scar_threshold(c, mesh, values);
-  Infarcted infarcted;
-  for (const double value : values)
-    infarcted.push_back(value > threshold);
-  infarcted = checked(c, shape, mesh, std::move(infarcted),
-                      fmt::format("brighter than {:.4g} in {}", threshold, c.scar.lge.image));
-  return c.scar.lge.fill_no_reflow ? mesh::with_enclosed(mesh, infarcted) : infarcted;
+  Infarct infarct = within(
+      c, shape, mesh,
+      [&](const Vec3& X, double) { return image::sample(lge, in_images(c, shape, X)) > threshold; },
+      fmt::format("brighter than {:.4g} in {}", threshold, c.scar.lge.image));
+  if (!c.scar.lge.fill_no_reflow)
+    return infarct;
+  const Infarcted filled = mesh::with_enclosed(mesh, infarct.elements);
+  for (std::size_t e = 0; e < filled.size(); ++e)
+    if (filled[e] && !infarct.elements[e])
+      infarct.part[e] = 1.0;
+  infarct.elements = filled;
+  return infarct;
 }
 
-Infarcted within_labels(const Case& c, const Shape& shape, const Mesh& mesh) {
+Infarct within_labels(const Case& c, const Shape& shape, const Mesh& mesh) {
   const std::string file = file_of(c, "infarct.labels.file", c.scar.labels);
   if (image::is_nifti_name(file))
     return within_nifti(c, shape, mesh, file);
   const mesh::LabelVolume volume(file, c.scar.array, c.scar.length_unit);
   check_labels(c, file, volume.labels());
-  std::vector<int> wanted = c.scar.scar;
-  wanted.insert(wanted.end(), c.scar.no_reflow.begin(), c.scar.no_reflow.end());
-  return checked(
+  const std::vector<int> wanted = infarcted_labels(c);
+  return within(
       c, shape, mesh,
-      mesh::infarcted_where(
-          mesh, [&](const Vec3& X) { return volume.has(in_images(c, shape, X), wanted); }),
+      [&](const Vec3& X, double) { return volume.has(in_images(c, shape, X), wanted); },
       fmt::format("in {}: {}", file, format_box(volume.box())));
 }
 
-Infarcted infarcted(const Case& c, const Shape& shape, const Mesh& mesh) {
-  if (c.scar.source == InfarctSource::described)
-    return described(c, shape, mesh);
-  if (c.scar.source == InfarctSource::surface)
-    return within_surface(c, shape, mesh);
-  if (c.scar.source == InfarctSource::labels)
-    return within_labels(c, shape, mesh);
-  if (c.scar.source == InfarctSource::lge)
-    return by_brightness(c, shape, mesh);
-  return checked(c, shape, mesh, Infarcted(shape.infarcted),
-                 fmt::format("the elements of \"{}\"", c.scar.set));
+Infarct of_elements(const Case& c, const Shape& shape, const Mesh& mesh) {
+  check_found(c, shape, mesh, shape.infarcted, fmt::format("the elements of \"{}\"", c.scar.set));
+  return {shape.infarcted, {shape.infarcted.begin(), shape.infarcted.end()}};
+}
+
+Infarct infarcted(const Case& c, const Shape& shape, const Mesh& mesh) {
+  switch (c.scar.source) {
+    case InfarctSource::described:
+      return described(c, shape, mesh);
+    case InfarctSource::surface:
+      return within_surface(c, shape, mesh);
+    case InfarctSource::labels:
+      return within_labels(c, shape, mesh);
+    case InfarctSource::lge:
+      return by_brightness(c, shape, mesh);
+    default:
+      return of_elements(c, shape, mesh);
+  }
 }
 
 }  // namespace
 
-std::vector<double> infarct_extent(const Case& c, const Shape& shape, const Mesh& mesh) {
+InfarctExtent infarct_extent(const Case& c, const Shape& shape, const Mesh& mesh) {
   if (c.scar.source == InfarctSource::mesh)
-    return mesh.infarct;
+    return {mesh.infarct, mesh::part_by_extent(mesh)};
   if (c.scar.source == InfarctSource::none)
-    return std::vector<double>(mesh.nodes.size(), 0.0);
-  return mesh::infarct_field(mesh, infarcted(c, shape, mesh), c.scar.border);
+    return {std::vector<double>(mesh.nodes.size(), 0.0),
+            std::vector<double>(mesh.cell_count(), 0.0)};
+  Infarct infarct = infarcted(c, shape, mesh);
+  return {mesh::infarct_field(mesh, infarct.elements, c.scar.border), std::move(infarct.part)};
 }
 
 Ingredients infarct_files(const Case& c) {
@@ -267,10 +300,11 @@ Ingredients infarct_files(const Case& c) {
   return files;
 }
 
-Table infarct_table(const Case& c, const Mesh& mesh, const mesh::Regions& regions) {
+Table infarct_table(const Case& c, const MeshResult& wall) {
   Table table({"segment", "name", "wall_ml", "infarct_ml", "infarct_g", "infarct_percent",
                "transmurality_percent"});
-  for (const mesh::SegmentInfarct& s : mesh::infarct_by_segment(mesh, regions, c.regions))
+  for (const mesh::SegmentInfarct& s :
+       mesh::infarct_by_segment(wall.mesh, wall.infarcted, wall.regions, c.regions))
     table.add_row({std::to_string(s.segment), mesh::aha_name(s.segment),
                    Table::number(1e-3 * s.wall), Table::number(1e-3 * s.infarct),
                    Table::number(1e3 * c.blood.density * s.infarct),
@@ -279,8 +313,8 @@ Table infarct_table(const Case& c, const Mesh& mesh, const mesh::Regions& region
   return table;
 }
 
-std::string describe_infarct(const Case& c, const Mesh& mesh) {
-  const mesh::InfarctVolumes v = mesh::infarct_volumes(mesh);
+std::string describe_infarct(const Case& c, const MeshResult& wall) {
+  const mesh::InfarctVolumes v = mesh::infarct_volumes(wall.mesh, wall.infarcted);
   if (v.infarct + v.border == 0.0)
     return "";
   const auto part = [&](const char* name, double volume) {

@@ -73,16 +73,7 @@ std::string list_nifti(const ListOptions& options) {
 std::string list_dicom(const ListOptions& options) {
   const image::DicomStudy study = image::read_dicom_study(std::array{options.where});
   std::string text = image::describe(study);
-  if (study.stacks.empty())
-    throw InputError(
-        options.where.string(),
-        fmt::format("holds no DICOM image with a place in space{}",
-                    study.skipped.empty()
-                        ? ", nor any other file"
-                        : fmt::format("; {} file{} skipped, the first {}", study.skipped.size(),
-                                      study.skipped.size() == 1 ? " was" : "s were",
-                                      study.skipped.front())),
-        "Name the folder with the images of the scanner");
+  image::require_images(study, options.where.string());
   constexpr std::size_t most = 20;
   for (std::size_t i = 0; i < std::min(most, study.skipped.size()); ++i)
     text += fmt::format("skipped {}\n", study.skipped[i]);

@@ -243,8 +243,8 @@ void declare_infarct(Declarations& d) {
   d.table = "infarct.lge";
   d.text(
       "image", LV_AT(scar.lge.image),
-      "late-enhancement image: a NIfTI file or a folder of DICOM files; it is read at the centres "
-      "of the wall's elements, from the nearest slice");
+      "late-enhancement image: a NIfTI file or a folder of DICOM files; linear between pixels and "
+      "between slices");
   d.text_list("series", LV_AT(scar.lge.series),
               "DICOM series to use, as `ventricle images` lists them; may be left out if there is "
               "one");

@@ -397,7 +397,7 @@ std::string validate(const Case& c) {
       "{:.1f}, {:.1f}) mm with scaled Jacobian {:.2f}\n",
       q.cells, q.nodes, q.edge_length.mean, q.worst_cell, q.worst_place.x(), q.worst_place.y(),
       q.worst_place.z(), q.scaled_jacobian.min);
-  if (const std::string infarct = describe_infarct(c, m); !infarct.empty())
+  if (const std::string infarct = describe_infarct(c, result); !infarct.empty())
     text += fmt::format("  {}\n", infarct);
   return text + (c.engine == Engine::immersed ? immersed_cost(c, m) : static_size(c, m));
 }

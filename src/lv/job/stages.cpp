@@ -161,7 +161,8 @@ report::RunFacts run_facts(const Case& c, const MeshResult& mesh, const BeatResu
 /// The segments that the infarct touches.
 std::vector<report::SegmentScar> scar_facts(const Case& c, const MeshResult& mesh) {
   std::vector<report::SegmentScar> facts;
-  for (const mesh::SegmentInfarct& s : mesh::infarct_by_segment(mesh.mesh, mesh.regions, c.regions))
+  for (const mesh::SegmentInfarct& s :
+       mesh::infarct_by_segment(mesh.mesh, mesh.infarcted, mesh.regions, c.regions))
     if (s.infarct > 0.0)
       facts.push_back({mesh::aha_name(s.segment), s.infarct, c.blood.density * s.infarct,
                        s.infarct / s.wall, s.transmurality});
@@ -225,13 +226,16 @@ std::string beside_measured(const Case& c, const MeshResult& mesh, const BeatRes
 MeshResult make_mesh(const Case& c, const Shape& shape) {
   MeshResult result;
   result.mesh = shape.given ? *shape.given : mesh::wall_mesh(shape.wall, mesh_parameters(c));
-  result.mesh.infarct = infarct_extent(c, shape, result.mesh);
+  InfarctExtent infarct = infarct_extent(c, shape, result.mesh);
+  result.mesh.infarct = std::move(infarct.M);
+  result.infarcted = std::move(infarct.part);
   if (c.engine == Engine::immersed) {
     check_box(c, result.mesh);
     check_spacing(c, result.mesh);
   } else if (c.quasi_static.order == 2 && result.mesh.order == 1) {
-    result.mesh =
-        mesh::refine(result.mesh);  // each element of a given mesh becomes a quadratic one
+    // each element of a given mesh becomes a quadratic one
+    result.mesh = mesh::refine(result.mesh);
+    result.infarcted = mesh::refine_numbers(result.infarcted);
   }
   result.regions = mesh::divide(result.mesh, c.regions);
   return result;
@@ -246,6 +250,7 @@ void write_mesh_result(const MeshResult& result, const std::filesystem::path& fo
   archive.set("cells", as_numbers(m.cells));
   archive.set("transmural", m.transmural);
   archive.set("infarct", m.infarct);
+  archive.set("infarcted", result.infarcted);
   store(m.endo, "endo", archive);
   store(m.epi, "epi", archive);
   store(m.base, "base", archive);
@@ -264,9 +269,9 @@ void show_mesh(const MeshResult& result, const Case& c, const std::filesystem::p
   report::quality_table(mesh::quality(m)).write_csv(folder / "quality.csv");
   report::write(report::mesh_figure(m), folder / "mesh.png");
   report::write(report::fibre_figure(m, undeformed), folder / "fibres.png");
-  if (const std::string infarct = describe_infarct(c, m); !infarct.empty()) {
+  if (const std::string infarct = describe_infarct(c, result); !infarct.empty()) {
     log::info("{}", infarct);
-    infarct_table(c, m, result.regions).write_csv(folder / "infarct.csv");
+    infarct_table(c, result).write_csv(folder / "infarct.csv");
     report::write(report::infarct_figure(m), folder / "infarct.png");
   }
 }
@@ -283,6 +288,7 @@ MeshResult read_mesh_result(const std::filesystem::path& folder) {
   m.cells = as_whole(archive.get("cells"));
   m.transmural = archive.get("transmural");
   m.infarct = archive.get("infarct");
+  result.infarcted = archive.get("infarcted");
   m.endo = load_surface(archive, "endo");
   m.epi = load_surface(archive, "epi");
   m.base = load_surface(archive, "base");
@@ -353,8 +359,8 @@ std::string make_results(const Case& c, const MeshResult& mesh, const BeatResult
   facts.unloaded = unloaded;
   facts.scar = scar_facts(c, mesh);
   write_file(folder / "summary.json", report::summary_json(facts, beat.beat, results));
-  if (!describe_infarct(c, mesh.mesh).empty())
-    infarct_table(c, mesh.mesh, mesh.regions).write_csv(folder / "infarct.csv");
+  if (!describe_infarct(c, mesh).empty())
+    infarct_table(c, mesh).write_csv(folder / "infarct.csv");
   report::regions_table(results).write_csv(folder / "regions.csv");
   report::rotation_table(results).write_csv(folder / "rotation.csv");
   report::curves_table(beat.beat.curves).write_csv(folder / "curves.csv");

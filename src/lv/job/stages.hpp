@@ -14,6 +14,7 @@ namespace lv::job {
 struct MeshResult {
   mesh::Mesh mesh;
   mesh::Regions regions;
+  std::vector<double> infarcted;  ///< per element: the part of its volume that is infarcted
 };
 
 /// Throws InputError when the mesh is too coarse for the grid.

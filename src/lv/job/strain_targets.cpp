@@ -2,6 +2,7 @@
 
 #include "lv/analysis/regional.hpp"
 #include "lv/base/check.hpp"
+#include "lv/base/lines.hpp"
 #include "lv/base/parallel.hpp"
 
 #include <fmt/format.h>
@@ -10,7 +11,6 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <optional>
 
 namespace lv::job {
@@ -20,28 +20,10 @@ constexpr const char* columns_rule =
     "The first line must be slice,segment,strain; then one line per segment, for instance "
     "3,ant,-0.19 or aha,7,-0.18";
 
-std::string trimmed(const std::string& text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  if (first == std::string::npos)
-    return "";
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
 std::string lower_case(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
-}
-
-std::vector<std::string> fields_of(const std::string& line) {
-  std::vector<std::string> fields;
-  for (std::size_t from = 0;;) {
-    const auto comma = line.find(',', from);
-    fields.push_back(trimmed(line.substr(from, comma - from)));
-    if (comma == std::string::npos)
-      return fields;
-    from = comma + 1;
-  }
 }
 
 template <class Number>
@@ -61,61 +43,56 @@ class StrainFile {
       : regions_(regions),
         least_(c.calibration.strain_measure == StrainMeasure::green_lagrange ? -0.5 : -1.0),
         file_(beside(c, c.calibration.strains).string()),
-        stream_(file_) {
-    if (!stream_)
+        lines_(file_) {
+    if (!lines_.is_open())
       throw InputError(place_of(c, "calibrate.strains"), fmt::format("{} cannot be opened", file_),
                        "Check the name; it is relative to the case file");
   }
 
   std::vector<StrainTarget> read() {
     if (!next_line() || lower_case(join()) != "slice,segment,strain")
-      throw InputError(where(), "these are not the columns of regional strains", columns_rule);
+      throw InputError(lines_.where(), "these are not the columns of regional strains",
+                       columns_rule);
     std::vector<StrainTarget> targets;
     while (next_line()) {
       StrainTarget target = row();
       for (const StrainTarget& other : targets)
         if (other.measured.region == target.measured.region)
-          throw InputError(where(),
+          throw InputError(lines_.where(),
                            fmt::format("segment {} is there twice", target.measured.region),
                            "Give one strain per segment");
       targets.push_back(std::move(target));
     }
     if (targets.empty())
-      throw InputError(where(), "the file holds no strains", columns_rule);
+      throw InputError(lines_.where(), "the file holds no strains", columns_rule);
     return targets;
   }
 
  private:
-  [[nodiscard]] std::string where() const { return fmt::format("{}:{}", file_, line_); }
   [[nodiscard]] std::string join() const { return fmt::format("{}", fmt::join(fields_, ",")); }
 
   bool next_line() {
-    for (std::string text; std::getline(stream_, text);) {
-      ++line_;
-      if (line_ == 1 && text.starts_with("\xEF\xBB\xBF"))
-        text.erase(0, 3);
-      if (trimmed(text).empty())
-        continue;
-      fields_ = fields_of(text);
-      return true;
-    }
-    return false;
+    if (!lines_.next())
+      return false;
+    const auto fields = fields_of(lines_.text(), ',');
+    fields_.assign(fields.begin(), fields.end());
+    return true;
   }
 
   StrainTarget row() {
     if (fields_.size() != 3)
-      throw InputError(where(), fmt::format("has {} values instead of 3", fields_.size()),
+      throw InputError(lines_.where(), fmt::format("has {} values instead of 3", fields_.size()),
                        columns_rule);
     StrainTarget target = lower_case(fields_[0]) == "aha" ? aha_segment() : sector();
     const auto strain = parse<double>(fields_[2]);
     if (!strain || !(*strain > least_) || !(*strain < 2.0))
       throw InputError(
-          where(),
+          lines_.where(),
           fmt::format("strain \"{}\" is not a number above {:g} and below 2", fields_[2], least_),
           "Strain is a fraction: -0.19 for 19% shortening");
     target.measured.value = *strain;
     if (target.cells.empty())
-      throw InputError(where(),
+      throw InputError(lines_.where(),
                        fmt::format("the mesh has no element in segment {}", target.measured.region),
                        "Leave the segment out, or take a finer mesh");
     return target;
@@ -124,7 +101,7 @@ class StrainFile {
   StrainTarget aha_segment() {
     const auto number = parse<int>(fields_[1]);
     if (!number || *number < 1 || *number > 17)
-      throw InputError(where(), fmt::format("segment \"{}\" is not of 1 to 17", fields_[1]),
+      throw InputError(lines_.where(), fmt::format("segment \"{}\" is not of 1 to 17", fields_[1]),
                        "The segments of the American Heart Association are numbered 1 to 17");
     StrainTarget target{{fmt::format("{} {}", *number, mesh::aha_name(*number)), 0.0}, {}};
     for (std::size_t c = 0; c < regions_.aha.size(); ++c)
@@ -136,14 +113,16 @@ class StrainFile {
   StrainTarget sector() {
     const auto slice = parse<int>(fields_[0]);
     if (!slice || *slice < 1 || *slice > mesh::slice_count)
-      throw InputError(where(), fmt::format("slice \"{}\" is neither 1 to 7 nor aha", fields_[0]),
+      throw InputError(lines_.where(),
+                       fmt::format("slice \"{}\" is neither 1 to 7 nor aha", fields_[0]),
                        "Slices are counted from the base");
     std::vector<std::string> names;
     for (int k = 1; k <= mesh::sectors_of_slice(*slice); ++k)
       names.push_back(mesh::sector_name(*slice, k));
     const auto found = std::find(names.begin(), names.end(), lower_case(fields_[1]));
     if (found == names.end())
-      throw InputError(where(), fmt::format("slice {} has no segment \"{}\"", *slice, fields_[1]),
+      throw InputError(lines_.where(),
+                       fmt::format("slice {} has no segment \"{}\"", *slice, fields_[1]),
                        fmt::format("Its segments are {}", fmt::join(names, ", ")));
     const int sector = static_cast<int>(found - names.begin()) + 1;
     StrainTarget target{{fmt::format("{} {}", *slice, *found), 0.0}, {}};
@@ -156,9 +135,8 @@ class StrainFile {
   const mesh::Regions& regions_;
   double least_;
   std::string file_;
-  std::ifstream stream_;
+  LineReader lines_;
   std::vector<std::string> fields_;
-  int line_ = 0;
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "lv/base/check.hpp"
 #include "lv/mesh/cell.hpp"
 #include "lv/mesh/distance.hpp"
+#include "lv/mesh/spread_points.hpp"
 #include "lv/mesh/surface.hpp"
 
 #include <algorithm>
@@ -22,24 +23,16 @@ double apex_z(const Mesh& mesh) {
   return z;
 }
 
-double mean_transmural(const Mesh& mesh, int cell) {
-  double sum = 0.0;
-  for (const int a : mesh.cell(cell))
-    sum += mesh.transmural[a];
-  return sum / static_cast<double>(mesh.cell(cell).size());
-}
-
-/// The faces of a cell, each by its nodes.
+/// The faces of a cell, each by its nodes in ascending order.
 std::vector<std::vector<int>> faces_of(const Mesh& mesh, int c) {
-  static const std::vector<std::vector<int>> hexahedron{{0, 1, 2, 3}, {4, 5, 6, 7}, {0, 1, 5, 4},
-                                                        {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
-  static const std::vector<std::vector<int>> tetrahedron{
-      {0, 1, 2}, {0, 1, 3}, {1, 2, 3}, {0, 2, 3}};
-  std::vector<std::vector<int>> faces =
-      mesh.kind == CellKind::hexahedron ? hexahedron : tetrahedron;
-  for (auto& face : faces)
-    for (int& a : face)
-      a = mesh.cell(c)[a];
+  std::vector<std::vector<int>> faces;
+  for (const LocalFace& local : cell_faces(mesh.kind)) {
+    std::vector<int>& face = faces.emplace_back();
+    for (const int a : local)
+      if (a >= 0)
+        face.push_back(mesh.cell(c)[a]);
+    std::sort(face.begin(), face.end());
+  }
   return faces;
 }
 
@@ -60,10 +53,8 @@ std::vector<int> healthy_parts(const Mesh& mesh, const Infarcted& infarcted) {
   std::map<std::vector<int>, std::vector<int>> cells_of_face;
   for (int c = 0; c < mesh.cell_count(); ++c)
     if (!infarcted[c])
-      for (auto face : faces_of(mesh, c)) {
-        std::sort(face.begin(), face.end());
+      for (const auto& face : faces_of(mesh, c))
         cells_of_face[face].push_back(c);
-      }
   std::vector<std::vector<int>> neighbours(mesh.cell_count());
   for (const auto& [face, cells] : cells_of_face)
     if (cells.size() == 2) {
@@ -93,32 +84,51 @@ std::vector<int> healthy_parts(const Mesh& mesh, const Infarcted& infarcted) {
 
 }  // namespace
 
-Infarcted infarcted_where(const Mesh& mesh, const std::function<bool(const Vec3&)>& inside) {
+Infarcted infarcted_where(const Mesh& mesh, const Region& inside) {
   Infarcted infarcted;
-  for (int c = 0; c < mesh.cell_count(); ++c)
-    infarcted.push_back(inside(cell_centre(mesh, c)));
+  for (int c = 0; c < mesh.cell_count(); ++c) {
+    double t = 0.0;
+    for (const int a : mesh.cell(c))
+      t += mesh.transmural[a];
+    infarcted.push_back(inside(cell_centre(mesh, c), t / nodes_per_cell(mesh.kind)));
+  }
   return infarcted;
 }
 
-Infarcted infarcted_as_described(const Mesh& mesh, const DescribedInfarct& infarct,
-                                 const RegionParameters& regions) {
+std::vector<double> infarcted_part(const Mesh& mesh, const Region& inside) {
+  std::vector<double> part;
+  for (int c = 0; c < mesh.cell_count(); ++c) {
+    const auto nodes = mesh.cell(c);
+    double whole = 0.0;
+    double infarcted = 0.0;
+    for (const CellPoint& point : spread_points(mesh, c)) {
+      Vec3 X = Vec3::Zero();
+      double t = 0.0;
+      for (std::size_t a = 0; a < nodes.size(); ++a) {
+        X += point.shape[a] * mesh.nodes[nodes[a]];
+        t += point.shape[a] * mesh.transmural[nodes[a]];
+      }
+      whole += point.volume;
+      if (inside(X, t))
+        infarcted += point.volume;
+    }
+    part.push_back(infarcted / whole);
+  }
+  return part;
+}
+
+Region described_region(const Mesh& mesh, const DescribedInfarct& infarct,
+                        const RegionParameters& regions) {
   constexpr double turn = 2.0 * std::numbers::pi;
-  const auto axis = cavity_axis(mesh, regions);
-  const double lowest = apex_z(mesh);
-  const double middle = regions.septum_angle + infarct.angle;
-  const auto in_sector = [&](const Vec3& X, double h) {
+  return [=, axis = cavity_axis(mesh, regions), lowest = apex_z(mesh)](const Vec3& X, double t) {
+    const double h = 1.0 - X.z() / lowest;
+    if (t > infarct.transmurality || h <= infarct.apex)
+      return t <= infarct.transmurality;
     const Vec3 r = X - axis(X.z());
+    const double middle = regions.septum_angle + infarct.angle;
     const double theta = std::remainder(std::atan2(r.y(), r.x()) - middle, turn);
     return std::abs(theta) <= 0.5 * infarct.width && h >= infarct.bottom && h <= infarct.top;
   };
-  Infarcted infarcted;
-  for (int c = 0; c < mesh.cell_count(); ++c) {
-    const Vec3 X = cell_centre(mesh, c);
-    const double h = 1.0 - X.z() / lowest;
-    infarcted.push_back(mean_transmural(mesh, c) <= infarct.transmurality &&
-                        (h <= infarct.apex || in_sector(X, h)));
-  }
-  return infarcted;
 }
 
 std::vector<double> infarct_field(const Mesh& mesh, const Infarcted& infarcted, double border) {
@@ -158,7 +168,18 @@ Infarcted with_enclosed(const Mesh& mesh, const Infarcted& infarcted) {
   return all;
 }
 
-std::vector<SegmentInfarct> infarct_by_segment(const Mesh& mesh, const Regions& regions,
+std::vector<double> part_by_extent(const Mesh& mesh) {
+  std::vector<double> part;
+  for (int c = 0; c < mesh.cell_count(); ++c) {
+    const auto nodes = mesh.cell(c);
+    part.push_back(
+        std::all_of(nodes.begin(), nodes.end(), [&](int a) { return mesh.infarct[a] == 1.0; }));
+  }
+  return part;
+}
+
+std::vector<SegmentInfarct> infarct_by_segment(const Mesh& mesh, const std::vector<double>& part,
+                                               const Regions& regions,
                                                const RegionParameters& parameters) {
   constexpr double height = 5.0;                     // of a column [mm]
   constexpr double width = std::numbers::pi / 18.0;  // [rad]
@@ -173,11 +194,8 @@ std::vector<SegmentInfarct> infarct_by_segment(const Mesh& mesh, const Regions& 
     Column& column = columns[{regions.aha[c], static_cast<int>(std::floor(X.z() / height)),
                               static_cast<int>(std::floor(std::atan2(r.y(), r.x()) / width))}];
     const double V = cell_volume(mesh, c);
-    const auto nodes = mesh.cell(c);
-    const bool all =
-        std::all_of(nodes.begin(), nodes.end(), [&](int a) { return mesh.infarct[a] == 1.0; });
     column.wall += V;
-    column.infarct += all ? V : 0.0;
+    column.infarct += part[c] * V;
   }
   std::vector<SegmentInfarct> segments(17);
   std::vector<double> touched(17, 0.0);
@@ -195,21 +213,15 @@ std::vector<SegmentInfarct> infarct_by_segment(const Mesh& mesh, const Regions& 
   return segments;
 }
 
-InfarctVolumes infarct_volumes(const Mesh& mesh) {
+InfarctVolumes infarct_volumes(const Mesh& mesh, const std::vector<double>& part) {
   InfarctVolumes volumes;
   for (int c = 0; c < mesh.cell_count(); ++c) {
-    double least = 1.0;
-    double most = 0.0;
-    for (const int a : mesh.cell(c)) {
-      least = std::min(least, mesh.infarct[a]);
-      most = std::max(most, mesh.infarct[a]);
-    }
+    const auto nodes = mesh.cell(c);
     const double V = cell_volume(mesh, c);
     volumes.wall += V;
-    if (least == 1.0)
-      volumes.infarct += V;
-    else if (most > 0.0)
-      volumes.border += V;
+    volumes.infarct += part[c] * V;
+    if (std::any_of(nodes.begin(), nodes.end(), [&](int a) { return mesh.infarct[a] > 0.0; }))
+      volumes.border += (1.0 - part[c]) * V;
   }
   return volumes;
 }

@@ -146,6 +146,15 @@ class Refiner {
   std::map<std::vector<int>, int> middles_;
 };
 
+/// Every value eight times.
+template <class Value>
+std::vector<Value> eightfold(const std::vector<Value>& cells) {
+  std::vector<Value> fine;
+  for (const Value value : cells)
+    fine.insert(fine.end(), 8, value);
+  return fine;
+}
+
 }  // namespace
 
 Mesh refine(const Mesh& mesh) {
@@ -153,10 +162,11 @@ Mesh refine(const Mesh& mesh) {
 }
 
 std::vector<bool> refine_flags(const std::vector<bool>& cells) {
-  std::vector<bool> fine;
-  for (const bool flag : cells)
-    fine.insert(fine.end(), 8, flag);
-  return fine;
+  return eightfold(cells);
+}
+
+std::vector<double> refine_numbers(const std::vector<double>& cells) {
+  return eightfold(cells);
 }
 
 }  // namespace lv::mesh

@@ -13,4 +13,7 @@ namespace lv::mesh {
 /// A flag per cell, handed on to the eight cells that refine() makes of it.
 [[nodiscard]] std::vector<bool> refine_flags(const std::vector<bool>& cells);
 
+/// The same of a number per cell.
+[[nodiscard]] std::vector<double> refine_numbers(const std::vector<double>& cells);
+
 }  // namespace lv::mesh

@@ -7,6 +7,7 @@
 #include "lv/image/close_walls.hpp"
 #include "lv/image/nifti.hpp"
 #include "lv/image/plane_mask.hpp"
+#include "lv/phantom/ventricle.hpp"
 
 #include "geometry/drawn_ellipsoid.hpp"
 #include "support/scanner_files.hpp"
@@ -160,12 +161,13 @@ TEST_CASE("muscle beyond the cavity's apex shows the epicardium", "[unit][image]
 namespace {
 
 /// The map of a ventricle that stands upright, of cubic voxels turned about x by an angle.
-Volume turned(double angle) {
+Volume turned(double angle, double voxel) {
   const geometry::Ellipsoid e;
   const Mat3 directions = Eigen::AngleAxisd(angle, Vec3::UnitX()).toRotationMatrix();
-  const Vec3 spacing(2.5, 2.5, 2.5);
-  const std::array<int, 3> size{48, 48, 48};
-  const Vec3 origin = Vec3(0.0, 0.0, -35.0) - directions * Vec3::Constant(0.5 * 47.0 * 2.5);
+  const Vec3 spacing = Vec3::Constant(voxel);
+  const int n = static_cast<int>(120.0 / voxel);
+  const std::array<int, 3> size{n, n, n};
+  const Vec3 origin = Vec3(0.0, 0.0, -35.0) - directions * (0.5 * (n - 1) * spacing);
   const test::TemporaryFolder folder;
   test::write_bytes(folder / "map.nii", test::nifti_bytes(test::label_map(
                                             size, directions, spacing, origin,
@@ -175,10 +177,11 @@ Volume turned(double angle) {
 
 }  // namespace
 
-TEST_CASE("slices that do not lie across the long axis are noted, then refused", "[unit][image]") {
+TEST_CASE("thick slices that do not lie across the long axis are noted, then refused",
+          "[unit][image]") {
   const double degree = pi / 180.0;
   const auto notes = [&](double angle) {
-    return all(trace_labels(turned(angle * degree), {{1}, {2}, {}}, 0).notes);
+    return all(trace_labels(turned(angle * degree, 4.0), {{1}, {2}, {}}, 0).notes);
   };
   CHECK_THAT(notes(0.0), !Contains("from the long axis"));
   CHECK_THAT(notes(10.0), !Contains("from the long axis"));
@@ -191,14 +194,45 @@ TEST_CASE("slices that do not lie across the long axis are noted, then refused",
 TEST_CASE("the borders of cubic voxels are loops that do not cross themselves", "[unit][image]") {
   // straight runs of pixels, turned in space: segments in one line, but for rounding
   for (const double angle : {0.0, 3.0, 7.0, 11.0}) {
-    LabelContours labels = trace_labels(turned(angle * pi / 180.0), {{1}, {2}, {}}, 0);
+    LabelContours labels = trace_labels(turned(angle * pi / 180.0, 2.5), {{1}, {2}, {}}, 0);
     close_walls(labels.contours, 1.0, labels.notes);  // at the base, which the slices cut askew
     CHECK_NOTHROW(geometry::check_contours(labels.contours));
   }
 }
 
+TEST_CASE("a map of small voxels along the patient's axes is resampled across the long axis",
+          "[unit][image]") {
+  const phantom::Ventricle v;
+  const phantom::Motion motion(v, 0.7);  // with a scar that moves less than the rest
+  const geometry::Frame frame = drawn::oblique_frame();
+  const auto label = [&](const Vec3& x) {
+    const Vec3 X = frame.to_model(x);
+    const double r = std::hypot(X.x(), X.y());
+    const double theta = std::atan2(X.y(), X.x());
+    if (X.z() > motion.z(0.0) || r >= motion.radius(Side::epi, X.z(), theta))
+      return 0;
+    return r < motion.radius(Side::endo, X.z(), theta) ? 4 : 9;
+  };
+  const std::array<int, 3> size{90, 90, 90};
+  const Vec3 spacing = Vec3::Constant(1.5);
+  const Vec3 origin = frame.to_image({0.0, 0.0, -38.0}) - 0.5 * 89.0 * spacing;
+  const test::TemporaryFolder folder;
+  test::write_bytes(folder / "axial.nii", test::nifti_bytes(test::label_map(
+                                              size, Mat3::Identity(), spacing, origin, label)));
+  LabelContours labels = trace_labels(read_nifti(folder / "axial.nii"), {{4}, {9}, {}}, 0);
+  CHECK_THAT(all(labels.notes), Contains("the labels were resampled to"));
+  CHECK(labels.cavity == Approx(motion.cavity_volume()).epsilon(0.01));  // voxels of the map itself
+  close_walls(labels.contours, 1.0, labels.notes);
+  geometry::SplineFitParameters fit;
+  fit.frame.base_at = geometry::BaseAt::slab;
+  const geometry::SplineWall wall = geometry::fit_spline_wall(labels.contours, fit);
+  CHECK(wall.report().volume_cavity == Approx(motion.cavity_volume()).epsilon(0.02));
+  CHECK(wall.report().volume_wall == Approx(phantom::wall_volume(v)).epsilon(0.02));
+  CHECK(wall.frame().axes.col(2).dot(frame.axes.col(2)) > std::cos(3.0 * pi / 180.0));
+}
+
 TEST_CASE("a wall that the edge of the image cuts is noted", "[unit][image]") {
-  Volume map = turned(0.0);
+  Volume map = turned(0.0, 2.5);
   const int cut = 14;  // columns of pixels: 35 mm, where the epicardium starts 25 mm from the edge
   Volume narrow = map;
   narrow.size[0] -= cut;

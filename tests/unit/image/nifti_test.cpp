@@ -9,6 +9,7 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -41,7 +42,7 @@ std::string complaint(const test::NiftiSpec& spec, std::size_t cut = 0) {
 
 }  // namespace
 
-TEST_CASE("a NIfTI image lies where its sform says, in any order and direction of axes",
+TEST_CASE("a NIfTI image lies where its sform or qform says, in any order and direction of axes",
           "[unit][image]") {
   Mat3 swapped = Mat3::Zero();  // j along -x, k along y, i along z
   swapped(2, 0) = 1.0;
@@ -49,9 +50,14 @@ TEST_CASE("a NIfTI image lies where its sform says, in any order and direction o
   swapped(1, 2) = 1.0;
   Mat3 mirrored = oblique();
   mirrored.col(1) *= -1.0;
+  const auto code = GENERATE(std::array{1, 0}, std::array{0, 1}, std::array{1, 1});
   for (const Mat3& directions : {Mat3(Mat3::Identity()), oblique(), swapped, mirrored}) {
     const test::TemporaryFolder folder;
-    test::write_bytes(folder / "x.nii", test::nifti_bytes(small(directions)));
+    test::NiftiSpec spec = small(directions);
+    spec.same_qform = true;
+    spec.sform_code = code[0];
+    spec.qform_code = code[1];
+    test::write_bytes(folder / "x.nii", test::nifti_bytes(spec));
     const Volume v = read_nifti(folder / "x.nii");
     CHECK((v.directions - directions).norm() < 1e-5);
     const Vec3 expected = Vec3(10.0, -20.0, 30.0) + directions * Vec3(2.0, 2.0 * 3.0, 8.0 * 4.0);
@@ -144,8 +150,7 @@ TEST_CASE("absent labels are answered with those that there are; fractions are n
   CHECK_THROWS_WITH(label_volumes(v), Contains("voxel (1, 0, 0)") && Contains("0.4"));
 }
 
-TEST_CASE("a stack of images is read from its nearest slice, linear between pixels",
-          "[unit][image]") {
+TEST_CASE("a stack of images is linear between pixels and between slices", "[unit][image]") {
   Cine stack;
   for (const int s : {0, 1}) {
     Picture picture{{Vec3(0.0, 0.0, 10.0 * s), Vec3::UnitX(), Vec3::UnitY(), 2.0, 2.0, 3, 3}, {}};
@@ -153,8 +158,11 @@ TEST_CASE("a stack of images is read from its nearest slice, linear between pixe
       picture.values.push_back(static_cast<float>(100 * s + p));
     stack.slices.push_back({"", {picture}, {}, 0.0});
   }
-  CHECK(sample(stack, {1.0, 2.0, 1.0}) == Approx(3.5));
-  CHECK(sample(stack, {1.0, 2.0, 6.0}) == Approx(103.5));
+  CHECK(sample(stack, {1.0, 2.0, -4.9}) == Approx(3.5));
+  CHECK(sample(stack, {1.0, 2.0, 1.0}) == Approx(13.5));
+  CHECK(sample(stack, {1.0, 2.0, 6.0}) == Approx(63.5));
+  CHECK(sample(stack, {1.0, 2.0, 10.0}) == Approx(103.5));
+  CHECK(std::isnan(sample(stack, {1.0, 2.0, -5.1})));
   CHECK(std::isnan(sample(stack, {1.0, 2.0, 15.5})));
   CHECK(std::isnan(sample(stack, {7.0, 2.0, 0.0})));
 }

@@ -70,7 +70,7 @@ double longest_diagonal(const mesh::Mesh& mesh) {
 TEST_CASE("a surface and a labelled volume in image space mean the region that they were made from",
           "[unit][job]") {
   const mesh::Mesh wall = test::ellipsoid_mesh({}, 4.0);
-  const auto box = [](const Vec3& X) { return in_box(frame.to_image(X)); };
+  const auto box = [](const Vec3& X, double) { return in_box(frame.to_image(X)); };
   const auto expected = mesh::infarct_field(wall, mesh::infarcted_where(wall, box), 10.0);
   const test::TemporaryFolder folder;
   test::write_bytes(folder / "surface.vtk", box_surface());
@@ -81,11 +81,11 @@ TEST_CASE("a surface and a labelled volume in image space mean the region that t
   shape.frame = frame;
   c.scar.source = InfarctSource::surface;
   c.scar.surface = "surface.vtk";
-  CHECK((job::infarct_extent(c, shape, wall) == expected));
+  CHECK(job::infarct_extent(c, shape, wall).M == expected);
   c.scar.source = InfarctSource::labels;
   c.scar.labels = "labels.vtk";
   c.scar.scar = {2};
-  const auto M = job::infarct_extent(c, shape, wall);
+  const auto M = job::infarct_extent(c, shape, wall).M;
   double furthest = 0.0;
   for (std::size_t a = 0; a < M.size(); ++a)
     furthest = std::max(furthest, 10.0 * std::abs(M[a] - expected[a]));
@@ -97,7 +97,7 @@ TEST_CASE("a surface and a labelled volume in image space mean the region that t
 TEST_CASE("a NIfTI map and the brightness of an image mean the region that they were made from",
           "[unit][job]") {
   const mesh::Mesh wall = test::ellipsoid_mesh({}, 4.0);
-  const auto box = [](const Vec3& X) { return in_box(frame.to_image(X)); };
+  const auto box = [](const Vec3& X, double) { return in_box(frame.to_image(X)); };
   const auto expected = mesh::infarct_field(wall, mesh::infarcted_where(wall, box), 10.0);
   const test::TemporaryFolder folder;
   const Vec3 origin(40.0, -115.0, 330.0);
@@ -117,7 +117,7 @@ TEST_CASE("a NIfTI map and the brightness of an image mean the region that they 
   job::Shape shape;
   shape.frame = frame;
   const auto furthest = [&] {
-    const auto M = job::infarct_extent(c, shape, wall);
+    const auto M = job::infarct_extent(c, shape, wall).M;
     double most = 0.0;
     for (std::size_t a = 0; a < M.size(); ++a)
       most = std::max(most, 10.0 * std::abs(M[a] - expected[a]));
@@ -137,9 +137,8 @@ TEST_CASE("a NIfTI map and the brightness of an image mean the region that they 
   CHECK(furthest() < longest_diagonal(wall));
   c.scar.lge.threshold = mesh::ScarThreshold::sd;
   CHECK_THROWS_WITH(furthest(), Catch::Matchers::Contains("infarct.lge.remote is not set"));
-  mesh::Mesh scarred = wall;
-  scarred.infarct = expected;
-  for (const auto& s : mesh::infarct_by_segment(scarred, mesh::divide(wall, {}), {}))
+  const auto part = mesh::infarcted_part(wall, box);
+  for (const auto& s : mesh::infarct_by_segment(wall, part, mesh::divide(wall, {}), {}))
     if (s.infarct == 0.0)
       c.scar.lge.remote.push_back(s.segment);
   c.scar.lge.deviations = 20.0;  // the edge of the scar is half as bright in a voxel
@@ -163,5 +162,7 @@ TEST_CASE("the infarct's file is among what the mesh depends on", "[unit][job]")
 
 TEST_CASE("without an infarct nothing is said of it", "[unit][job]") {
   const job::Case c;
-  CHECK(job::describe_infarct(c, test::coarse_mesh(mesh::CellKind::tetrahedron)).empty());
+  job::MeshResult wall{test::coarse_mesh(mesh::CellKind::tetrahedron), {}, {}};
+  wall.infarcted.assign(wall.mesh.cell_count(), 0.0);
+  CHECK(job::describe_infarct(c, wall).empty());
 }

@@ -1,5 +1,6 @@
 #include "support/scanner_files.hpp"
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include <cmath>
@@ -88,6 +89,32 @@ std::string dicom_bytes(const DicomSpec& s) {
   return bytes;
 }
 
+namespace {
+
+/// The NIfTI-1 standard's method 2: a quaternion, and -1 for axes of the other handedness.
+template <class Set>
+void set_qform(const NiftiSpec& s, const Set& set) {
+  Mat3 axes;
+  for (int d = 0; d < 3; ++d) {
+    for (int e = 0; e < 3; ++e)
+      axes(d, e) = s.sform[d][e];
+    set(268 + 4 * d, static_cast<float>(s.sform[d][3]));
+  }
+  axes.colwise().normalize();
+  const bool mirrored = axes.determinant() < 0.0;
+  if (mirrored)
+    axes.col(2) *= -1.0;
+  Eigen::Quaterniond q(axes);
+  if (q.w() < 0.0)
+    q.coeffs() *= -1.0;
+  set(76, mirrored ? -1.0F : 1.0F);
+  set(256, static_cast<float>(q.x()));
+  set(260, static_cast<float>(q.y()));
+  set(264, static_cast<float>(q.z()));
+}
+
+}  // namespace
+
 std::string nifti_bytes(const NiftiSpec& s) {
   std::string head(348, '\0');
   const auto set = [&](std::size_t at, auto value) {
@@ -102,6 +129,8 @@ std::string nifti_bytes(const NiftiSpec& s) {
   set(70, static_cast<std::int16_t>(s.floating ? 16 : 2));
   set(72, static_cast<std::int16_t>(s.floating ? 32 : 8));
   set(76, 1.0F);  // qfac
+  if (s.same_qform)
+    set_qform(s, set);
   for (int d = 0; d < 3; ++d) {
     double square = 0.0;
     for (int e = 0; e < 3; ++e)

@@ -33,7 +33,8 @@ struct NiftiSpec {
   std::array<int, 4> size{1, 1, 1, 1};
   std::array<std::array<double, 4>, 3> sform{};  ///< voxels to RAS [mm]
   int sform_code = 1;
-  int qform_code = 0;  ///< with the identity as rotation and the spacing of the sform
+  int qform_code = 0;
+  bool same_qform = false;  ///< the qform is the sform's map; else its rotation is the identity
   bool floating = false;
   float slope = 0.0F, intercept = 0.0F;
   std::vector<double> values;
