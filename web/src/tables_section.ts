@@ -8,7 +8,7 @@ import { label, quantities, quantity, shown } from "./quantities.ts";
 const perCase = (cases: Case[], content: (c: Case) => (Node | undefined)[]) =>
   el("div", { class: "cases" }, ...cases.map((c) => el("div", { class: "panel" },
     cases.length > 1 && el("h3", {}, c.name), ...content(c))));
-const pm = (x: MeanSd | undefined) => (x ? `${shown(x.mean)} ± ${shown(x.sd)}` : "–");
+const pm = (x: MeanSd | undefined) => (x ? `${shown(x.mean)} ± ${shown(x.sd, 2)}` : "–");
 /** As it is printed. */
 const printed = (x: MeanSd | undefined) => (x ? `${x.mean} ± ${x.sd}`.replace("-", "−") : "–");
 const ofRow = (row: Row | undefined): string => (row && row.mean !== "" ? pm({ mean: value(row.mean), sd: value(row.sd) }) : "–");
