@@ -1,7 +1,8 @@
 // The page of a run in a real browser, opened from a file without a network.
-// node check.mjs VENTRICLE [--work WORK] [--screenshots FOLDER]   exit code 77: skipped
+// node check.mjs VENTRICLE [--work WORK] [--images WORK] [--screenshots FOLDER]   exit code 77: skipped
+// WORK: folders of runs that are there, of a case with flow and of one with a cine; without, small ones are run.
 import { execFileSync } from "node:child_process";
-import { cpSync, existsSync, mkdirSync, mkdtempSync, readFileSync, renameSync, rmSync, statSync } from "node:fs";
+import { cpSync, existsSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, renameSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
@@ -34,12 +35,41 @@ function csv(file) {
 
 const folder = mkdtempSync(join(tmpdir(), "ventricle_page_"));
 const work = option("--work") ?? join(folder, "small.work");
+const images = option("--images") ?? join(folder, "images.work");
 const ventricle = (...args) => execFileSync(program, args, { cwd: folder, stdio: "pipe" });
+
+/** A phantom of few images and large elements through the quasi-static engine. */
+function runImages() {
+  ventricle("phantom", "study", "--phases", "6", "--field-of-view", "150", "--shortening", "0.12", "--nifti", "true");
+  const file = join(folder, "study/coarse.toml");
+  writeFileSync(file, `engine = "quasi_static"\n${readFileSync(join(folder, "study/case.toml"), "utf8")}\n[mesh]\nedge_length = "7 mm"\n`);
+  ventricle("run", file, "--work", images, "--ranks", "1");
+}
+
+const fit = { measured: [131.5, 61.25], C_a: 1.234, below: 1.111, above: 1.358 };
+
+/** The run as if its parameters had been fitted. */
+function pretendFit() {
+  const to = join(folder, "fitted.work");
+  cpSync(work, to, { recursive: true });
+  const file = join(to, "04_results/summary.json");
+  const summary = JSON.parse(readFileSync(file, "utf8"));
+  summary.calibration = ["EDV", "ESV"].map((volume, i) => ({ volume, measured_ml: fit.measured[i], quasi_static_ml: 130, beat_ml: 129, within_tolerance: false }));
+  writeFileSync(file, JSON.stringify(summary));
+  mkdirSync(join(to, "02b_calibrate"), { recursive: true });
+  writeFileSync(join(to, "02b_calibrate/calibration.json"), JSON.stringify({ uncertainty: [{ parameter: "C_a", value: fit.C_a,
+    when_off: [{ measurement: "EDV", by: "5%", below: fit.below, above: fit.above }] }], ambiguities: ["One volume determines one parameter."] }));
+  ventricle("report", to, "--output", "fitted.html");
+}
 
 function makePages() {
   if (!existsSync(work)) ventricle("run", join(root, "tests/regress/small.toml"), "--work", work, "--ranks", "1");
   ventricle("report", work, "--output", "page.html");
   ventricle("compare", work, work, "--output", "compare.html");
+  if (!existsSync(images)) runImages();
+  ventricle("report", images, "--output", "images.html");
+  ventricle("compare", images, work, "--output", "mixed.html");
+  pretendFit();
   const half = join(folder, "half.work");
   cpSync(work, half, { recursive: true });
   for (const stage of ["04_results", "05_report"]) rmSync(join(half, stage), { recursive: true, force: true });
@@ -103,6 +133,9 @@ async function checkDrawn(page) {
   check("the flow is drawn", flow.drawn > 0.5 && flow.colours > 50, JSON.stringify(flow));
   const charts = await page.locator("svg.chart").evaluateAll((all) => all.map((one) =>
     Math.min(...[...one.querySelectorAll("path")].map((path) => path.getAttribute("d").length))));
+  for (const id of ["outlines", "strain"])
+    check(`a case without images says so in ${id}`, (await page.locator(`#${id} .missing`).count()) === 1 && (await page.locator(`#${id} svg`).count()) === 0);
+  check("a case without measured volumes says so", /No measured volumes/.test(await page.locator("#summary").innerText()));
   check("all charts have their lines", charts.length === 7 && charts.every((length) => length > 40), charts);
   const regions = await page.locator("svg.bullseye").evaluateAll((all) => all.map((one) => one.querySelectorAll("[data-index]").length));
   check("bull's-eyes have 38 and 17 regions at both states", regions.join() === "38,17,38,17", regions);
@@ -192,16 +225,20 @@ async function checkNumbers(page) {
   const thirds = await page.locator("#normal tbody tr").evaluateAll((all) => all.map((row) => [...row.children].map((cell) => cell.textContent)));
   const fibre = ["basal", "middle", "apical"].map((third) => Number(rows.find((r) => r.state === "end_systole" && r.region === third && r.quantity === "fibre_strain").mean));
   check("fibre strain per third is regions.csv's", fibre.every((mean, i) => close(number(thirds[0][i + 1].split(" ± ")[0]), mean, 0.006)), thirds[0]);
+  const mesh = csv(join(work, "02_mesh/quality.csv"));
+  const meshRows = await page.locator("#input table").last().locator("tbody tr").evaluateAll((all) => all.map((row) => [...row.children].map((cell) => cell.textContent)));
+  check("the mesh's figures are quality.csv's", mesh.length === meshRows.length && mesh.every((r, i) => r.quantity === meshRows[i][0] && close(number(meshRows[i][1]), Number(r.value), 1e-6)), JSON.stringify(meshRows.slice(2, 4)));
   const turned = csv(join(work, "04_results/rotation.csv")).map((r) => Number(r.end_diastole_to_end_systole_deg));
   const shownTurn = await page.locator("#rotation tbody tr td:nth-child(2)").allInnerTexts();
   check("rotation is rotation.csv's", turned.length === 7 && turned.every((deg, i) => close(number(shownTurn[i]), deg, 0.006)), shownTurn);
 }
 
-async function checkDownloads(page) {
+async function checkDownloads(page, work) {
   const buttons = page.locator("button.save");
   const kinds = {};
   const wrong = [];
   for (let i = 0; i < (await buttons.count()); ++i) {
+    await page.waitForTimeout(150);  // Chromium drops downloads beyond ten a second
     const [download] = await Promise.all([page.waitForEvent("download"), buttons.nth(i).evaluate((button) => button.click())]);
     const name = download.suggestedFilename();
     const contents = readFileSync(await download.path());
@@ -209,9 +246,9 @@ async function checkDownloads(page) {
     kinds[kind] = (kinds[kind] ?? 0) + 1;
     const good = kind === "png" ? contents.subarray(1, 4).toString() === "PNG" && contents.length > 3000
       : kind === "svg" ? /^<svg[^>]*xmlns/.test(contents) && contents.length > 1000
-      : kind === "csv" ? contents.toString().split("\n").length > 2 : JSON.parse(contents).case !== undefined;
+      : kind === "csv" ? contents.toString().split("\n").length > 2 : Object.keys(JSON.parse(contents)).length > 1;
     if (!good) wrong.push(name);
-    const original = { "regions.csv": "04_results", "curves.csv": "03_beat", "summary.json": "04_results" };
+    const original = { "regions.csv": "04_results", "curves.csv": "03_beat", "summary.json": "04_results", "strain_agreement.json": "04_results" };
     for (const [file, stage] of Object.entries(original))
       if (name.endsWith(`-${file}`) && !name.includes("-whole") && !contents.equals(readFileSync(join(work, stage, file)))) wrong.push(`${name} differs`);
   }
@@ -244,11 +281,145 @@ async function checkSpeed(page) {
   check("scrubbing is not slower than 4 frames per second, software rendering on a busy machine", result.fps > 4, result.fps);
 }
 
+const dot = (a, b) => a.reduce((sum, v, d) => sum + v * b[d], 0);
+const vector = (row, name, end) => ["x", "y", "z"].map((axis) => Number(row[`${name}_${axis}${end}`]));
+
+/** Where outlines.csv puts the first point of each line over an image, in mm from its upper left corner. */
+function firstPoints(state, slice) {
+  const place = csv(join(images, "04_results/pictures/pictures.csv")).find((r) => r.state === state && r.slice === String(slice));
+  const spacing = [Number(place.spacing_i_mm), Number(place.spacing_j_mm)];
+  return csv(join(images, "04_results/outlines.csv")).filter((r) => r.state === state && r.slice === String(slice) && r.point === "1").map((r) => {
+    const from = ["x_mm", "y_mm", "z_mm"].map((name, d) => Number(r[name]) - vector(place, "origin", "_mm")[d]);
+    return { source: r.source, at: [dot(from, vector(place, "along_row", "")) + spacing[0] / 2, dot(from, vector(place, "along_column", "")) + spacing[1] / 2] };
+  });
+}
+
+async function checkOutlines(page) {
+  await page.waitForSelector("#outlines svg.outlined");
+  const listed = csv(join(images, "04_results/pictures/pictures.csv"));
+  const look = () => page.locator("#outlines figure svg.outlined").evaluate(async (root) => {
+    const picture = new Image();
+    picture.src = root.querySelector("image").getAttribute("href");
+    await picture.decode();
+    const toPage = root.querySelector("path").getCTM();
+    const box = root.getCTM();
+    return { slice: root.dataset.slice, width: picture.naturalWidth, png: picture.src.length, label: root.getAttribute("aria-label"),
+      starts: [...root.querySelectorAll("path")].map((path) => {
+        const at = new DOMPoint(...path.getAttribute("d").match(/^M([-\d.]+) ([-\d.]+)/).slice(1).map(Number)).matrixTransform(box.inverse().multiply(toPage));
+        return { source: path.dataset.source, at: [at.x, at.y] };
+      }) };
+  });
+  const seen = [];
+  for (const state of ["end_diastole", "end_systole"]) {
+    await page.locator(`#outlines [data-state=${state}]`).click();
+    check(`all slices have an image at ${state}`, (await page.locator("#outlines .sheet svg").count()) === listed.filter((r) => r.state === state).length);
+    const now = await look();
+    seen.push(now);
+    const expected = firstPoints(state, now.slice);
+    check(`${state}: an image of the size in pictures.csv`, now.width === Number(listed.find((r) => r.state === state && r.slice === now.slice).columns), now.width);
+    check(`${state}: model and contours lie over it where outlines.csv has them`, expected.length === now.starts.length && expected.length >= 4 &&
+      ["model", "contours"].every((source) => expected.some((e) => e.source === source)) &&
+      expected.every((e, i) => e.source === now.starts[i].source && e.at.every((x, d) => Math.abs(x - now.starts[i].at[d]) < 0.03)),
+      JSON.stringify({ expected, starts: now.starts }));
+  }
+  check("the two moments have different images", seen[0].png !== seen[1].png || JSON.stringify(seen[0].starts) !== JSON.stringify(seen[1].starts));
+  await setSlider(page, "#outlines input[type=range]", 1);
+  check("the slider goes to another slice", (await look()).slice !== seen[1].slice);
+  await page.locator("#outlines .thumb").last().click();
+  const last = listed.filter((r) => r.state === "end_systole").at(-1).slice;
+  check("a small image becomes the large one", (await look()).slice === last);
+  const distances = csv(join(images, "04_results/outline_distances.csv"));
+  const shownRows = await page.locator("#outlines tbody tr").evaluateAll((all) => all.map((row) => [...row.children].map((cell) => cell.textContent)));
+  check("distances are outline_distances.csv's, missing ones a dash", shownRows.length === distances.length &&
+    distances.every((r, i) => close(number(shownRows[i][2]), Number(r.mean_mm), 0.006) && close(number(shownRows[i][4]), Number(r.largest_mm), 0.006)), shownRows[0]);
+}
+
+async function checkStrain(page) {
+  const all = JSON.parse(readFileSync(join(images, "04_results/strain_agreement.json"), "utf8"));
+  const tables = await page.locator("#strain table").evaluateAll((some) => some.map((one) =>
+    [...one.querySelectorAll("tbody tr")].map((row) => [...row.children].map((cell) => cell.textContent))));
+  const a = all.circumferential.sector;
+  const row = tables[0].find((r) => r[0] === "circumferential, sectors of slices");
+  check("agreement is strain_agreement.json's", row && number(row[1]) === a.count && close(number(row[2]), a.bias, 0.006) && close(number(row[3]), a.standard_deviation, 0.006) &&
+    close(number(row[4].split(" to ")[0]), a.lower_limit, 0.006), row);
+  const pairs = csv(join(images, "04_results/strain_comparison_circumferential.csv")).filter((r) => r.scheme === "sector");
+  const differences = pairs.map((r) => Number(r.model) - Number(r.measured));
+  const mean = differences.reduce((sum, d) => sum + d, 0) / pairs.length;
+  const sd = Math.sqrt(differences.reduce((sum, d) => sum + (d - mean) ** 2, 0) / (pairs.length - 1));
+  check("which is the table's", close(a.bias, mean, 1e-3) && close(a.upper_limit - a.lower_limit, 3.92 * sd, 1e-3), `${a.bias} ${mean}`);
+  const aha = csv(join(images, "04_results/strain_comparison_radial.csv")).filter((r) => r.scheme === "aha17");
+  check("strain per segment is strain_comparison_*.csv's", aha.length > 10 && aha.every((r) => {
+    const shownRow = tables[2].find((cells) => cells[0] === r.segment);
+    return shownRow && close(number(shownRow[4]), Number(r.measured), 0.006) && close(number(shownRow[5]), Number(r.model), 0.006);
+  }), JSON.stringify(tables[2]?.[0]));
+  const dots = await page.locator("#strain svg.chart").evaluateAll((charts) => charts.map((chart) => chart.querySelectorAll("circle:not(.live, .key)").length));
+  check("four charts have a dot a region", dots.length === 4 && dots[0] === pairs.length && dots[1] === pairs.length, dots);
+}
+
+async function checkImages() {
+  const { page, said, asked, close: done } = await open("images.html");
+  await checkOutlines(page);
+  await checkStrain(page);
+  if (screenshots) for (const id of ["outlines", "strain", "input", "zones", "summary"])
+    await page.locator(`#${id}`).screenshot({ path: join(screenshots, `images_${id}.png`) });
+  await checkDownloads(page, images);
+  check("a page with images: no error, no network", said.length === 0 && asked.every((url) => /^(file|blob|data):/.test(url)), said.join("\n"));
+  await done();
+  const mixed = await open("mixed.html");
+  await mixed.page.waitForSelector("#outlines svg.outlined");
+  check("beside a case without images one with them shows them, the other says so",
+    (await mixed.page.locator("#outlines .missing").count()) === 1 && (await mixed.page.locator("#strain .missing").count()) === 1 && mixed.said.length === 0, mixed.said.join("\n"));
+  await mixed.close();
+}
+
+async function checkFitted() {
+  const { page, said, close: done } = await open("fitted.html");
+  const text = await page.locator("#summary").innerText();
+  check("measured volumes and fitted parameters with their sensitivity are shown",
+    ["131.5", "61.25", "1.234", "1.11 / 1.36", "One volume determines"].every((part) => text.includes(part)) && !text.includes("No measured volumes"), text.match(/fitted[^]{0,300}/)?.[0]);
+  check("and no error is reported", said.length === 0, said.join("\n"));
+  await done();
+}
+
+/** A real ventricle, where its data are: fitted to its measured volume, its strains from a table. */
+async function checkRealVentricle() {
+  const data = join(process.env.VENTRICLE_DATA ?? join(root, "../shared/data"), "glasgow_HV01/text_export");
+  if (!existsSync(data)) { console.log(`info  no page of HV01: ${data} is not there (set VENTRICLE_DATA)`); return; }
+  const file = (name) => JSON.stringify(join(data, name));
+  writeFileSync(join(folder, "hv01.toml"), ["name = 'HV01'", "engine = 'quasi_static'", "[anatomy]", "source = 'contours'", "[anatomy.contours]",
+    `short_axis = ${file("contours_sa_aligned_long_axis.csv")}`, `long_axis = ${file("contours_la.csv")}`, `apex_endo = ${file("apex_endo.csv")}`,
+    `apex_epi = ${file("apex_epi.csv")}`, "septum_point = ['37.1 mm', '0.8 mm', '-4.5 mm']", "[mesh]", "edge_length = '7 mm'", "[calibrate]", "passive = 'scale'",
+    "edv = '142.6 ml'", "[strain]", `measured = ${file("segmental_strain_from_cine.csv")}`, "measured_column = 'frame10'"].join("\n"));
+  ventricle("run", "hv01.toml", "--ranks", "1");
+  const { page, said, close: done } = await open(join("hv01.work", "05_report/report.html"));
+  const fitted = JSON.parse(readFileSync(join(folder, "hv01.work/02b_calibrate/calibration.json"), "utf8"));
+  const summary = await page.locator("#summary").innerText();
+  const scale = fitted.uncertainty[0];
+  check("HV01: its measured volume and its fitted parameter are shown", summary.includes("142.6") && close(number(summary.match(/\nscale\t([\d.]+)/)?.[1] ?? "–"), scale.value, 0.006), summary.match(/scale.*/)?.[0]);
+  const pairs = csv(join(folder, "hv01.work/04_results/strain_comparison_circumferential.csv"));
+  const dots = await page.locator("#strain svg.chart").first().locator("circle:not(.live, .key)").count();
+  check("HV01: strains of 30 sectors stand beside the measured ones", pairs.length === 30 && dots === 30, dots);
+  check("HV01: its quality sheet is shown, images are said to be missing, no error", /cavity_fitted/.test(await page.locator("#input").innerText()) &&
+    (await page.locator("#outlines .missing").count()) === 1 && said.length === 0, said.join("\n"));
+  await done();
+}
+
+/** Figures that the run itself wrote, without a browser. */
+function checkFigures() {
+  const figures = (run) => readdirSync(join(run, "05_report/figures")).filter((name) => name.endsWith(".svg"));
+  const wrong = figures(images).filter((name) => !/<svg[^>]*>[^]*<path/.test(readFileSync(join(images, "05_report/figures", name), "utf8")));
+  check("a run writes its charts and bull's-eyes as SVG", figures(work).length === 20 && figures(images).length === 24 && wrong.length === 0,
+    `${figures(work).length} ${figures(images).length} ${wrong}`);
+}
+
 async function checkPhone() {
   const { page, close: done } = await open("page.html", { width: 390, height: 800 });
   const width = await page.evaluate(() => document.documentElement.scrollWidth);
   check("a phone's width is enough", width <= 391, width);
-  if (screenshots) await page.screenshot({ path: join(screenshots, "phone.png") });
+  if (screenshots) {
+    await page.evaluate(() => document.querySelector("canvas.wall").scrollIntoView({ block: "center" }));
+    await page.screenshot({ path: join(screenshots, "phone.png") });
+  }
   await done();
 }
 
@@ -261,7 +432,10 @@ async function checkHalf() {
   const text = await page.locator("body").innerText();
   check("and makes up nothing", !/NaN|undefined/.test(text), text.match(/.{30}(NaN|undefined).{20}/)?.[0]);
   check("and no error is reported", said.length === 0, said.join("\n"));
-  if (screenshots) await page.screenshot({ path: join(screenshots, "unfinished.png") });
+  if (screenshots) {
+    await page.evaluate(() => scrollTo(0, 0));
+    await page.screenshot({ path: join(screenshots, "unfinished.png") });
+  }
   await done();
   const mesh = await open("mesh.html");
   check("a run with a mesh alone shows it", (await pixels(mesh.page, "canvas.wall")).drawn > 0.08 && mesh.said.length === 0, mesh.said.join("\n"));
@@ -313,7 +487,7 @@ if (screenshots) for (const id of ["summary", "wall", "regions", "curves", "rota
 await checkControls(opened.page);
 await checkPicking(opened.page);
 await checkNumbers(opened.page);
-await checkDownloads(opened.page);
+await checkDownloads(opened.page, work);
 await checkSpeed(opened.page);
 check("it prints", (await opened.page.pdf()).length > 30_000);
 check("no error is reported", opened.said.length === 0, opened.said.join("\n"));
@@ -322,6 +496,10 @@ await opened.close();
 await checkPhone();
 await checkHalf();
 await checkCompare();
+await checkImages();
+await checkFitted();
+await checkRealVentricle();
+checkFigures();
 await checkMuscle();
 await browser.close();
 rmSync(folder, { recursive: true, force: true });

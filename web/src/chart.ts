@@ -2,7 +2,7 @@
 import { svg } from "./dom.ts";
 import { shown } from "./quantities.ts";
 
-export interface Line { label: string; colour: string; dashed?: boolean; x: number[]; y: number[]; dots?: boolean }
+export interface Line { label: string; colour: string; dashed?: boolean; x: number[]; y: number[]; dots?: boolean; bare?: boolean /* dots alone */ }
 export interface Mark { x: number; label: string }
 export interface Chart {
   x: string;
@@ -73,13 +73,13 @@ export function drawChart(chart: Chart): DrawnChart {
   chart.lines.forEach((line, i) => {
     const points = line.x.map((x, k) => [x, line.y[k]]).filter((p) => p.every(Number.isFinite));
     const path = points.map(([x, y], k) => `${k ? "L" : "M"}${px(x).toFixed(1)} ${py(y).toFixed(1)}`).join("");
-    root.append(svg("path", { d: path, fill: "none", stroke: line.colour, "stroke-width": 1.8,
+    if (!line.bare) root.append(svg("path", { d: path, fill: "none", stroke: line.colour, "stroke-width": 1.8,
       "stroke-dasharray": line.dashed ? "6 4" : "none", "stroke-linejoin": "round" }));
     if (line.dots) for (const [x, y] of points)
       root.append(svg("circle", { cx: px(x), cy: py(y), r: 3.2, fill: line.colour }));
     const [lx, ly] = [box.left + (i % 2) * ((box.right - box.left) / 2), 12 + 16 * Math.floor(i / 2)];
-    root.append(svg("line", { x1: lx, x2: lx + 20, y1: ly, y2: ly, stroke: line.colour, "stroke-width": 2,
-      "stroke-dasharray": line.dashed ? "6 4" : "none" }),
+    root.append(line.bare ? svg("circle", { class: "key", cx: lx + 10, cy: ly, r: 3.2, fill: line.colour })
+      : svg("line", { x1: lx, x2: lx + 20, y1: ly, y2: ly, stroke: line.colour, "stroke-width": 2, "stroke-dasharray": line.dashed ? "6 4" : "none" }),
       svg("text", { x: lx + 25, y: ly + 4, fill: "#111" }, line.label));
   });
 

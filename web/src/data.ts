@@ -32,6 +32,19 @@ interface FlowJson {
   pressure: { step: number; frames: string[] };
 }
 
+/** A cine image with lines over it; points are x, y, x, y ... in its pixels. */
+export interface Outlined {
+  state: string;
+  slice: number;
+  phase: number;
+  columns: number;
+  rows: number;
+  spacing_i_mm: number;
+  spacing_j_mm: number;
+  png: string;
+  lines: { source: "model" | "contours"; contour: string; points: number[] }[];
+}
+
 interface CaseJson {
   folder: string;
   complete: boolean;
@@ -40,6 +53,7 @@ interface CaseJson {
   end_diastole_s?: number;
   wall?: WallJson;
   flow?: FlowJson;
+  pictures?: string;  // id of the element with them
 }
 
 function text(id: string): string {
@@ -47,10 +61,13 @@ function text(id: string): string {
 }
 
 const parsed = new Promise((done) => document.addEventListener("DOMContentLoaded", done));
+/** The arrays of the first picture have been read; they stand before all others. */
+const wallData = new Promise((done) => addEventListener("wall-data", done));
 
 /** Undoes src/lv/report/packing.hpp. */
 async function unpacked(id: string, bytes: 2 | 4): Promise<Int16Array | Int32Array> {
-  // what the first view does not need stands after the script
+  // the page's data stand after the script, in the order in which they are needed
+  if (!document.getElementById(id)) await wallData;
   if (!document.getElementById(id)) await parsed;
   const letters = atob(text(id));
   const packed = new Uint8Array(letters.length);
@@ -166,6 +183,14 @@ export class Case {
   }
 
   async loadWall(): Promise<void> { this.wall = this.json.wall && (await Wall.read(this.json.wall)); }
+
+  /** Cine images with outlines; none for a case without images. */
+  async pictures(): Promise<Outlined[]> {
+    const id = this.json.pictures;
+    if (!id) return [];
+    if (!document.getElementById(id)) await parsed;
+    return JSON.parse(text(id));
+  }
 
   get flow(): FlowJson | undefined { return this.json.flow; }
   table(file: string): Row[] { return csv(this.json.files[file]); }

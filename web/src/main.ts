@@ -4,7 +4,9 @@ import { curvesSection, muscleSection, rotationSection } from "./curves_section.
 import { about, Case } from "./data.ts";
 import { el } from "./dom.ts";
 import { flowSection } from "./flow_section.ts";
+import { outlinesSection } from "./outlines_section.ts";
 import { Shared, timeline } from "./shared.ts";
+import { strainSection } from "./strain_section.ts";
 import { inputSection, normalSection, parameterSection, summarySection, zoneSection } from "./tables_section.ts";
 import { bullsEyeSection, wallSection } from "./wall_section.ts";
 
@@ -45,7 +47,8 @@ async function main(): Promise<void> {
   const shared = new Shared({ quantity: first, step: time.start, cut: { kind: "long", angle: 0, height: -40 }, fibres: false, fixed: false });
   const wall = wallSection(cases, shared, time);
   const sections = [wall.element, bullsEyeSection(cases, shared),
-    curvesSection(cases, shared, time), rotationSection(cases), flowSection(cases), muscleSection(cases), normalSection(cases),
+    curvesSection(cases, shared, time), rotationSection(cases), flowSection(cases), muscleSection(cases), outlinesSection(cases), strainSection(cases),
+    normalSection(cases),
     zoneSection(cases), inputSection(cases), parameterSection(cases)];
   nav.append(...[summary, ...sections].map((part) => el("a", { href: `#${part.id}` }, part.querySelector("h2")!.textContent!)));
   page.append(...sections, el("footer", {}, "Drawn with three.js (MIT licence). Colour maps are even in lightness and safe for " +

@@ -15,6 +15,18 @@ export const healthySubject: Record<string, MeanSd> = {
   fibre_stress: of(64, 19),
 };
 
+export const volunteers = "Taylor et al., Eur. Heart J. Cardiovasc. Imaging 16:871, 2015";
+
+/** Relative change of length e as Green-Lagrange strain E = e + e^2/2; its deviation is dE/de sd. */
+const lagrange = (e: number, sd: number): MeanSd => of(e + (e * e) / 2, (1 + e) * sd);
+
+/** Peak systolic strains of 100 healthy adults from feature tracking: -26.1 +- 3.8, -21.3 +- 4.8, 39.8 +- 8.3 %. */
+export const healthyAdults: Record<string, MeanSd> = {
+  circumferential_strain: lagrange(-0.261, 0.038),
+  longitudinal_strain: lagrange(-0.213, 0.048),
+  radial_strain: lagrange(0.398, 0.083),
+};
+
 /** At end-systole, in the paper's patient six months after an infarct. */
 export const patient: Record<"remote" | "infarct", Record<string, MeanSd>> = {
   remote: {

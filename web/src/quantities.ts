@@ -41,11 +41,14 @@ export const label = (q: Quantity) => (q.unit === "1" ? q.title : `${q.title} ($
 
 export const stateTitle: Record<string, string> = { end_diastole: "end-diastole", end_systole: "end-systole" };
 
+/** Below this a number is the rounding of zero, in any unit of the page. */
+const rounding = 1e-9;
+
 /** A number for reading, with a true minus sign; a dash where it is missing. */
 export function shown(x: number | null | undefined, digits = 3): string {
   if (x === null || x === undefined || Number.isNaN(x)) return "–";
-  if (x === 0) return "0";
-  const text = Math.abs(x) >= 1e5 || (x !== 0 && Math.abs(x) < 1e-3) ? x.toPrecision(digits)
+  if (Math.abs(x) < rounding) return "0";
+  const text = Math.abs(x) >= 1e5 || Math.abs(x) < 1e-3 ? x.toPrecision(digits)
     : x.toFixed(Math.max(0, digits - 1 - Math.floor(Math.log10(Math.abs(x) || 1))));
-  return text.replace("-", "−");
+  return text.replaceAll("-", "−");
 }

@@ -71,7 +71,7 @@ export function timeline(cases: Case[]): Timeline {
 
 function reach(name: string, low: number, high: number): Scale {
   const q = quantity(name);
-  if (!q.signed) return { min: Math.min(0, low), max: high, diverging: false };
+  if (!q.signed) return { min: low < -1e-6 * Math.abs(high) ? low : 0, max: high, diverging: false };
   const most = Math.max(Math.abs(low - q.middle), Math.abs(high - q.middle));
   return { min: q.middle - most, max: q.middle + most, diverging: true };
 }

@@ -1,20 +1,21 @@
 // Summary, comparisons with print, infarct zones, quality of the input, parameters, files.
 import { type Case, type Row, value } from "./data.ts";
 import { el, fileName, missing, save, section, table } from "./dom.ts";
-import { healthySubject, type MeanSd, paper, patient } from "./published.ts";
+import { calibration, measuredVolume } from "./calibration_section.ts";
+import { healthyAdults, healthySubject, type MeanSd, paper, patient, volunteers } from "./published.ts";
 import { label, quantities, quantity, shown } from "./quantities.ts";
 
 const perCase = (cases: Case[], content: (c: Case) => (Node | undefined)[]) =>
   el("div", { class: "cases" }, ...cases.map((c) => el("div", { class: "panel" },
     cases.length > 1 && el("h3", {}, c.name), ...content(c))));
-const pm = (x: MeanSd | undefined) => (x ? `${shown(x.mean)} ± ${shown(x.sd)}` : "–");
+const pm = (x: MeanSd | undefined) => (x ? `${shown(x.mean)} ± ${shown(x.sd, 2)}` : "–");
 /** As it is printed. */
 const printed = (x: MeanSd | undefined) => (x ? `${x.mean} ± ${x.sd}`.replace("-", "−") : "–");
 const ofRow = (row: Row | undefined): string => (row && row.mean !== "" ? pm({ mean: value(row.mean), sd: value(row.sd) }) : "–");
 
 const known = new Set(["case", "program", "resolution", "early_diastole", "end_diastole", "end_systole", "edv_ml", "esv_ml",
   "ejection_fraction_percent", "filling_was_steady", "contraction_was_steady", "strain", "whole_wall", "fibre_shortening_percent",
-  "rotation", "observations", "warnings", "parameters", "set_in_case_file"]);
+  "rotation", "observations", "calibration", "zones", "infarct_segments", "warnings", "parameters", "set_in_case_file"]);
 
 /** Entries of a JSON value as rows: "calibration.passive.value", 1.2. */
 function flat(json: any, prefix: string): [string, string][] {
@@ -29,7 +30,7 @@ function summaryOf(c: Case): (Node | undefined)[] {
   const states = ["early_diastole", "end_diastole", "end_systole"].map((name) => s[name] ?? {});
   const row = (title: string, key: string, digits = 4) => [title, ...states.map((state) => shown(state[key], digits))];
   const r = s.resolution ?? {};
-  const measured = (key: string) => s.measured?.[key] ?? s.calibration?.measured?.[key];
+  const measured = ["EDV", "ESV"].map((name) => measuredVolume(c, name));
   return [
     el("dl", { class: "key" },
       ...[["end-diastolic volume", `${shown(s.edv_ml, 4)} ml`, "edv_ml"], ["end-systolic volume", `${shown(s.esv_ml, 4)} ml`, "esv_ml"],
@@ -39,11 +40,12 @@ function summaryOf(c: Case): (Node | undefined)[] {
         .map(([title, text, id]) => el("div", {}, el("dt", {}, title), el("dd", { "data-key": id }, text)))),
     table(fileName(c.name, "states"), ["", "early diastole", "end-diastole", "end-systole"], [
       row("time (s)", "time_s"), row("endocardial pressure (mmHg)", "pressure_mmHg"), row("cavity volume (ml)", "cavity_volume_ml"),
-      ["measured cavity volume (ml)", "–", ...["edv_ml", "esv_ml"].map((key) => shown(measured(key), 4))],
+      ["measured cavity volume (ml)", "–", ...measured.map((ml) => shown(ml, 4))],
       row("wall volume (ml)", "wall_volume_ml"), row("endocardial apex z (mm)", "apex_endo_z_mm"),
       row("epicardial apex z (mm)", "apex_epi_z_mm"), row("radius of the endocardium at the base (mm)", "base_endo_radius_mm"),
       row("largest axial shift of the base (mm)", "base_axial_shift_mm", 2)]),
-    measured("edv_ml") === undefined ? missing("No measured volumes: the case names none.") : undefined,
+    measured.every((ml) => ml === undefined) ? missing("No measured volumes: the case is not fitted to any.") : undefined,
+    ...calibration(c),
     el("h3", {}, "Whole wall, mean ± standard deviation"),
     table(fileName(c.name, "whole-wall"), ["quantity", "end-diastole", "end-systole"], quantities.map((q) => [label(q),
       ...["end_diastole", "end_systole"].map((state) => pm(s.whole_wall?.[state]?.[q.name]))])),
@@ -74,23 +76,32 @@ export function summarySection(cases: Case[]): HTMLElement {
 export function normalSection(cases: Case[]): HTMLElement {
   const strains = ["fibre_strain", "circumferential_strain", "longitudinal_strain", "radial_strain"];
   const thirds = ["basal", "middle", "apical"];
-  const verdict = (row: Row | undefined, of: MeanSd) => {
-    const away = Math.abs(value(row?.mean) - of.mean) / of.sd;
+  const verdict = (row: Row | undefined, of: MeanSd | undefined) => {
+    const away = of ? Math.abs(value(row?.mean) - of.mean) / of.sd : NaN;
     return Number.isNaN(away) ? "–" : `${away.toFixed(1)} sd`;
   };
   return section("normal", "Strain beside published values",
     "Means ± standard deviations at end-systole, from end-diastole, per third of the wall (slices 1-2, 3-5, 6-7) and over all of it, " +
-    `from regions.csv. Beside them the whole-wall values of the paper's healthy subject (${paper}). The paper compares thirds with ` +
-    "tagged images of 31 volunteers (Moore et al., Radiology 214:453, 2000) in its Table 2, whose numbers are not available; what " +
-    "remains is its statement that all components but the longitudinal lie within one to two standard deviations of those. The last " +
-    "column says how many of the subject's own standard deviations the model's mean is away. One subject is no range of normal.",
+    `from regions.csv. Beside them, for the whole wall: the paper's healthy subject (${paper}), one heart and its spread over the wall; ` +
+    `and the mean and spread of 100 healthy adults from feature tracking of cine images (${volunteers}), whose changes of length are ` +
+    "converted to Green-Lagrange strain, E = e + e²/2. Feature tracking follows the borders of the wall, mostly the inner one, so it sees " +
+    "more shortening than a mean over the wall; the model's base cannot move, so its longitudinal strain is small. “Away”: how many of those " +
+    "standard deviations lie between. For thirds of the wall nothing stands beside the model: the paper's Table 2 compares them with " +
+    "tagged images of 31 volunteers (Moore et al., Radiology 214:453, 2000), but neither's numbers are in the paper's text.",
     perCase(cases, (c) => c.regions.length === 0 ? [missing("regions.csv is missing: there are no results yet.")] : [
-      table(fileName(c.name, "strain-thirds"), ["strain", ...thirds, "whole wall", "paper's healthy subject", "away"], strains.map((name) => {
-        const whole = c.row("end_systole", "whole", "wall", name);
-        return [quantity(name).title, ...thirds.map((third) => ofRow(c.row("end_systole", "third", third, name))), ofRow(whole),
-          printed(healthySubject[name]), verdict(whole, healthySubject[name])];
-      })),
-      missing("Strain from images (Table 1 of the paper) is not shown: the case has no images.")]));
+      table(fileName(c.name, "strain-thirds"), ["strain", ...thirds, "whole wall", "paper's healthy subject", "away", "100 healthy adults", "away"],
+        strains.map((name) => {
+          const whole = c.row("end_systole", "whole", "wall", name);
+          return [quantity(name).title, ...thirds.map((third) => ofRow(c.row("end_systole", "third", third, name))), ofRow(whole),
+            printed(healthySubject[name]), verdict(whole, healthySubject[name]), pm(healthyAdults[name]), verdict(whole, healthyAdults[name])];
+        }))]));
+}
+
+function scarTable(c: Case): Node | undefined {
+  const rows: any[] = c.summary?.infarct_segments ?? [];
+  return rows.length ? table(fileName(c.name, "infarct-segments"),
+    ["infarcted segment (AHA)", "infarct (ml)", "infarct (g)", "part of the segment (%)", "transmurality (%)"], rows.map((s) =>
+      [s.segment, ...["infarct_ml", "infarct_g", "percent_of_segment", "transmurality_percent"].map((key) => shown(s[key]))])) : undefined;
 }
 
 export function zoneSection(cases: Case[]): HTMLElement {
@@ -108,7 +119,7 @@ export function zoneSection(cases: Case[]): HTMLElement {
           const row = c.row("end_systole", "zone", zone, name);
           return [`${label(quantity(name))}, ${zone}`, shown(value(row?.volume_ml)), ...cells(row),
             printed(patient[zone as "remote"]?.[name])];
-        })))];
+        }))), scarTable(c)];
     }));
 }
 
@@ -121,11 +132,11 @@ export function inputSection(cases: Case[]): HTMLElement {
       found.map((row) => head.map((name) => row[name] === "" ? "–" : row[name].replace("-", "−"))));
   };
   return section("input", "Input and mesh",
-    "How far the fitted surfaces are from the contours (mm, per image and surface, with the shift that corrected the slice), and the " +
-    "quality of the elements: a scaled Jacobian of 1 is a cube, 0 a flat element.",
+    "How far the fitted surfaces are from the contours (mm, per image and surface, with the shift that corrected the slice), the volumes " +
+    "of the fit beside those of the contours or labels and what was found per slice, and the quality of the elements: a scaled Jacobian of 1 is a cube, 0 a flat element.",
     perCase(cases, (c) => [
       el("h3", {}, "Contours"), rows(c, "fit.csv", "No contours were fitted: the shape is an ellipsoid or a given mesh."),
-      el("h3", {}, "Outlines over images"), missing("Not shown: the case has no images, so the model cannot be laid over them."),
+      el("h3", {}, "Quality sheet"), rows(c, "anatomy_quality.csv", "No quality sheet: the shape was not drawn on images."),
       el("h3", {}, "Mesh"), rows(c, "quality.csv", "quality.csv is missing: the mesh has not been made.")]));
 }
 

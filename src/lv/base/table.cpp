@@ -4,10 +4,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <limits>
 #include <sstream>
 #include <system_error>
 #include <utility>
@@ -19,6 +21,17 @@ std::string line_of(const std::vector<std::string>& fields) {
   return fmt::format("{}\n", fmt::join(fields, ","));
 }
 
+std::vector<std::string> fields_of(const std::string& line) {
+  std::vector<std::string> fields(1);
+  for (const char c : line) {
+    if (c == ',')
+      fields.emplace_back();
+    else if (c != '\r')
+      fields.back() += c;
+  }
+  return fields;
+}
+
 }  // namespace
 
 Table::Table(std::vector<std::string> columns) : columns_(std::move(columns)) {}
@@ -26,6 +39,33 @@ Table::Table(std::vector<std::string> columns) : columns_(std::move(columns)) {}
 void Table::add_row(std::vector<std::string> fields) {
   LV_CHECK(fields.size() == columns_.size());
   rows_.push_back(std::move(fields));
+}
+
+std::vector<std::string> Table::words(const std::string& column) const {
+  const auto found = std::find(columns_.begin(), columns_.end(), column);
+  std::vector<std::string> result(rows_.size());
+  if (found != columns_.end())
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+      result[i] = rows_[i][found - columns_.begin()];
+  return result;
+}
+
+std::vector<double> Table::numbers(const std::string& column) const {
+  std::vector<double> result;
+  for (const std::string& word : words(column))
+    result.push_back(word.empty() ? std::numeric_limits<double>::quiet_NaN() : std::stod(word));
+  return result;
+}
+
+Table Table::read_csv(const std::filesystem::path& file) {
+  std::istringstream lines(read_file(file));
+  std::string line;
+  std::getline(lines, line);
+  Table table(fields_of(line));
+  while (std::getline(lines, line))
+    if (auto fields = fields_of(line); fields.size() == table.columns_.size())
+      table.add_row(std::move(fields));
+  return table;
 }
 
 void Table::write_csv(const std::filesystem::path& file) const {

@@ -17,6 +17,16 @@ class Table {
   [[nodiscard]] const std::vector<std::string>& columns() const { return columns_; }
   [[nodiscard]] const std::vector<std::vector<std::string>>& rows() const { return rows_; }
 
+  /// The numbers of a column; NaN where the field is empty, all of them if there is no such column.
+  [[nodiscard]] std::vector<double> numbers(const std::string& column) const;
+
+  /// The words of a column; empty ones if there is no such column.
+  [[nodiscard]] std::vector<std::string> words(const std::string& column) const;
+
+  /// A file as write_csv makes it; lines with too few fields (half written) are left out. Throws
+  /// InputError when the file cannot be read.
+  [[nodiscard]] static Table read_csv(const std::filesystem::path& file);
+
   /// Throws RunError when the file cannot be written.
   void write_csv(const std::filesystem::path& file) const;
 

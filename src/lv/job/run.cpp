@@ -18,6 +18,7 @@
 #include "lv/job/workspace.hpp"
 #include "lv/mesh/quality.hpp"
 #include "lv/report/page.hpp"
+#include "lv/report/table_figures.hpp"
 #include "lv/solid/cavity.hpp"
 
 #include <fmt/format.h>
@@ -221,6 +222,7 @@ class Pipeline {
       case Stage::report:
         on_root([&] {
           write_page({work_}, part / "report.html");
+          report::write_figures(work_, part / "figures");
           write_file(part / "paraview.py",
                      report::paraview_script("../" + folder(Stage::beat).filename().string()));
         });

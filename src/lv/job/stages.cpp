@@ -18,6 +18,7 @@
 #include "lv/report/fields_vtk.hpp"
 #include "lv/report/heart_figures.hpp"
 #include "lv/report/summary.hpp"
+#include "lv/report/table_figures.hpp"
 #include "lv/report/tables_csv.hpp"
 
 #include <fmt/format.h>
@@ -207,8 +208,8 @@ void draw(const mesh::Mesh& mesh, const heartbeat::Beat& beat, const analysis::B
           const analysis::Results& results, const std::filesystem::path& folder) {
   report::write(report::states_figure(mesh, beat, fields), folder / "states.png");
   report::write(report::stress_figure(mesh, beat, fields), folder / "stress.png");
-  report::write(report::curves_figure(beat), folder / "curves.png");
-  report::write(report::segments_figure(results), folder / "segments.png");
+  report::write(report::curves_figure(report::curves_table(beat.curves)), folder / "curves.png");
+  report::write(report::segments_figure(report::regions_table(results)), folder / "segments.png");
 }
 
 /// What the model's strains come to beside measured ones, if there are any.

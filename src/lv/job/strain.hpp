@@ -48,7 +48,8 @@ struct ModelledBeat {
 
 /// Sets the strains of a beat beside the measured ones, with their agreement, and lays the model's
 /// outlines over the images: strain_comparison.csv, strain_agreement.json, outlines.csv,
-/// outline_distances.csv, outlines_ed.png, outlines_es.png in `folder`. `strain` is the folder of
+/// outline_distances.csv, outlines_ed.png, outlines_es.png and pictures/ (the images around the
+/// heart, for the report) in `folder`. `strain` is the folder of
 /// make_strain. Returns what was found, in words; nothing if the case has no measured strain.
 [[nodiscard]] std::string compare_strain(const Case& c, const ModelledBeat& model,
                                          const std::filesystem::path& strain,

@@ -3,6 +3,7 @@
 #include "lv/job/cine.hpp"
 #include "lv/job/strain.hpp"
 #include "lv/report/overlay.hpp"
+#include "lv/report/picture_files.hpp"
 #include "lv/report/wall_surface.hpp"
 #include "lv/strain/agreement.hpp"
 #include "lv/strain/measures.hpp"
@@ -205,12 +206,17 @@ Surfaces surfaces(const ModelledBeat& model, const std::vector<Vec3>& positions)
   return {triangles(model.mesh.mesh.endo), triangles(model.mesh.mesh.epi)};
 }
 
+std::vector<Vec3> closed(std::vector<Vec3> loop) {
+  loop.push_back(loop.front());
+  return loop;
+}
+
 /// Draws one state's outlines over the images and measures their distance from contours.
 class Outlines {
  public:
   explicit Outlines(const CineStudy& study)
       : study_(study),
-        points_({"state", "slice", "contour", "line", "point", "x_mm", "y_mm", "z_mm"}),
+        points_({"state", "slice", "source", "contour", "line", "point", "x_mm", "y_mm", "z_mm"}),
         distances_({"state", "slice", "contour", "points", "mean_mm", "rms_mm", "largest_mm"}) {}
 
   void add(const std::string& state, const Surfaces& model, const std::vector<Contour>& drawn,
@@ -228,12 +234,17 @@ class Outlines {
                                        frame.plane.origin, frame.plane.normal());
         for (const auto& line : lines)
           overlay.lines.push_back({line, report::hex(0xe69f00), false, false});
-        write(state, loops[l].slice, side, lines);
+        write(state, loops[l].slice, "model", side, lines);
         if (const Contour* contour = geometry::find(drawn, loops[l].slice, side)) {
           overlay.lines.push_back({contour->points, report::hex(0x56b4e9), true, true});
+          write(state, loops[l].slice, "contours", side, {closed(contour->points)});
           measure(state, *contour, lines);
         }
       }
+      std::vector<Vec3> around;
+      for (const report::OverlayLine& line : overlay.lines)
+        around.insert(around.end(), line.points.begin(), line.points.end());
+      pictures_.push_back({state, loops[l].slice, phase, report::cut_around(frame, around)});
       overlays.push_back(std::move(overlay));
     }
     report::write_overlays(overlays, "Outlines of the model (solid) and contours drawn (dashed)",
@@ -243,6 +254,7 @@ class Outlines {
   void write(const fs::path& folder) const {
     points_.write_csv(folder / "outlines.csv");
     distances_.write_csv(folder / "outline_distances.csv");
+    report::write_pictures(pictures_, folder / "pictures");
   }
 
   [[nodiscard]] std::string words(const std::string& state) const {
@@ -257,12 +269,12 @@ class Outlines {
   }
 
  private:
-  void write(const std::string& state, int slice, Side side,
+  void write(const std::string& state, int slice, const std::string& source, Side side,
              const std::vector<std::vector<Vec3>>& lines) {
     const auto coordinate = [](double x) { return fmt::format("{:.3f}", x); };
     for (std::size_t n = 0; n < lines.size(); ++n)
       for (std::size_t i = 0; i < lines[n].size(); ++i)
-        points_.add_row({state, std::to_string(slice), name(side), std::to_string(n + 1),
+        points_.add_row({state, std::to_string(slice), source, name(side), std::to_string(n + 1),
                          std::to_string(i + 1), coordinate(lines[n][i].x()),
                          coordinate(lines[n][i].y()), coordinate(lines[n][i].z())});
   }
@@ -279,6 +291,7 @@ class Outlines {
 
   const CineStudy& study_;
   Table points_, distances_;
+  std::vector<report::PictureFile> pictures_;
   std::map<std::string, std::vector<double>> means_;
 };
 

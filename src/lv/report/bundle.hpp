@@ -4,8 +4,9 @@
 
 namespace lv::report {
 
-/// web/dist/page.html: the page without data. At `<!-- data -->` goes the
-/// data that the first view needs, at `<!-- more data -->` the rest.
+/// web/dist/page.html: the page without data. At `<!-- data -->`, before its script, goes what the
+/// summary needs, at `<!-- wall data -->` what the first picture of the wall needs, at
+/// `<!-- more data -->` the rest.
 [[nodiscard]] std::string_view page_bundle();
 
 }  // namespace lv::report

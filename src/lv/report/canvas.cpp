@@ -200,6 +200,23 @@ std::string svg(double width, double height, double pixels_per_point, const Draw
   return bytes;
 }
 
+std::string grey_png(int columns, int rows, const std::vector<unsigned char>& levels) {
+  LV_CHECK(static_cast<std::ptrdiff_t>(levels.size()) ==
+           static_cast<std::ptrdiff_t>(columns) * rows);
+  const SurfaceOwner surface =
+      own(cairo_image_surface_create(CAIRO_FORMAT_A8, columns, rows));  // A8 becomes grey in PNG
+  require(cairo_surface_status(surface.get()));
+  const int stride = cairo_image_surface_get_stride(surface.get());
+  unsigned char* bytes = cairo_image_surface_get_data(surface.get());
+  for (int j = 0; j < rows; ++j)
+    std::copy_n(levels.begin() + static_cast<std::ptrdiff_t>(j) * columns, columns,
+                bytes + static_cast<std::ptrdiff_t>(j) * stride);
+  cairo_surface_mark_dirty(surface.get());
+  std::string png;
+  require(cairo_surface_write_to_png_stream(surface.get(), &append, &png));
+  return png;
+}
+
 void write_whole(const std::filesystem::path& file, const std::string& bytes) {
   const std::filesystem::path partial = file.string() + ".partial";
   std::ofstream stream(partial, std::ios::binary);

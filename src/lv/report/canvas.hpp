@@ -93,6 +93,9 @@ using Draw = std::function<void(Canvas&)>;
 [[nodiscard]] std::string svg(double width, double height, double pixels_per_point,
                               const Draw& draw);
 
+/// The bytes of a PNG with 8 bits of grey a pixel, given row by row.
+[[nodiscard]] std::string grey_png(int columns, int rows, const std::vector<unsigned char>& levels);
+
 /// Writes under a temporary name and renames, so that a half-written file never looks whole.
 /// Throws RunError naming the file.
 void write_whole(const std::filesystem::path& file, const std::string& bytes);

@@ -17,7 +17,6 @@ namespace lv::report {
 namespace {
 
 using analysis::CellFields;
-using heartbeat::CurveRow;
 using mesh::Mesh;
 using units::degree;
 using units::mmHg;
@@ -145,31 +144,6 @@ Item fibre_sticks(const WallPatch& patch, const std::vector<CellFields>& cells,
   return {.patch = tubes(segments, 0.45), .paint = tube_colours(colours)};
 }
 
-std::vector<double> column(const std::vector<CurveRow>& rows, double CurveRow::*member,
-                           double unit) {
-  std::vector<double> values;
-  for (const CurveRow& row : rows)
-    values.push_back(row.*member / unit);
-  return values;
-}
-
-/// The value of every AHA segment at end-systole.
-Panel segment_panel(const analysis::Results& results, const std::string& quantity,
-                    const std::string& label, int decimals) {
-  BullsEye plot;
-  plot.decimals = decimals;
-  for (int segment = 1; segment <= 17; ++segment)
-    for (const auto& r : results.regional)
-      if (r.state == "end_systole" && r.scheme == "aha17" && r.quantity == quantity &&
-          r.region == fmt::format("{} {}", segment, mesh::aha_name(segment)))
-        plot.values.push_back(r.statistics.mean);
-  std::vector<double> known;
-  std::copy_if(plot.values.begin(), plot.values.end(), std::back_inserter(known),
-               [](double v) { return std::isfinite(v); });
-  plot.scale = scale_of(known);
-  return {.title = label, .content = plot};
-}
-
 }  // namespace
 
 Figure mesh_figure(const Mesh& mesh) {
@@ -274,39 +248,6 @@ Figure stress_figure(const Mesh& mesh, const heartbeat::Beat& beat,
                      panel("end-systole", beat.end_systole,
                            at_nodes(mesh, fields.end_systole, tension), "active tension [kPa]")},
           .columns = 3};
-}
-
-Figure curves_figure(const heartbeat::Beat& beat) {
-  const auto& rows = beat.curves;
-  const auto time = column(rows, &CurveRow::time, 1.0);
-  const auto pressure = column(rows, &CurveRow::pressure, mmHg);
-  const auto volume = column(rows, &CurveRow::volume, 1e3);
-  const std::vector<Phase> phases{{"filling", 0.0, beat.end_diastole.time},
-                                  {"contraction", beat.end_diastole.time, beat.end_systole.time}};
-  const LineChart against_time{
-      .x = {"time [s]"},
-      .y = {"pressure [mmHg], tension [kPa]"},
-      .second_y = {"volume [ml]"},
-      .series = {{.label = "pressure", .x = time, .y = pressure},
-                 {.label = "mean active tension",
-                  .x = time,
-                  .y = column(rows, &CurveRow::mean_tension, 1.0)},
-                 {.label = "cavity volume", .x = time, .y = volume, .on_second_axis = true}},
-      .phases = phases};
-  const LineChart loop{.x = {"cavity volume [ml]"},
-                       .y = {"pressure [mmHg]"},
-                       .series = {{.x = volume, .y = pressure}}};
-  return {.panels = {{.title = "against time", .content = against_time},
-                     {.title = "pressure and volume", .content = loop}}};
-}
-
-Figure segments_figure(const analysis::Results& results) {
-  return {.panels = {segment_panel(results, "fibre_strain", "fibre strain", 3),
-                     segment_panel(results, "fibre_stress", "fibre stress [kPa]", 1),
-                     segment_panel(results, "active_tension", "active tension [kPa]", 1),
-                     segment_panel(results, "radial_strain", "radial strain", 2)},
-          .title = "end-systole, 17 segments",
-          .footnote = "Green-Lagrange strain from end-diastole"};
 }
 
 }  // namespace lv::report

@@ -28,10 +28,4 @@ namespace lv::report {
 [[nodiscard]] Figure stress_figure(const mesh::Mesh& mesh, const heartbeat::Beat& beat,
                                    const analysis::BeatFields& fields);
 
-/// Pressure, volume and mean active tension against time, and pressure against volume.
-[[nodiscard]] Figure curves_figure(const heartbeat::Beat& beat);
-
-/// Fibre strain, fibre stress, active tension and radial strain at end-systole in the 17 segments.
-[[nodiscard]] Figure segments_figure(const analysis::Results& results);
-
 }  // namespace lv::report

@@ -28,16 +28,20 @@ Bytes differences(const std::vector<Number>& values) {
   return bytes;
 }
 
+std::string letters(const unsigned char* bytes, std::size_t length) {
+  std::string text(4 * ((length + 2) / 3) + 4, '\0');
+  text.resize(
+      vtkBase64Utilities::Encode(bytes, length, reinterpret_cast<unsigned char*>(text.data())));
+  return text;
+}
+
 std::string compressed(const Bytes& bytes) {
   vtkNew<vtkZLibDataCompressor> zlib;
   zlib->SetCompressionLevel(9);
   Bytes small(zlib->GetMaximumCompressionSpace(bytes.size()));
   const std::size_t length = zlib->Compress(bytes.data(), bytes.size(), small.data(), small.size());
   LV_CHECK(length > 0 || bytes.empty());
-  std::string text(4 * ((length + 2) / 3) + 4, '\0');
-  text.resize(vtkBase64Utilities::Encode(small.data(), length,
-                                         reinterpret_cast<unsigned char*>(text.data())));
-  return text;
+  return letters(small.data(), length);
 }
 
 }  // namespace
@@ -48,6 +52,10 @@ std::string packed(const std::vector<std::int16_t>& values) {
 
 std::string packed(const std::vector<std::int32_t>& values) {
   return compressed(differences(values));
+}
+
+std::string base64(const std::string& bytes) {
+  return letters(reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
 }
 
 }  // namespace lv::report

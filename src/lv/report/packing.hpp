@@ -12,4 +12,7 @@ namespace lv::report {
 [[nodiscard]] std::string packed(const std::vector<std::int16_t>& values);
 [[nodiscard]] std::string packed(const std::vector<std::int32_t>& values);
 
+/// Bytes as letters, digits, + and / (RFC 4648).
+[[nodiscard]] std::string base64(const std::string& bytes);
+
 }  // namespace lv::report

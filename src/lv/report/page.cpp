@@ -8,12 +8,15 @@
 #include "lv/report/flow_series.hpp"
 #include "lv/report/modes.hpp"
 #include "lv/report/packing.hpp"
+#include "lv/report/page_pictures.hpp"
 #include "lv/report/wall_series.hpp"
+#include "lv/report/work_folder.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -50,9 +53,9 @@ std::string element(const std::string& id, const char* type, std::string text) {
   return fmt::format("<script type=\"{}\" id=\"{}\">{}</script>\n", type, id, text);
 }
 
-/// Elements of the page before its script and after it.
+/// Elements of the page: for the summary, for the first picture of the wall, and for the rest.
 struct Data {
-  std::string first, more;
+  std::string summary, wall, more;
 };
 
 /// Collects a case's arrays as elements of the page; in the JSON they are named by their ids.
@@ -63,12 +66,12 @@ class Arrays {
   template <class Number>
   std::string add(const std::vector<Number>& values) {
     const std::string id = fmt::format("{}-{}", prefix_, count_++);
-    (is_first ? data.first : data.more) += element(id, "text/plain", packed(values));
+    (is_first ? data.wall : data.more) += element(id, "text/plain", packed(values));
     return id;
   }
 
   Data data;
-  bool is_first = true;  ///< whether the first view needs what is added
+  bool is_first = true;  ///< whether the first picture of the wall needs what is added
 
  private:
   std::string prefix_;
@@ -252,32 +255,38 @@ std::array<std::array<double, 2>, 2> surroundings(const WallSeries& wall) {
   return {{{lower[0] - margin, lower[1] - margin}, {upper[0] + margin, upper[1] + above}}};
 }
 
-/// The folder of a stage ("beat"), or what there is of it before it is finished; empty if neither.
-fs::path stage_folder(const fs::path& work, const std::string& stage) {
-  fs::path unfinished;
-  for (const auto& entry : fs::directory_iterator(work)) {
-    const std::string name = entry.path().filename();  // "beat"
-    if (name.size() > 3 && name.substr(3) == stage)
-      return entry.path();
-    if (name.size() > 3 && name.substr(3) == stage + ".part")
-      unfinished = entry.path();
-  }
-  return unfinished;
-}
+/// A file of a stage, and its name on the page.
+struct PageFile {
+  const char* stage;
+  const char* file;
+  const char* name;
+};
+
+constexpr std::array<PageFile, 16> page_files{{
+    {"results", "summary.json", "summary.json"},
+    {"results", "regions.csv", "regions.csv"},
+    {"results", "rotation.csv", "rotation.csv"},
+    {"results", "infarct.csv", "infarct.csv"},
+    {"results", "strain_comparison_circumferential.csv", "strain_comparison_circumferential.csv"},
+    {"results", "strain_comparison_radial.csv", "strain_comparison_radial.csv"},
+    {"results", "strain_agreement.json", "strain_agreement.json"},
+    {"results", "outline_distances.csv", "outline_distances.csv"},
+    {"beat", "curves.csv", "curves.csv"},
+    {"beat", "confirmation.json", "confirmation.json"},
+    {"calibrate", "calibration.json", "calibration.json"},
+    {"mesh", "quality.csv", "quality.csv"},
+    {"anatomy", "quality.csv", "anatomy_quality.csv"},
+    {"anatomy", "fit.csv", "fit.csv"},
+    {"strain", "slices.csv", "strain_slices.csv"},
+    {"strain", "rotation.csv", "strain_rotation.csv"},
+}};
 
 /// The tables and the summary, as they are on disk.
 Json files_json(const fs::path& work) {
   Json json = Json::object();
-  for (const auto& [stage, name] : {std::pair{"results", "summary.json"},
-                                    {"results", "regions.csv"},
-                                    {"results", "rotation.csv"},
-                                    {"beat", "curves.csv"},
-                                    {"mesh", "quality.csv"},
-                                    {"anatomy", "fit.csv"}}) {
-    const fs::path file = stage_folder(work, stage) / name;
-    if (fs::exists(file))
-      json[name] = read_file(file);
-  }
+  for (const auto& [stage, file, name] : page_files)
+    if (const fs::path path = file_of(work, stage, file); !path.empty())
+      json[name] = read_file(path);
   return json;
 }
 
@@ -307,9 +316,9 @@ double end_diastole(const Json& files) {
 
 /// Frames of the beat; without any, the undeformed mesh.
 std::vector<TimedFrame> wall_frames(const fs::path& work) {
-  std::vector<TimedFrame> frames = frames_of(stage_folder(work, "beat") / "wall.pvd");
-  const fs::path undeformed = stage_folder(work, "mesh") / "mesh.vtu";
-  if (frames.empty() && fs::exists(undeformed))
+  std::vector<TimedFrame> frames = frames_of(file_of(work, "beat", "wall.pvd"));
+  const fs::path undeformed = file_of(work, "mesh", "mesh.vtu");
+  if (frames.empty() && !undeformed.empty())
     frames.push_back({0.0, undeformed});
   return frames;
 }
@@ -328,13 +337,16 @@ Data case_html(const PageCase& shown, int number) {
   if (const auto frames = wall_frames(shown.work); !frames.empty()) {
     const WallSeries wall = read_wall_series(frames, ed);
     json["wall"] = wall_json(wall, arrays);
-    const auto blood = frames_of(stage_folder(shown.work, "beat") / "blood.pvd");
+    const auto blood = frames_of(file_of(shown.work, "beat", "blood.pvd"));
     const auto [lower, upper] = surroundings(wall);
     if (!blood.empty())
       json["flow"] = flow_json(read_flow_series(blood, lower, upper), arrays);
   }
-  arrays.data.first.insert(0,
-                           element(fmt::format("case{}", number), "application/json", json.dump()));
+  if (const std::string pictures = pictures_json(shown.work); !pictures.empty()) {
+    json["pictures"] = fmt::format("case{}-pictures", number);
+    arrays.data.more += element(json["pictures"], "application/json", pictures);
+  }
+  arrays.data.summary = element(fmt::format("case{}", number), "application/json", json.dump());
   return arrays.data;
 }
 
@@ -349,14 +361,16 @@ std::string page(const std::vector<PageCase>& cases, const std::string& version)
   };
   Data data{element("about", "application/json",
                     Json{{"version", version}, {"cases", cases.size()}}.dump()),
-            ""};
+            "", ""};
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const Data one = case_html(cases[i], static_cast<int>(i));
-    data.first += one.first;
+    data.summary += one.summary;
+    data.wall += one.wall;
     data.more += one.more;
   }
   put("<!-- more data -->", data.more);
-  put("<!-- data -->", data.first);
+  put("<!-- wall data -->", data.wall);
+  put("<!-- data -->", data.summary);
   return html;
 }
 

@@ -5,6 +5,7 @@
 #include "support/temporary_folder.hpp"
 #include <catch2/catch.hpp>
 
+#include <cmath>
 #include <limits>
 
 using namespace lv;
@@ -64,4 +65,15 @@ TEST_CASE("a file that cannot be read is named", "[unit][base]") {
   CHECK_THROWS_AS(read_file(folder / "absent.txt"), InputError);
   CHECK_THROWS_WITH(read_file(folder / "absent.txt"), Contains("absent.txt"));
   CHECK_THROWS_AS(read_file(folder / "."), InputError);
+}
+
+TEST_CASE("a table is read as it was written; a missing number is no number", "[unit][base]") {
+  const test::TemporaryFolder folder;
+  write_file(folder / "a.csv", "name,value_ml\nEDV,142.6\nESV,\nhalf a li");
+  const Table table = Table::read_csv(folder / "a.csv");
+  CHECK(table.words("name") == std::vector<std::string>{"EDV", "ESV"});
+  CHECK(table.numbers("value_ml").at(0) == 142.6);
+  CHECK(std::isnan(table.numbers("value_ml").at(1)));
+  CHECK(std::isnan(table.numbers("absent").at(0)));
+  CHECK_THROWS_AS(Table::read_csv(folder / "absent.csv"), InputError);
 }

@@ -52,7 +52,9 @@ TEST_CASE("the table of figures has a line and a unit for each", "[unit][mesh]")
   };
   CHECK(row("wall volume").unit == "ml");
   CHECK(row("wall volume").value == Approx(114.24).epsilon(0.05));
-  CHECK(row("edge length, mean").unit == "mm");
+  CHECK(row("mean edge length").unit == "mm");
   CHECK(row("cells with scaled Jacobian 0.9 to 1.0").value > 0.0);
-  CHECK(row("worst cell, z").value <= 0.0);
+  CHECK(row("z of worst cell").value <= 0.0);
+  for (const mesh::QualityRow& r : rows)
+    CHECK(r.quantity.find(',') == std::string::npos);  // it would be two fields of quality.csv
 }

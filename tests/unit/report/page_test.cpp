@@ -65,7 +65,9 @@ TEST_CASE("packed numbers are small where neighbours are alike", "[report]") {
 TEST_CASE("the program carries a page with a place for data", "[report]") {
   const std::string page(report::page_bundle());
   CHECK(page.starts_with("<!doctype html>"));
-  CHECK(page.find("<!-- data -->") != std::string::npos);
+  CHECK(page.find("<!-- data -->") < page.find("<!-- wall data -->"));
+  CHECK(page.find("<!-- wall data -->") < page.find("<!-- more data -->"));
+  CHECK(page.find("<!-- more data -->") != std::string::npos);
   CHECK(page.find("http-equiv") == std::string::npos);
 }
 

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "lv/base/table.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace lv::report {
+
+/// The folder of a stage ("beat") in a case's work folder, or what there is of it before it is
+/// finished; empty if neither.
+[[nodiscard]] std::filesystem::path stage_folder(const std::filesystem::path& work,
+                                                 const std::string& stage);
+
+/// A file of a stage; empty if it is not there.
+[[nodiscard]] std::filesystem::path file_of(const std::filesystem::path& work,
+                                            const std::string& stage, const std::string& file);
+
+/// A table of a stage; nothing where it is missing or has no row.
+[[nodiscard]] std::optional<Table> table_of(const std::filesystem::path& work,
+                                            const std::string& stage, const std::string& file);
+
+}  // namespace lv::report

@@ -1,0 +1,100 @@
+// Outlines of the model and contours drawn, over the cine images.
+import { type Case, type Outlined, value } from "./data.ts";
+import { el, figure, fileName, missing, section, svg, table } from "./dom.ts";
+import { shown, stateTitle } from "./quantities.ts";
+
+const modelColour = "#e69f00";
+const contourColour = "#56b4e9";
+
+function pathOf(points: number[]): string {
+  let path = "";
+  for (let i = 0; i + 1 < points.length; i += 2) path += `${i ? "L" : "M"}${points[i]} ${points[i + 1]}`;
+  return path;
+}
+
+/** An image with its lines; `scale` pixels of the screen a millimetre. */
+function drawPicture(picture: Outlined, scale: number): SVGSVGElement {
+  const { columns, rows, spacing_i_mm: across, spacing_j_mm: down } = picture;
+  const [width, height] = [columns * across, rows * down];
+  const title = `slice ${picture.slice}, image ${picture.phase} (${stateTitle[picture.state]})`;
+  const names = [...new Set(picture.lines.map((line) => line.source))];
+  const root = svg("svg", { viewBox: `0 0 ${width} ${height}`, width: scale * width, height: scale * height, class: "outlined", role: "img",
+    "data-slice": picture.slice, "aria-label": `${title}; ${names.includes("model") ? "with" : "without"} an outline of the model` },
+    svg("image", { href: `data:image/png;base64,${picture.png}`, width, height, preserveAspectRatio: "none" }));
+  const lines = svg("g", { transform: `scale(${across} ${down})` });
+  for (const line of picture.lines)
+    lines.append(svg("path", { d: pathOf(line.points), fill: "none", stroke: line.source === "model" ? modelColour : contourColour,
+      "stroke-width": 1.6 / scale, "stroke-dasharray": line.source === "model" ? "none" : `${4.5 / scale} ${3 / scale}`, "data-source": line.source }));
+  root.append(lines, svg("text", { x: 2, y: height - 2.5, "font-size": 4 + 6 / scale, "font-family": "sans-serif", fill: "#fff",
+    stroke: "#000", "stroke-width": 0.9, "paint-order": "stroke" }, scale < 2 ? `slice ${picture.slice}` : title));
+  return root;
+}
+
+/** One case's images: a grid of all slices, and one of them large. */
+class Sheet {
+  readonly element = el("div", { class: "panel" });
+  private state = "end_diastole";
+  private slice: number;
+  private grid = el("div", { class: "sheet" });
+  private large = el("div");
+  private slider: HTMLInputElement;
+  private name = el("output");
+  constructor(private c: Case, private pictures: Outlined[]) {
+    const slices = this.slices();
+    this.slice = slices[Math.floor(slices.length / 2)];
+    this.slider = el("input", { type: "range", min: 0, max: slices.length - 1, step: 1, value: slices.indexOf(this.slice),
+      "aria-label": `slice of the images of ${c.name}`, input: () => { this.slice = slices[this.slider.valueAsNumber]; this.draw(); } });
+    const states = el("div", { class: "looks", role: "group", "aria-label": "moment of the images" },
+      ...["end_diastole", "end_systole"].map((state) => el("button", { type: "button", "data-state": state,
+        click: () => { this.state = state; this.draw(); } }, stateTitle[state])));
+    this.element.append(el("div", { class: "controls" }, states, el("label", {}, "slice", this.slider, this.name)),
+      el("div", { class: "outlines" }, this.large, this.grid), this.distances());
+    this.draw();
+  }
+
+  private slices(): number[] { return [...new Set(this.pictures.map((p) => p.slice))].sort((a, b) => a - b); }
+
+  private draw(): void {
+    const slices = this.slices();
+    for (const button of this.element.querySelectorAll<HTMLElement>("[data-state]"))
+      button.setAttribute("aria-pressed", String(button.dataset.state === this.state));
+    this.slider.value = String(slices.indexOf(this.slice));
+    this.name.textContent = String(this.slice);
+    const now = this.pictures.filter((p) => p.state === this.state);
+    const chosen = now.find((p) => p.slice === this.slice);
+    this.large.replaceChildren(chosen
+      ? figure(`${this.c.name}: slice ${this.slice} at ${stateTitle[this.state]}`,
+        fileName(this.c.name, "outlines", this.state, `slice${this.slice}`), drawPicture(chosen, 4))
+      : missing(`No image of slice ${this.slice} at ${stateTitle[this.state]}.`));
+    this.grid.replaceChildren(...now.map((p) => el("button", { type: "button", class: "thumb", "aria-label": `show slice ${p.slice}`,
+      "aria-pressed": p.slice === this.slice, click: () => { this.slice = p.slice; this.draw(); } }, drawPicture(p, 1.3))));
+  }
+
+  private distances(): HTMLElement {
+    const rows = this.c.table("outline_distances.csv");
+    if (!rows.length) return missing("outline_distances.csv is missing, or no contours were given to measure from.");
+    return el("details", {}, el("summary", {}, "distance of the drawn contours from the model's outlines"), table(fileName(this.c.name, "outline-distances"),
+      ["moment, slice, contour", "points", "mean (mm)", "rms (mm)", "largest (mm)"], rows.map((r) =>
+        [`${stateTitle[r.state] ?? r.state}, ${r.slice}, ${r.contour}`, r.points,
+          ...["mean_mm", "rms_mm", "largest_mm"].map((name) => shown(value(r[name])))])));
+  }
+}
+
+export function outlinesSection(cases: Case[]): HTMLElement {
+  const place = el("div", { class: "cases" });
+  const whole = section("outlines", "Outlines over the images",
+    "Where the model's two surfaces cut the planes of the short-axis cine (solid, orange), over the images at end-diastole and " +
+    "end-systole, with the contours that were drawn on them (dashed, blue). Where both lie on each other the model has the shape of the " +
+    "heart; at end-diastole and end-systole nothing forces it to: it was only started from the shape at early diastole. A slice without " +
+    "orange lies above the model's base or below its apex. The table has the distance of the drawn points from the model's outline; " +
+    "a dash where the plane does not cut the model. From pictures/, outlines.csv and outline_distances.csv.", place);
+  const absent = (c: Case) => el("div", { class: "panel" }, missing(
+    `${c.name}: no images in the results. A case whose [strain] names a cine and its contours has them.`));
+  const fill = async () => place.replaceChildren(...await Promise.all(cases.map(async (c) => {
+    const pictures = await c.pictures();
+    return pictures.length ? new Sheet(c, pictures).element : absent(c);
+  })));
+  if (cases.every((c) => !c.json.pictures)) place.append(...cases.map(absent));
+  else void fill();
+  return whole;
+}
