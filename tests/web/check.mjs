@@ -389,7 +389,7 @@ async function checkRealVentricle() {
   writeFileSync(join(folder, "hv01.toml"), ["name = 'HV01'", "engine = 'quasi_static'", "[anatomy]", "source = 'contours'", "[anatomy.contours]",
     `short_axis = ${file("contours_sa_aligned_long_axis.csv")}`, `long_axis = ${file("contours_la.csv")}`, `apex_endo = ${file("apex_endo.csv")}`,
     `apex_epi = ${file("apex_epi.csv")}`, "septum_point = ['37.1 mm', '0.8 mm', '-4.5 mm']", "[mesh]", "edge_length = '7 mm'", "[calibrate]", "passive = 'scale'",
-    "edv = '142.6 ml'", "[strain]", `measured = ${file("segmental_strain_from_cine.csv")}`, "measured_column = 'frame10'"].join("\n"));
+    "edv = '142.6 ml'", "[active]", "T_scale = 3.0", "[strain]", `measured = ${file("segmental_strain_from_cine.csv")}`, "measured_column = 'frame10'"].join("\n"));
   ventricle("run", "hv01.toml", "--ranks", "1");
   const { page, said, close: done } = await open(join("hv01.work", "05_report/report.html"));
   const fitted = JSON.parse(readFileSync(join(folder, "hv01.work/02b_calibrate/calibration.json"), "utf8"));
