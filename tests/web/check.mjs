@@ -310,6 +310,9 @@ async function checkOutlines(page) {
       }) };
   });
   const seen = [];
+  const longAxes = await page.locator('#outlines .sheet svg[data-slice^="long axis"]').evaluateAll((all) => all.map((root) =>
+    ["model", "contours"].map((source) => root.querySelectorAll(`path[data-source=${source}]`).length).join()));
+  check("long axes have images too, with both outlines of the model and the curves drawn", longAxes.length === 3 && longAxes.every((counts) => counts === "2,2"), longAxes);
   for (const state of ["end_diastole", "end_systole"]) {
     await page.locator(`#outlines [data-state=${state}]`).click();
     check(`all slices have an image at ${state}`, (await page.locator("#outlines .sheet svg").count()) === listed.filter((r) => r.state === state).length);

@@ -35,7 +35,7 @@ interface FlowJson {
 /** A cine image with lines over it; points are x, y, x, y ... in its pixels. */
 export interface Outlined {
   state: string;
-  slice: number;
+  slice: string; // number of a short-axis slice, or "long axis 1"
   phase: number;
   columns: number;
   rows: number;

@@ -6,6 +6,9 @@ import { shown, stateTitle } from "./quantities.ts";
 const modelColour = "#e69f00";
 const contourColour = "#56b4e9";
 
+/** Short axes are numbered; long axes have a name. */
+const titleOf = (slice: string) => (/^\d+$/.test(slice) ? `slice ${slice}` : slice);
+
 function pathOf(points: number[]): string {
   let path = "";
   for (let i = 0; i + 1 < points.length; i += 2) path += `${i ? "L" : "M"}${points[i]} ${points[i + 1]}`;
@@ -16,7 +19,7 @@ function pathOf(points: number[]): string {
 function drawPicture(picture: Outlined, scale: number): SVGSVGElement {
   const { columns, rows, spacing_i_mm: across, spacing_j_mm: down } = picture;
   const [width, height] = [columns * across, rows * down];
-  const title = `slice ${picture.slice}, image ${picture.phase} (${stateTitle[picture.state]})`;
+  const title = `${titleOf(picture.slice)}, image ${picture.phase} (${stateTitle[picture.state]})`;
   const names = [...new Set(picture.lines.map((line) => line.source))];
   const root = svg("svg", { viewBox: `0 0 ${width} ${height}`, width: scale * width, height: scale * height, class: "outlined", role: "img",
     "data-slice": picture.slice, "aria-label": `${title}; ${names.includes("model") ? "with" : "without"} an outline of the model` },
@@ -26,7 +29,7 @@ function drawPicture(picture: Outlined, scale: number): SVGSVGElement {
     lines.append(svg("path", { d: pathOf(line.points), fill: "none", stroke: line.source === "model" ? modelColour : contourColour,
       "stroke-width": 1.6 / scale, "stroke-dasharray": line.source === "model" ? "none" : `${4.5 / scale} ${3 / scale}`, "data-source": line.source }));
   root.append(lines, svg("text", { x: 2, y: height - 2.5, "font-size": 4 + 6 / scale, "font-family": "sans-serif", fill: "#fff",
-    stroke: "#000", "stroke-width": 0.9, "paint-order": "stroke" }, scale < 2 ? `slice ${picture.slice}` : title));
+    stroke: "#000", "stroke-width": 0.9, "paint-order": "stroke" }, scale < 2 ? titleOf(picture.slice) : title));
   return root;
 }
 
@@ -34,7 +37,7 @@ function drawPicture(picture: Outlined, scale: number): SVGSVGElement {
 class Sheet {
   readonly element = el("div", { class: "panel" });
   private state = "end_diastole";
-  private slice: number;
+  private slice: string;
   private grid = el("div", { class: "sheet" });
   private large = el("div");
   private slider: HTMLInputElement;
@@ -52,21 +55,21 @@ class Sheet {
     this.draw();
   }
 
-  private slices(): number[] { return [...new Set(this.pictures.map((p) => p.slice))].sort((a, b) => a - b); }
+  private slices(): string[] { return [...new Set(this.pictures.map((p) => p.slice))]; }
 
   private draw(): void {
     const slices = this.slices();
     for (const button of this.element.querySelectorAll<HTMLElement>("[data-state]"))
       button.setAttribute("aria-pressed", String(button.dataset.state === this.state));
     this.slider.value = String(slices.indexOf(this.slice));
-    this.name.textContent = String(this.slice);
+    this.name.textContent = this.slice;
     const now = this.pictures.filter((p) => p.state === this.state);
     const chosen = now.find((p) => p.slice === this.slice);
     this.large.replaceChildren(chosen
-      ? figure(`${this.c.name}: slice ${this.slice} at ${stateTitle[this.state]}`,
-        fileName(this.c.name, "outlines", this.state, `slice${this.slice}`), drawPicture(chosen, 4))
-      : missing(`No image of slice ${this.slice} at ${stateTitle[this.state]}.`));
-    this.grid.replaceChildren(...now.map((p) => el("button", { type: "button", class: "thumb", "aria-label": `show slice ${p.slice}`,
+      ? figure(`${this.c.name}: ${titleOf(this.slice)} at ${stateTitle[this.state]}`,
+        fileName(this.c.name, "outlines", this.state, titleOf(this.slice)), drawPicture(chosen, 4))
+      : missing(`No image of ${titleOf(this.slice)} at ${stateTitle[this.state]}.`));
+    this.grid.replaceChildren(...now.map((p) => el("button", { type: "button", class: "thumb", "aria-label": `show ${titleOf(p.slice)}`,
       "aria-pressed": p.slice === this.slice, click: () => { this.slice = p.slice; this.draw(); } }, drawPicture(p, 1.3))));
   }
 
@@ -83,11 +86,11 @@ class Sheet {
 export function outlinesSection(cases: Case[]): HTMLElement {
   const place = el("div", { class: "cases" });
   const whole = section("outlines", "Outlines over the images",
-    "Where the model's two surfaces cut the planes of the short-axis cine (solid, orange), over the images at end-diastole and " +
+    "Where the model's two surfaces cut the planes of the cine, short and long axes (solid, orange), over the images at end-diastole and " +
     "end-systole, with the contours that were drawn on them (dashed, blue). Where both lie on each other the model has the shape of the " +
     "heart; at end-diastole and end-systole nothing forces it to: it was only started from the shape at early diastole. A slice without " +
     "orange lies above the model's base or below its apex. The table has the distance of the drawn points from the model's outline; " +
-    "a dash where the plane does not cut the model. From pictures/, outlines.csv and outline_distances.csv.", place);
+    "a dash where the plane does not cut the model. Curves on long axes are drawn at end-diastole alone. From pictures/, outlines.csv and outline_distances.csv.", place);
   const absent = (c: Case) => el("div", { class: "panel" }, missing(
     `${c.name}: no images in the results. A case whose [strain] names a cine and its contours has them.`));
   const fill = async () => place.replaceChildren(...await Promise.all(cases.map(async (c) => {

@@ -1,12 +1,9 @@
 #include "lv/base/check.hpp"
 #include "lv/base/table.hpp"
 #include "lv/job/cine.hpp"
+#include "lv/job/outlines.hpp"
 #include "lv/job/strain.hpp"
-#include "lv/report/overlay.hpp"
-#include "lv/report/picture_files.hpp"
-#include "lv/report/wall_surface.hpp"
 #include "lv/strain/agreement.hpp"
-#include "lv/strain/measures.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -22,8 +19,6 @@ namespace lv::job {
 namespace {
 
 namespace fs = std::filesystem;
-using geometry::Contour;
-using geometry::Side;
 using strain::Pair;
 
 constexpr std::array<const char*, 2> components{"circumferential", "radial"};
@@ -186,124 +181,6 @@ std::string write_pairs(const Pairs& pairs, const std::string& measure, const fs
   }
   write_file(folder / "strain_agreement.json", json.dump(2) + "\n");
   return text;
-}
-
-/// The model's two surfaces at one time, in image space.
-struct Surfaces {
-  std::vector<std::array<Vec3, 3>> endo, epi;
-};
-
-Surfaces surfaces(const ModelledBeat& model, const std::vector<Vec3>& positions) {
-  const auto triangles = [&](const mesh::Surface& side) {
-    const report::Patch patch = report::wall_surface(model.mesh.mesh, positions, side).patch;
-    std::vector<std::array<Vec3, 3>> all;
-    for (const auto& t : patch.triangles)
-      all.push_back({model.frame.to_image(patch.points[t[0]]),
-                     model.frame.to_image(patch.points[t[1]]),
-                     model.frame.to_image(patch.points[t[2]])});
-    return all;
-  };
-  return {triangles(model.mesh.mesh.endo), triangles(model.mesh.mesh.epi)};
-}
-
-std::vector<Vec3> closed(std::vector<Vec3> loop) {
-  loop.push_back(loop.front());
-  return loop;
-}
-
-/// Draws one state's outlines over the images and measures their distance from contours.
-class Outlines {
- public:
-  explicit Outlines(const CineStudy& study)
-      : study_(study),
-        points_({"state", "slice", "source", "contour", "line", "point", "x_mm", "y_mm", "z_mm"}),
-        distances_({"state", "slice", "contour", "points", "mean_mm", "rms_mm", "largest_mm"}) {}
-
-  void add(const std::string& state, const Surfaces& model, const std::vector<Contour>& drawn,
-           int phase, const fs::path& picture) {
-    std::vector<report::Overlay> overlays;
-    const auto& loops = study_.drawn.short_axis;
-    for (std::size_t l = 0; l < loops.size(); ++l) {
-      if (loops[l].side != Side::endo)
-        continue;
-      const image::CineSlice& slice = study_.cine.slices[study_.slice_of[l]];
-      const image::Picture& frame = slice.frames.at(phase - 1);
-      report::Overlay overlay{fmt::format("slice {}, phase {}", loops[l].slice, phase), &frame, {}};
-      for (const Side side : {Side::endo, Side::epi}) {
-        const auto lines = strain::cut(side == Side::endo ? model.endo : model.epi,
-                                       frame.plane.origin, frame.plane.normal());
-        for (const auto& line : lines)
-          overlay.lines.push_back({line, report::hex(0xe69f00), false, false});
-        write(state, loops[l].slice, "model", side, lines);
-        if (const Contour* contour = geometry::find(drawn, loops[l].slice, side)) {
-          overlay.lines.push_back({contour->points, report::hex(0x56b4e9), true, true});
-          write(state, loops[l].slice, "contours", side, {closed(contour->points)});
-          measure(state, *contour, lines);
-        }
-      }
-      std::vector<Vec3> around;
-      for (const report::OverlayLine& line : overlay.lines)
-        around.insert(around.end(), line.points.begin(), line.points.end());
-      pictures_.push_back({state, loops[l].slice, phase, report::cut_around(frame, around)});
-      overlays.push_back(std::move(overlay));
-    }
-    report::write_overlays(overlays, "Outlines of the model (solid) and contours drawn (dashed)",
-                           picture);
-  }
-
-  void write(const fs::path& folder) const {
-    points_.write_csv(folder / "outlines.csv");
-    distances_.write_csv(folder / "outline_distances.csv");
-    report::write_pictures(pictures_, folder / "pictures");
-  }
-
-  [[nodiscard]] std::string words(const std::string& state) const {
-    const auto found = means_.find(state);
-    if (found == means_.end())
-      return "";
-    double sum = 0.0;
-    for (const double mean : found->second)
-      sum += mean;
-    return fmt::format("outlines of the model lie {:.1f} mm from the contours at {} in the mean\n",
-                       sum / static_cast<double>(found->second.size()), state);
-  }
-
- private:
-  void write(const std::string& state, int slice, const std::string& source, Side side,
-             const std::vector<std::vector<Vec3>>& lines) {
-    const auto coordinate = [](double x) { return fmt::format("{:.3f}", x); };
-    for (std::size_t n = 0; n < lines.size(); ++n)
-      for (std::size_t i = 0; i < lines[n].size(); ++i)
-        points_.add_row({state, std::to_string(slice), source, name(side), std::to_string(n + 1),
-                         std::to_string(i + 1), coordinate(lines[n][i].x()),
-                         coordinate(lines[n][i].y()), coordinate(lines[n][i].z())});
-  }
-
-  void measure(const std::string& state, const Contour& contour,
-               const std::vector<std::vector<Vec3>>& lines) {
-    const strain::Distance d = strain::distance(contour.points, lines, false);
-    distances_.add_row({state, std::to_string(contour.slice), name(contour.side),
-                        std::to_string(contour.points.size()), Table::number(d.mean, 4),
-                        Table::number(d.rms, 4), Table::number(d.largest, 4)});
-    if (std::isfinite(d.mean))
-      means_[state].push_back(d.mean);
-  }
-
-  const CineStudy& study_;
-  Table points_, distances_;
-  std::vector<report::PictureFile> pictures_;
-  std::map<std::string, std::vector<double>> means_;
-};
-
-std::string write_outlines(const ModelledBeat& model, const CineStudy& study, int diastole,
-                           int systole, const fs::path& folder) {
-  Outlines outlines(study);
-  outlines.add("end_diastole", surfaces(model, model.beat.end_diastole.positions),
-               study.drawn.short_axis, diastole, folder / "outlines_ed.png");
-  outlines.add("end_systole", surfaces(model, model.beat.end_systole.positions), study.systolic,
-               systole, folder / "outlines_es.png");
-  outlines.write(folder);
-  return outlines.words("end_diastole") + outlines.words("end_systole");
 }
 
 }  // namespace

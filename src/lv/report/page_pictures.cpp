@@ -16,7 +16,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// An image's state and slice.
-using Place = std::pair<std::string, int>;
+using Place = std::pair<std::string, std::string>;
 
 /// One line over an image.
 struct Outline {
@@ -27,7 +27,7 @@ struct Outline {
 /// The lines of outlines.csv over each image.
 std::map<Place, std::vector<Outline>> read_outlines(const Table& table) {
   const auto state = table.words("state");
-  const auto slice = table.numbers("slice");
+  const auto slice = table.words("slice");
   const auto source = table.words("source");
   const auto contour = table.words("contour");
   const auto line = table.words("line");
@@ -39,7 +39,7 @@ std::map<Place, std::vector<Outline>> read_outlines(const Table& table) {
     const auto key = [&](std::size_t row) {
       return std::tie(state[row], slice[row], source[row], contour[row], line[row]);
     };
-    auto& lines = outlines[{state[i], static_cast<int>(slice[i])}];
+    auto& lines = outlines[{state[i], slice[i]}];
     if (i == 0 || key(i) != key(i - 1))
       lines.push_back({source[i], contour[i], {}});
     lines.back().points.emplace_back(x[i], y[i], z[i]);

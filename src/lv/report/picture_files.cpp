@@ -42,7 +42,7 @@ std::vector<std::string> columns() {
 std::vector<std::string> fields(const PictureFile& p, const std::string& file) {
   const image::Plane& plane = p.picture.plane;
   std::vector<std::string> row{p.state,
-                               std::to_string(p.slice),
+                               p.slice,
                                std::to_string(p.phase),
                                file,
                                std::to_string(plane.columns),
@@ -53,6 +53,13 @@ std::vector<std::string> fields(const PictureFile& p, const std::string& file) {
     for (int d = 0; d < 3; ++d)
       row.push_back(Table::number(v[d]));
   return row;
+}
+
+/// end_diastole_04.png, end_diastole_long_axis_1.png
+std::string file_name(const PictureFile& p) {
+  std::string name = fmt::format("{}_{:0>2}.png", p.state, p.slice);
+  std::replace(name.begin(), name.end(), ' ', '_');
+  return name;
 }
 
 Vec3 vector_at(const Table& table, const std::string& name, const std::string& end,
@@ -107,7 +114,7 @@ void write_pictures(const std::vector<PictureFile>& pictures, const fs::path& fo
   fs::create_directories(folder);
   Table list(columns());
   for (const PictureFile& p : pictures) {
-    const std::string file = fmt::format("{}_{:02d}.png", p.state, p.slice);
+    const std::string file = file_name(p);
     write_whole(folder / file,
                 grey_png(p.picture.plane.columns, p.picture.plane.rows, grey_levels(p.picture)));
     list.add_row(fields(p, file));
@@ -126,7 +133,7 @@ std::vector<ShownPicture> read_pictures(const fs::path& folder) {
     };
     const ShownPicture p{
         list.words("state")[i],
-        whole("slice"),
+        list.words("slice")[i],
         whole("phase"),
         folder / list.words("file")[i],
         {vector_at(list, "origin_", "_mm", i), vector_at(list, "along_row_", "", i),

@@ -11,8 +11,8 @@ namespace lv::report {
 
 /// The part of an image around the heart.
 struct PictureFile {
-  std::string state;  ///< end_diastole or end_systole
-  int slice = 0;
+  std::string state;         ///< end_diastole or end_systole
+  std::string slice;         ///< number of a short-axis slice, or "long axis 1" and so on
   int phase = 0;             ///< number of the image, from 1
   image::Picture picture{};  ///< cut already
 };
@@ -33,8 +33,7 @@ void write_pictures(const std::vector<PictureFile>& pictures, const std::filesys
 
 /// A picture of pictures.csv as the page shows it.
 struct ShownPicture {
-  std::string state;
-  int slice = 0;
+  std::string state, slice;  ///< as in PictureFile
   int phase = 0;
   std::filesystem::path file;
   image::Plane plane{};

@@ -51,24 +51,32 @@ TEST_CASE("outlines lie on the page's image where they lie in space", "[report]"
   const std::filesystem::path results = folder / "work" / "04_results";
   std::filesystem::create_directories(results);
   const image::Picture p = picture();
-  report::write_pictures({{"end_systole", 4, 9, p}}, results / "pictures");
+  report::write_pictures({{"end_systole", "4", 9, p}, {"end_systole", "long axis 1", 9, p}},
+                         results / "pictures");
   const auto read = report::read_pictures(results / "pictures");
-  REQUIRE(read.size() == 1);
+  REQUIRE(read.size() == 2);
+  CHECK(read[0].file.filename() == "end_systole_04.png");
+  CHECK(read[1].file.filename() == "end_systole_long_axis_1.png");
   CHECK((read[0].plane.origin - p.plane.origin).norm() < 1e-5);
   CHECK((read[0].plane.along_column - p.plane.along_column).norm() < 1e-6);
 
   Table outlines({"state", "slice", "source", "contour", "line", "point", "x_mm", "y_mm", "z_mm"});
-  for (const double i : {0.0, 3.0}) {  // columns of pixels
-    const Vec3 x = p.plane.point(i, 2.0);
-    outlines.add_row({"end_systole", "4", "model", "endo", "1", "1", Table::number(x.x()),
+  const auto add = [&](const std::string& slice, double column) {
+    const Vec3 x = p.plane.point(column, 2.0);
+    outlines.add_row({"end_systole", slice, "model", "endo", "1", "1", Table::number(x.x()),
                       Table::number(x.y()), Table::number(x.z())});
-  }
+  };
+  add("4", 0.0);
+  add("4", 3.0);
+  add("long axis 1", 5.0);
   outlines.write_csv(results / "outlines.csv");
   const auto json = nlohmann::json::parse(report::pictures_json(folder / "work"));
   CHECK(json.at(0).at("phase") == 9);
   CHECK(json.at(0).at("png").get<std::string>().starts_with("iVBORw0KGgo"));  // of every PNG
   // the centre of pixel (0, 2) is half a pixel from the image's left edge
   CHECK(json.at(0).at("lines").at(0).at("points") == nlohmann::json::array({0.5, 2.5, 3.5, 2.5}));
+  CHECK(json.at(1).at("slice") == "long axis 1");
+  CHECK(json.at(1).at("lines").at(0).at("points") == nlohmann::json::array({5.5, 2.5}));
 }
 
 TEST_CASE("a case without images has none on its page", "[report]") {
