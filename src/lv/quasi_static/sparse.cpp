@@ -67,12 +67,14 @@ class Numbering {
 
 /// How the blocks are solved; PETSc makes their solvers anew with every matrix, from these options.
 /// Jacobi, Gauss-Seidel or ILU(0) as smoothers do not converge: the springs of the base hold one
-/// direction, which is not along an axis, and leave another free.
+/// direction, which is not along an axis, and leave another free. On several ranks each factorises
+/// its own block, in which zero pivots occur: these are shifted.
 constexpr const char* block_options =
     "-lv_fieldsplit_u_ksp_type preonly -lv_fieldsplit_u_pc_type gamg "
     "-lv_fieldsplit_u_pc_gamg_threshold 0.02 "
     "-lv_fieldsplit_u_mg_levels_pc_type bjacobi -lv_fieldsplit_u_mg_levels_sub_pc_type ilu "
     "-lv_fieldsplit_u_mg_levels_sub_pc_factor_levels 1 "
+    "-lv_fieldsplit_u_mg_levels_sub_pc_factor_shift_type nonzero "
     "-lv_fieldsplit_p_ksp_type preonly -lv_fieldsplit_p_pc_type bjacobi";
 
 /// Numbers of entries of each of this rank's rows, in its own columns and in the others'.
