@@ -109,11 +109,15 @@ def distances(study, work, truth):
     return found
 
 
-def compare(options, folder):
-    name = " ".join(options)
-    study, work = folder / "study", folder / "work"
+def make_study(options, folder):
+    """Its name, its folder, a folder for what is made of it, and its truth."""
+    study = folder / "study"
     subprocess.run([program, "phantom", study, *options], check=True, stdout=subprocess.DEVNULL)
-    truth = json.loads((study / "truth.json").read_text())
+    return " ".join(options), study, folder / "work", json.loads((study / "truth.json").read_text())
+
+
+def compare(options, folder):
+    name, study, work, truth = make_study(options, folder)
     # Strain has its own tests and takes longer than all the rest.
     case = study / "mesh.toml"
     case.write_text((study / "case.toml").read_text().split("\n[strain]")[0] + '\n[mesh]\nedge_length = "1.4 mm"\n')
@@ -150,10 +154,7 @@ def strain_errors(study, case, work, phase):
 
 
 def compare_strain(options, folder):
-    name = " ".join(options)
-    study, work = folder / "study", folder / "work"
-    subprocess.run([program, "phantom", study, *options], check=True, stdout=subprocess.DEVNULL)
-    truth = json.loads((study / "truth.json").read_text())
+    name, study, work, truth = make_study(options, folder)
     phase = truth["end_systole"]["phase"]
     segments, rotation = strain_errors(study, study / "case.toml", work, phase)
     check(f"{name}: AHA segments that are missing", 16 - len(segments), 0)

@@ -136,15 +136,8 @@ std::vector<CellFields> FieldAnalysis::fields(const heartbeat::Snapshot& snapsho
   if (snapshot.stress.empty())
     return cell_fields(wall_, snapshot, wall_pressure(mesh_, wall_, base_, snapshot));
   std::vector<CellFields> cells = shape_fields(wall_, mesh_, snapshot.positions);
-  for (std::size_t c = 0; c < cells.size(); ++c) {
-    const solid::CellStress& s = snapshot.stress[c];
-    cells[c].tension = s.tension;
-    cells[c].pressure = s.pressure;
-    cells[c].cauchy_passive = s.cauchy_passive;
-    cells[c].cauchy_active = s.cauchy_active;
-    cells[c].fibre_stress_passive = s.fibre_stress_passive;
-    cells[c].fibre_stress_active = s.fibre_stress_active;
-  }
+  for (std::size_t c = 0; c < cells.size(); ++c)
+    static_cast<solid::CellStress&>(cells[c]) = snapshot.stress[c];
   return cells;
 }
 

@@ -8,8 +8,10 @@
 
 namespace lv::analysis {
 
-/// Means over the quadrature points of one element, at one time; tensors in the model frame.
-struct CellFields {
+/// Means over the quadrature points of one element, at one time; tensors in the model frame. Fibre
+/// stress is not what the mean tensors and f0 give: fibres turn by tens of degrees within a large
+/// element.
+struct CellFields : solid::CellStress {
   double volume = 0.0;            ///< of the undeformed element [mm^3]
   Vec3 reference = Vec3::Zero();  ///< centre, undeformed [mm]
   Vec3 position = Vec3::Zero();   ///< centre, deformed [mm]
@@ -17,16 +19,9 @@ struct CellFields {
   double infarct = 0.0;  ///< M
   double J = 1.0;        ///< deformed over undeformed volume of the element
   double fibre_stretch = 1.0;
-  double tension = 0.0;   ///< T [kPa]
-  double pressure = 0.0;  ///< p of (2.6) [kPa]
   Mat3 F = Mat3::Identity();
   Mat3 fibre_frame = Mat3::Identity();  ///< columns f0, s0, n0
   mesh::WallAxes axes;                  ///< of the undeformed wall
-  Mat3 cauchy_passive = Mat3::Zero();   ///< sigma of (2.19), without -p [kPa]
-  Mat3 cauchy_active = Mat3::Zero();    ///< (2.22) [kPa]
-  /// Along the deformed fibre, f.sigma f with f = F f0/|F f0|. Not what the mean tensors and f0
-  /// give: fibres turn by tens of degrees within a large element [kPa].
-  double fibre_stress_passive = 0.0, fibre_stress_active = 0.0;
 
   /// sigma = sigma^p + sigma^a - p (2.6), without the small viscous part [kPa].
   [[nodiscard]] Mat3 cauchy_total() const {

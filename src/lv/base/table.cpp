@@ -1,6 +1,7 @@
 #include "lv/base/table.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/lines.hpp"
 
 #include <fmt/format.h>
 
@@ -21,15 +22,9 @@ std::string line_of(const std::vector<std::string>& fields) {
   return fmt::format("{}\n", fmt::join(fields, ","));
 }
 
-std::vector<std::string> fields_of(const std::string& line) {
-  std::vector<std::string> fields(1);
-  for (const char c : line) {
-    if (c == ',')
-      fields.emplace_back();
-    else if (c != '\r')
-      fields.back() += c;
-  }
-  return fields;
+std::vector<std::string> row_of(const std::string& line) {
+  const auto fields = fields_of(line, ',');
+  return {fields.begin(), fields.end()};
 }
 
 }  // namespace
@@ -61,9 +56,9 @@ Table Table::read_csv(const std::filesystem::path& file) {
   std::istringstream lines(read_file(file));
   std::string line;
   std::getline(lines, line);
-  Table table(fields_of(line));
+  Table table(row_of(line));
   while (std::getline(lines, line))
-    if (auto fields = fields_of(line); fields.size() == table.columns_.size())
+    if (auto fields = row_of(line); fields.size() == table.columns_.size())
       table.add_row(std::move(fields));
   return table;
 }

@@ -1,4 +1,5 @@
 #include "lv/base/check.hpp"
+#include "lv/base/lines.hpp"
 #include "lv/base/table.hpp"
 #include "lv/job/cine.hpp"
 #include "lv/job/outlines.hpp"
@@ -95,16 +96,13 @@ std::vector<Row> read_rows(const fs::path& strain, int phase) {
   std::getline(lines, line);
   std::vector<Row> rows;
   while (std::getline(lines, line)) {
-    std::vector<std::string> fields;
-    std::istringstream stream(line);
-    for (std::string field; std::getline(stream, field, ',');)
-      fields.push_back(field);
+    const auto fields = fields_of(line, ',');
     LV_CHECK(fields.size() >= 7);
     if (fields[3] == std::to_string(phase))
-      rows.push_back({fields[0],
-                      fields[1].empty() ? 0 : std::stoi(fields[1]),
-                      fields[2],
-                      {std::stod(fields[5]), std::stod(fields[6])}});
+      rows.push_back({std::string(fields[0]),
+                      fields[1].empty() ? 0 : std::stoi(std::string(fields[1])),
+                      std::string(fields[2]),
+                      {std::stod(std::string(fields[5])), std::stod(std::string(fields[6]))}});
   }
   return rows;
 }

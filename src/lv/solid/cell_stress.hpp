@@ -10,7 +10,7 @@ struct CellStress {
   double pressure = 0.0;               ///< p of (2.6) [kPa]
   Mat3 cauchy_passive = Mat3::Zero();  ///< of (2.19), without -p [kPa]
   Mat3 cauchy_active = Mat3::Zero();   ///< of (2.22) [kPa]
-  /// f.sigma f along the deformed fibre [kPa].
+  /// Along the deformed fibre, f.sigma f with f = F f0/|F f0| [kPa].
   double fibre_stress_passive = 0.0, fibre_stress_active = 0.0;
 
   static constexpr int numbers = 22;  ///< doubles in it, one after the other
