@@ -1,0 +1,37 @@
+#pragma once
+
+#include "lv/image/picture.hpp"
+
+#include <array>
+#include <vector>
+
+namespace lv::job {
+
+/// Corners of the triangles of a surface.
+using Triangles = std::vector<std::array<Vec3, 3>>;
+
+/// Whether a slice shows where the wall lies in it.
+enum class Evidence {
+  clear,
+  weak,      ///< moves farther than 3 mm from the best fit as well
+  at_limit,  ///< the best lies at the largest move that is accepted
+  no_wall    ///< the wall does not reach into its slab, or no plane of it cuts a closed outline
+};
+
+[[nodiscard]] const char* name(Evidence evidence);
+
+/// How a slice is moved in its plane.
+struct SliceMove {
+  Vec3 move = Vec3::Zero();  ///< image space [mm]; zero unless the evidence is clear
+  double doubt = 0.0;        ///< see image::Registration [mm]
+  Evidence evidence = Evidence::no_wall;
+};
+
+/// How each slice of a stack (first frames) must be moved in its plane to lie on a wall, by at most
+/// `largest` [mm]: the wall's sides, in image space, cut its slab into cavity, wall and
+/// surroundings; see image::register_slice. A slab reaches half way to the neighbouring slices.
+[[nodiscard]] std::vector<SliceMove> register_slices(const image::Cine& stack,
+                                                     const Triangles& endo, const Triangles& epi,
+                                                     double largest);
+
+}  // namespace lv::job
