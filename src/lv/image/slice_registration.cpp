@@ -47,7 +47,9 @@ class Match {
     // a few very bright pixels (fat) would leave one bin to all others
     const std::size_t hundredth = greys.size() / 100;
     darkest_ = greys[hundredth];
-    width_ = std::max((greys[greys.size() - 1 - hundredth] - darkest_) / (bins - 1), 1e-12);
+    const double brightest = greys[greys.size() - 1 - hundredth];
+    const double rounding = 1e-6 * std::max(std::abs(brightest), 1e-6);
+    width_ = std::max((brightest - darkest_) / (bins - 1), rounding);
   }
 
   [[nodiscard]] Vec3 in_space(const Vec2& move) const {

@@ -193,35 +193,6 @@ Triangles in_images(const Case& c, const Shape& shape, const Mesh& mesh,
   return triangles;
 }
 
-/// Says what became of each slice; those that stay because they show too little in a warning.
-void report_moves(const image::Cine& image, const std::vector<SliceMove>& moves) {
-  for (std::size_t s = 0; s < moves.size(); ++s) {
-    const std::string slice = "late enhancement, " + image.slices[s].name;
-    const SliceMove& m = moves[s];
-    if (m.evidence == Evidence::clear)
-      log::info("{}: moved by {:.1f} mm", slice, m.move.norm());
-    else if (m.evidence == Evidence::no_wall)
-      log::info("{}: shows no ring of the wall and stays", slice);
-    else if (m.evidence == Evidence::weak)
-      log::warn("{} stays where it is: a move {:.0f} mm from the best fits it as well", slice,
-                m.doubt);
-    else
-      log::warn("{} stays where it is: its best move is as long as infarct.lge.largest_shift",
-                slice);
-  }
-}
-
-Table table_of(const image::Cine& image, const std::vector<SliceMove>& moves) {
-  Table table({"slice", "x_mm", "y_mm", "z_mm", "move_mm", "doubt_mm", "evidence"});
-  for (std::size_t s = 0; s < moves.size(); ++s) {
-    const SliceMove& m = moves[s];
-    table.add_row({image.slices[s].name, Table::number(m.move.x(), 4), Table::number(m.move.y(), 4),
-                   Table::number(m.move.z(), 4), Table::number(m.move.norm(), 4),
-                   Table::number(m.doubt, 4), name(m.evidence)});
-  }
-  return table;
-}
-
 /// How each slice of a late-enhancement image moves in its plane onto the wall.
 std::vector<SliceMove> moves_onto_wall(const Case& c, const Shape& shape, const Mesh& mesh,
                                        const image::Cine& image) {
@@ -232,7 +203,8 @@ std::vector<SliceMove> moves_onto_wall(const Case& c, const Shape& shape, const 
                    [](const SliceMove& m) { return m.evidence == Evidence::clear; }))
     throw InputError(
         place_of(c, "infarct.lge.in_plane"),
-        fmt::format("no slice of {} shows clearly where the wall lies in it", c.scar.lge.image),
+        fmt::format("no slice of {} shows the wall clearly within {:g} mm of its place",
+                    c.scar.lge.image, c.scar.lge.largest_shift),
         "Check that both share the scanner's coordinates, or set infarct.shift");
   report_moves(image, moves);
   return moves;

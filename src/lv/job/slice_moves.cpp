@@ -1,11 +1,13 @@
 #include "lv/job/slice_moves.hpp"
 
+#include "lv/base/log.hpp"
 #include "lv/geometry/polygon.hpp"
 #include "lv/image/slice_registration.hpp"
 #include "lv/strain/measures.hpp"
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -117,8 +119,8 @@ Slab slab_of(const image::Cine& stack, std::size_t s) {
 
 SliceMove move_of(const image::Picture& picture, const std::vector<Outlines>& slab,
                   double largest) {
-  constexpr double clear = 3.0;      // doubt [mm]
-  constexpr double at_limit = 0.25;  // [mm]
+  const double clear = std::min(3.0, 0.5 * largest);  // doubt [mm]
+  constexpr double at_limit = 0.25;                   // [mm]
   if (slab.empty())
     return {Vec3::Zero(), 0.0, Evidence::no_wall};
   const image::SliceTissue tissue = tissue_of(slab, picture.plane);
@@ -155,6 +157,34 @@ std::vector<SliceMove> register_slices(const image::Cine& stack, const Triangles
         picture, outlines_in_slab(endo, epi, picture.plane, slab.below, slab.above), largest));
   }
   return moves;
+}
+
+void report_moves(const image::Cine& image, const std::vector<SliceMove>& moves) {
+  for (std::size_t s = 0; s < moves.size(); ++s) {
+    const std::string slice = "late enhancement, " + image.slices[s].name;
+    const SliceMove& m = moves[s];
+    if (m.evidence == Evidence::clear)
+      log::info("{}: moved by {:.1f} mm", slice, m.move.norm());
+    else if (m.evidence == Evidence::no_wall)
+      log::info("{}: shows no ring of the wall and stays", slice);
+    else if (m.evidence == Evidence::weak)
+      log::warn("{} stays where it is: a move {:.0f} mm from the best fits it as well", slice,
+                m.doubt);
+    else
+      log::warn("{} stays where it is: its best move is as long as infarct.lge.largest_shift",
+                slice);
+  }
+}
+
+Table table_of(const image::Cine& image, const std::vector<SliceMove>& moves) {
+  Table table({"slice", "x_mm", "y_mm", "z_mm", "move_mm", "doubt_mm", "evidence"});
+  for (std::size_t s = 0; s < moves.size(); ++s) {
+    const SliceMove& m = moves[s];
+    table.add_row({image.slices[s].name, Table::number(m.move.x(), 4), Table::number(m.move.y(), 4),
+                   Table::number(m.move.z(), 4), Table::number(m.move.norm(), 4),
+                   Table::number(m.doubt, 4), name(m.evidence)});
+  }
+  return table;
 }
 
 }  // namespace lv::job

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "lv/base/table.hpp"
 #include "lv/image/picture.hpp"
 
 #include <array>
@@ -13,7 +14,7 @@ using Triangles = std::vector<std::array<Vec3, 3>>;
 /// Whether a slice shows where the wall lies in it.
 enum class Evidence {
   clear,
-  weak,      ///< moves farther than 3 mm from the best fit as well
+  weak,      ///< moves farther than 3 mm, or half of the largest, from the best fit as well
   at_limit,  ///< the best lies at the largest move that is accepted
   no_wall    ///< the wall does not reach into its slab, or no plane of it cuts a closed outline
 };
@@ -33,5 +34,12 @@ struct SliceMove {
 [[nodiscard]] std::vector<SliceMove> register_slices(const image::Cine& stack,
                                                      const Triangles& endo, const Triangles& epi,
                                                      double largest);
+
+/// Logs what became of each slice of a late-enhancement image; those that stay where they are
+/// although the wall reaches into them, in a warning.
+void report_moves(const image::Cine& image, const std::vector<SliceMove>& moves);
+
+/// A row per slice.
+[[nodiscard]] Table table_of(const image::Cine& image, const std::vector<SliceMove>& moves);
 
 }  // namespace lv::job
