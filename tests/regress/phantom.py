@@ -22,6 +22,8 @@ studies = [
     [*small, "--dicom", "false", *noisy, "--seed", "3", "--thickness", "10"],
     [*small, "--nifti", "false"],
     [*small, "--nifti", "false", "--snr", "20", "--seed", "2"],
+    [*small, "--nifti", "false", *noisy, "--seed", "3"],
+    [*small, "--nifti", "false", *noisy, "--seed", "3", "--thickness", "10"],
 ]
 # Physiological shortening, noise and breath-holds; 14 phases, of which the sixth is end-systole.
 moving = ["--phases", "14", "--field-of-view", "150", "--nifti", "false", "--shortening", "0.12", "--snr", "20", "--shift", "3"]

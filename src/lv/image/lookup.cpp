@@ -13,25 +13,6 @@ bool is_one_of(float value, const std::vector<int>& labels) {
                      [value](int label) { return value == static_cast<float>(label); });
 }
 
-/// Of a point above or below a picture: linear between its pixels; NaN beyond them.
-double bilinear(const Picture& picture, const Vec3& place) {
-  const Vec3 pixel = picture.plane.pixel(place);
-  const double i = pixel.x();
-  const double j = pixel.y();
-  const int columns = picture.plane.columns;
-  const int rows = picture.plane.rows;
-  if (!(i >= -0.5 && j >= -0.5 && i <= columns - 0.5 && j <= rows - 0.5))
-    return std::numeric_limits<double>::quiet_NaN();
-  const double x = std::clamp(i, 0.0, columns - 1.0);
-  const double y = std::clamp(j, 0.0, rows - 1.0);
-  const int i0 = std::min(static_cast<int>(x), columns - 2);
-  const int j0 = std::min(static_cast<int>(y), rows - 2);
-  const double u = x - i0;
-  const double v = y - j0;
-  return (1 - u) * (1 - v) * picture.at(i0, j0) + u * (1 - v) * picture.at(i0 + 1, j0) +
-         (1 - u) * v * picture.at(i0, j0 + 1) + u * v * picture.at(i0 + 1, j0 + 1);
-}
-
 /// A slice and its signed distance from a point, along the normal of the first slice [mm].
 struct Level {
   const Picture* picture;
@@ -105,6 +86,24 @@ std::vector<Vec3> slice_moves(const Volume& volume, const std::vector<int>& labe
   return moves;
 }
 
+double sample(const Picture& picture, const Vec3& x) {
+  const Vec3 pixel = picture.plane.pixel(x);
+  const double i = pixel.x();
+  const double j = pixel.y();
+  const int columns = picture.plane.columns;
+  const int rows = picture.plane.rows;
+  if (!(i >= -0.5 && j >= -0.5 && i <= columns - 0.5 && j <= rows - 0.5))
+    return std::numeric_limits<double>::quiet_NaN();
+  const double a = std::clamp(i, 0.0, columns - 1.0);
+  const double b = std::clamp(j, 0.0, rows - 1.0);
+  const int i0 = std::min(static_cast<int>(a), columns - 2);
+  const int j0 = std::min(static_cast<int>(b), rows - 2);
+  const double u = a - i0;
+  const double v = b - j0;
+  return (1 - u) * (1 - v) * picture.at(i0, j0) + u * (1 - v) * picture.at(i0 + 1, j0) +
+         (1 - u) * v * picture.at(i0, j0 + 1) + u * v * picture.at(i0 + 1, j0 + 1);
+}
+
 double sample(const Cine& stack, const Vec3& x) {
   constexpr double alone = 5.0;  // half a slab [mm]
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -112,12 +111,12 @@ double sample(const Cine& stack, const Vec3& x) {
   if (levels.empty())
     return nan;
   const Level& nearest = levels.front();
-  const double value = bilinear(*nearest.picture, x);
+  const double value = sample(*nearest.picture, x);
   const auto other = std::find_if(levels.begin(), levels.end(), [&](const Level& level) {
     return level.height * nearest.height < 0.0;
   });
   if (other != levels.end()) {
-    const double further = bilinear(*other->picture, x);
+    const double further = sample(*other->picture, x);
     const double u = nearest.height / (nearest.height - other->height);
     return std::isnan(further) ? value : (1.0 - u) * value + u * further;
   }

@@ -25,6 +25,10 @@ struct Weighted {
 [[nodiscard]] std::vector<Vec3> slice_moves(const Volume& volume, const std::vector<int>& labels,
                                             std::span<const Weighted> wall);
 
+/// The value of a picture at the foot of a point above or below it: linear between its pixels; NaN
+/// beyond them.
+[[nodiscard]] double sample(const Picture& picture, const Vec3& x);
+
 /// The value of a stack of images (first frames) at x, linear between the pixels of a slice and
 /// between the two slices that x lies between: an edge across a slab makes it half as bright, and
 /// is so found within the slab. Beyond the first and the last slice theirs, up to half the way to

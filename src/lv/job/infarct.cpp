@@ -1,14 +1,17 @@
 #include "lv/job/infarct.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/log.hpp"
 #include "lv/image/dicom_study.hpp"
 #include "lv/image/lookup.hpp"
 #include "lv/image/nifti.hpp"
 #include "lv/job/drawn.hpp"
+#include "lv/job/slice_moves.hpp"
 #include "lv/mesh/cell.hpp"
 #include "lv/mesh/closed_surface.hpp"
 #include "lv/mesh/infarct.hpp"
 #include "lv/mesh/label_volume.hpp"
+#include "lv/mesh/surface.hpp"
 
 #include <fmt/format.h>
 
@@ -16,6 +19,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace lv::job {
 namespace {
@@ -51,6 +55,7 @@ std::string file_of(const Case& c, const std::string& parameter, const std::stri
 struct Infarct {
   Infarcted elements;        ///< whose centre is
   std::vector<double> part;  ///< of its volume
+  std::optional<Table> slice_moves;
 };
 
 /// Throws unless an element is infarcted; `where` is the infarct's place in words.
@@ -67,7 +72,7 @@ void check_found(const Case& c, const Shape& shape, const Mesh& mesh, const Infa
 
 Infarct within(const Case& c, const Shape& shape, const Mesh& mesh, const mesh::Region& region,
                const std::string& where) {
-  Infarct infarct{mesh::infarcted_where(mesh, region), {}};
+  Infarct infarct{mesh::infarcted_where(mesh, region), {}, {}};
   check_found(c, shape, mesh, infarct.elements, where);
   infarct.part = mesh::infarcted_part(mesh, region);
   return infarct;
@@ -176,6 +181,40 @@ image::Cine read_lge(const Case& c) {
   return image;
 }
 
+/// A side of the wall as the shifted images have it.
+Triangles in_images(const Case& c, const Shape& shape, const Mesh& mesh,
+                    const mesh::Surface& side) {
+  const auto x = [&](int node) { return in_images(c, shape, mesh.nodes[node]); };
+  Triangles triangles;
+  for (int f = 0; f < side.size(); ++f)
+    mesh::for_triangles(side.face(f), [&](int a, int b, int d) {
+      triangles.push_back({x(a), x(b), x(d)});
+    });
+  return triangles;
+}
+
+/// How each slice of a late-enhancement image moves in its plane onto the wall.
+std::vector<SliceMove> moves_onto_wall(const Case& c, const Shape& shape, const Mesh& mesh,
+                                       const image::Cine& image) {
+  std::vector<SliceMove> moves =
+      register_slices(image, in_images(c, shape, mesh, mesh.endo),
+                      in_images(c, shape, mesh, mesh.epi), c.scar.lge.largest_shift);
+  if (std::none_of(moves.begin(), moves.end(),
+                   [](const SliceMove& m) { return m.evidence == Evidence::clear; }))
+    throw InputError(
+        place_of(c, "infarct.lge.in_plane"),
+        fmt::format("no slice of {} shows the wall clearly within {:g} mm of its place",
+                    c.scar.lge.image, c.scar.lge.largest_shift),
+        "Check that both share the scanner's coordinates, or set infarct.shift");
+  report_moves(image, moves);
+  return moves;
+}
+
+void move_slices(image::Cine& image, const std::vector<SliceMove>& moves) {
+  for (std::size_t s = 0; s < moves.size(); ++s)
+    image.slices[s].frames.front().plane.origin += moves[s].move;
+}
+
 /// The brightness from which on muscle is scar.
 double scar_threshold(const Case& c, const Mesh& mesh, const std::vector<double>& values) {
   const mesh::LateEnhancement& lge = c.scar.lge;
@@ -213,7 +252,13 @@ double scar_threshold(const Case& c, const Mesh& mesh, const std::vector<double>
 }
 
 Infarct by_brightness(const Case& c, const Shape& shape, const Mesh& mesh) {
-  const image::Cine lge = read_lge(c);
+  image::Cine lge = read_lge(c);
+  std::optional<Table> slice_moves;
+  if (c.scar.lge.in_plane) {
+    const std::vector<SliceMove> moves = moves_onto_wall(c, shape, mesh, lge);
+    move_slices(lge, moves);
+    slice_moves = table_of(lge, moves);
+  }
   const std::vector<double> values = brightness(c, shape, mesh, lge);
   if (std::all_of(values.begin(), values.end(), [](double v) { return std::isnan(v); }))
     throw InputError(place_of(c, "infarct.lge.image"),
@@ -221,10 +266,12 @@ Infarct by_brightness(const Case& c, const Shape& shape, const Mesh& mesh) {
                                  c.scar.lge.image, place_of_wall(shape, mesh)),
                      "Check that both share the scanner's coordinates");
   const double threshold = scar_threshold(c, mesh, values);
+  log::info("late enhancement: scar is brighter than {:.4g}", threshold);
   Infarct infarct = within(
       c, shape, mesh,
       [&](const Vec3& X, double) { return image::sample(lge, in_images(c, shape, X)) > threshold; },
       fmt::format("brighter than {:.4g} in {}", threshold, c.scar.lge.image));
+  infarct.slice_moves = std::move(slice_moves);
   if (!c.scar.lge.fill_no_reflow)
     return infarct;
   const Infarcted filled = mesh::with_enclosed(mesh, infarct.elements);
@@ -250,7 +297,7 @@ Infarct within_labels(const Case& c, const Shape& shape, const Mesh& mesh) {
 
 Infarct of_elements(const Case& c, const Shape& shape, const Mesh& mesh) {
   check_found(c, shape, mesh, shape.infarcted, fmt::format("the elements of \"{}\"", c.scar.set));
-  return {shape.infarcted, {shape.infarcted.begin(), shape.infarcted.end()}};
+  return {shape.infarcted, {shape.infarcted.begin(), shape.infarcted.end()}, {}};
 }
 
 Infarct infarcted(const Case& c, const Shape& shape, const Mesh& mesh) {
@@ -272,12 +319,14 @@ Infarct infarcted(const Case& c, const Shape& shape, const Mesh& mesh) {
 
 InfarctExtent infarct_extent(const Case& c, const Shape& shape, const Mesh& mesh) {
   if (c.scar.source == InfarctSource::mesh)
-    return {mesh.infarct, mesh::part_by_extent(mesh)};
+    return {mesh.infarct, mesh::part_by_extent(mesh), {}};
   if (c.scar.source == InfarctSource::none)
     return {std::vector<double>(mesh.nodes.size(), 0.0),
-            std::vector<double>(mesh.cell_count(), 0.0)};
+            std::vector<double>(mesh.cell_count(), 0.0),
+            {}};
   Infarct infarct = infarcted(c, shape, mesh);
-  return {mesh::infarct_field(mesh, infarct.elements, c.scar.border), std::move(infarct.part)};
+  return {mesh::infarct_field(mesh, infarct.elements, c.scar.border), std::move(infarct.part),
+          std::move(infarct.slice_moves)};
 }
 
 Ingredients infarct_files(const Case& c) {

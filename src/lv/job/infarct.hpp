@@ -5,6 +5,7 @@
 #include "lv/job/case.hpp"
 #include "lv/job/stages.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,8 @@ namespace lv::job {
 struct InfarctExtent {
   std::vector<double> M;     ///< M(X) per node
   std::vector<double> part;  ///< per element: of its volume that is infarcted
+  /// How the slices of a late-enhancement image were moved, if the case asks for it.
+  std::optional<Table> slice_moves;
 };
 
 /// The infarct as the case asks for it. Throws InputError where a file cannot be used or the

@@ -258,6 +258,13 @@ void declare_infarct(Declarations& d) {
                "AHA segments (1 to 17) of remote, healthy muscle (threshold = \"sd\")", true);
   d.flag("fill_no_reflow", LV_AT(scar.lge.fill_no_reflow),
          "dark parts of the wall that the scar shuts off from epicardium and base count to it");
+  d.flag("in_plane", LV_AT(scar.lge.in_plane),
+         "move each slice in its plane to where its grey values fit best to cavity, wall and "
+         "surroundings (another breath-hold); where they do not show that clearly it stays, with a "
+         "warning");
+  d.quantity("largest_shift", LV_AT(scar.lge.largest_shift), "mm",
+             {.low = 0.0, .high = 50.0, .low_included = false},
+             "moves up to this one are tried (in_plane)");
   d.stage = Stage::calibrate;
   d.table = "infarct";
   d.number("stiffening", LV_AT(infarct.stiffening), not_negative,

@@ -230,6 +230,7 @@ MeshResult make_mesh(const Case& c, const Shape& shape) {
   InfarctExtent infarct = infarct_extent(c, shape, result.mesh);
   result.mesh.infarct = std::move(infarct.M);
   result.infarcted = std::move(infarct.part);
+  result.slice_moves = std::move(infarct.slice_moves);
   if (c.engine == Engine::immersed) {
     check_box(c, result.mesh);
     check_spacing(c, result.mesh);
@@ -259,6 +260,8 @@ void write_mesh_result(const MeshResult& result, const std::filesystem::path& fo
   archive.set("sector", as_numbers(result.regions.sector));
   archive.set("aha", as_numbers(result.regions.aha));
   archive.write(folder / "mesh.bin");
+  if (result.slice_moves)
+    result.slice_moves->write_csv(folder / "slice_moves.csv");
 }
 
 void show_mesh(const MeshResult& result, const Case& c, const std::filesystem::path& folder) {

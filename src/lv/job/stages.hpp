@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lv/analysis/results.hpp"
+#include "lv/base/table.hpp"
 #include "lv/heartbeat/immersed_beat.hpp"
 #include "lv/job/anatomy.hpp"
 #include "lv/report/summary.hpp"
@@ -15,6 +16,8 @@ struct MeshResult {
   mesh::Mesh mesh;
   mesh::Regions regions;
   std::vector<double> infarcted;  ///< per element: the part of its volume that is infarcted
+  /// See InfarctExtent; not read back from a folder, where it is slice_moves.csv.
+  std::optional<Table> slice_moves = {};
 };
 
 /// Throws InputError when the mesh is too coarse for the grid.

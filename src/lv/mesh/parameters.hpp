@@ -89,6 +89,8 @@ struct LateEnhancement {
   double deviations = 5.0;  ///< above the mean of remote muscle
   std::vector<int> remote;  ///< AHA segments of remote muscle; empty: not said
   bool fill_no_reflow = true;
+  bool in_plane = false;       ///< move each slice onto the wall
+  double largest_shift = 8.0;  ///< of a slice [mm]
 };
 
 /// The infarct and its border zone. Files as the case file names them.

@@ -144,8 +144,10 @@ std::string infarct_of_case(const Scan& scan, const StudyFiles& files, const Tru
         "file = \"nifti/late_enhancement_labels.nii.gz\"\n"
         "scar = [{}]\nmuscle = [{}]\nin_plane = {}\n",
         static_cast<int>(scar), static_cast<int>(muscle), scan.shift > 0.0);
-  return "\n[infarct]\nsource = \"lge\"\n\n[infarct.lge]\nimage = \"dicom\"\n"
-         "series = [\"late_enhancement_short_axis\"]\nthreshold = \"fwhm\"\n";
+  return fmt::format(
+      "\n[infarct]\nsource = \"lge\"\n\n[infarct.lge]\nimage = \"dicom\"\n"
+      "series = [\"late_enhancement_short_axis\"]\nthreshold = \"fwhm\"\nin_plane = {}\n",
+      scan.shift > 0.0);
 }
 
 std::string strain_of_case(const StudyFiles& files, const Truth& truth, const std::string& septum) {

@@ -1,5 +1,7 @@
 #include "lv/strain/measures.hpp"
 
+#include "lv/geometry/polygon.hpp"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -26,24 +28,13 @@ struct Axes {
     x = normal.unitOrthogonal();
     y = normal.cross(x);
   }
-  [[nodiscard]] std::vector<Eigen::Vector2d> flat(const Line& loop) const {
-    std::vector<Eigen::Vector2d> points;
+  [[nodiscard]] geometry::Polygon flat(const Line& loop) const {
+    geometry::Polygon points;
     for (const Vec3& p : loop)
       points.emplace_back((p - origin).dot(x), (p - origin).dot(y));
     return points;
   }
 };
-
-bool inside(const std::vector<Eigen::Vector2d>& polygon, double x, double y) {
-  bool in = false;
-  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
-    const auto& a = polygon[i];
-    const auto& b = polygon[j];
-    if ((a.y() > y) != (b.y() > y) && x < a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x()))
-      in = !in;
-  }
-  return in;
-}
 
 double distance_to_segment(const Vec3& x, const Vec3& a, const Vec3& b) {
   const Vec3 ab = b - a;
@@ -93,8 +84,8 @@ double dice(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
   double sum = 0.0;
   for (double y = low.y() + 0.5 * step; y < high.y(); y += step)
     for (double x = low.x() + 0.5 * step; x < high.x(); x += step) {
-      const bool in_a = inside(p, x, y);
-      const bool in_b = inside(q, x, y);
+      const bool in_a = geometry::encloses(p, {x, y});
+      const bool in_b = geometry::encloses(q, {x, y});
       both += in_a && in_b ? 1.0 : 0.0;
       sum += (in_a ? 1.0 : 0.0) + (in_b ? 1.0 : 0.0);
     }

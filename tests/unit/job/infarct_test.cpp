@@ -1,5 +1,6 @@
 #include "lv/job/infarct.hpp"
 
+#include "lv/geometry/contours.hpp"
 #include "lv/mesh/infarct.hpp"
 
 #include "mesh/mesh_files.hpp"
@@ -9,6 +10,8 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 
 namespace {
@@ -145,6 +148,68 @@ TEST_CASE("a NIfTI map and the brightness of an image mean the region that they 
   CHECK(furthest() < longest_diagonal(wall));
   c.scar.shift = {500.0, 0.0, 0.0};
   CHECK_THROWS_WITH(furthest(), Catch::Matchers::Contains("shows nothing of the wall"));
+}
+
+TEST_CASE("slices of a late-enhancement image are moved onto the wall", "[unit][job]") {
+  const geometry::Ellipsoid ellipsoid;
+  const mesh::Mesh wall = test::ellipsoid_mesh(ellipsoid, 3.0);
+  const auto inside = [&](geometry::Side side, const Vec3& X) {
+    const bool endo = side == geometry::Side::endo;
+    const double a = endo ? ellipsoid.endo_radius : ellipsoid.epi_radius;
+    const double c = endo ? ellipsoid.endo_length : ellipsoid.epi_length;
+    const double z = X.z() + ellipsoid.base_height;
+    return X.head<2>().squaredNorm() / (a * a) + z * z / (c * c) < 1.0;
+  };
+  const auto brightness = [&](const Vec3& X) {
+    if (X.z() < 2.0 && inside(geometry::Side::endo, X))
+      return 100;
+    if (X.z() < 2.0 && inside(geometry::Side::epi, X))
+      return X.y() > 0.0 && std::abs(X.x()) < 12.0 && X.z() > -50.0 ? 200 : 15;
+    return X.x() > 0.0 && X.z() < 0.0 && X.norm() < 45.0 ? 100 : 10;
+  };
+  // each breath-hold another; voxels of 1 x 1 x 8 mm
+  const auto breath = [](double z) {
+    return Vec3(3.0 * std::sin(z), 4.0 * std::cos(2.0 * z), 0.0);
+  };
+  const test::TemporaryFolder folder;
+  const auto write = [&](const std::string& name, const std::function<int(const Vec3&)>& value) {
+    test::write_bytes(folder / name, test::nifti_bytes(test::label_map(
+                                         {120, 120, 14}, Mat3::Identity(), Vec3(1.0, 1.0, 8.0),
+                                         Vec3(-59.5, -59.5, -92.0), value)));
+  };
+  write("held.nii", brightness);
+  write("shifted.nii", [&](const Vec3& x) { return brightness(x - breath(x.z())); });
+  write("flat.nii", [](const Vec3&) { return 7; });
+  job::Case c;
+  c.file = folder / "case.toml";
+  c.scar.source = InfarctSource::lge;
+  c.scar.lge.threshold = mesh::ScarThreshold::fwhm;
+  const auto volume = [&](const std::string& image, bool in_plane) {
+    c.scar.lge.image = image;
+    c.scar.lge.in_plane = in_plane;
+    return mesh::infarct_volumes(wall, job::infarct_extent(c, {}, wall).part).infarct;
+  };
+  const double held = volume("held.nii", false);
+  CHECK(std::abs(volume("shifted.nii", false) / held - 1.0) > 0.05);
+  CHECK(volume("held.nii", true) == Approx(held).epsilon(0.01));
+  CHECK(volume("shifted.nii", true) == Approx(held).epsilon(0.02));
+  const Table moves = *job::infarct_extent(c, {}, wall).slice_moves;
+  const auto evidence = moves.words("evidence");
+  CHECK(std::count(evidence.begin(), evidence.end(), "clear") >= 9);
+  for (std::size_t s = 0; s < evidence.size(); ++s)
+    if (evidence[s] == "clear") {
+      const Vec3 move(moves.numbers("x_mm")[s], moves.numbers("y_mm")[s], moves.numbers("z_mm")[s]);
+      CHECK((move + breath(-92.0 + 8.0 * static_cast<double>(s))).norm() < 0.6);
+    }
+  c.scar.lge.largest_shift = 3.0;
+  const Table bounded = *job::infarct_extent(c, {}, wall).slice_moves;
+  for (std::size_t s = 0; s < evidence.size(); ++s)
+    if (evidence[s] == "clear" && moves.numbers("move_mm")[s] > 3.5) {
+      CHECK(bounded.words("evidence")[s] == "at_limit");
+      CHECK(bounded.numbers("move_mm")[s] == 0.0);
+    }
+  CHECK_THROWS_WITH(volume("flat.nii", true),
+                    Catch::Matchers::Contains("shows the wall clearly within 3 mm"));
 }
 
 TEST_CASE("the infarct's file is among what the mesh depends on", "[unit][job]") {
