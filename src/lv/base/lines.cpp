@@ -2,7 +2,23 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace lv {
+namespace {
+
+/// Reads what stands in the quotation marks that a text begins with; returns the length of both.
+std::size_t take_quoted(std::string_view text, std::string& content) {
+  for (std::size_t i = 1; i < text.size(); ++i) {
+    if (text[i] == '"' && !text.substr(i + 1).starts_with('"'))
+      return i + 1;
+    content += text[i];
+    i += text[i] == '"' ? 1 : 0;
+  }
+  return text.size();
+}
+
+}  // namespace
 
 std::string_view trimmed(std::string_view text) {
   constexpr std::string_view blank(" \t\r\n\0", 5);
@@ -17,6 +33,21 @@ std::vector<std::string_view> fields_of(std::string_view line, char separator) {
   for (;;) {
     const auto end = line.find(separator);
     fields.push_back(trimmed(line.substr(0, end)));
+    if (end == std::string_view::npos)
+      return fields;
+    line.remove_prefix(end + 1);
+  }
+}
+
+std::vector<std::string> csv_fields(std::string_view line) {
+  std::vector<std::string> fields;
+  for (;;) {
+    line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+    std::string quoted;
+    if (line.starts_with('"'))
+      line.remove_prefix(take_quoted(line, quoted));
+    const auto end = line.find(',');
+    fields.push_back(quoted + std::string(trimmed(line.substr(0, end))));
     if (end == std::string_view::npos)
       return fields;
     line.remove_prefix(end + 1);

@@ -15,6 +15,10 @@ namespace lv {
 /// What stands between the separators, trimmed; one empty field for an empty line.
 [[nodiscard]] std::vector<std::string_view> fields_of(std::string_view line, char separator);
 
+/// The same of a line of CSV (RFC 4180): a field in quotation marks may hold commas, and two
+/// quotation marks in it stand for one.
+[[nodiscard]] std::vector<std::string> csv_fields(std::string_view line);
+
 /// The lines of a file that are not blank. Ends of lines may be those of Unix or Windows, and a
 /// mark of UTF-8 may stand at the beginning.
 class LineReader {

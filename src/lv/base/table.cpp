@@ -7,9 +7,11 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <iterator>
 #include <limits>
 #include <sstream>
 #include <system_error>
@@ -18,13 +20,48 @@
 namespace lv {
 namespace {
 
-std::string line_of(const std::vector<std::string>& fields) {
-  return fmt::format("{}\n", fmt::join(fields, ","));
+/// A field as RFC 4180 has it: in quotation marks if it would not come back without.
+std::string csv_field(const std::string& field) {
+  if (field == trimmed(field) && field.find_first_of(",\"\n") == std::string::npos)
+    return field;
+  std::string quoted = "\"";
+  for (const char c : field)
+    quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + '"';
 }
 
-std::vector<std::string> row_of(const std::string& line) {
-  const auto fields = fields_of(line, ',');
-  return {fields.begin(), fields.end()};
+std::string line_of(const std::vector<std::string>& fields) {
+  std::vector<std::string> written;
+  std::transform(fields.begin(), fields.end(), std::back_inserter(written), csv_field);
+  return fmt::format("{}\n", fmt::join(written, ","));
+}
+
+/// The text of the next row: a line, and those after it as long as a quotation mark is open.
+bool next_row(std::istream& lines, std::string& row) {
+  if (!std::getline(lines, row))
+    return false;
+  std::string more;
+  while (std::count(row.begin(), row.end(), '"') % 2 != 0 && std::getline(lines, more))
+    row += '\n' + more;
+  return true;
+}
+
+/// The numbers that fields hold; `missing` for empty ones.
+template <class Number>
+std::vector<Number> parsed(const std::vector<std::string>& fields, const std::string& column,
+                           Number missing) {
+  std::vector<Number> numbers;
+  for (const std::string& field : fields) {
+    Number value = missing;
+    const char* all = field.data() + field.size();
+    const auto [end, error] = std::from_chars(field.data(), all, value);
+    if (!field.empty() && (error != std::errc() || end != all))
+      throw InputError(fmt::format("column {}", column),
+                       fmt::format("\"{}\" is not such a number as this column holds", field),
+                       "The table seems to be damaged");
+    numbers.push_back(value);
+  }
+  return numbers;
 }
 
 }  // namespace
@@ -46,19 +83,20 @@ std::vector<std::string> Table::words(const std::string& column) const {
 }
 
 std::vector<double> Table::numbers(const std::string& column) const {
-  std::vector<double> result;
-  for (const std::string& word : words(column))
-    result.push_back(word.empty() ? std::numeric_limits<double>::quiet_NaN() : std::stod(word));
-  return result;
+  return parsed(words(column), column, std::numeric_limits<double>::quiet_NaN());
+}
+
+std::vector<int> Table::whole_numbers(const std::string& column) const {
+  return parsed(words(column), column, 0);
 }
 
 Table Table::read_csv(const std::filesystem::path& file) {
   std::istringstream lines(read_file(file));
-  std::string line;
-  std::getline(lines, line);
-  Table table(row_of(line));
-  while (std::getline(lines, line))
-    if (auto fields = row_of(line); fields.size() == table.columns_.size())
+  std::string row;
+  next_row(lines, row);
+  Table table(csv_fields(row));
+  while (next_row(lines, row))
+    if (auto fields = csv_fields(row); fields.size() == table.columns_.size())
       table.add_row(std::move(fields));
   return table;
 }

@@ -6,8 +6,8 @@
 
 namespace lv {
 
-/// Named columns of numbers and words, row by row; written as CSV. A missing number is an empty
-/// field, never zero.
+/// Named columns of numbers and words, row by row; written as CSV, with quotation marks around
+/// fields that need them (RFC 4180). A missing number is an empty field, never zero.
 class Table {
  public:
   explicit Table(std::vector<std::string> columns);
@@ -18,7 +18,12 @@ class Table {
   [[nodiscard]] const std::vector<std::vector<std::string>>& rows() const { return rows_; }
 
   /// The numbers of a column; NaN where the field is empty, all of them if there is no such column.
+  /// Throws InputError when a field is no number.
   [[nodiscard]] std::vector<double> numbers(const std::string& column) const;
+
+  /// The whole numbers of a column; 0 where the field is empty, all of them if there is no such
+  /// column. Throws InputError when a field is no whole number.
+  [[nodiscard]] std::vector<int> whole_numbers(const std::string& column) const;
 
   /// The words of a column; empty ones if there is no such column.
   [[nodiscard]] std::vector<std::string> words(const std::string& column) const;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <map>
@@ -13,6 +14,9 @@
 
 namespace lv::units {
 namespace {
+
+constexpr int largest_power = 9;  // of a unit in a product
+constexpr int deepest = 9;        // of parentheses
 
 constexpr Dimension none{};
 constexpr Dimension length{1, 0, 0, 0, 0};
@@ -110,10 +114,13 @@ class UnitParser {
     skip_spaces();
     if (ahead('(')) {
       ++at_;
+      if (++depth_ > deepest)
+        fail();
       const Unit inside = parse_product();
       if (!ahead(')'))
         fail();
       ++at_;
+      --depth_;
       return inside;
     }
     if (ahead('1')) {
@@ -144,17 +151,18 @@ class UnitParser {
     if (!ahead('^'))
       return found->second;
     ++at_;
-    char* end = nullptr;
-    const std::string rest(text_.substr(at_));
-    const auto power = static_cast<int>(std::strtol(rest.c_str(), &end, 10));
-    if (end == rest.c_str())
+    int power = 0;
+    const char* rest = text_.data() + at_;
+    const auto [end, error] = std::from_chars(rest, text_.data() + text_.size(), power);
+    if (error != std::errc() || std::abs(power) > largest_power)
       fail();
-    at_ += static_cast<std::size_t>(end - rest.c_str());
+    at_ += static_cast<std::size_t>(end - rest);
     return raised(found->second, power);
   }
 
   std::string_view text_;
   std::size_t at_ = 0;
+  int depth_ = 0;  ///< of parentheses
 };
 
 }  // namespace

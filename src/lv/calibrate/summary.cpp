@@ -1,11 +1,11 @@
 #include "lv/calibrate/summary.hpp"
 
+#include "lv/base/json_file.hpp"
 #include "lv/base/units.hpp"
 #include "lv/calibrate/klotz.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
@@ -280,9 +280,11 @@ Table history_table(const Fit& fit) {
   return table;
 }
 
-Parameters parameters_of(const std::string& json) {
-  const auto p = nlohmann::json::parse(json).at("parameters");
-  return {p.at("C_a"), p.at("scale"), p.at("exponent"), p.at("T_scale")};
+Parameters parameters_of(const std::filesystem::path& file) {
+  return from_json_file(file, [](const Json& json) -> Parameters {
+    const Json& p = json.at("parameters");
+    return {p.at("C_a"), p.at("scale"), p.at("exponent"), p.at("T_scale")};
+  });
 }
 
 }  // namespace lv::calibrate

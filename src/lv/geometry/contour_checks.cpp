@@ -115,6 +115,19 @@ void check_counts(const Contours& contours) {
     check(c, least_curve_points, "long-axis curve");
 }
 
+/// Numbers so large that lengths could not be told from them.
+void check_positions(const Contours& contours) {
+  constexpr double largest = 1e12;  // whose squares and their sums still are numbers
+  for (const auto* set : {&contours.short_axis, &contours.long_axis, &contours.apex})
+    for (const Contour& c : *set)
+      for (std::size_t i = 0; i < c.points.size(); ++i)
+        if (!(c.points[i].cwiseAbs().maxCoeff() <= largest))
+          throw InputError(c.where(i),
+                           fmt::format("{}: the point {} is no place in a scanner", label(c),
+                                       place(c.points[i])),
+                           "Give positions in scanner millimetres");
+}
+
 /// The unit in which a length would be that of a ventricle.
 std::string likely_unit(double diameter) {
   struct Unit {
@@ -353,6 +366,7 @@ void check_open(const Contour& curve) {
 
 void check_contours(const Contours& contours) {
   check_counts(contours);
+  check_positions(contours);
   check_units(contours);
   for (const Contour& loop : contours.short_axis) {
     const Frame plane = plane_of(loop.points);

@@ -57,7 +57,7 @@ class Table {
   void read_header() {
     if (!lines_.next())
       throw InputError(file_, "the contour file is empty", column_rule);
-    const auto fields = fields_of(lines_.text(), ',');
+    const auto fields = csv_fields(lines_.text());
     width_ = fields.size();
     at_.fill(width_);
     for (std::size_t i = 0; i < width_; ++i) {
@@ -78,7 +78,7 @@ class Table {
   }
 
   [[nodiscard]] Row row() const {
-    const auto fields = fields_of(lines_.text(), ',');
+    const auto fields = csv_fields(lines_.text());
     if (fields.size() != width_)
       throw InputError(lines_.where(),
                        fmt::format("{} values in a table of {} columns", fields.size(), width_),
@@ -200,13 +200,17 @@ void drop_repeats(Contour& loop) {
   loop = std::move(kept);
 }
 
+std::vector<Contour> read_curves(const std::filesystem::path& file) {
+  return read_file(file);
+}
+
 Contours read_contours(const ContourFiles& files) {
   Contours contours;
   contours.short_axis = read_file(files.short_axis);
   for (Contour& loop : contours.short_axis)
     drop_repeats(loop);
   if (files.long_axis)
-    contours.long_axis = read_file(*files.long_axis);
+    contours.long_axis = read_curves(*files.long_axis);
   for (const auto& path : files.apex)
     append_apex_points(path, contours.apex);
   check_contours(contours);

@@ -56,4 +56,7 @@ struct ContourFiles {
 /// what is wrong and what to do.
 [[nodiscard]] Contours read_contours(const ContourFiles& files);
 
+/// Reads curves on long-axis images from a CSV file of the same columns, unchecked.
+[[nodiscard]] std::vector<Contour> read_curves(const std::filesystem::path& file);
+
 }  // namespace lv::geometry

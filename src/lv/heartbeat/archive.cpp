@@ -7,10 +7,14 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
+#include <iterator>
+#include <limits>
 #include <sstream>
 #include <system_error>
 
@@ -18,6 +22,8 @@ namespace lv::heartbeat {
 namespace {
 
 constexpr char magic[] = "ventricle archive 1\n";
+constexpr const char* another_version =
+    "It was written by another version of the program; delete it to start this stage again";
 
 std::uint32_t checksum(const std::string& bytes) {
   boost::crc_32_type crc;
@@ -29,30 +35,37 @@ void append(std::string& bytes, const void* data, std::size_t size) {
   bytes.append(static_cast<const char*>(data), size);
 }
 
-/// Takes values from the front of a run of bytes; throws when they run out.
-class Reader {
- public:
-  Reader(const std::string& bytes, std::size_t position) : bytes_(bytes), position_(position) {}
-
-  void take(void* data, std::size_t size) {
-    if (size > bytes_.size() - position_)
-      throw RunError("the archive is cut short", "");
-    std::memcpy(data, bytes_.data() + position_, size);
-    position_ += size;
-  }
-  [[nodiscard]] bool at_end() const { return position_ == bytes_.size(); }
-
- private:
-  const std::string& bytes_;
-  std::size_t position_;
-};
-
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& why) {
   throw RunError(
       fmt::format("{} {}", file.string(), why),
       fmt::format("Delete the folder {} to make it again, or restore the file from a copy",
                   file.parent_path().string()));
 }
+
+/// Takes values from the front of a run of bytes; fails when they run out.
+class Reader {
+ public:
+  Reader(const std::filesystem::path& file, const std::string& bytes, std::size_t position)
+      : file_(file), bytes_(bytes), position_(position) {}
+
+  /// The next `count` values, for which there is room only if they are there.
+  template <class Values>
+  Values take(std::uint64_t count) {
+    constexpr std::size_t size = sizeof(typename Values::value_type);
+    if (count > (bytes_.size() - position_) / size)
+      fail(file_, "is damaged (an array is longer than the file)");
+    Values values(count, {});
+    std::copy_n(bytes_.data() + position_, count * size, reinterpret_cast<char*>(values.data()));
+    position_ += count * size;
+    return values;
+  }
+  [[nodiscard]] bool at_end() const { return position_ == bytes_.size(); }
+
+ private:
+  const std::filesystem::path& file_;
+  const std::string& bytes_;
+  std::size_t position_;
+};
 
 [[noreturn]] void fail_to_write(const std::filesystem::path& file, int error) {
   throw RunError(fmt::format("{} cannot be written: {}", file.string(), std::strerror(error)),
@@ -78,6 +91,12 @@ void write_durably(const std::filesystem::path& file, const std::string& bytes) 
 
 }  // namespace
 
+int whole_number(double stored) {
+  if (!(std::abs(stored) <= std::numeric_limits<int>::max()))
+    throw RunError(fmt::format("the archive has {} for a whole number", stored), another_version);
+  return static_cast<int>(stored);
+}
+
 void Archive::set(const std::string& name, std::vector<double> values) {
   arrays_[name] = std::move(values);
 }
@@ -85,14 +104,29 @@ void Archive::set(const std::string& name, std::vector<double> values) {
 const std::vector<double>& Archive::get(const std::string& name) const {
   const auto found = arrays_.find(name);
   if (found == arrays_.end())
-    throw RunError(
-        fmt::format("the archive has no '{}'", name),
-        "It was written by another version of the program; delete it to start this stage again");
+    throw RunError(fmt::format("the archive has no '{}'", name), another_version);
   return found->second;
 }
 
 double Archive::number(const std::string& name) const {
-  return get(name).at(0);
+  return get_rows(name, 1, 1).front();
+}
+
+const std::vector<double>& Archive::get_rows(const std::string& name, std::size_t width,
+                                             std::optional<std::size_t> rows) const {
+  const std::vector<double>& numbers = get(name);
+  if (numbers.size() % width != 0 || (rows && numbers.size() != width * *rows))
+    throw RunError(fmt::format("the archive has {} numbers of '{}', which does not fit the rest",
+                               numbers.size(), name),
+                   another_version);
+  return numbers;
+}
+
+std::vector<int> Archive::get_whole(const std::string& name) const {
+  const std::vector<double>& numbers = get(name);
+  std::vector<int> whole;
+  std::transform(numbers.begin(), numbers.end(), std::back_inserter(whole), whole_number);
+  return whole;
 }
 
 void Archive::write(const std::filesystem::path& file) const {
@@ -131,14 +165,10 @@ Archive Archive::read(const std::filesystem::path& file) {
     fail(file, "is damaged (its checksum is wrong)");
 
   Archive archive;
-  for (Reader reader(whole, header); !reader.at_end();) {
-    std::uint64_t sizes[2] = {0, 0};
-    reader.take(sizes, sizeof sizes);
-    std::string name(sizes[0], '\0');
-    reader.take(name.data(), name.size());
-    std::vector<double> values(sizes[1]);
-    reader.take(values.data(), values.size() * sizeof(double));
-    archive.arrays_[name] = std::move(values);
+  for (Reader reader(file, whole, header); !reader.at_end();) {
+    const auto sizes = reader.take<std::vector<std::uint64_t>>(2);
+    const auto name = reader.take<std::string>(sizes[0]);
+    archive.arrays_[name] = reader.take<std::vector<double>>(sizes[1]);
   }
   return archive;
 }

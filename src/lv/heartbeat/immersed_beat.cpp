@@ -129,22 +129,22 @@ bool ImmersedRun::resume() {
   const Archive archive = Archive::read(file);
   run_ = load_run_state(archive, setup_.protocol);
   immersed::ModelState state = model_.state();
-  const auto& positions = archive.get("positions");
-  const auto& velocities = archive.get("node_velocities");
-  LV_CHECK(positions.size() == 3 * state.positions.size());
-  for (std::size_t a = 0; a < state.positions.size(); ++a) {
+  const std::size_t nodes = state.positions.size();
+  const auto& positions = archive.get_rows("positions", 3, nodes);
+  const auto& velocities = archive.get_rows("node_velocities", 3, nodes);
+  for (std::size_t a = 0; a < nodes; ++a) {
     state.positions[a] = Vec3(positions.data() + 3 * a);
     state.node_velocities[a] = Vec3(velocities.data() + 3 * a);
   }
-  state.contraction = archive.get("contraction");
+  state.contraction = archive.get_rows("contraction", 1, state.contraction.size());
   for (int c = 0; c < 3; ++c) {
     model_.transform().scatter(archive.get("modes." + std::to_string(c)), c, state.velocity_modes);
     fluid::scatter(archive.get("convection." + std::to_string(c)), state.convection.component[c]);
   }
-  const auto& steps = archive.get("steps");
-  state.dt = steps.at(0);
-  state.dt_before = steps.at(1);
-  state.calcium = steps.at(2);
+  const auto& steps = archive.get_rows("steps", 3, 1);
+  state.dt = steps[0];
+  state.dt_before = steps[1];
+  state.calcium = steps[2];
   model_.restore(state);
   log::info("resumed from the checkpoint at {:.4f} s of {}", run_.time, name(run_.phase));
   return true;

@@ -1,5 +1,6 @@
 #include "lv/heartbeat/run_state.hpp"
 
+#include <algorithm>
 #include <cstring>
 
 namespace lv::heartbeat {
@@ -34,20 +35,22 @@ void store(const Snapshot& s, const std::string& name, Archive& archive) {
   archive.set(name + ".positions", flat(s.positions));
   archive.set(name + ".tension", s.tension);
   std::vector<double> stress(solid::CellStress::numbers * s.stress.size());
-  std::memcpy(stress.data(), s.stress.data(), sizeof(double) * stress.size());
+  if (!stress.empty())
+    std::memcpy(stress.data(), s.stress.data(), sizeof(double) * stress.size());
   archive.set(name + ".stress", std::move(stress));
 }
 
 Snapshot load_snapshot(const Archive& archive, const std::string& name) {
-  const auto& n = archive.get(name + ".numbers");
-  const auto& numbers = archive.get(name + ".stress");
+  const auto& n = archive.get_rows(name + ".numbers", 4, 1);
+  const auto& numbers = archive.get_rows(name + ".stress", solid::CellStress::numbers);
   std::vector<solid::CellStress> stress(numbers.size() / solid::CellStress::numbers);
-  std::memcpy(static_cast<void*>(stress.data()), numbers.data(), sizeof(double) * numbers.size());
-  return {n.at(0),
-          phase_of(n.at(1)),
-          n.at(2),
-          n.at(3),
-          vectors(archive.get(name + ".positions")),
+  if (!stress.empty())
+    std::memcpy(static_cast<void*>(stress.data()), numbers.data(), sizeof(double) * numbers.size());
+  return {n[0],
+          phase_of(n[1]),
+          n[2],
+          n[3],
+          vectors(archive.get_rows(name + ".positions", 3)),
           archive.get(name + ".tension"),
           std::move(stress)};
 }
@@ -64,7 +67,7 @@ void store(const std::vector<CurveRow>& curves, Archive& archive) {
 
 std::vector<CurveRow> load_curves(const Archive& archive) {
   constexpr std::size_t width = 11;
-  const auto& numbers = archive.get("curves");
+  const auto& numbers = archive.get_rows("curves", width);
   std::vector<CurveRow> curves(numbers.size() / width);
   for (std::size_t i = 0; i < curves.size(); ++i) {
     const double* n = numbers.data() + width * i;
@@ -91,26 +94,27 @@ void store(const RunState& run, Archive& archive) {
 }
 
 RunState load_run_state(const Archive& archive, const Protocol& protocol) {
-  const auto& n = archive.get("run");
+  const auto& n = archive.get_rows("run", 15, 1);
   RunState run;
-  run.time = n.at(0);
-  run.phase = phase_of(n.at(1));
-  run.phase_start = n.at(2);
-  run.next_frame = n.at(3);
-  run.next_curve = n.at(4);
-  run.frames = static_cast<int>(n.at(5));
-  run.largest_velocity = n.at(6);
-  run.halvings = static_cast<int>(n.at(7));
-  run.good_steps = static_cast<int>(n.at(8));
-  run.patience = static_cast<int>(n.at(9));
-  run.volume_was_falling = n.at(10) != 0.0;
-  run.beat.filling_was_steady = n.at(11) != 0.0;
-  run.beat.steps = static_cast<int>(n.at(12));
-  run.beat.retries = static_cast<int>(n.at(13));
-  run.beat.wall_clock = n.at(14);
-  run.frame_times = archive.get("frame_times");
+  run.time = n[0];
+  run.phase = phase_of(n[1]);
+  run.phase_start = n[2];
+  run.next_frame = n[3];
+  run.next_curve = n[4];
+  run.frames = whole_number(n[5]);
+  run.largest_velocity = n[6];
+  run.halvings = whole_number(n[7]);
+  run.good_steps = whole_number(n[8]);
+  run.patience = whole_number(n[9]);
+  run.volume_was_falling = n[10] != 0.0;
+  run.beat.filling_was_steady = n[11] != 0.0;
+  run.beat.steps = whole_number(n[12]);
+  run.beat.retries = whole_number(n[13]);
+  run.beat.wall_clock = n[14];
+  run.frame_times =
+      archive.get_rows("frame_times", 1, static_cast<std::size_t>(std::max(run.frames, 0)));
   run.steady = criterion(protocol, run.phase);
-  const auto& samples = archive.get("steady");
+  const auto& samples = archive.get_rows("steady", 2);
   for (std::size_t i = 0; i + 1 < samples.size(); i += 2)
     run.steady.record(samples[i], samples[i + 1]);
   run.least = load_snapshot(archive, "least");

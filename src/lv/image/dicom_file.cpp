@@ -2,22 +2,18 @@
 
 #include "lv/base/check.hpp"
 #include "lv/base/lines.hpp"
+#include "lv/base/trial.hpp"
 
 #include <fmt/format.h>
 #include <gdcmImageReader.h>
 #include <gdcmReader.h>
 #include <gdcmSequenceOfItems.h>
 #include <gdcmTrace.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
+#include <algorithm>
 #include <array>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <csignal>
-#include <cstdio>
 #include <cstring>
 #include <exception>
 #include <fstream>
@@ -31,11 +27,13 @@ namespace {
 namespace fs = std::filesystem;
 using gdcm::Tag;
 
-constexpr int largest_side = 8192;      // pixels; no scanner makes larger slices
-constexpr int most_frames = 100000;     // of one file
-constexpr double unit_error = 1e-2;     // of direction cosines
-constexpr unsigned longest_trial = 60;  // of a file [s]
-constexpr double seconds = 1e-3;        // per millisecond
+constexpr int largest_side = 8192;       // pixels; no scanner makes larger slices
+constexpr int most_frames = 100000;      // of one file
+constexpr double unit_error = 1e-2;      // of direction cosines
+constexpr double smallest_pixel = 1e-3;  // [mm]
+constexpr double largest_pixel = 1e3;
+constexpr double farthest = 1e6;  // of an image from the scanner's centre [mm]
+constexpr double seconds = 1e-3;  // per millisecond
 
 /// GDCM speaks on the terminal unless told not to.
 void silence() {
@@ -46,48 +44,6 @@ void silence() {
     return true;
   }();
   static_cast<void>(once);
-}
-
-/// A damaged length makes GDCM ask for gigabytes: not more than this besides what is in use.
-void limit_memory() {
-#ifndef __SANITIZE_ADDRESS__  // whose shadow memory is larger than any limit
-  constexpr rlim_t most = rlim_t{1} << 30U;
-  rlim_t pages = 0;
-  std::ifstream("/proc/self/statm") >> pages;
-  const rlim_t limit = pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + most;
-  const rlimit bound{limit, limit};
-  setrlimit(RLIMIT_AS, &bound);
-#endif
-}
-
-/// Whether some work on a file comes to its end. GDCM, as Debian builds it, ends the whole program
-/// by an assertion on files that are damaged in certain ways, so a child of this process tries
-/// first.
-template <class Work>
-bool survives(const Work& work) {
-  const pid_t child = fork();
-  if (child < 0)
-    return true;  // no process to spare: no trial
-  if (child == 0) {
-    for (const int signal : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL})
-      std::signal(signal, SIG_DFL);
-    const rlimit no_core{0, 0};
-    setrlimit(RLIMIT_CORE, &no_core);
-    if (std::freopen("/dev/null", "w", stderr) == nullptr)
-      _exit(1);
-    alarm(longest_trial);
-    limit_memory();
-    try {
-      work();
-    } catch (...) {
-      _exit(1);
-    }
-    _exit(0);
-  }
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
 std::optional<double> number_of(std::string_view text) {
@@ -200,12 +156,17 @@ std::string lay(const std::vector<double>& position, const std::vector<double>& 
     return "it has no ImageOrientationPatient";
   if (spacing.size() != 2 || !(spacing[0] > 0.0) || !(spacing[1] > 0.0))
     return "it has no PixelSpacing above zero";
+  if (std::min(spacing[0], spacing[1]) < smallest_pixel ||
+      std::max(spacing[0], spacing[1]) > largest_pixel)
+    return fmt::format("its PixelSpacing is {:g} x {:g} mm", spacing[0], spacing[1]);
   const Vec3 row(orientation[0], orientation[1], orientation[2]);
   const Vec3 column(orientation[3], orientation[4], orientation[5]);
   if (std::abs(row.norm() - 1.0) > unit_error || std::abs(column.norm() - 1.0) > unit_error ||
       std::abs(row.dot(column)) > unit_error)
     return "its ImageOrientationPatient holds no two unit vectors at right angles";
   plane.origin = Vec3(position[0], position[1], position[2]);
+  if (plane.origin.cwiseAbs().maxCoeff() > farthest)
+    return "its ImagePositionPatient is no place in a scanner";
   plane.along_row = row.normalized();
   plane.along_column = (column - column.dot(plane.along_row) * plane.along_row).normalized();
   plane.spacing_j = spacing[0];  // between rows comes first
@@ -469,6 +430,7 @@ std::vector<float> decoded_values(const fs::path& file) {
 
 std::vector<float> stored_values(const fs::path& file) {
   silence();
+  // GDCM as Debian builds it ends the program by an assertion on files damaged in certain ways
   const bool alive = survives([&] {
     try {
       static_cast<void>(decoded_values(file));

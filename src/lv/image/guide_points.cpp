@@ -25,6 +25,7 @@ using geometry::Side;
 
 constexpr double pi = std::numbers::pi;
 constexpr double widest_gap = pi / 3.0;  // of an epicardial loop
+constexpr double farthest = 1e7;         // more than a ventricle in micrometres
 constexpr const char* column_rule =
     "The first line names the columns x, y, z, contour type, slice and time frame, separated by "
     "tabs";
@@ -101,7 +102,7 @@ class List {
     Row row;
     row.line = lines_.number();
     for (int d = 0; d < 3; ++d)
-      row.x[d] = number(fields[at_[d]]);
+      row.x[d] = coordinate(fields[at_[d]]);
     row.type = fields[at_[3]];
     row.slice = whole(fields[at_[4]]);
     row.frame = at_[5] < 0 ? 0 : whole(fields[at_[5]]);
@@ -114,6 +115,14 @@ class List {
     const auto result = std::from_chars(text.data(), end, value);
     if (result.ec != std::errc() || result.ptr != end || !std::isfinite(value))
       throw InputError(lines_.where(), fmt::format("\"{}\" is not a finite number", text),
+                       "Give positions in scanner millimetres");
+    return value;
+  }
+
+  [[nodiscard]] double coordinate(std::string_view text) const {
+    const double value = number(text);
+    if (std::abs(value) > farthest)
+      throw InputError(lines_.where(), fmt::format("\"{}\" is no place in a scanner", text),
                        "Give positions in scanner millimetres");
     return value;
   }

@@ -26,6 +26,10 @@ namespace fs = std::filesystem;
 
 constexpr double at_right_angles = 1e-3;  // cosine between axes
 constexpr double same_place = 0.1;        // of a voxel, between sform and qform
+constexpr double smallest_voxel = 1e-3;   // [mm]
+constexpr double largest_voxel = 1e3;
+constexpr double farthest = 1e6;    // of an image from the scanner's centre [mm]
+constexpr double most_bytes = 8e9;  // of voxels
 
 [[noreturn]] void fail(const fs::path& file, const std::string& what, const std::string& remedy) {
   throw InputError(file.string(), what, remedy);
@@ -85,27 +89,40 @@ void check_right_angles(const fs::path& file, const Mat3& axes) {
   }
 }
 
-/// The bytes of a file, unpacked if it is packed, its first ones, and all of them if asked for.
+/// The first bytes of a file, unpacked if it is packed.
+using Head = std::array<char, 352>;
+
+using GzFile = std::unique_ptr<gzFile_s, int (*)(gzFile)>;
+
+GzFile open_packed(const fs::path& file) {
+  GzFile stream(gzopen(file.c_str(), "rb"), gzclose);
+  if (!stream)
+    fail_damaged(file, "it cannot be opened");
+  return stream;
+}
+
+Head head_of(const fs::path& file) {
+  Head head{};
+  if (gzread(open_packed(file).get(), head.data(), head.size()) < 0)
+    fail_damaged(file, "it is packed, and damaged");
+  return head;
+}
+
+/// How many bytes a file has, unpacked if it is packed, and all of them if asked for.
 struct Unpacked {
   std::uintmax_t length = 0;
-  std::array<char, 352> head{};
   std::vector<char> all;
 };
 
 /// Reads a file to its end: what the NIfTI library does not, which takes zeros for missing voxels.
-Unpacked unpack(const fs::path& file, bool keep = false) {
-  const std::unique_ptr<gzFile_s, int (*)(gzFile)> stream(gzopen(file.c_str(), "rb"), gzclose);
-  if (!stream)
-    fail_damaged(file, "it cannot be opened");
+Unpacked unpack(const fs::path& file, bool keep) {
+  const GzFile stream = open_packed(file);
   Unpacked unpacked;
   std::vector<char> block(1U << 16U);
   for (;;) {
     const int got = gzread(stream.get(), block.data(), static_cast<unsigned>(block.size()));
     if (got < 0)
       fail_damaged(file, "it is packed, and damaged or truncated");
-    if (unpacked.length < unpacked.head.size())
-      std::memcpy(unpacked.head.data() + unpacked.length, block.data(),
-                  std::min<std::size_t>(got, unpacked.head.size() - unpacked.length));
     unpacked.length += static_cast<std::uintmax_t>(got);
     if (keep)
       unpacked.all.insert(unpacked.all.end(), block.begin(), block.begin() + got);
@@ -121,7 +138,7 @@ Unpacked unpack(const fs::path& file, bool keep = false) {
 
 /// A number of the header, turned round if the file comes from a machine of the other byte order.
 template <class Number>
-Number header_number(const std::array<char, 352>& head, std::size_t at) {
+Number header_number(const Head& head, std::size_t at) {
   std::int32_t size = 0;
   std::memcpy(&size, head.data(), sizeof(size));
   std::array<char, sizeof(Number)> bytes{};
@@ -131,8 +148,26 @@ Number header_number(const std::array<char, 352>& head, std::size_t at) {
   return std::bit_cast<Number>(bytes);
 }
 
+/// Refuses a header whose place in space is none: ITK would end the program.
+void check_finite(const fs::path& file) {
+  const Head head = head_of(file);
+  std::vector<std::size_t> numbers{80, 84, 88};  // pixdim of three axes
+  const auto add = [&](std::size_t from, std::size_t to) {
+    for (std::size_t at = from; at < to; at += 4)
+      numbers.push_back(at);
+  };
+  if (header_number<std::int16_t>(head, 252) > 0)
+    add(256, 280);  // the qform's quaternion and offset
+  if (header_number<std::int16_t>(head, 254) > 0)
+    add(280, 328);  // the sform's rows
+  for (const std::size_t at : numbers)
+    if (!(std::abs(header_number<float>(head, at)) <= farthest))
+      fail_damaged(file, fmt::format("its header has {:g} for a place or a size",
+                                     header_number<float>(head, at)));
+}
+
 /// The map of the qform from voxels to RAS (the NIfTI-1 standard's method 2).
-Eigen::Matrix<double, 3, 4> qform(const std::array<char, 352>& head) {
+Eigen::Matrix<double, 3, 4> qform(const Head& head) {
   const auto number = [&](std::size_t at) {
     return static_cast<double>(header_number<float>(head, at));
   };
@@ -169,7 +204,7 @@ void lay(const fs::path& file, const itk::ImageIOBase& io, Volume& volume) {
   }
   if (!has_qform(io))
     return;
-  const auto other = qform(unpack(file).head);
+  const auto other = qform(head_of(file));
   for (int corner = 0; corner < 8; ++corner) {
     const Vec3 ijk((corner & 1) != 0 ? volume.size[0] - 1 : 0,
                    (corner & 2) != 0 ? volume.size[1] - 1 : 0,
@@ -208,10 +243,22 @@ Volume read_header(const fs::path& file, itk::NiftiImageIO& io) {
   volume.frames = size[3];
   if (dimensions > 3 && volume.frames > 1 && io.GetSpacing(3) > 0.0 && io.GetSpacing(3) < 10.0)
     volume.time_step = io.GetSpacing(3);
-  if (!volume.spacing.allFinite() || !(volume.spacing.minCoeff() > 0.0) ||
-      !volume.origin.allFinite() || !volume.directions.allFinite())
-    fail_damaged(file, "its voxels have no size or no place");
+  const double bytes = static_cast<double>(size[0]) * size[1] * size[2] * size[3] *
+                       static_cast<double>(io.GetComponentSize());
+  if (bytes > most_bytes)
+    fail(file, fmt::format("claims {:.0f} bytes of voxels", bytes), "Crop or downsample the image");
   return volume;
+}
+
+/// Refuses voxels that are no part of a person, before anything is resampled to their size.
+void check_place(const fs::path& file, const Volume& volume) {
+  if (!(volume.spacing.minCoeff() >= smallest_voxel) ||
+      !(volume.spacing.maxCoeff() <= largest_voxel) || !volume.origin.allFinite() ||
+      volume.origin.cwiseAbs().maxCoeff() > farthest || !volume.directions.allFinite())
+    fail_damaged(file, fmt::format("its voxels measure {:g} x {:g} x {:g} mm at ({:g}, {:g}, {:g}) "
+                                   "mm",
+                                   volume.spacing.x(), volume.spacing.y(), volume.spacing.z(),
+                                   volume.origin.x(), volume.origin.y(), volume.origin.z()));
 }
 
 template <class Stored>
@@ -303,7 +350,7 @@ std::vector<std::size_t> check_voxels(const fs::path& file, const Volume& volume
   constexpr int float32 = 16;  // datatypes of the NIfTI-1 standard
   constexpr int float64 = 64;
   const bool beside = voxel_file(file) != file;
-  const std::array<char, 352> head = unpack(file).head;
+  const Head head = head_of(file);
   const int type = header_number<std::int16_t>(head, 70);
   const int bits = header_number<std::int16_t>(head, 72);
   const auto start = header_number<float>(head, 108);
@@ -325,16 +372,12 @@ std::vector<std::size_t> check_voxels(const fs::path& file, const Volume& volume
 }
 
 void read_values(const fs::path& file, itk::NiftiImageIO& io, Volume& volume) {
-  constexpr std::uintmax_t most = std::uintmax_t{1} << 33U;
-  const std::uintmax_t bytes =
-      volume.voxels() * static_cast<std::uintmax_t>(volume.frames) * io.GetComponentSize();
-  if (bytes > most)
-    fail(file, fmt::format("claims {} bytes of voxels", bytes), "Crop or downsample the image");
   itk::ImageIORegion all(io.GetNumberOfDimensions());
   for (unsigned d = 0; d < io.GetNumberOfDimensions(); ++d)
     all.SetSize(d, io.GetDimensions(d));
   io.SetIORegion(all);
-  std::vector<char> buffer(bytes);
+  std::vector<char> buffer(volume.voxels() * static_cast<std::size_t>(volume.frames) *
+                           io.GetComponentSize());
   io.Read(buffer.data());
   if (!append_as(io.GetComponentType(), buffer, volume.values))
     fail(file, "has values of an unknown type", "Save whole numbers or floating-point numbers");
@@ -360,12 +403,14 @@ Volume read_nifti(const fs::path& file) {
     io->SetFileName(file.string());
     if (!io->CanReadFile(file.c_str()))
       fail_damaged(file, "it has no NIfTI header");
+    check_finite(file);
     io->ReadImageInformation();
     if (io->GetNumberOfComponents() != 1)
       fail(file, fmt::format("has {} values per voxel", io->GetNumberOfComponents()),
            "Give an image of grey values or labels");
     Volume volume = read_header(file, *io);
     lay(file, *io, volume);
+    check_place(file, volume);
     const std::vector<std::size_t> without_value = check_voxels(file, volume);
     read_values(file, *io, volume);
     for (const std::size_t v : without_value)

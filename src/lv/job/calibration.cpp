@@ -1,6 +1,7 @@
 #include "lv/job/calibration.hpp"
 
 #include "lv/base/interrupt.hpp"
+#include "lv/base/json_file.hpp"
 #include "lv/base/log.hpp"
 #include "lv/base/parallel.hpp"
 #include "lv/base/table.hpp"
@@ -11,7 +12,6 @@
 
 #include <Eigen/LU>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -169,16 +169,17 @@ void make_calibration(const Case& c, const MeshResult& mesh, const std::filesyst
 Case calibrated(Case c, const std::filesystem::path& file) {
   for (const std::string& name : changed(c.calibration))
     c.origin[name] = file.string();
-  return with(std::move(c), calibrate::parameters_of(read_file(file)));
+  return with(std::move(c), calibrate::parameters_of(file));
 }
 
 bool correct(const Case& c, const std::filesystem::path& calibration_folder,
              const heartbeat::Beat& beat, const std::filesystem::path& folder) {
-  const Json calibration = Json::parse(read_file(calibration_folder / calibration_name));
+  const auto whole = [](const Json& json) { return json; };
+  const Json calibration = from_json_file(calibration_folder / calibration_name, whole);
   const auto file = folder / confirmation_name;
   Json record{{"parameters", calibration.at("parameters")}, {"beats", Json::array()}};
   if (std::filesystem::exists(file))
-    record = Json::parse(read_file(file));
+    record = from_json_file(file, whole);
   const Json rows = volumes_json(calibration, beat);
   const bool within = std::all_of(rows.begin(), rows.end(), [&](const Json& row) {
     return std::abs(row.at("off").get<double>()) <= c.calibration.tolerance;
@@ -203,13 +204,14 @@ std::vector<report::FittedVolume> fitted_volumes(const Case& c, const std::files
   std::vector<report::FittedVolume> volumes;
   if (!c.calibration.asked())
     return volumes;
-  const Json record = Json::parse(read_file(beat / confirmation_name));
-  for (const Json& row : record.at("beats").back().at("volumes"))
-    volumes.push_back({row.at("name"), 1e3 * row.at("measured_ml").get<double>(),
-                       1e3 * row.at("quasi_static_ml").get<double>(),
-                       1e3 * row.at("beat_ml").get<double>(),
-                       std::abs(row.at("off").get<double>()) <= c.calibration.tolerance});
-  return volumes;
+  return from_json_file(beat / confirmation_name, [&](const Json& record) {
+    for (const Json& row : record.at("beats").back().at("volumes"))
+      volumes.push_back({row.at("name"), 1e3 * row.at("measured_ml").get<double>(),
+                         1e3 * row.at("quasi_static_ml").get<double>(),
+                         1e3 * row.at("beat_ml").get<double>(),
+                         std::abs(row.at("off").get<double>()) <= c.calibration.tolerance});
+    return volumes;
+  });
 }
 
 }  // namespace lv::job

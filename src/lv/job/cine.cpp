@@ -45,6 +45,8 @@ void read_sunnybrook(const Case& c, const image::DicomStack& stack, CineStudy& s
                                  c.strain.end_diastole),
                      "Set strain.end_diastole to the number, in order of time, of those that are");
   study.drawn = diastole->second;
+  if (!c.strain.long_axis.empty())
+    study.drawn.long_axis = geometry::read_curves(beside(c, c.strain.long_axis));
   image::close_walls(study.drawn, thinnest_wall, study.notes);
   geometry::check_contours(study.drawn);
   if (const auto systole = drawn.phases.find(c.strain.end_systole); systole != drawn.phases.end())

@@ -2,6 +2,8 @@
 
 #include "lv/job/case.hpp"
 
+// toml++ asserts in headings such as "[ = ]" what it then refuses in words
+#define TOML_ASSERT(expression) static_assert(true)
 #include <toml++/toml.h>
 
 #include <functional>

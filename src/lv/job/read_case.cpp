@@ -103,8 +103,17 @@ class CaseReader {
          "protocol.contraction_longest",
          "must leave time for contraction_ramp and contraction_window");
     rule(p.calcium.Ca_max > p.calcium.Ca_0, "calcium.Ca_max", "must be larger than Ca_0");
+    check_contour_files();
     check_calibration();
     check_strain_study();
+  }
+
+  void check_contour_files() {
+    for (const char* name : {"short_axis", "long_axis", "apex_endo", "apex_epi"}) {
+      const std::string parameter = fmt::format("anatomy.contours.{}", name);
+      rule(case_.anatomy.source == AnatomySource::contours || case_.origin.count(parameter) == 0,
+           parameter, "is read with anatomy.source = \"contours\" alone; the case has another");
+    }
   }
 
   void check_strain_study() {

@@ -34,20 +34,14 @@ std::vector<double> as_numbers(const std::vector<int>& whole) {
   return {whole.begin(), whole.end()};
 }
 
-std::vector<int> as_whole(const std::vector<double>& numbers) {
-  std::vector<int> whole;
-  for (const double number : numbers)
-    whole.push_back(static_cast<int>(number));
-  return whole;
-}
-
 void store(const mesh::Surface& surface, const std::string& name, Archive& archive) {
   archive.set(name + ".nodes_per_face", {static_cast<double>(surface.nodes_per_face)});
   archive.set(name, as_numbers(surface.nodes));
 }
 
 mesh::Surface load_surface(const Archive& archive, const std::string& name) {
-  return {static_cast<int>(archive.number(name + ".nodes_per_face")), as_whole(archive.get(name))};
+  return {heartbeat::whole_number(archive.number(name + ".nodes_per_face")),
+          archive.get_whole(name)};
 }
 
 analysis::FieldAnalysis field_analysis(const Case& c, const mesh::Mesh& m) {
@@ -285,19 +279,19 @@ MeshResult read_mesh_result(const std::filesystem::path& folder) {
   MeshResult result;
   mesh::Mesh& m = result.mesh;
   m.kind = archive.number("kind") == 0.0 ? mesh::CellKind::hexahedron : mesh::CellKind::tetrahedron;
-  m.order = static_cast<int>(archive.number("order"));
-  const auto& nodes = archive.get("nodes");
-  for (std::size_t a = 0; a + 2 < nodes.size(); a += 3)
+  m.order = heartbeat::whole_number(archive.number("order"));
+  const auto& nodes = archive.get_rows("nodes", 3);
+  for (std::size_t a = 0; a < nodes.size(); a += 3)
     m.nodes.emplace_back(nodes[a], nodes[a + 1], nodes[a + 2]);
-  m.cells = as_whole(archive.get("cells"));
+  m.cells = archive.get_whole("cells");
   m.transmural = archive.get("transmural");
   m.infarct = archive.get("infarct");
   result.infarcted = archive.get("infarcted");
   m.endo = load_surface(archive, "endo");
   m.epi = load_surface(archive, "epi");
   m.base = load_surface(archive, "base");
-  result.regions = {as_whole(archive.get("slice")), as_whole(archive.get("sector")),
-                    as_whole(archive.get("aha"))};
+  result.regions = {archive.get_whole("slice"), archive.get_whole("sector"),
+                    archive.get_whole("aha")};
   return result;
 }
 
@@ -334,17 +328,17 @@ void write_beat(const heartbeat::Beat& beat, const std::filesystem::path& folder
 
 BeatResult read_beat(const std::filesystem::path& folder) {
   const Archive archive = Archive::read(folder / beat_name);
-  const auto& facts = archive.get("facts");
+  const auto& facts = archive.get_rows("facts", 6, 1);
   BeatResult result;
   result.beat.curves = heartbeat::load_curves(archive);
   result.beat.end_diastole = heartbeat::load_snapshot(archive, "end_diastole");
   result.beat.end_systole = heartbeat::load_snapshot(archive, "end_systole");
-  result.beat.filling_was_steady = facts.at(0) != 0.0;
-  result.beat.contraction_was_steady = facts.at(1) != 0.0;
-  result.beat.steps = static_cast<int>(facts.at(2));
-  result.beat.retries = static_cast<int>(facts.at(3));
-  result.beat.wall_clock = facts.at(4);
-  result.ranks = static_cast<int>(facts.at(5));
+  result.beat.filling_was_steady = facts[0] != 0.0;
+  result.beat.contraction_was_steady = facts[1] != 0.0;
+  result.beat.steps = heartbeat::whole_number(facts[2]);
+  result.beat.retries = heartbeat::whole_number(facts[3]);
+  result.beat.wall_clock = facts[4];
+  result.ranks = heartbeat::whole_number(facts[5]);
   return result;
 }
 

@@ -1,5 +1,5 @@
 #include "lv/base/check.hpp"
-#include "lv/base/lines.hpp"
+#include "lv/base/json_file.hpp"
 #include "lv/base/table.hpp"
 #include "lv/job/cine.hpp"
 #include "lv/job/outlines.hpp"
@@ -7,14 +7,13 @@
 #include "lv/strain/agreement.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
 #include <map>
-#include <sstream>
+#include <utility>
 
 namespace lv::job {
 namespace {
@@ -91,19 +90,17 @@ struct Row {
 };
 
 std::vector<Row> read_rows(const fs::path& strain, int phase) {
-  std::istringstream lines(read_file(strain / "segments.csv"));
-  std::string line;
-  std::getline(lines, line);
+  const Table table = Table::read_csv(strain / "segments.csv");
+  const auto scheme = table.words("scheme");
+  const auto segment = table.words("segment");
+  const auto slice = table.whole_numbers("slice");
+  const auto at = table.whole_numbers("phase");
+  const auto circumferential = table.numbers("circumferential_strain");
+  const auto radial = table.numbers("radial_strain");
   std::vector<Row> rows;
-  while (std::getline(lines, line)) {
-    const auto fields = fields_of(line, ',');
-    LV_CHECK(fields.size() >= 7);
-    if (fields[3] == std::to_string(phase))
-      rows.push_back({std::string(fields[0]),
-                      fields[1].empty() ? 0 : std::stoi(std::string(fields[1])),
-                      std::string(fields[2]),
-                      {std::stod(std::string(fields[5])), std::stod(std::string(fields[6]))}});
-  }
+  for (std::size_t i = 0; i < at.size(); ++i)
+    if (at[i] == phase)
+      rows.push_back({scheme[i], slice[i], segment[i], {circumferential[i], radial[i]}});
   return rows;
 }
 
@@ -205,11 +202,12 @@ std::string compare_strain(const Case& c, const ModelledBeat& model, const fs::p
   }
   if (!c.strain.asked())
     return "";
-  const auto phases = nlohmann::json::parse(read_file(strain / "phases.json"));
-  const int systole = phases.at("end_systole");
+  const auto [diastole, systole] = from_json_file(strain / "phases.json", [](const auto& phases) {
+    return std::pair<int, int>{phases.at("end_diastole"), phases.at("end_systole")};
+  });
   const CineStudy study = read_cine_study(c);
   return write_pairs(from_images(model, study, strain, systole), "green_lagrange", folder) +
-         write_outlines(model, study, phases.at("end_diastole"), systole, folder);
+         write_outlines(model, study, diastole, systole, folder);
 }
 
 }  // namespace lv::job

@@ -74,8 +74,7 @@ class StrainFile {
   bool next_line() {
     if (!lines_.next())
       return false;
-    const auto fields = fields_of(lines_.text(), ',');
-    fields_.assign(fields.begin(), fields.end());
+    fields_ = csv_fields(lines_.text());
     return true;
   }
 

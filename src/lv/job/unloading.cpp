@@ -1,6 +1,7 @@
 #include "lv/job/unloading.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/json_file.hpp"
 #include "lv/base/parallel.hpp"
 #include "lv/base/table.hpp"
 #include "lv/base/units.hpp"
@@ -9,7 +10,6 @@
 #include "lv/solid/interpolate.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace lv::job {
 namespace {
@@ -88,13 +88,14 @@ void make_unloading(const Case& c, const MeshResult& seen, const mesh::Mesh& ele
 std::optional<report::UnloadedShape> unloaded_shape(const std::filesystem::path& folder) {
   if (!std::filesystem::exists(folder / summary_name))
     return {};
-  const Json json = Json::parse(read_file(folder / summary_name));
-  return report::UnloadedShape{json.at("pressure_mmHg").get<double>() * mmHg,
-                               1e3 * json.at("seen_volume_ml").get<double>(),
-                               1e3 * json.at("unloaded_volume_ml").get<double>(),
-                               1e3 * json.at("loaded_again_volume_ml").get<double>(),
-                               json.at("largest_distance_mm").get<double>(),
-                               json.at("rms_distance_mm").get<double>()};
+  return from_json_file(folder / summary_name, [](const Json& json) {
+    return report::UnloadedShape{json.at("pressure_mmHg").get<double>() * mmHg,
+                                 1e3 * json.at("seen_volume_ml").get<double>(),
+                                 1e3 * json.at("unloaded_volume_ml").get<double>(),
+                                 1e3 * json.at("loaded_again_volume_ml").get<double>(),
+                                 json.at("largest_distance_mm").get<double>(),
+                                 json.at("rms_distance_mm").get<double>()};
+  });
 }
 
 }  // namespace lv::job

@@ -62,8 +62,10 @@ class BlockReader {
 
  private:
   void read_file(const std::string& path, int depth) {
-    std::ifstream stream(path);
-    if (!stream)
+    std::ifstream stream;
+    if (std::filesystem::is_regular_file(path))  // a device never ends
+      stream.open(path);
+    if (!stream.is_open())
       throw InputError(path, "cannot be opened", "Check the name and the permission to read");
     const int file = static_cast<int>(result_.files.size());
     result_.files.push_back(path);

@@ -16,7 +16,8 @@ namespace {
 using Number = AbaqusModel::Number;
 using Use = AbaqusElementType::Use;
 
-constexpr Number largest_set = 100'000'000;
+constexpr std::size_t most_members = 20'000'000;  // of all sets together
+constexpr int most_nodes = 27;                    // of an element
 
 template <class T>
 std::optional<T> parse(std::string_view field) {
@@ -47,7 +48,8 @@ std::optional<int> digits_after(std::string_view type, std::string_view prefix) 
   if (!type.starts_with(prefix))
     return {};
   type.remove_prefix(prefix.size());
-  return parse<int>(type.substr(0, type.find_first_not_of("0123456789")));
+  const auto nodes = parse<int>(type.substr(0, type.find_first_not_of("0123456789")));
+  return nodes && *nodes <= most_nodes ? nodes : std::nullopt;
 }
 
 bool has_no_volume(const std::string& type) {
@@ -239,10 +241,8 @@ class ModelReader {
     for (const Number number :
          model_.members(model_.element_sets, block.option("ELSET"), block.at)) {
       const auto found = model_.element_index.find(number);
-      if (found != model_.element_index.end()) {
-        const auto& nodes = model_.elements[found->second].nodes;
-        set.insert(set.end(), nodes.begin(), nodes.end());
-      }
+      if (found != model_.element_index.end())
+        extend(set, model_.elements[found->second].nodes, block.at);
     }
   }
 
@@ -251,29 +251,40 @@ class ModelReader {
     for (const AbaqusLine& line : block.data) {
       const auto fields = abaqus_fields(line.text);
       if (block.has("GENERATE")) {
-        generate(fields, line, set);
+        extend(set, generated(fields, line), line.at);
         continue;
       }
-      for (const std::string_view field : fields) {
-        const auto more = model_.members(sets, std::string(field), line.at);
-        set.insert(set.end(), more.begin(), more.end());
-      }
+      for (const std::string_view field : fields)
+        extend(set, model_.members(sets, std::string(field), line.at), line.at);
     }
   }
 
+  /// Sets may hold sets and ranges: a few lines can mean more members than any mesh has.
+  void extend(std::vector<Number>& set, const std::vector<Number>& more, FileLine at) {
+    members_ += more.size();
+    if (members_ > most_members)
+      model_.fail(at, fmt::format("the sets hold more than {} members", most_members),
+                  "Write the sets that are used alone");
+    set.insert(set.end(), more.begin(), more.end());
+  }
+
   /// "first, last, step"
-  void generate(const std::vector<std::string_view>& fields, const AbaqusLine& line,
-                std::vector<Number>& set) const {
+  [[nodiscard]] std::vector<Number> generated(const std::vector<std::string_view>& fields,
+                                              const AbaqusLine& line) const {
     std::vector<Number> range;
     for (const std::string_view field : fields)
       range.push_back(whole_number(field, line.at));
     if (range.size() == 2)
       range.push_back(1);
-    if (range.size() != 3 || range[2] < 1 || (range[1] - range[0]) / range[2] > largest_set)
+    if (range.size() != 3 || range[0] < 1 || range[1] < range[0] || range[2] < 1 ||
+        static_cast<std::size_t>((range[1] - range[0]) / range[2]) > most_members)
       model_.fail(line.at, fmt::format("\"{}\" is not \"first, last, step\"", line.text),
                   "Correct the range");
-    for (Number i = range[0]; i <= range[1]; i += range[2])
-      set.push_back(i);
+    std::vector<Number> numbers;
+    const Number count = (range[1] - range[0]) / range[2] + 1;
+    for (Number k = 0; k < count; ++k)
+      numbers.push_back(range[0] + k * range[2]);
+    return numbers;
   }
 
   void read_surface(const AbaqusBlock& block) {
@@ -293,6 +304,7 @@ class ModelReader {
   AbaqusModel model_;
   Scope scope_ = Scope::model;
   FileLine part_at_;
+  std::size_t members_ = 0;  ///< of all sets so far
 };
 
 }  // namespace

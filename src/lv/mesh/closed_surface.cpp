@@ -1,7 +1,7 @@
 #include "lv/mesh/closed_surface.hpp"
 
 #include "lv/base/check.hpp"
-#include "lv/mesh/vtk_messages.hpp"
+#include "lv/mesh/vtk_file.hpp"
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -68,22 +68,21 @@ vtkSmartPointer<vtkPolyData> read_polygons(const std::string& file) {
   const std::string ending = std::filesystem::path(file).extension().string();
   if (!std::filesystem::is_regular_file(file))
     throw InputError(file, "there is no such file", "Check the name of the surface");
-  const VtkMessages messages;
-  vtkSmartPointer<vtkPolyData> polygons;
-  if (ending == ".stl")
-    polygons = read_with<vtkSTLReader>(file);
-  else if (ending == ".ply")
-    polygons = read_with<vtkPLYReader>(file);
-  else if (ending == ".vtp")
-    polygons = read_with<vtkXMLPolyDataReader>(file);
-  else if (ending == ".vtk")
-    polygons = read_with<vtkPolyDataReader>(file);
-  else
+  const auto polygons = read_by_vtk(file, [&] {
+    if (ending == ".stl")
+      return read_with<vtkSTLReader>(file);
+    if (ending == ".ply")
+      return read_with<vtkPLYReader>(file);
+    if (ending == ".vtp")
+      return read_with<vtkXMLPolyDataReader>(file);
+    if (ending == ".vtk") {
+      check_legacy_cells(file);
+      return read_with<vtkPolyDataReader>(file);
+    }
     throw InputError(file, fmt::format("has the unknown ending \"{}\"", ending),
                      "Surfaces are read from .stl, .ply, .vtp and .vtk (polygons)");
-  if (const std::string message = messages.first(); !message.empty())
-    throw InputError(file, fmt::format("cannot be read: {}", message),
-                     "The file seems to be truncated or damaged");
+  });
+  check_cells(file, polygons->GetPolys(), polygons->GetNumberOfPoints());
   return polygons;
 }
 

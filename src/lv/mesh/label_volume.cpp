@@ -2,7 +2,7 @@
 
 #include "lv/base/check.hpp"
 #include "lv/mesh/foreign_mesh.hpp"
-#include "lv/mesh/vtk_messages.hpp"
+#include "lv/mesh/vtk_file.hpp"
 
 #include <fmt/format.h>
 #include <vtkCellData.h>
@@ -23,31 +23,29 @@
 namespace lv::mesh {
 namespace {
 
+vtkSmartPointer<vtkImageData> read_legacy(const std::string& file) {
+  vtkNew<vtkStructuredPointsReader> reader;
+  reader->SetFileName(file.c_str());
+  reader->ReadAllScalarsOn();
+  reader->Update();
+  return reader->GetOutput();
+}
+
+vtkSmartPointer<vtkImageData> read_xml(const std::string& file) {
+  vtkNew<vtkXMLImageDataReader> reader;
+  reader->SetFileName(file.c_str());
+  reader->Update();
+  return reader->GetOutput();
+}
+
 vtkSmartPointer<vtkImageData> read_image(const std::string& file) {
   const std::string ending = std::filesystem::path(file).extension().string();
   if (!std::filesystem::is_regular_file(file))
     throw InputError(file, "there is no such file", "Check the name of the labelled volume");
-  const VtkMessages messages;
-  vtkSmartPointer<vtkImageData> image;
-  if (ending == ".vti") {
-    vtkNew<vtkXMLImageDataReader> reader;
-    reader->SetFileName(file.c_str());
-    reader->Update();
-    image = reader->GetOutput();
-  } else if (ending == ".vtk") {
-    vtkNew<vtkStructuredPointsReader> reader;
-    reader->SetFileName(file.c_str());
-    reader->ReadAllScalarsOn();
-    reader->Update();
-    image = reader->GetOutput();
-  } else {
+  if (ending != ".vti" && ending != ".vtk")
     throw InputError(file, fmt::format("has the unknown ending \"{}\"", ending),
                      "Labelled volumes are read from .vti and .vtk (structured points)");
-  }
-  if (const std::string message = messages.first(); !message.empty())
-    throw InputError(file, fmt::format("cannot be read: {}", message),
-                     "The file seems to be truncated, damaged or no image");
-  return image;
+  return read_by_vtk(file, [&] { return ending == ".vti" ? read_xml(file) : read_legacy(file); });
 }
 
 /// The names of the arrays at points and in cells.
@@ -110,6 +108,13 @@ LabelVolume::LabelVolume(const std::string& file, const std::string& array, doub
     image_->labels = image_->data->GetCellData()->GetArray(name.c_str());
   if (image_->labels == nullptr)
     fail_missing_tag(file, "array", name, array_names(*image_->data));
+  const vtkIdType voxels =
+      image_->in_cells ? image_->data->GetNumberOfCells() : image_->data->GetNumberOfPoints();
+  if (image_->labels->GetNumberOfTuples() != voxels)
+    throw InputError(file,
+                     fmt::format("array \"{}\" has {} labels for {} voxels", name,
+                                 image_->labels->GetNumberOfTuples(), voxels),
+                     "The file seems to be truncated or damaged");
   std::set<int> found;
   for (vtkIdType i = 0; i < image_->labels->GetNumberOfTuples(); ++i) {
     const double label = image_->labels->GetComponent(i, 0);

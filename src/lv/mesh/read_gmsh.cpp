@@ -1,6 +1,7 @@
 #include "lv/mesh/read_gmsh.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/trial.hpp"
 
 #include <fmt/format.h>
 #include <gmsh.h>
@@ -206,10 +207,7 @@ std::vector<bool> find_infarcted(const ForeignMesh& foreign, const std::string& 
   return infarcted;
 }
 
-}  // namespace
-
-ForeignMesh read_gmsh(const ImportParameters& parameters) {
-  check_format(parameters.file);
+ForeignMesh read(const ImportParameters& parameters) {
   const Gmsh session;
   open(parameters.file);
   ForeignMesh foreign;
@@ -222,6 +220,14 @@ ForeignMesh read_gmsh(const ImportParameters& parameters) {
   if (!parameters.infarct_set.empty())
     foreign.infarcted = find_infarcted(foreign, parameters.infarct_set);
   return foreign;
+}
+
+}  // namespace
+
+ForeignMesh read_gmsh(const ImportParameters& parameters) {
+  check_format(parameters.file);
+  check_survives(parameters.file, [&] { static_cast<void>(read(parameters)); });
+  return read(parameters);
 }
 
 }  // namespace lv::mesh

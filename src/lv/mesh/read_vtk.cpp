@@ -1,7 +1,7 @@
 #include "lv/mesh/read_vtk.hpp"
 
 #include "lv/base/check.hpp"
-#include "lv/mesh/vtk_messages.hpp"
+#include "lv/mesh/vtk_file.hpp"
 
 #include <fmt/format.h>
 #include <vtkCellData.h>
@@ -12,6 +12,7 @@
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkSmartPointer.h>
+#include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkUnstructuredGridReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
@@ -28,6 +29,7 @@ bool is_legacy(const std::string& file) {
 }
 
 vtkSmartPointer<vtkUnstructuredGrid> read_legacy(const std::string& file) {
+  check_legacy_cells(file);
   vtkNew<vtkUnstructuredGridReader> reader;
   reader->SetFileName(file.c_str());
   reader->ReadAllScalarsOn();
@@ -50,11 +52,12 @@ vtkSmartPointer<vtkUnstructuredGrid> read_xml(const std::string& file) {
 }
 
 vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::string& file) {
-  const VtkMessages messages;
-  const auto grid = is_legacy(file) ? read_legacy(file) : read_xml(file);
-  if (const std::string message = messages.first(); !message.empty())
-    throw InputError(file, fmt::format("cannot be read: {}", message),
-                     "The file seems to be truncated or damaged");
+  const auto grid =
+      read_by_vtk(file, [&] { return is_legacy(file) ? read_legacy(file) : read_xml(file); });
+  const vtkUnsignedCharArray* types = grid->GetCellTypesArray();
+  if (types != nullptr && types->GetNumberOfTuples() != grid->GetNumberOfCells())
+    throw InputError(file, "has cells without a type", "The file seems to be damaged");
+  check_cells(file, grid->GetCells(), grid->GetNumberOfPoints());
   return grid;
 }
 
@@ -110,6 +113,9 @@ ForeignMesh to_mesh(const std::string& file, vtkUnstructuredGrid& grid) {
     if (dimension(grid.GetCellType(c)) != 3)
       continue;
     grid.GetCellPoints(c, points);
+    if (points->GetNumberOfIds() != nodes_per_cell(foreign.mesh.kind))
+      throw InputError(file, fmt::format("cell {} has {} points", c, points->GetNumberOfIds()),
+                       "A hexahedron has 8, a tetrahedron 4; the file seems to be damaged");
     for (vtkIdType i = 0; i < points->GetNumberOfIds(); ++i)
       foreign.mesh.cells.push_back(static_cast<int>(points->GetId(i)));
     foreign.cell_numbers.push_back(c);
@@ -125,9 +131,9 @@ std::vector<std::string> array_names(vtkFieldData& data) {
   return names;
 }
 
-/// The array of that name with one number per point or cell.
-vtkDataArray& find_array(const std::string& file, vtkFieldData& data, const std::string& what,
-                         const std::string& name) {
+/// The array of that name with one number for each of `count` points or cells.
+vtkDataArray& find_array(const std::string& file, vtkFieldData& data, vtkIdType count,
+                         const std::string& what, const std::string& name) {
   vtkDataArray* array = data.GetArray(name.c_str());
   if (array == nullptr)
     fail_missing_tag(file, what, name, array_names(data));
@@ -136,13 +142,19 @@ vtkDataArray& find_array(const std::string& file, vtkFieldData& data, const std:
         file,
         fmt::format("{} \"{}\" has {} components", what, name, array->GetNumberOfComponents()),
         "It must have one number per point or cell");
+  if (array->GetNumberOfTuples() != count)
+    throw InputError(file,
+                     fmt::format("{} \"{}\" has {} numbers for {} places", what, name,
+                                 array->GetNumberOfTuples(), count),
+                     "The file seems to be truncated or damaged");
   return *array;
 }
 
 /// The nodes at which a point array of zeros and ones is one.
 ForeignSide side_of_points(const std::string& file, vtkUnstructuredGrid& grid,
                            const std::string& tag) {
-  vtkDataArray& array = find_array(file, *grid.GetPointData(), "point array", tag);
+  vtkDataArray& array =
+      find_array(file, *grid.GetPointData(), grid.GetNumberOfPoints(), "point array", tag);
   ForeignSide side;
   for (vtkIdType p = 0; p < array.GetNumberOfTuples(); ++p) {
     const double value = array.GetTuple1(p);
@@ -155,9 +167,12 @@ ForeignSide side_of_points(const std::string& file, vtkUnstructuredGrid& grid,
   return side;
 }
 
-FaceKey key_of_cell(vtkUnstructuredGrid& grid, vtkIdType cell) {
+FaceKey key_of_cell(const std::string& file, vtkUnstructuredGrid& grid, vtkIdType cell) {
   vtkNew<vtkIdList> points;
   grid.GetCellPoints(cell, points);
+  if (points->GetNumberOfIds() != 3 && points->GetNumberOfIds() != 4)
+    throw InputError(file, fmt::format("face {} has {} points", cell, points->GetNumberOfIds()),
+                     "It must have 3 or 4; the file seems to be damaged");
   std::vector<int> nodes;
   for (vtkIdType i = 0; i < points->GetNumberOfIds(); ++i)
     nodes.push_back(static_cast<int>(points->GetId(i)));
@@ -169,11 +184,12 @@ bool is_face(int cell_type) {
 }
 
 /// The surface cells by their value in a cell array.
-std::map<double, ForeignSide> sides_by_value(vtkUnstructuredGrid& grid, vtkDataArray& array) {
+std::map<double, ForeignSide> sides_by_value(const std::string& file, vtkUnstructuredGrid& grid,
+                                             vtkDataArray& array) {
   std::map<double, ForeignSide> sides;
   for (vtkIdType c = 0; c < grid.GetNumberOfCells(); ++c)
     if (is_face(grid.GetCellType(c)))
-      sides[array.GetTuple1(c)].faces.push_back(key_of_cell(grid, c));
+      sides[array.GetTuple1(c)].faces.push_back(key_of_cell(file, grid, c));
   return sides;
 }
 
@@ -202,8 +218,10 @@ std::vector<ForeignSide> read_sides(const ImportParameters& parameters, vtkUnstr
       sides.push_back(side_of_points(parameters.file, grid, tag));
     return sides;
   }
-  const auto by_value = sides_by_value(
-      grid, find_array(parameters.file, *grid.GetCellData(), "cell array", parameters.side_array));
+  const auto by_value =
+      sides_by_value(parameters.file, grid,
+                     find_array(parameters.file, *grid.GetCellData(), grid.GetNumberOfCells(),
+                                "cell array", parameters.side_array));
   for (const std::string& tag : side_tags(parameters))
     sides.push_back(side_of_value(parameters, tag, by_value));
   return sides;
@@ -214,7 +232,8 @@ std::vector<double> read_infarct(const ImportParameters& parameters, vtkUnstruct
   const std::string name = named ? parameters.infarct_array : "infarct";
   if (!named && grid.GetPointData()->GetArray(name.c_str()) == nullptr)
     return {};
-  vtkDataArray& array = find_array(parameters.file, *grid.GetPointData(), "point array", name);
+  vtkDataArray& array = find_array(parameters.file, *grid.GetPointData(), grid.GetNumberOfPoints(),
+                                   "point array", name);
   std::vector<double> M;
   for (vtkIdType p = 0; p < array.GetNumberOfTuples(); ++p)
     M.push_back(array.GetTuple1(p));
@@ -224,7 +243,8 @@ std::vector<double> read_infarct(const ImportParameters& parameters, vtkUnstruct
 /// The volume cells at which a cell array of zeros and ones is one.
 std::vector<bool> read_infarcted(const ImportParameters& parameters, vtkUnstructuredGrid& grid) {
   const std::string& name = parameters.infarct_set;
-  vtkDataArray& array = find_array(parameters.file, *grid.GetCellData(), "cell array", name);
+  vtkDataArray& array =
+      find_array(parameters.file, *grid.GetCellData(), grid.GetNumberOfCells(), "cell array", name);
   std::vector<bool> infarcted;
   for (vtkIdType c = 0; c < array.GetNumberOfTuples(); ++c) {
     if (dimension(grid.GetCellType(c)) != 3)

@@ -23,8 +23,15 @@ vtkSmartPointer<vtkImageData> read_image(const std::filesystem::path& file) {
   reader->SetFileName(file.c_str());
   reader->Update();
   vtkSmartPointer<vtkImageData> image = reader->GetOutput();
-  if (reader->GetErrorCode() != 0 || image->GetCellData()->GetArray("velocity") == nullptr ||
-      image->GetCellData()->GetArray("pressure") == nullptr)
+  const auto has = [&](const char* name, int components) {
+    vtkDataArray* array = image->GetCellData()->GetArray(name);
+    return array != nullptr && array->GetNumberOfComponents() == components &&
+           array->GetNumberOfTuples() == image->GetNumberOfCells();
+  };
+  const double* spacing = image->GetSpacing();
+  if (reader->GetErrorCode() != 0 || !has("velocity", 3) || !has("pressure", 1) ||
+      image->GetDataDimension() != 3 || image->GetDimensions()[1] < 3 ||
+      !(spacing[0] > 0.0 && spacing[1] > 0.0 && spacing[2] > 0.0))
     throw RunError(fmt::format("{} cannot be read", file.string()),
                    "Remove the stage's folder and run the case again");
   return image;
@@ -48,14 +55,15 @@ struct Window {
     const double* spacing = image->GetSpacing();
     const auto cells = cells_of(image);
     const auto index = [&](double at, int d) {
-      return std::clamp(static_cast<int>(std::floor((at - origin[d]) / spacing[d])), 0,
-                        cells[d] - 1);
+      const double cell = std::floor((at - origin[d]) / spacing[d]);
+      return static_cast<int>(std::fmax(0.0, std::fmin(cell, cells[d] - 1.0)));
     };
     for (const int i : {0, 1}) {
       first[i] = index(lower[i], 2 * i);
       size[i] = index(upper[i], 2 * i) + 1 - first[i];
     }
-    layer = std::clamp(static_cast<int>(std::lround(-origin[1] / spacing[1])), 1, cells[1] - 1);
+    const double middle = std::round(-origin[1] / spacing[1]);
+    layer = static_cast<int>(std::fmax(1.0, std::fmin(middle, cells[1] - 1.0)));
   }
 };
 

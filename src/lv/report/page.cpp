@@ -1,6 +1,7 @@
 #include "lv/report/page.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/json_file.hpp"
 #include "lv/base/table.hpp"
 #include "lv/base/units.hpp"
 #include "lv/mesh/cell.hpp"
@@ -13,14 +14,12 @@
 #include "lv/report/work_folder.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <map>
-#include <sstream>
 
 namespace lv::report {
 namespace {
@@ -291,27 +290,22 @@ Json files_json(const fs::path& work) {
 }
 
 /// The time of the last row of a curves.csv in the filling phase, if contraction follows [s].
-double end_of_filling(const std::string& curves) {
-  std::istringstream lines(curves);
-  std::string line;
-  double end = std::numeric_limits<double>::infinity();
-  double time = 0.0;
-  std::getline(lines, line);
-  while (std::getline(lines, line)) {
-    const std::size_t comma = line.find(',');
-    if (line.compare(comma + 1, 7, "filling") != 0)
-      end = std::min(end, time);
-    time = std::stod(line.substr(0, comma));
-  }
-  return end;
+double end_of_filling(const Table& curves) {
+  const auto phases = curves.words("phase");
+  const auto next = std::find_if(phases.begin(), phases.end(),
+                                 [](const std::string& phase) { return phase != "filling"; });
+  if (next == phases.end())
+    return std::numeric_limits<double>::infinity();
+  return next == phases.begin() ? 0.0 : curves.numbers("time_s")[next - phases.begin() - 1];
 }
 
 /// When the beat was at end-diastole; infinite when it has not been there [s].
-double end_diastole(const Json& files) {
-  if (files.contains("summary.json"))
-    return Json::parse(files["summary.json"].get<std::string>())["end_diastole"]["time_s"];
-  return files.contains("curves.csv") ? end_of_filling(files["curves.csv"])
-                                      : std::numeric_limits<double>::infinity();
+double end_diastole(const fs::path& work) {
+  if (const fs::path summary = file_of(work, "results", "summary.json"); !summary.empty())
+    return from_json_file(
+        summary, [](const Json& json) -> double { return json.at("end_diastole").at("time_s"); });
+  const auto curves = table_of(work, "beat", "curves.csv");
+  return curves ? end_of_filling(*curves) : std::numeric_limits<double>::infinity();
 }
 
 /// Frames of the beat; without any, the undeformed mesh.
@@ -331,7 +325,7 @@ Data case_html(const PageCase& shown, int number) {
             {"complete", shown.complete},
             {"state", shown.state},
             {"files", files_json(shown.work)}};
-  const double ed = end_diastole(json["files"]);
+  const double ed = end_diastole(shown.work);
   if (std::isfinite(ed))
     json["end_diastole_s"] = ed;
   if (const auto frames = wall_frames(shown.work); !frames.empty()) {
@@ -346,7 +340,8 @@ Data case_html(const PageCase& shown, int number) {
     json["pictures"] = fmt::format("case{}-pictures", number);
     arrays.data.more += element(json["pictures"], "application/json", pictures);
   }
-  arrays.data.summary = element(fmt::format("case{}", number), "application/json", json.dump());
+  arrays.data.summary = element(fmt::format("case{}", number), "application/json",
+                                json.dump(-1, ' ', false, Json::error_handler_t::replace));
   return arrays.data;
 }
 

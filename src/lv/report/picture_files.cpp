@@ -128,9 +128,7 @@ std::vector<ShownPicture> read_pictures(const fs::path& folder) {
   const Table list = Table::read_csv(folder / list_name);
   std::vector<ShownPicture> pictures;
   for (std::size_t i = 0; i < list.rows().size(); ++i) {
-    const auto whole = [&](const char* column) {
-      return static_cast<int>(list.numbers(column)[i]);
-    };
+    const auto whole = [&](const char* column) { return list.whole_numbers(column)[i]; };
     const ShownPicture p{
         list.words("state")[i],
         list.words("slice")[i],

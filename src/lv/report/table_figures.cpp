@@ -1,5 +1,6 @@
 #include "lv/report/table_figures.hpp"
 
+#include "lv/base/json_file.hpp"
 #include "lv/base/tensor.hpp"
 #include "lv/material/guccione.hpp"
 #include "lv/material/holzapfel_ogden.hpp"
@@ -8,7 +9,6 @@
 #include "lv/strain/agreement.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -241,9 +241,10 @@ class FigureFolder {
     const fs::path file = file_of(work_, "results", "summary.json");
     if (file.empty())
       return;
-    const auto summary = nlohmann::json::parse(read_file(file));
-    if (summary.contains("parameters"))
-      write(muscle_figure(summary.at("parameters").get<ParameterTexts>()), "stress_stretch");
+    const auto parameters = from_json_file(
+        file, [](const auto& summary) { return summary.value("parameters", ParameterTexts{}); });
+    if (!parameters.empty())
+      write(muscle_figure(parameters), "stress_stretch");
   }
 
   void agreement() const {

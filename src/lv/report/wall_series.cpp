@@ -2,6 +2,7 @@
 
 #include "lv/base/check.hpp"
 #include "lv/base/table.hpp"
+#include "lv/mesh/vtk_file.hpp"
 
 #include <fmt/format.h>
 #include <vtkCellData.h>
@@ -14,7 +15,9 @@
 #include <vtkXMLUnstructuredGridReader.h>
 
 #include <array>
-#include <regex>
+#include <charconv>
+#include <cmath>
+#include <string_view>
 
 namespace lv::report {
 namespace {
@@ -40,10 +43,16 @@ std::string array_name(const Source& source, bool from_end_diastole) {
   return fmt::format("{}_{}", source.array, from_end_diastole ? "end_diastole" : "early_diastole");
 }
 
+[[noreturn]] void fail(const std::filesystem::path& file) {
+  throw RunError(fmt::format("{} cannot be read", file.string()),
+                 "Remove the stage's folder and run the case again");
+}
+
 /// One VTU file with those of its arrays that are asked for.
 class Frame {
  public:
-  Frame(const std::filesystem::path& file, const std::vector<std::string>& cell_arrays) {
+  Frame(const std::filesystem::path& file, const std::vector<std::string>& cell_arrays)
+      : file_(file) {
     vtkObject::GlobalWarningDisplayOff();  // what goes wrong is said once, below
     vtkNew<vtkXMLUnstructuredGridReader> reader;
     reader->SetFileName(file.c_str());
@@ -55,28 +64,38 @@ class Frame {
     reader->Update();
     grid_ = reader->GetOutput();
     if (reader->GetErrorCode() != 0 || grid_->GetNumberOfPoints() == 0)
-      throw RunError(fmt::format("{} cannot be read", file.string()),
-                     "Remove the stage's folder and run the case again");
+      fail(file);
+    mesh::check_cells(file.string(), grid_->GetCells(), grid_->GetNumberOfPoints());
   }
 
   vtkUnstructuredGrid* operator->() const { return grid_; }
 
   /// Null when the file has no such array.
-  [[nodiscard]] vtkDataArray* cells(const std::string& name) const {
-    return grid_->GetCellData()->GetArray(name.c_str());
+  [[nodiscard]] vtkDataArray* cells(const std::string& name, int components = 1) const {
+    return checked(grid_->GetCellData()->GetArray(name.c_str()), components,
+                   grid_->GetNumberOfCells());
   }
-  [[nodiscard]] vtkDataArray* nodes(const char* name) const {
-    return grid_->GetPointData()->GetArray(name);
+  [[nodiscard]] vtkDataArray* nodes(const char* name, int components) const {
+    return checked(grid_->GetPointData()->GetArray(name), components, grid_->GetNumberOfPoints());
   }
+  [[nodiscard]] const std::filesystem::path& file() const { return file_; }
 
  private:
+  vtkDataArray* checked(vtkDataArray* array, int components, vtkIdType count) const {
+    if (array != nullptr &&
+        (array->GetNumberOfComponents() != components || array->GetNumberOfTuples() != count))
+      fail(file_);
+    return array;
+  }
+
+  std::filesystem::path file_;
   vtkSmartPointer<vtkUnstructuredGrid> grid_;
 };
 
 std::vector<int> whole_numbers(vtkDataArray* array) {
   std::vector<int> values;
   for (vtkIdType i = 0; array != nullptr && i < array->GetNumberOfTuples(); ++i)
-    values.push_back(static_cast<int>(array->GetComponent(i, 0)));
+    values.push_back(static_cast<int>(std::fmax(-1e9, std::fmin(1e9, array->GetComponent(i, 0)))));
   return values;
 }
 
@@ -96,7 +115,7 @@ std::vector<float> to_nodes(vtkDataArray* array, const WallSeries& wall) {
 }
 
 Vec3 displacement(const Frame& frame, vtkIdType node) {
-  vtkDataArray* u = frame.nodes("displacement");
+  vtkDataArray* u = frame.nodes("displacement", 3);
   if (u == nullptr)
     return Vec3::Zero();
   return {u->GetComponent(node, 0), u->GetComponent(node, 1), u->GetComponent(node, 2)};
@@ -115,7 +134,10 @@ WallSeries fixed_part(const Frame& frame) {
     frame->GetCellPoints(c, count, nodes);
     wall.cells.insert(wall.cells.end(), nodes, nodes + count);
   }
-  vtkDataArray* f0 = frame.cells("f0");
+  if (wall.cells.size() !=
+      static_cast<std::size_t>(mesh::nodes_per_cell(wall.kind) * frame->GetNumberOfCells()))
+    fail(frame.file());
+  vtkDataArray* f0 = frame.cells("f0", 3);
   for (vtkIdType c = 0; f0 != nullptr && c < frame->GetNumberOfCells(); ++c)
     wall.f0.emplace_back(f0->GetComponent(c, 0), f0->GetComponent(c, 1), f0->GetComponent(c, 2));
   if (vtkDataArray* M = frame.cells("infarct"); M != nullptr)
@@ -135,6 +157,10 @@ std::vector<std::string> moving_arrays(bool from_end_diastole) {
 
 void add_frame(WallSeries& wall, const TimedFrame& timed, bool from_end_diastole) {
   const Frame frame(timed.file, moving_arrays(from_end_diastole));
+  const auto corners = mesh::nodes_per_cell(wall.kind) * frame->GetNumberOfCells();
+  if (static_cast<std::size_t>(frame->GetNumberOfPoints()) != wall.undeformed.size() ||
+      static_cast<std::size_t>(corners) != wall.cells.size())
+    fail(timed.file);
   wall.times.push_back(timed.time);
   auto& u = wall.displacement.emplace_back();
   for (vtkIdType a = 0; a < frame->GetNumberOfPoints(); ++a)
@@ -145,18 +171,35 @@ void add_frame(WallSeries& wall, const TimedFrame& timed, bool from_end_diastole
       wall.quantities[source.quantity].push_back(to_nodes(array, wall));
 }
 
+/// The value of an attribute in the text of an XML element; empty if it has none.
+std::string_view attribute(std::string_view element, const std::string& name) {
+  const std::string begin = fmt::format(" {}=\"", name);
+  const auto at = element.find(begin);
+  if (at == std::string_view::npos)
+    return {};
+  element.remove_prefix(at + begin.size());
+  return element.substr(0, element.find('"'));
+}
+
 }  // namespace
 
 std::vector<TimedFrame> frames_of(const std::filesystem::path& pvd) {
   if (!std::filesystem::exists(pvd))
     return {};
   const std::string text = read_file(pvd);
-  const std::regex entry(R"rx(timestep="([^"]*)"[^>]*file="([^"]*)")rx");
+  constexpr std::string_view tag = "<DataSet";
   std::vector<TimedFrame> frames;
-  for (std::sregex_iterator i(text.begin(), text.end(), entry), end; i != end; ++i) {
-    const auto file = pvd.parent_path() / (*i)[2].str();
-    if (std::filesystem::exists(file))
-      frames.push_back({std::stod((*i)[1].str()), file});
+  for (auto at = text.find(tag); at != std::string::npos; at = text.find(tag, at + 1)) {
+    const std::string_view element = std::string_view(text).substr(at, text.find('>', at) - at);
+    const auto file = pvd.parent_path() / attribute(element, "file");
+    const std::string_view timestep = attribute(element, "timestep");
+    double time = 0.0;
+    const auto [end, error] =
+        std::from_chars(timestep.data(), timestep.data() + timestep.size(), time);
+    if (error != std::errc() || end != timestep.data() + timestep.size() || !std::isfinite(time))
+      fail(pvd);
+    if (std::filesystem::is_regular_file(file))
+      frames.push_back({time, file});
   }
   return frames;
 }

@@ -1,6 +1,7 @@
 #include "lv/strain/agreement.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/lines.hpp"
 #include "lv/mesh/regions.hpp"
 
 #include <fmt/format.h>
@@ -10,20 +11,9 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 namespace lv::strain {
 namespace {
-
-std::vector<std::string> fields_of(std::string line) {
-  if (!line.empty() && line.back() == '\r')
-    line.pop_back();
-  std::vector<std::string> fields;
-  std::istringstream stream(line);
-  for (std::string field; std::getline(stream, field, ',');)
-    fields.push_back(field);
-  return fields;
-}
 
 std::string lower(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
@@ -110,21 +100,21 @@ Table pairs_table(const std::vector<Pair>& pairs) {
 }
 
 std::vector<Measured> read_measured(const std::filesystem::path& file, const std::string& column) {
-  std::istringstream lines(read_file(file));
-  std::string line;
-  std::getline(lines, line);
-  const std::vector<std::string> header = fields_of(line);
-  const std::string first = file.string() + ":1";
-  const std::size_t slice = column_of(header, "slice", first);
-  const std::size_t component = column_of(header, "component", first);
-  const std::size_t segment = column_of(header, "segment", first);
-  const std::size_t value = column_of(header, column, first);
+  LineReader lines(file);
+  if (!lines.is_open())
+    throw InputError(file.string(), "cannot be read", "Check the path and its permissions");
+  if (!lines.next())
+    throw InputError(file.string(), "the table of strains is empty",
+                     fmt::format("Give the columns slice, component, segment and {}", column));
+  const std::vector<std::string> header = csv_fields(lines.text());
+  const std::size_t slice = column_of(header, "slice", lines.where());
+  const std::size_t component = column_of(header, "component", lines.where());
+  const std::size_t segment = column_of(header, "segment", lines.where());
+  const std::size_t value = column_of(header, column, lines.where());
   std::vector<Measured> measured;
-  for (int number = 2; std::getline(lines, line); ++number) {
-    const std::vector<std::string> fields = fields_of(line);
-    if (fields.empty())
-      continue;
-    const std::string where = fmt::format("{}:{}", file.string(), number);
+  while (lines.next()) {
+    const std::vector<std::string> fields = csv_fields(lines.text());
+    const std::string where = lines.where();
     if (fields.size() != header.size())
       throw InputError(
           where, fmt::format("{} values in a table of {} columns", fields.size(), header.size()),

@@ -45,6 +45,15 @@ TEST_CASE("fields keep their places, empty ones too", "[unit][base]") {
   CHECK(fields_of("", ',') == std::vector<std::string_view>{""});
 }
 
+TEST_CASE("fields of CSV may stand in quotation marks", "[unit][base]") {
+  using Fields = std::vector<std::string>;
+  CHECK(csv_fields("a, b ,,c\r") == Fields{"a", "b", "", "c"});
+  CHECK(csv_fields("\"a, b\", \"say \"\"a\"\"\" ,c") == Fields{"a, b", "say \"a\"", "c"});
+  CHECK(csv_fields("\"\",\" a \"") == Fields{"", " a "});
+  CHECK(csv_fields("5\" wide,\"never closed, a") == Fields{"5\" wide", "never closed, a"});
+  CHECK(csv_fields("") == Fields{""});
+}
+
 TEST_CASE("lines of any system are read and counted, blank ones counted alone", "[unit][base]") {
   const std::vector<Line> expected{{1, "x,y"}, {3, "1,2"}, {5, "3,4"}};
   CHECK(lines("x,y\n\n1,2\n \t\n3,4\n") == expected);

@@ -77,3 +77,25 @@ TEST_CASE("a table is read as it was written; a missing number is no number", "[
   CHECK(std::isnan(table.numbers("absent").at(0)));
   CHECK_THROWS_AS(Table::read_csv(folder / "absent.csv"), InputError);
 }
+
+TEST_CASE("fields that hold commas, quotation marks, blanks or lines come back", "[unit][base]") {
+  const test::TemporaryFolder folder;
+  const std::vector<std::string> odd{"a, b", "\"quoted\"", " blanks ", "two\nlines", "", "\"", ","};
+  Table table({"plain", "with, comma"});
+  for (const std::string& word : odd)
+    table.add_row({"1", word});
+  table.write_csv(folder / "a.csv");
+  CHECK(test::bytes_of(folder / "a.csv").starts_with("plain,\"with, comma\"\n1,\"a, b\"\n"));
+  const Table read = Table::read_csv(folder / "a.csv");
+  CHECK(read.columns() == table.columns());
+  CHECK(read.words("with, comma") == odd);
+}
+
+TEST_CASE("a column of numbers that holds words is refused", "[unit][base]") {
+  const test::TemporaryFolder folder;
+  write_file(folder / "a.csv", "volume_ml,slice\n1e2,3\n12 ml,\n,2.5\n");
+  const Table table = Table::read_csv(folder / "a.csv");
+  CHECK_THROWS_AS(table.numbers("volume_ml"), InputError);
+  CHECK_THROWS_WITH(table.numbers("volume_ml"), Contains("volume_ml") && Contains("12 ml"));
+  CHECK_THROWS_AS(table.whole_numbers("slice"), InputError);
+}

@@ -37,11 +37,10 @@ void number(std::string& bytes, int group, int element, int value) {
   put(bytes, static_cast<std::uint16_t>(value));
 }
 
-}  // namespace
-
-std::string dicom_bytes(const DicomSpec& s) {
+/// The preamble and what says how the rest is written.
+std::string dicom_begin(const char* storage, const DicomSpec& s) {
   std::string meta;
-  text(meta, 2, 2, "UI", "1.2.840.10008.5.1.4.1.1.4");
+  text(meta, 2, 2, "UI", storage);
   text(meta, 2, 3, "UI", s.instance_uid);
   text(meta, 2, 0x10, "UI", "1.2.840.10008.1.2.1");
   std::string bytes(128, '\0');
@@ -50,42 +49,126 @@ std::string dicom_bytes(const DicomSpec& s) {
   put(bytes, std::uint16_t{4});
   put(bytes, static_cast<std::uint32_t>(meta.size()));
   bytes += meta;
-  const Vec3& o = s.plane.origin;
-  const Vec3& r = s.plane.along_row;
-  const Vec3& c = s.plane.along_column;
   text(bytes, 8, 8, "CS", "ORIGINAL\\PRIMARY\\M");
-  text(bytes, 8, 0x16, "UI", "1.2.840.10008.5.1.4.1.1.4");
+  text(bytes, 8, 0x16, "UI", storage);
   text(bytes, 8, 0x18, "UI", s.instance_uid);
   text(bytes, 8, 0x60, "CS", "MR");
   text(bytes, 8, 0x103e, "LO", s.description);
-  text(bytes, 0x18, 0x50, "DS", "8");
-  if (s.trigger_ms)
-    text(bytes, 0x18, 0x1060, "DS", fmt::format("{}", *s.trigger_ms));
-  text(bytes, 0x18, 0x1062, "IS", fmt::format("{}", s.rr_ms));
+  return bytes;
+}
+
+void series(std::string& bytes, const DicomSpec& s) {
   text(bytes, 0x20, 0x0d, "UI", "1.2.3");
   text(bytes, 0x20, 0x0e, "UI", s.series_uid);
   text(bytes, 0x20, 0x11, "IS", fmt::format("{}", s.series_number));
   text(bytes, 0x20, 0x13, "IS", fmt::format("{}", s.instance));
+}
+
+void position(std::string& bytes, const image::Plane& plane) {
+  const Vec3& o = plane.origin;
   text(bytes, 0x20, 0x32, "DS", fmt::format("{:.6f}\\{:.6f}\\{:.6f}", o.x(), o.y(), o.z()));
+}
+
+void orientation(std::string& bytes, const image::Plane& plane) {
+  const Vec3& r = plane.along_row;
+  const Vec3& c = plane.along_column;
   text(bytes, 0x20, 0x37, "DS",
        fmt::format("{:.8f}\\{:.8f}\\{:.8f}\\{:.8f}\\{:.8f}\\{:.8f}", r.x(), r.y(), r.z(), c.x(),
                    c.y(), c.z()));
-  number(bytes, 0x28, 2, 1);
-  text(bytes, 0x28, 4, "CS", "MONOCHROME2");
-  number(bytes, 0x28, 0x10, s.plane.rows);
-  number(bytes, 0x28, 0x11, s.plane.columns);
-  text(bytes, 0x28, 0x30, "DS", fmt::format("{}\\{}", s.plane.spacing_j, s.plane.spacing_i));
+}
+
+void spacing(std::string& bytes, const image::Plane& plane) {
+  text(bytes, 0x28, 0x30, "DS", fmt::format("{}\\{}", plane.spacing_j, plane.spacing_i));
+}
+
+void pixel_format(std::string& bytes) {
   number(bytes, 0x28, 0x100, 16);
   number(bytes, 0x28, 0x101, 16);
   number(bytes, 0x28, 0x102, 15);
   number(bytes, 0x28, 0x103, 0);
-  text(bytes, 0x28, 0x1052, "DS", fmt::format("{}", s.intercept));
-  text(bytes, 0x28, 0x1053, "DS", fmt::format("{}", s.slope));
+}
+
+void pixels(std::string& bytes, const std::vector<std::uint16_t>& values) {
   tag(bytes, 0x7fe0, 0x10, "OW");
   put(bytes, std::uint16_t{0});
-  put(bytes, static_cast<std::uint32_t>(2 * s.pixels.size()));
-  for (const std::uint16_t pixel : s.pixels)
-    put(bytes, pixel);
+  put(bytes, static_cast<std::uint32_t>(2 * values.size()));
+  for (const std::uint16_t value : values)
+    put(bytes, value);
+}
+
+/// A sequence of items.
+void sequence(std::string& bytes, int group, int element, const std::vector<std::string>& items) {
+  std::string content;
+  for (const std::string& item : items) {
+    put(content, std::uint16_t{0xfffe});
+    put(content, std::uint16_t{0xe000});
+    put(content, static_cast<std::uint32_t>(item.size()));
+    content += item;
+  }
+  tag(bytes, group, element, "SQ");
+  put(bytes, std::uint16_t{0});
+  put(bytes, static_cast<std::uint32_t>(content.size()));
+  bytes += content;
+}
+
+/// What an enhanced file says of one of its frames.
+std::string frame_groups(const DicomSpec& s) {
+  std::string delay;
+  tag(delay, 0x20, 0x9153, "FD");
+  put(delay, std::uint16_t{8});
+  put(delay, s.trigger_ms.value_or(0.0));
+  std::string place, direction, measures, bytes;
+  position(place, s.plane);
+  orientation(direction, s.plane);
+  spacing(measures, s.plane);
+  sequence(bytes, 0x18, 0x9118, {delay});
+  sequence(bytes, 0x20, 0x9113, {place});
+  sequence(bytes, 0x20, 0x9116, {direction});
+  sequence(bytes, 0x28, 0x9110, {measures});
+  return bytes;
+}
+
+}  // namespace
+
+std::string dicom_bytes(const DicomSpec& s) {
+  std::string bytes = dicom_begin("1.2.840.10008.5.1.4.1.1.4", s);
+  text(bytes, 0x18, 0x50, "DS", "8");
+  if (s.trigger_ms)
+    text(bytes, 0x18, 0x1060, "DS", fmt::format("{}", *s.trigger_ms));
+  text(bytes, 0x18, 0x1062, "IS", fmt::format("{}", s.rr_ms));
+  series(bytes, s);
+  position(bytes, s.plane);
+  orientation(bytes, s.plane);
+  number(bytes, 0x28, 2, 1);
+  text(bytes, 0x28, 4, "CS", "MONOCHROME2");
+  number(bytes, 0x28, 0x10, s.plane.rows);
+  number(bytes, 0x28, 0x11, s.plane.columns);
+  spacing(bytes, s.plane);
+  pixel_format(bytes);
+  text(bytes, 0x28, 0x1052, "DS", fmt::format("{}", s.intercept));
+  text(bytes, 0x28, 0x1053, "DS", fmt::format("{}", s.slope));
+  pixels(bytes, s.pixels);
+  return bytes;
+}
+
+std::string enhanced_dicom_bytes(const std::vector<DicomSpec>& frames) {
+  const DicomSpec& first = frames.front();
+  std::string bytes = dicom_begin("1.2.840.10008.5.1.4.1.1.4.1", first);
+  series(bytes, first);
+  number(bytes, 0x28, 2, 1);
+  text(bytes, 0x28, 4, "CS", "MONOCHROME2");
+  text(bytes, 0x28, 8, "IS", fmt::format("{}", frames.size()));
+  number(bytes, 0x28, 0x10, first.plane.rows);
+  number(bytes, 0x28, 0x11, first.plane.columns);
+  pixel_format(bytes);
+  std::vector<std::string> groups;
+  std::vector<std::uint16_t> values;
+  for (const DicomSpec& frame : frames) {
+    groups.push_back(frame_groups(frame));
+    values.insert(values.end(), frame.pixels.begin(), frame.pixels.end());
+  }
+  sequence(bytes, 0x5200, 0x9230, groups);
+  pixels(bytes, values);
   return bytes;
 }
 

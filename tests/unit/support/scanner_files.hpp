@@ -28,6 +28,10 @@ struct DicomSpec {
 
 [[nodiscard]] std::string dicom_bytes(const DicomSpec& spec);
 
+/// The frames of one enhanced multi-frame file; all but plane, pixels and trigger_ms are those of
+/// the first.
+[[nodiscard]] std::string enhanced_dicom_bytes(const std::vector<DicomSpec>& frames);
+
 /// One NIfTI-1 file of 8-bit or floating-point values.
 struct NiftiSpec {
   std::array<int, 4> size{1, 1, 1, 1};

@@ -1,0 +1,43 @@
+// Checkpoints, damaged: see support/mutations.hpp.
+#include "support/mutations.hpp"
+
+#include "lv/heartbeat/run_state.hpp"
+
+#include "support/archive_bytes.hpp"
+#include "support/temporary_folder.hpp"
+#include <catch2/catch.hpp>
+
+namespace {
+
+using namespace lv;
+using namespace heartbeat;
+
+std::string checkpoint() {
+  const test::TemporaryFolder folder;
+  RunState run;
+  run.frames = 2;
+  run.frame_times = {0.0, 0.5};
+  run.steady.record(0.1, 100.0);
+  run.beat.curves.resize(2);
+  run.least.positions.resize(3, Vec3::Ones());
+  run.least.stress.resize(2);
+  run.beat.end_diastole = run.least;
+  Archive archive;
+  store(run, archive);
+  archive.write(folder / "checkpoint.bin");
+  return test::bytes_of(folder / "checkpoint.bin");
+}
+
+void read_checkpoint(const std::filesystem::path& file) {
+  static_cast<void>(load_run_state(Archive::read(file), {}));
+}
+
+}  // namespace
+
+TEST_CASE("damaged checkpoints are read or refused", "[unit][heartbeat][mutations]") {
+  test::try_damaged("checkpoint.bin", checkpoint(), read_checkpoint);
+}
+
+TEST_CASE("checkpoints that say anything are read or refused", "[unit][heartbeat][mutations]") {
+  test::try_damaged("checkpoint.bin", checkpoint(), read_checkpoint, {}, test::repair_checksum);
+}

@@ -1,0 +1,53 @@
+// What a page is made from, damaged: see support/mutations.hpp.
+#include "support/mutations.hpp"
+
+#include "lv/report/page.hpp"
+#include "lv/report/picture_files.hpp"
+#include "lv/report/wall_series.hpp"
+
+#include "support/temporary_folder.hpp"
+#include <catch2/catch.hpp>
+
+namespace {
+
+using namespace lv;
+using test::try_damaged;
+
+/// A page of a work folder with one file in one stage.
+test::Read page_with(const std::string& stage, const std::string& name) {
+  return [=](const std::filesystem::path& file) {
+    const auto work = file.parent_path() / "work";
+    std::filesystem::create_directories(work / stage);
+    std::filesystem::copy_file(file, work / stage / name,
+                               std::filesystem::copy_options::overwrite_existing);
+    static_cast<void>(report::page({{work, true, {}}}, "1"));
+  };
+}
+
+}  // namespace
+
+TEST_CASE("damaged series, tables and summaries of a beat are read or refused",
+          "[report][mutations]") {
+  const auto series = [](const std::filesystem::path& file) {
+    test::write_bytes(file.parent_path() / "wall_0.vtu", "");
+    static_cast<void>(report::frames_of(file));
+  };
+  try_damaged("wall.pvd",
+              "<VTKFile type=\"Collection\">\n<Collection>\n"
+              "<DataSet timestep=\"0.25\" file=\"wall_0.vtu\"/>\n"
+              "<DataSet timestep=\"0.5\" file=\"wall_1.vtu\"/>\n</Collection>\n</VTKFile>\n",
+              series);
+  try_damaged("curves.csv",
+              "time_s,phase,pressure_mmHg\n0.1,filling,8\n0.2,\"filling\",9\n0.3,contraction,90\n",
+              page_with("03_beat", "curves.csv"));
+  try_damaged("summary.json", "{\"end_diastole\": {\"time_s\": 0.6, \"volume_ml\": 120}}\n",
+              page_with("04_results", "summary.json"));
+  const auto pictures = [](const std::filesystem::path& file) {
+    test::write_bytes(file.parent_path() / "a.png", "");
+    static_cast<void>(report::read_pictures(file.parent_path()));
+  };
+  try_damaged("pictures.csv",
+              "state,slice,phase,file,origin_x_mm,columns,rows,spacing_i_mm,spacing_j_mm\n"
+              "end_diastole,\"long axis 1\",3,a.png,-2.5,64,48,1.5,1.5\n",
+              pictures);
+}
