@@ -45,11 +45,14 @@ class QuasiStaticRun {
     engine_.go_to(loads, [&](const Step& step) {
       ++run_.beat.steps;
       record(step);
-      log::info(
-          "{} {:3.0f}%  {:.2f} mmHg  {:.2f} ml  T {:.1f} kPa  {} corrections, {} factorisation{}",
-          name(run_.phase), 100.0 * step.progress, step.loads.pressure / mmHg, 1e-3 * step.volume,
-          run_.beat.curves.back().mean_tension, step.newton.iterations, step.newton.factorisations,
-          step.newton.factorisations == 1 ? "" : "s");
+      log::info("{} {:3.0f}%  {:.2f} mmHg  {:.2f} ml  T {:.1f} kPa  {} corrections, {} {}{}",
+                name(run_.phase), 100.0 * step.progress, step.loads.pressure / mmHg,
+                1e-3 * step.volume, run_.beat.curves.back().mean_tension, step.newton.iterations,
+                step.newton.factorisations,
+                step.newton.factorisations == 1 ? "tangent" : "tangents",
+                step.newton.linear_iterations == 0
+                    ? ""
+                    : fmt::format(", {} iterations of GMRES", step.newton.linear_iterations));
       if (parallel::any(interrupt::requested()))
         throw Interrupted("stopped; run the same command again to start the beat anew");
     });

@@ -397,7 +397,7 @@ void declare_engine(Declarations& d) {
   d.choice(
       "linear_solver", LV_AT(quasi_static.solver.newton.linear.method), {"direct", "iterative"},
       "how the linear equations are solved: by MUMPS, or by GMRES with multigrid, for meshes whose "
-      "factors do not fit into memory");
+      "factors do not fit into memory (quadratic elements alone)");
   d.number("linear_tolerance", LV_AT(quasi_static.solver.newton.linear.tolerance),
            between(1e-14, 1e-2), "of the iterative solver: residual over right-hand side");
   d.quantity("tolerance", LV_AT(quasi_static.solver.newton.tolerance), "mm", between(1e-12, 0.1),

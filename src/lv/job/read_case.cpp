@@ -102,6 +102,11 @@ class CaseReader {
     rule(p.contraction_longest >= p.contraction_ramp + p.contraction_window,
          "protocol.contraction_longest",
          "must leave time for contraction_ramp and contraction_window");
+    const auto& q = case_.quasi_static;
+    rule(
+        q.order == 2 || q.solver.newton.linear.method == quasi_static::LinearMethod::direct,
+        "quasi_static.linear_solver",
+        "is iterative, which does not converge with the linear elements of quasi_static.order = 1");
     rule(p.calcium.Ca_max > p.calcium.Ca_0, "calcium.Ca_max", "must be larger than Ca_0");
     check_contour_files();
     check_calibration();

@@ -108,7 +108,7 @@ std::vector<CellStress> Equations::cell_stress(const State& state, double activa
   const int parts = mesh_.order == 2 ? 8 : 1;
   std::vector<CellStress> result(mesh_.cell_count());
   for (std::size_t i = 0; i < wall_.points.size(); ++i) {
-    const int e = wall_.first_element + static_cast<int>(i);
+    const int e = wall_.own[i];
     const auto nodes = wall_.elements.element(e);
     const ElementState s = element_state(wall_, e, state);
     for (int cell = parts * e; cell < parts * (e + 1); ++cell) {

@@ -100,6 +100,35 @@ std::vector<int> unknowns(const ReferenceWall& wall, int e, int node_count) {
   return result;
 }
 
+/// Each node of quadratic elements as a mean of the corners of one of them.
+std::vector<std::vector<Pattern::Share>> shares_of_corners(const ReferenceWall& wall,
+                                                           mesh::CellKind kind, int node_count) {
+  const std::vector<Vec3> places = solid::node_places(kind, 2);
+  const std::vector<Vec3> corners = solid::node_places(kind, 1);
+  const Eigen::MatrixXd weights =
+      solid::element_shapes(kind, 1, {places, std::vector<double>(places.size(), 1.0)}).value;
+  std::vector<int> at;  // the corners among the nodes of an element
+  for (const Vec3& corner : corners)
+    at.push_back(static_cast<int>(
+        std::find_if(places.begin(), places.end(),
+                     [&](const Vec3& place) { return (place - corner).norm() < 1e-12; }) -
+        places.begin()));
+  std::vector<std::vector<Pattern::Share>> result(node_count);
+  for (int e = 0; e < wall.elements.size(); ++e) {
+    const auto nodes = wall.elements.element(e);
+    for (std::size_t a = 0; a < nodes.size(); ++a) {
+      if (!result[nodes[a]].empty())
+        continue;
+      for (std::size_t c = 0; c < at.size(); ++c)
+        if (const double weight =
+                weights(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(c));
+            weight > 1e-12)
+          result[nodes[a]].push_back({nodes[at[c]], weight});
+    }
+  }
+  return result;
+}
+
 /// Linear elements would lock with the stabilisation of quadratic ones.
 Muscle for_order(Muscle muscle, int order) {
   if (order == 1)
@@ -139,9 +168,11 @@ State Equations::rest() const {
 }
 
 Pattern Equations::pattern() const {
-  Pattern pattern{node_count(), wall_.pressure_count, {}};
+  Pattern pattern{node_count(), wall_.pressure_count, {}, wall_.owners, {}};
   for (int e = 0; e < wall_.elements.size(); ++e)
     pattern.groups.push_back(unknowns(wall_, e, node_count()));
+  if (mesh_.order == 2)
+    pattern.corners = shares_of_corners(wall_, mesh_.kind, node_count());
   return pattern;
 }
 
@@ -163,7 +194,7 @@ std::vector<double> Equations::residual(const State& state, const Loads& loads) 
   const Constitution law{muscle_, loads.activation};
   bool inverted = false;
   for (std::size_t i = 0; i < wall_.points.size(); ++i) {
-    const int e = wall_.first_element + static_cast<int>(i);
+    const int e = wall_.own[i];
     const ElementState s = element_state(wall_, e, state);
     Eigen::Matrix3Xd force = Eigen::Matrix3Xd::Zero(3, s.x.cols());
     Eigen::VectorXd swelling = Eigen::VectorXd::Zero(s.p.size());
@@ -209,7 +240,7 @@ void Equations::tangent(const State& state, const Loads& loads, SparseMatrix& K)
   ElementTangent element(wall_.elements.nodes_per_element, wall_.pressures.nodes_per_element,
                          wall_.points.empty() ? 0 : wall_.points.front().size());
   for (std::size_t i = 0; i < wall_.points.size(); ++i) {
-    const int e = wall_.first_element + static_cast<int>(i);
+    const int e = wall_.own[i];
     const std::vector<int> at = unknowns(wall_, e, node_count());
     K.add(at, element.compute(wall_.points[i], element_state(wall_, e, state), law,
                               wall_.pressure_shapes.value));
@@ -247,7 +278,7 @@ double Equations::mean_tension(const State& state, double activation) const {
   const Constitution law{muscle_, activation};
   std::array<double, 2> sums{};
   for (std::size_t i = 0; i < wall_.points.size(); ++i) {
-    const ElementState s = element_state(wall_, wall_.first_element + static_cast<int>(i), state);
+    const ElementState s = element_state(wall_, wall_.own[i], state);
     for (const Point& point : wall_.points[i]) {
       const Mat3 F = s.x * point.gradient.transpose();
       sums[0] += point.volume * law.tension(F, point.infarct).value;

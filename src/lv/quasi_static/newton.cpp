@@ -57,9 +57,16 @@ class Newton::Attempt {
   [[nodiscard]] const NewtonReport& report() const { return report_; }
 
  private:
+  std::vector<double> solve_linear(const std::vector<double>& b) {
+    std::vector<double> x = newton_.tangent_.solve(b);
+    ++report_.linear_solves;
+    report_.linear_iterations += newton_.tangent_.iterations();
+    return x;
+  }
+
   /// The correction that the tangent at hand asks for.
   void correct() {
-    set_correction(newton_.tangent_.solve(residual_));
+    set_correction(solve_linear(residual_));
     fresh_ = false;
   }
 
@@ -89,7 +96,7 @@ class Newton::Attempt {
       reject("elements turn inside out");
       return;
     }
-    const std::vector<double> next = newton_.tangent_.solve(residual);
+    const std::vector<double> next = solve_linear(residual);
     const double contraction = size(next, state_.positions.size()) / correction_size_;
     if (!(contraction <= 1.0 - 0.25 * damping_)) {
       reject(fmt::format("corrections do not become smaller (ratio {:.2g})", contraction));

@@ -15,6 +15,8 @@ struct NewtonParameters {
 struct NewtonReport {
   int iterations = 0;
   int factorisations = 0;
+  int linear_solves = 0;
+  int linear_iterations = 0;  ///< of all linear solves; 0 of the direct method
 };
 
 /// Damped Newton with the error-oriented monotonicity test (P. Deuflhard, Newton Methods for

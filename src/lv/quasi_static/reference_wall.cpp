@@ -2,6 +2,7 @@
 
 #include "lv/base/check.hpp"
 #include "lv/base/parallel.hpp"
+#include "lv/quasi_static/partition.hpp"
 
 #include <algorithm>
 #include <map>
@@ -42,12 +43,15 @@ ReferenceWall reference_wall(const mesh::Mesh& mesh, const mesh::FibreRule& fibr
   wall.pressures = number_pressures(mesh, wall.elements, wall.pressure_shapes.nodes());
   wall.pressure_count =
       *std::max_element(wall.pressures.nodes.begin(), wall.pressures.nodes.end()) + 1;
-  const auto share = parallel::share(wall.elements.size(), parallel::rank(), parallel::size());
-  wall.first_element = share.begin;
+  wall.owners = partition(wall.elements, parallel::size());
   const PointMaker maker(mesh, fibres);
   const solid::ShapeTable shapes = solid::element_shapes(mesh.kind, mesh.order);
-  for (int e = share.begin; e < share.end; ++e)
+  for (int e = 0; e < wall.elements.size(); ++e) {
+    if (wall.owners[e] != parallel::rank())
+      continue;
+    wall.own.push_back(e);
     wall.points.push_back(maker.points(shapes, e, wall.elements.element(e)));
+  }
   return wall;
 }
 

@@ -19,8 +19,9 @@ struct ReferenceWall {
   mesh::ElementNodes pressures;  ///< numbers of the pressure unknowns of each element
   int pressure_count = 0;
   solid::ShapeTable pressure_shapes;
-  int first_element = 0;                   ///< of this rank's share
-  std::vector<std::vector<Point>> points;  ///< of this rank's elements
+  std::vector<int> owners;                 ///< the rank of each element
+  std::vector<int> own;                    ///< this rank's elements
+  std::vector<std::vector<Point>> points;  ///< of own
 };
 
 /// Throws InputError for an inverted or collapsed element, naming it, and for linear tetrahedra,

@@ -32,6 +32,7 @@ void land2015_problem2(Findings& found);
 void land2015_problem3(Findings& found);
 void land2015_problem2_immersed(Findings& found);
 void land2015_problem3_immersed(Findings& found);
+void iterative_solver(Findings& found);
 void calibration_twin(Findings& found);
 void strain_twin(Findings& found);
 void unloading_round_trip(Findings& found);

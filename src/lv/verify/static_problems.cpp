@@ -1,3 +1,4 @@
+#include "lv/base/units.hpp"
 #include "lv/mesh/refine.hpp"
 #include "lv/mesh/split.hpp"
 #include "lv/mesh/surface.hpp"
@@ -5,6 +6,7 @@
 #include "lv/quasi_static/engine.hpp"
 #include "lv/verify/land2015.hpp"
 #include "lv/verify/problems.hpp"
+#include "lv/verify/small_ventricle.hpp"
 
 #include <fmt/format.h>
 
@@ -131,6 +133,49 @@ void no_locking(Findings& found) {
       "cavity volume, quadratic tetrahedra of 3 mm",
       volume(mesh::refine(mesh::split_into_tetrahedra(LandEllipsoid::mesh({.edge_length = 3.0})))),
       land_inflation_reference.volume, 0.05, "mm^3");
+}
+
+namespace {
+
+/// The default ventricle at 8 mmHg, and how its linear equations were solved.
+struct Filled {
+  double volume = 0.0;      ///< [mm^3]
+  double iterations = 0.0;  ///< per linear solve
+
+  Filled(const mesh::Mesh& mesh, quasi_static::LinearMethod method) {
+    quasi_static::Parameters parameters;
+    parameters.newton.linear.method = method;
+    Engine engine(mesh, {}, {{}, Contractility(0.0), {Kind::sliding, quasi_static::rigid_base}},
+                  parameters);
+    int solves = 0, sum = 0;
+    engine.go_to({8.0 * units::mmHg, 0.0}, [&](const quasi_static::Step& step) {
+      solves += step.newton.linear_solves;
+      sum += step.newton.linear_iterations;
+    });
+    volume = engine.cavity_volume();
+    iterations = static_cast<double>(sum) / solves;
+  }
+};
+
+}  // namespace
+
+void iterative_solver(Findings& found) {
+  using enum quasi_static::LinearMethod;
+  const auto compare = [&](const mesh::Mesh& mesh, const std::string& elements) {
+    const Filled with_direct(mesh, direct);
+    const Filled with_iterative(mesh, iterative);
+    found.add_within("cavity volume, " + elements, 1e-3 * with_iterative.volume,
+                     1e-3 * with_direct.volume, 1e-5, "ml");
+    return with_iterative.iterations;
+  };
+  const auto hexahedra = [](double edge) {
+    return ideal_mesh({.edge_length = 0.5 * edge, .order = 2});
+  };
+  const double coarse = compare(hexahedra(14.0), "quadratic hexahedra of 14 mm");
+  const double fine = compare(hexahedra(8.0), "quadratic hexahedra of 8 mm");
+  found.add_error("iterations per solve of 8 mm over those of 14 mm", fine / coarse, 1.5);
+  compare(mesh::refine(mesh::split_into_tetrahedra(ideal_mesh({.edge_length = 14.0}))),
+          "quadratic tetrahedra of 14 mm");
 }
 
 }  // namespace lv::verify

@@ -72,7 +72,8 @@ TEST_CASE("strains have a scale about no strain, and a missing region stays miss
 }
 
 TEST_CASE("muscle pulled along the fibre has the closed form's stress", "[report]") {
-  const auto& series = chart(report::muscle_figure(healthy())).series;
+  const Figure figure = report::muscle_figure(healthy());
+  const auto& series = chart(figure).series;
   REQUIRE(series[0].x.at(40) == Approx(1.1));
   // a exp[b(l^2 + 2/l - 3)](l^2 - 1/l) + 2 a_f (l^2 - 1) l^2 exp[b_f (l^2 - 1)^2]
   CHECK(series[0].y.at(40) == Approx(0.97431794).epsilon(1e-7));
