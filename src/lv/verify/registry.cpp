@@ -97,7 +97,8 @@ std::span<const Problem> problems() {
        {2},
        land2015_problem3},
       {"iterative_solver",
-       "the iterative linear solver finds the same ventricle, as easily on fine meshes as on coarse",
+       "the iterative linear solver finds the same ventricle, as easily on fine meshes as on "
+       "coarse",
        brief,
        {1, 2},
        iterative_solver},
