@@ -3,6 +3,7 @@
 #include "lv/base/check.hpp"
 #include "lv/geometry/contour_measures.hpp"
 #include "lv/geometry/long_axis.hpp"
+#include "lv/geometry/polygon.hpp"
 
 #include <fmt/format.h>
 
@@ -32,9 +33,6 @@ constexpr double farthest = 200.0;     // of long-axis and apex points from the 
 std::string place(const Vec3& x) {
   return fmt::format("({:.1f}, {:.1f}, {:.1f}) mm", x.x(), x.y(), x.z());
 }
-
-/// A closed polygon in a plane.
-using Polygon = std::vector<Vec2>;
 
 Polygon project(const Contour& loop, const Frame& plane) {
   Polygon polygon;
@@ -85,18 +83,6 @@ std::optional<Crossing> crossing(const Polygon& a, const Polygon& b) {
       if (const auto at = meeting_point(a[i], a[(i + 1) % a.size()], b[j], b[(j + 1) % b.size()]))
         return Crossing{i, j, *at};
   return std::nullopt;
-}
-
-bool inside(const Vec2& x, const Polygon& polygon) {
-  bool in = false;
-  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
-    const Vec2& a = polygon[i];
-    const Vec2& b = polygon[j];
-    if ((a.y() > x.y()) != (b.y() > x.y()) &&
-        x.x() < a.x() + (x.y() - a.y()) * (b.x() - a.x()) / (b.y() - a.y()))
-      in = !in;
-  }
-  return in;
 }
 
 void check_counts(const Contours& contours) {
@@ -210,12 +196,12 @@ void check_pair(const Contour& endo, const Contour& epi) {
         fmt::format("slice {}: the endocardium crosses the epicardium ({}) at {}", endo.slice,
                     epi.where(c->second), place(plane.to_image({c->at.x(), c->at.y(), 0.0}))),
         "Redraw the borders there: the wall lies between them");
-  if (inside(outer.front(), inner))
+  if (encloses(inner, outer.front()))
     throw InputError(
         endo.where(),
         fmt::format("slice {}: the endo loop encloses the epi loop ({})", endo.slice, epi.where()),
         "The names seem swapped: endo is the inner border, epi the outer one");
-  if (!inside(inner.front(), outer))
+  if (!encloses(outer, inner.front()))
     throw InputError(endo.where(),
                      fmt::format("slice {}: the endo loop lies beside the epi loop ({})",
                                  endo.slice, epi.where()),

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 
 namespace lv::quasi_static {
@@ -85,16 +86,16 @@ Runs runs_of(const Corners& corners, const Runs& of_nodes) {
 
 BlockPreconditioner::BlockPreconditioner(KSP ksp, const Pattern& pattern, const Numbering& numbers,
                                          std::span<const Vec3> nodes)
-    : ksp_(ksp), numbers_(numbers) {
+    : ksp_(ksp) {
   const PetscInt local = numbers.pressures().own();
   check(MatCreate(PETSC_COMM_WORLD, &S_));
   check(MatSetSizes(S_, local, local, pattern.pressures, pattern.pressures));
   check(MatSetType(S_, MATAIJ));
   check(MatSetUp(S_));
   check(MatSetOption(S_, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_FALSE));
-  make_interpolation(pattern, nodes);
+  make_interpolation(pattern, numbers.nodes(), nodes);
   check(PetscOptionsInsertString(nullptr, block_options().c_str()));
-  split();
+  split(numbers);
 }
 
 BlockPreconditioner::~BlockPreconditioner() {
@@ -115,16 +116,16 @@ void BlockPreconditioner::add_pressure_mass(std::span<const PetscInt> at,
   check(MatSetValues(S_, n, at.data(), n, at.data(), negative.data(), ADD_VALUES));
 }
 
-void BlockPreconditioner::split() {
+void BlockPreconditioner::split(const Numbering& numbers) {
   PC pc = nullptr;
   check(KSPGetPC(ksp_, &pc));
   check(PCSetType(pc, PCFIELDSPLIT));
-  const PetscInt displacements = 3 * numbers_.nodes().own();
+  const PetscInt displacements = 3 * numbers.nodes().own();
   IS of_displacements = nullptr, of_pressures = nullptr;
-  check(ISCreateStride(PETSC_COMM_WORLD, displacements, numbers_.begin(), 1, &of_displacements));
+  check(ISCreateStride(PETSC_COMM_WORLD, displacements, numbers.begin(), 1, &of_displacements));
   check(ISSetBlockSize(of_displacements, 3));
-  check(ISCreateStride(PETSC_COMM_WORLD, numbers_.pressures().own(),
-                       numbers_.begin() + displacements, 1, &of_pressures));
+  check(ISCreateStride(PETSC_COMM_WORLD, numbers.pressures().own(), numbers.begin() + displacements,
+                       1, &of_pressures));
   check(PCFieldSplitSetIS(pc, "u", of_displacements));
   check(PCFieldSplitSetIS(pc, "p", of_pressures));
   check(PCFieldSplitSetType(pc, PC_COMPOSITE_SCHUR));
@@ -134,9 +135,9 @@ void BlockPreconditioner::split() {
   check(ISDestroy(&of_pressures));
 }
 
-void BlockPreconditioner::make_interpolation(const Pattern& pattern, std::span<const Vec3> nodes) {
+void BlockPreconditioner::make_interpolation(const Pattern& pattern, const Runs& fine,
+                                             std::span<const Vec3> nodes) {
   const Corners corners(pattern);
-  const Runs& fine = numbers_.nodes();
   const Runs coarse = runs_of(corners, fine);
   check(MatCreateAIJ(PETSC_COMM_WORLD, 3 * fine.own(), 3 * coarse.own(), 3 * fine.size(),
                      3 * coarse.size(), 8, nullptr, 8, nullptr, &P_));

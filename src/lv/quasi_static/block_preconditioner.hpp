@@ -42,12 +42,11 @@ class BlockPreconditioner {
   void update();
 
  private:
-  void split();
-  void make_interpolation(const Pattern& pattern, std::span<const Vec3> nodes);
+  void split(const Numbering& numbers);
+  void make_interpolation(const Pattern& pattern, const Runs& fine, std::span<const Vec3> nodes);
   void make_multigrid(KSP of_displacements, Mat A);
 
   KSP ksp_;
-  Numbering numbers_;
   Mat S_ = nullptr;
   Mat P_ = nullptr;               ///< from the corners to all nodes
   Mat A_c_ = nullptr;             ///< the linear level

@@ -6,6 +6,8 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
+
 namespace lv::quasi_static {
 namespace {
 

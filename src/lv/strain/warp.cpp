@@ -1,6 +1,7 @@
 #include "lv/strain/warp.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/geometry/polygon.hpp"
 #include "lv/strain/grey_image.hpp"
 
 #include <Eigen/Cholesky>
@@ -27,18 +28,11 @@ double distance_to_segment(const Vec2& x, const Vec2& a, const Vec2& b) {
 }
 
 /// Whether a point lies in a polygon or not farther than `margin` from it.
-bool near(const std::vector<Vec2>& polygon, const Vec2& x, double margin) {
-  bool inside = false;
-  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
-    const Vec2& a = polygon[i];
-    const Vec2& b = polygon[j];
-    if (distance_to_segment(x, a, b) <= margin)
+bool near(const geometry::Polygon& polygon, const Vec2& x, double margin) {
+  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++)
+    if (distance_to_segment(x, polygon[i], polygon[j]) <= margin)
       return true;
-    if ((a.y() > x.y()) != (b.y() > x.y()) &&
-        x.x() < a.x() + (x.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()))
-      inside = !inside;
-  }
-  return inside;
+  return geometry::encloses(polygon, x);
 }
 
 /// The part of an image around the outline, with room for it to move.
