@@ -178,6 +178,8 @@ image::Cine read_lge(const Case& c) {
       throw InputError(
           file, fmt::format("{} has {} images of different times", slice.name, slice.frames.size()),
           "A late-enhancement image has one for each slice: choose the series");
+  for (const std::string& note : image.notes)
+    log::warn("late enhancement: {}", note);
   return image;
 }
 
