@@ -1,7 +1,7 @@
 #include "lv/analysis/results.hpp"
 
 #include "lv/base/check.hpp"
-#include "lv/solid/cavity.hpp"
+#include "lv/solid/endocardial_surface.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@ namespace {
 Shape shape(const mesh::Mesh& mesh, const std::vector<Vec3>& positions,
             const std::vector<CellFields>& cells) {
   Shape s;
-  s.cavity_volume = solid::Cavity(mesh).volume(positions);
+  s.cavity_volume = solid::EndocardialSurface(mesh).volume(positions);
   for (const CellFields& cell : cells)
     s.wall_volume += cell.J * cell.volume;
   for (const int a : mesh.endo.nodes)

@@ -34,6 +34,7 @@ class Kernels {
         p_(p),
         slab_(fluid::slab_of(p.grid, parallel::rank(), parallel::size())),
         wall_(mesh, {}, material),
+        endocardium_(mesh),
         strength_(solid::strength(mesh, material.infarct)),
         contraction_({}, {mesh.nodes, wall_.nodal_volumes(), strength_}, p.blood.density,
                      p.grid.spacing.minCoeff()),
@@ -74,7 +75,7 @@ class Kernels {
     return median_seconds([&] {
       std::fill(forces_.begin(), forces_.end(), Vec3::Zero());
       wall_.add_elastic_forces(mesh_.nodes, contraction_.tension(), forces_);
-      solid::add_pressure_forces(mesh_.endo, 1.0, mesh_.nodes, forces_);
+      endocardium_.add_gradient(1.0, mesh_.nodes, forces_);
       parallel::sum({forces_.data()->data(), 3 * forces_.size()});
     });
   }
@@ -90,6 +91,7 @@ class Kernels {
   const immersed::ModelParameters& p_;
   fluid::Slab slab_;
   solid::Wall wall_;
+  solid::EndocardialSurface endocardium_;
   std::vector<double> strength_;
   solid::Contraction contraction_;
   std::unique_ptr<immersed::Coupling> coupling_;

@@ -27,7 +27,7 @@ Ventricle::Ventricle(const mesh::Mesh& mesh, const mesh::FibreRule& fibres, Musc
       solver_(solver),
       unloading_(unloading),
       wall_(mesh),
-      cavity_(mesh) {}
+      endocardium_(mesh) {}
 
 double Ventricle::volume(const Parameters& parameters, const Loads& loads) {
   go_to(parameters, loads);
@@ -35,7 +35,7 @@ double Ventricle::volume(const Parameters& parameters, const Loads& loads) {
 }
 
 double Ventricle::unloaded_volume(const Parameters& parameters) {
-  return cavity_.volume(wall(parameters).nodes);
+  return endocardium_.volume(wall(parameters).nodes);
 }
 
 std::vector<Vec3> Ventricle::positions(const Parameters& parameters, const Loads& loads) {

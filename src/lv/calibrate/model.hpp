@@ -70,7 +70,7 @@ class Ventricle {
   quasi_static::Parameters solver_;
   quasi_static::UnloadParameters unloading_;
   mesh::Mesh wall_;  ///< free of stress
-  solid::Cavity cavity_;
+  solid::EndocardialSurface endocardium_;
   std::optional<quasi_static::Unloaded> unloaded_;
   Parameters unloaded_with_;
   std::optional<quasi_static::Engine> engine_;  ///< of wall_

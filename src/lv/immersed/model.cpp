@@ -18,8 +18,7 @@ Model::Model(const mesh::Mesh& mesh, const mesh::FibreRule& fibres,
       contraction_(active, {mesh.nodes, wall_.nodal_volumes(), strength_}, parameters.blood.density,
                    parameters.grid.spacing.minCoeff()),
       base_(mesh, parameters.base),
-      cavity_(mesh),
-      mesh_(mesh),
+      endocardium_(mesh),
       transfer_(parameters.grid, slab_, parameters.coupling.kernel),
       coupling_(make_coupling(parameters.coupling, mesh, parameters.grid, slab_)),
       transform_(parameters.grid, slab_),
@@ -64,7 +63,7 @@ StepReport Model::step(const Loads& loads, double dt) {
 void Model::nodal_forces(const Loads& loads) {
   std::fill(node_forces_.begin(), node_forces_.end(), Vec3::Zero());
   wall_.add_elastic_forces(state_.positions, contraction_.tension(), node_forces_);
-  solid::add_pressure_forces(mesh_.endo, loads.pressure, state_.positions, node_forces_);
+  endocardium_.add_gradient(loads.pressure, state_.positions, node_forces_);
   base_.add_forces(state_.positions, node_forces_);
   parallel::sum({node_forces_.data()->data(), 3 * node_forces_.size()});
 }

@@ -4,8 +4,8 @@
 #include "lv/fluid/stokes.hpp"
 #include "lv/immersed/coupling.hpp"
 #include "lv/solid/boundary.hpp"
-#include "lv/solid/cavity.hpp"
 #include "lv/solid/contraction.hpp"
+#include "lv/solid/endocardial_surface.hpp"
 #include "lv/solid/wall.hpp"
 
 #include <memory>
@@ -83,7 +83,7 @@ class Model {
   [[nodiscard]] std::span<const Vec3> positions() const { return state_.positions; }
   [[nodiscard]] std::span<const Vec3> node_velocities() const { return state_.node_velocities; }
   [[nodiscard]] double cavity_volume() const {
-    return cavity_.volume(state_.positions);
+    return endocardium_.volume(state_.positions);
   }  ///< [mm^3]
   /// Over the wall, with the infarct's factor (2.24), weighted by reference volume [kPa].
   [[nodiscard]] double mean_tension() const;
@@ -106,8 +106,7 @@ class Model {
   std::vector<double> strength_;  ///< of contraction, per node
   solid::Contraction contraction_;
   solid::BasalPenalty base_;
-  solid::Cavity cavity_;
-  const mesh::Mesh& mesh_;
+  solid::EndocardialSurface endocardium_;
   Transfer transfer_;
   std::unique_ptr<Coupling> coupling_;
   fluid::BoxTransform transform_;

@@ -19,7 +19,7 @@
 #include "lv/mesh/quality.hpp"
 #include "lv/report/page.hpp"
 #include "lv/report/table_figures.hpp"
-#include "lv/solid/cavity.hpp"
+#include "lv/solid/endocardial_surface.hpp"
 
 #include <fmt/format.h>
 
@@ -379,7 +379,7 @@ std::string validate(const Case& c) {
   std::string text = fmt::format(
       "{}: valid\n"
       "  early diastole: cavity {:.2f} ml, wall {:.2f} ml\n",
-      c.file.string(), 1e-3 * solid::Cavity(m).volume(m.nodes), 1e-3 * q.wall_volume);
+      c.file.string(), 1e-3 * solid::EndocardialSurface(m).volume(m.nodes), 1e-3 * q.wall_volume);
   if (c.origin.empty())
     text += fmt::format("  warning: {}\n", no_parameters);
   if (is_loaded(c))

@@ -226,6 +226,7 @@ MeshResult make_mesh(const Case& c, const Shape& shape) {
   result.infarcted = std::move(infarct.part);
   result.slice_moves = std::move(infarct.slice_moves);
   if (c.engine == Engine::immersed) {
+    result.mesh.order = 1;  // the parts of a refined given mesh are its elements
     check_box(c, result.mesh);
     check_spacing(c, result.mesh);
   } else if (c.quasi_static.order == 2 && result.mesh.order == 1) {

@@ -6,7 +6,7 @@
 #include "lv/base/table.hpp"
 #include "lv/base/units.hpp"
 #include "lv/mesh/quality.hpp"
-#include "lv/solid/cavity.hpp"
+#include "lv/solid/endocardial_surface.hpp"
 #include "lv/solid/interpolate.hpp"
 
 #include <fmt/format.h>
@@ -35,7 +35,7 @@ Table steps_table(const Unloaded& unloaded) {
 Json summary(const Case& c, const mesh::Mesh& elements, const Unloaded& unloaded) {
   const quasi_static::UnloadStep& last = unloaded.steps.back();
   return {{"pressure_mmHg", c.unloaded.pressure / mmHg},
-          {"seen_volume_ml", 1e-3 * solid::Cavity(elements).volume(elements.nodes)},
+          {"seen_volume_ml", 1e-3 * solid::EndocardialSurface(elements).volume(elements.nodes)},
           {"unloaded_volume_ml", 1e-3 * last.unloaded_volume},
           {"loaded_again_volume_ml", 1e-3 * last.volume},
           {"largest_distance_mm", last.largest},

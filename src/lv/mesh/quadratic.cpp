@@ -67,9 +67,9 @@ ElementNodes elements(const Mesh& mesh) {
                 places(mesh.kind, mesh.order));
 }
 
-ElementNodes sides(const Mesh& mesh, const Surface& surface) {
-  return gather(surface.nodes, surface.nodes_per_face, mesh.order == 2 ? 4 : 1,
-                side_places(mesh.kind, mesh.order));
+ElementNodes sides(CellKind kind, int order, const Surface& surface) {
+  return gather(surface.nodes, surface.nodes_per_face, order == 2 ? 4 : 1,
+                side_places(kind, order));
 }
 
 }  // namespace lv::mesh

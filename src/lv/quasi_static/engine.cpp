@@ -37,7 +37,6 @@ Engine::Engine(const mesh::Mesh& mesh, const mesh::FibreRule& fibres, const Musc
     : parameters_(parameters),
       equations_(mesh, fibres, muscle),
       newton_(equations_, parameters.newton),
-      cavity_(mesh),
       state_(equations_.rest()) {}
 
 void Engine::go_to(const Loads& target, const std::function<void(const Step&)>& observe) {

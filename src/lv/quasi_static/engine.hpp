@@ -1,7 +1,6 @@
 #pragma once
 
 #include "lv/quasi_static/newton.hpp"
-#include "lv/solid/cavity.hpp"
 
 #include <functional>
 #include <optional>
@@ -51,7 +50,7 @@ class Engine {
   [[nodiscard]] const Loads& loads() const { return loads_; }
   [[nodiscard]] const Equations& equations() const { return equations_; }
   [[nodiscard]] double cavity_volume() const {
-    return cavity_.volume(state_.positions);
+    return equations_.endocardium().volume(state_.positions);
   }  ///< [mm^3]
   /// Volume-weighted mean over the wall of the active tension, with the infarct's factor [kPa].
   [[nodiscard]] double mean_tension() const {
@@ -65,7 +64,6 @@ class Engine {
   Parameters parameters_;
   Equations equations_;
   Newton newton_;
-  solid::Cavity cavity_;
   State state_;
   Loads loads_;
 };

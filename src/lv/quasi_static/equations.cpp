@@ -4,8 +4,6 @@
 #include "lv/base/parallel.hpp"
 #include "lv/quasi_static/constitution.hpp"
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 
 namespace lv::quasi_static {
@@ -154,8 +152,7 @@ ElementState element_state(const ReferenceWall& wall, int e, const State& state)
 Equations::Equations(const mesh::Mesh& mesh, const mesh::FibreRule& fibres, const Muscle& muscle)
     : mesh_(mesh),
       wall_(reference_wall(mesh, fibres)),
-      sides_(mesh::sides(mesh, mesh.endo)),
-      side_shapes_(solid::side_shapes(mesh.kind, mesh.order)),
+      endocardium_(mesh),
       fibres_(fibres),
       muscle_(for_order(muscle, mesh.order)),
       base_(mesh, muscle.base) {}
@@ -176,19 +173,6 @@ Pattern Equations::pattern() const {
   if (mesh_.order == 2)
     pattern.corners = shares_of_corners(wall_, mesh_.kind, node_count());
   return pattern;
-}
-
-/// Calls visit(nodes, their positions) for this rank's sides of the endocardium.
-template <class Visit>
-void Equations::for_sides(const State& state, const Visit& visit) const {
-  const auto share = parallel::share(sides_.size(), parallel::rank(), parallel::size());
-  for (int f = share.begin; f < share.end; ++f) {
-    const auto nodes = sides_.element(f);
-    Eigen::Matrix3Xd x(3, nodes.size());
-    for (std::size_t a = 0; a < nodes.size(); ++a)
-      x.col(static_cast<Eigen::Index>(a)) = state.positions[nodes[a]];
-    visit(nodes, x);
-  }
 }
 
 std::vector<double> Equations::residual(const State& state, const Loads& loads) const {
@@ -218,20 +202,12 @@ std::vector<double> Equations::residual(const State& state, const Loads& loads) 
   }
   if (parallel::any(inverted))
     return {};
-  for_sides(state, [&](std::span<const int> nodes, const Eigen::Matrix3Xd& x) {
-    for (int q = 0; q < side_shapes_.points(); ++q) {
-      const Eigen::Matrix<double, 3, 2> x_xi = x * side_shapes_.gradient[q].transpose();
-      const Vec3 n_da = side_shapes_.weight[q] * x_xi.col(0).cross(x_xi.col(1));
-      for (std::size_t a = 0; a < nodes.size(); ++a)
-        for (int i = 0; i < 3; ++i)
-          R[3 * nodes[a] + i] += loads.pressure * side_shapes_.value(q, a) * n_da[i];
-    }
-  });
-  std::vector<Vec3> springs(state.positions.size(), Vec3::Zero());
-  base_.add_forces(state.positions, springs);
-  for (std::size_t a = 0; a < springs.size(); ++a)
+  std::vector<Vec3> forces(state.positions.size(), Vec3::Zero());
+  endocardium_.add_gradient(loads.pressure, state.positions, forces);
+  base_.add_forces(state.positions, forces);
+  for (std::size_t a = 0; a < forces.size(); ++a)
     for (int i = 0; i < 3; ++i)
-      R[3 * a + i] -= springs[a][i];
+      R[3 * a + i] -= forces[a][i];
   parallel::sum(R);
   return R;
 }
@@ -249,26 +225,13 @@ void Equations::tangent(const State& state, const Loads& loads, SparseMatrix& K)
     K.add_pressure_mass(std::span(at).last(wall_.pressures.nodes_per_element),
                         element.pressure_mass());
   }
-  for_sides(state, [&](std::span<const int> nodes, const Eigen::Matrix3Xd& x) {
-    const auto n = static_cast<Eigen::Index>(nodes.size());
-    Eigen::MatrixXd block = Eigen::MatrixXd::Zero(3 * n, 3 * n);
-    for (int q = 0; q < side_shapes_.points(); ++q) {
-      const Eigen::MatrixXd& gradient = side_shapes_.gradient[q];
-      const Eigen::Matrix<double, 3, 2> x_xi = x * gradient.transpose();
-      const Mat3 along_s = cross_matrix(x_xi.col(0));
-      const Mat3 along_t = cross_matrix(x_xi.col(1));
-      for (Eigen::Index b = 0; b < n; ++b) {
-        const Mat3 d_normal = loads.pressure * side_shapes_.weight[q] *
-                              (gradient(1, b) * along_s - gradient(0, b) * along_t);
-        for (Eigen::Index a = 0; a < n; ++a)
-          block.block<3, 3>(3 * a, 3 * b) += side_shapes_.value(q, a) * d_normal;
-      }
-    }
-    std::vector<int> at;
-    for (const int node : nodes)
-      at.insert(at.end(), {3 * node, 3 * node + 1, 3 * node + 2});
-    K.add(at, block);
-  });
+  endocardium_.add_hessian(-loads.pressure, state.positions,
+                           [&](std::span<const int> nodes, const Eigen::MatrixXd& block) {
+                             std::vector<int> at;
+                             for (const int node : nodes)
+                               at.insert(at.end(), {3 * node, 3 * node + 1, 3 * node + 2});
+                             K.add(at, block);
+                           });
   if (parallel::is_root())
     for (const auto& spring : base_.springs())
       K.add(std::array{3 * spring.node, 3 * spring.node + 1, 3 * spring.node + 2},

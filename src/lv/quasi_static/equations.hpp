@@ -5,6 +5,7 @@
 #include "lv/quasi_static/sparse.hpp"
 #include "lv/solid/boundary.hpp"
 #include "lv/solid/cell_stress.hpp"
+#include "lv/solid/endocardial_surface.hpp"
 #include "lv/solid/wall.hpp"
 
 #include <vector>
@@ -52,10 +53,10 @@ struct ElementState {
 /// Equilibrium of the incompressible wall in weak form, for all test functions phi_a and q_m:
 ///
 ///   R_a = int [P_passive(F) + P_active(F) + P_stabilisation(F) + p cof F] grad phi_a dX
-///         + p_endo int phi_a n da + K_base (x_a - X_a)  = 0                                [mN]
+///         - p_endo dV/dx_a + K_base (x_a - X_a)         = 0                                [mN]
 ///   R_m = int q_m (J - 1) dX                            = 0                                [mm^3]
 ///
-/// with P_passive from (2.18) and (2.23), P_active from (2.21) and (2.24), n out of the wall. p is
+/// with P_passive from (2.18) and (2.23), P_active from (2.21) and (2.24), V of the cavity. p is
 /// the tension that holds J = 1: the Cauchy stress is sigma^p + sigma^a + p 1, so -p is the p of
 /// (2.6). Unknowns are numbered 3 a + i for the positions, then the pressures.
 class Equations {
@@ -76,6 +77,8 @@ class Equations {
   /// The nodes' places before any load [mm].
   [[nodiscard]] std::span<const Vec3> undeformed() const { return mesh_.nodes; }
 
+  [[nodiscard]] const solid::EndocardialSurface& endocardium() const { return endocardium_; }
+
   /// Which unknowns the tangent joins.
   [[nodiscard]] Pattern pattern() const;
 
@@ -95,13 +98,9 @@ class Equations {
                                                            double activation) const;
 
  private:
-  template <class Visit>
-  void for_sides(const State& state, const Visit& visit) const;
-
   const mesh::Mesh& mesh_;
   ReferenceWall wall_;
-  mesh::ElementNodes sides_;  ///< of the endocardium
-  solid::ShapeTable side_shapes_;
+  solid::EndocardialSurface endocardium_;
   mesh::FibreRule fibres_;
   Muscle muscle_;
   solid::BasalPenalty base_;

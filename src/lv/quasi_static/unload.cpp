@@ -66,7 +66,7 @@ class Unloader {
         muscle_(muscle),
         parameters_(parameters),
         solver_(solver),
-        cavity_(given),
+        endocardium_(given),
         target_(as_vector(given.nodes)) {}
 
   Unloaded run(const Unloaded* start) {
@@ -198,7 +198,7 @@ class Unloader {
       return {};
     }
     trial.R = target_ - as_vector(trial.loaded.positions);
-    trial.step.unloaded_volume = cavity_.volume(wall.nodes);
+    trial.step.unloaded_volume = endocardium_.volume(wall.nodes);
     const Eigen::Map<const Eigen::Matrix3Xd> R(trial.R.data(), 3, trial.R.size() / 3);
     trial.step.largest = R.colwise().norm().maxCoeff();
     trial.step.rms = std::sqrt(R.colwise().squaredNorm().mean());
@@ -224,7 +224,7 @@ class Unloader {
   const Muscle& muscle_;
   const UnloadParameters& parameters_;
   const Parameters& solver_;
-  solid::Cavity cavity_;
+  solid::EndocardialSurface endocardium_;
   Eigen::VectorXd target_;
   double pressure_ = 0.0;  ///< in force [kPa]
   int equilibria_ = 0;

@@ -1,7 +1,7 @@
 #include "lv/base/units.hpp"
 #include "lv/material/calcium.hpp"
 #include "lv/quasi_static/unload.hpp"
-#include "lv/solid/cavity.hpp"
+#include "lv/solid/endocardial_surface.hpp"
 #include "lv/verify/problems.hpp"
 #include "lv/verify/small_ventricle.hpp"
 
@@ -45,13 +45,13 @@ void unloading_round_trip(Findings& found) {
   seen.nodes = engine.state().positions;
   const quasi_static::Unloaded back =
       quasi_static::unload(seen, {}, muscle, {.pressure = pressure, .tolerance = 1e-3}, {});
-  const solid::Cavity cavity(known);
+  const solid::EndocardialSurface endocardium(known);
   found.add_error("largest distance, loaded again, from the loaded shape",
                   back.steps.back().largest, 1e-3, "mm");
   found.add_error("largest distance of the unloaded from the known shape",
                   largest_distance(back.nodes, known.nodes), 0.02, "mm");
-  found.add_within("unloaded cavity volume", cavity.volume(back.nodes), cavity.volume(known.nodes),
-                   1e-3, "mm^3");
+  found.add_within("unloaded cavity volume", endocardium.volume(back.nodes),
+                   endocardium.volume(known.nodes), 1e-3, "mm^3");
   found.add_within("cavity volume, loaded again", back.steps.back().volume, engine.cavity_volume(),
                    1e-4, "mm^3");
 }

@@ -146,7 +146,7 @@ TEST_CASE("quadratic elements fill the wall and follow its surfaces", "[unit][qu
     for (const auto& point : element)
       volume += point.volume;
   CHECK(volume == Approx(114240.0).epsilon(1e-3));
-  CHECK(solid::Cavity(mesh).volume(mesh.nodes) == Approx(70790.0).epsilon(1e-3));
+  CHECK(solid::EndocardialSurface(mesh).volume(mesh.nodes) == Approx(70790.0).epsilon(1e-3));
 }
 
 TEST_CASE("cells have the stress of the elements they are parts of", "[unit][quasi_static]") {

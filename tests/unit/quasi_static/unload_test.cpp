@@ -60,7 +60,7 @@ TEST_CASE("unloading from the result for other muscle finds the same wall", "[qu
   const auto stiff = quasi_static::unload(seen, {}, muscle(2.0), parameters, {});
   const auto again = quasi_static::unload(seen, {}, muscle(2.0), parameters, {}, &soft);
   CHECK(soft.steps.back().unloaded_volume < stiff.steps.back().unloaded_volume);
-  CHECK(stiff.steps.back().unloaded_volume < solid::Cavity(seen).volume(seen.nodes));
+  CHECK(stiff.steps.back().unloaded_volume < solid::EndocardialSurface(seen).volume(seen.nodes));
   CHECK(stiff.steps.back().largest <= 1e-3);
   CHECK(again.steps.back().unloaded_volume ==
         Approx(stiff.steps.back().unloaded_volume).epsilon(1e-4));

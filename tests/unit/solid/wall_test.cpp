@@ -3,6 +3,7 @@
 #include "lv/base/check.hpp"
 #include "lv/mesh/surface.hpp"
 #include "lv/solid/boundary.hpp"
+#include "lv/solid/endocardial_surface.hpp"
 
 #include "support/block_mesh.hpp"
 #include "support/random_values.hpp"
@@ -157,7 +158,8 @@ TEST_CASE("a uniform deformation is in equilibrium inside a distorted wall", "[u
       const Mat3 P = P_fibre * parallel_frame().transpose() + material.volumetric.stress(F);
       // -int P grad phi_a dX = -P int phi_a N dA over the boundary: zero at nodes inside
       std::vector<Vec3> minus_area(positions.size(), Vec3::Zero());
-      solid::add_pressure_forces(mesh::boundary(mesh), 1.0, mesh.nodes, minus_area);
+      mesh.endo = mesh::boundary(mesh);
+      solid::EndocardialSurface(mesh).add_gradient(1.0, mesh.nodes, minus_area);
       for (std::size_t a = 0; a < forces.size(); ++a)
         CHECK((forces[a] - P * minus_area[a]).norm() <
               1e-12 * P.norm());  // rounding of sums over cells of 8 mm^3
