@@ -23,16 +23,13 @@ void for_numbers(Fields& c, const F& f) {
   f(c.infarct);
   f(c.J);
   f(c.fibre_stretch);
-  f(c.tension);
   all(c.F);
   all(c.fibre_frame);
   all(c.axes.circumferential);
   all(c.axes.longitudinal);
   all(c.axes.radial);
-  all(c.cauchy_passive);
-  all(c.cauchy_active);
-  f(c.fibre_stress_passive);
-  f(c.fibre_stress_active);
+  for (double& number : c.as_numbers())
+    f(number);
 }
 
 void add(CellFields& cell, const solid::PointSample& p) {
@@ -44,17 +41,12 @@ void add(CellFields& cell, const solid::PointSample& p) {
   cell.infarct += w * p.infarct;
   cell.J += w * p.F.determinant();
   cell.fibre_stretch += w * (p.F * p.fibre_frame.col(0)).norm();
-  cell.tension += w * p.tension;
   cell.F += w * p.F;
   cell.fibre_frame += w * p.fibre_frame;
   cell.axes.circumferential += w * p.axes.circumferential;
   cell.axes.longitudinal += w * p.axes.longitudinal;
   cell.axes.radial += w * p.axes.radial;
-  cell.cauchy_passive += w * p.cauchy_passive;
-  cell.cauchy_active += w * p.cauchy_active;
-  const Vec3 f = (p.F * p.fibre_frame.col(0)).normalized();
-  cell.fibre_stress_passive += w * f.dot(p.cauchy_passive * f);
-  cell.fibre_stress_active += w * f.dot(p.cauchy_active * f);
+  cell.add(w, p.stress);
 }
 
 /// Sums to means; averaged directions are made orthonormal again.
@@ -120,7 +112,7 @@ std::vector<CellFields> cell_fields(const solid::Wall& wall, const heartbeat::Sn
 
 namespace {
 
-solid::WallMaterial without_penalty(solid::WallMaterial material) {
+material::Myocardium without_penalty(material::Myocardium material) {
   material.volumetric.beta_s = 0.0;
   return material;
 }
@@ -128,7 +120,7 @@ solid::WallMaterial without_penalty(solid::WallMaterial material) {
 }  // namespace
 
 FieldAnalysis::FieldAnalysis(const mesh::Mesh& mesh, const mesh::FibreRule& fibres,
-                             const solid::WallMaterial& material,
+                             const material::Myocardium& material,
                              const solid::BasalSupport& support)
     : mesh_(mesh), wall_(mesh, fibres, without_penalty(material)), base_(mesh, support) {}
 

@@ -51,7 +51,7 @@ class FieldAnalysis {
  public:
   /// The mesh must outlive the analysis.
   FieldAnalysis(const mesh::Mesh& mesh, const mesh::FibreRule& fibres,
-                const solid::WallMaterial& material, const solid::BasalSupport& support);
+                const material::Myocardium& material, const solid::BasalSupport& support);
 
   [[nodiscard]] std::vector<CellFields> fields(const heartbeat::Snapshot& snapshot) const;
 

@@ -29,7 +29,7 @@ constexpr double flops_per_sarcomere = 350.0;    // with its exponentials
 class Kernels {
  public:
   Kernels(const mesh::Mesh& mesh, const immersed::ModelParameters& p,
-          const solid::WallMaterial& material)
+          const material::Myocardium& material)
       : mesh_(mesh),
         p_(p),
         slab_(fluid::slab_of(p.grid, parallel::rank(), parallel::size())),
@@ -104,7 +104,7 @@ class Kernels {
 };
 
 double whole_step(const mesh::Mesh& mesh, const immersed::ModelParameters& p,
-                  const solid::WallMaterial& material) {
+                  const material::Myocardium& material) {
   immersed::Model model(mesh, {}, material, {}, p);
   model.relax(0.01);
   double calcium = 0.01;
@@ -119,7 +119,7 @@ double whole_step(const mesh::Mesh& mesh, const immersed::ModelParameters& p,
 }  // namespace
 
 Bench measure(const mesh::Mesh& mesh, const immersed::ModelParameters& p,
-              const solid::WallMaterial& material) {
+              const material::Myocardium& material) {
   Bench bench{p.grid.cells,
               parallel::size(),
               mesh.cell_count(),

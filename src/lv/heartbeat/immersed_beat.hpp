@@ -9,7 +9,7 @@ namespace lv::heartbeat {
 struct BeatSetup {
   const mesh::Mesh& mesh;
   mesh::FibreRule fibres;
-  solid::WallMaterial material;
+  material::Myocardium material;
   material::NiedererHunterSmith active;
   immersed::ModelParameters model;
   Protocol protocol;

@@ -9,7 +9,7 @@
 namespace lv::immersed {
 
 Model::Model(const mesh::Mesh& mesh, const mesh::FibreRule& fibres,
-             const solid::WallMaterial& material, const material::NiedererHunterSmith& active,
+             const material::Myocardium& material, const material::NiedererHunterSmith& active,
              const ModelParameters& parameters)
     : parameters_(parameters),
       slab_(fluid::slab_of(parameters.grid, parallel::rank(), parallel::size())),

@@ -63,7 +63,7 @@ class Model {
  public:
   /// The mesh must outlive the model. Throws InputError when the wall does not fit in the box, or
   /// an element is inverted.
-  Model(const mesh::Mesh& mesh, const mesh::FibreRule& fibres, const solid::WallMaterial& material,
+  Model(const mesh::Mesh& mesh, const mesh::FibreRule& fibres, const material::Myocardium& material,
         const material::NiedererHunterSmith& active, const ModelParameters& parameters);
 
   /// Advances by dt [s] from the present time, at which `loads` act.

@@ -20,8 +20,8 @@ std::string place_of(const Case& c, const std::string& parameter) {
   return set_at == c.origin.end() ? c.file.string() : set_at->second;
 }
 
-solid::WallMaterial wall_material(const Case& c) {
-  solid::WallMaterial material;
+material::Myocardium wall_material(const Case& c) {
+  material::Myocardium material;
   switch (c.passive.law) {
     case PassiveLaw::holzapfel_ogden:
       material.passive = c.passive.holzapfel_ogden.with_anisotropy_scaled(c.passive.C_a);

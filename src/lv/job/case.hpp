@@ -148,7 +148,7 @@ struct Case {
   mesh::RegionParameters regions;
   Passive passive;
   material::Volumetric volumetric;
-  solid::VolumetricPoints volumetric_points = solid::VolumetricPoints::mean;
+  material::VolumetricPoints volumetric_points = material::VolumetricPoints::mean;
   material::ActiveForm active_form = material::ActiveForm::niederer;
   double prescribed_tension = 60.0;  ///< for the other forms [kPa]
   material::NiedererHunterSmith active;
@@ -184,7 +184,7 @@ struct Case {
 [[nodiscard]] std::string place_of(const Case& c, const std::string& parameter);
 
 /// Passive and active law as the walls of both engines know them.
-[[nodiscard]] solid::WallMaterial wall_material(const Case& c);
+[[nodiscard]] material::Myocardium wall_material(const Case& c);
 
 /// How the wall is meshed for the engine of the case.
 [[nodiscard]] mesh::WallMeshParameters mesh_parameters(const Case& c);

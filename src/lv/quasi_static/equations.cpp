@@ -190,7 +190,7 @@ std::vector<double> Equations::residual(const State& state, const Loads& loads) 
       const double J = determinant(F);
       inverted = inverted || !(J > 0.0);
       const Eigen::VectorXd N = wall_.pressure_shapes.value.row(static_cast<Eigen::Index>(q));
-      const Mat3 P = law.stress(F, point.infarct) + N.dot(s.p) * cofactor(F);
+      const Mat3 P = law.stress(F, J, point.infarct) + N.dot(s.p) * cofactor(F);
       force.noalias() += point.volume * P * point.gradient;
       swelling += point.volume * (J - 1.0) * N;
     }

@@ -25,7 +25,8 @@ inline constexpr double rigid_base = 1e6;
 
 /// What the wall is made of, and how its base is held.
 struct Muscle {
-  solid::WallMaterial material;  ///< its volumetric penalty is not used: the wall is incompressible
+  material::Myocardium
+      material;  ///< its volumetric penalty is not used: the wall is incompressible
   Contractility contractility{0.0};
   solid::BasalSupport base;
   /// Volumetric stiffness at every quadrature point, beside the pressures' weaker constraint. Zero

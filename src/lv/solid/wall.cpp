@@ -87,7 +87,7 @@ template <class E>
 class PackedElements final : public Wall::Elements {
  public:
   PackedElements(const mesh::Mesh& mesh, const mesh::FibreRule& fibres,
-                 const WallMaterial& material);
+                 const material::Myocardium& material);
 
   [[nodiscard]] std::span<const double> nodal_volumes() const override { return nodal_volumes_; }
   void add_stretch(std::span<const Vec3> positions, std::span<double> integrals) const override;
@@ -152,7 +152,7 @@ class PackedElements final : public Wall::Elements {
 
   const mesh::Mesh& mesh_;
   mesh::FibreRule fibres_;
-  WallMaterial material_;
+  material::Myocardium material_;
   parallel::Range cells_;
   std::vector<Vec3> radial_;  ///< per node of tetrahedra, else empty
   std::vector<Group> groups_;
@@ -163,7 +163,7 @@ class PackedElements final : public Wall::Elements {
 
 template <class E>
 PackedElements<E>::PackedElements(const mesh::Mesh& mesh, const mesh::FibreRule& fibres,
-                                  const WallMaterial& material)
+                                  const material::Myocardium& material)
     : mesh_(mesh),
       fibres_(fibres),
       material_(material),
@@ -332,15 +332,16 @@ void PackedElements<E>::add_elastic_forces(std::span<const Vec3> positions,
                                            std::span<Vec3> forces) const {
   min_J_ = Pack(std::numeric_limits<double>::max());
   max_J_ = Pack(std::numeric_limits<double>::lowest());
-  std::visit([&](const auto& law) { add_forces(law, positions, tension, forces); },
-             material_.passive);
+  const bool at_points = material_.volumetric_points == material::VolumetricPoints::full;
+  material::with_point_law(material_, at_points ? material_.volumetric : material::Volumetric{0.0},
+                           [&](const auto& law) { add_forces(law, positions, tension, forces); });
 }
 
 template <class E>
 template <class Law>
 void PackedElements<E>::add_forces(const Law& law, std::span<const Vec3> positions,
                                    std::span<const double> tension, std::span<Vec3> forces) const {
-  const bool mean_dilatation = material_.volumetric_points == VolumetricPoints::mean;
+  const bool mean_dilatation = material_.volumetric_points == material::VolumetricPoints::mean;
   const std::vector<double> pressure =
       mean_dilatation && E::nodes == 4 ? nodal_pressure(positions) : std::vector<double>{};
   for (const Group& group : groups_) {
@@ -363,24 +364,19 @@ Pack PackedElements<E>::at_point(const NodalScalar& nodal, int q) {
   return sum;
 }
 
-/// Passive and active stress at the quadrature points, scaled by the infarct (2.13), (2.23)-(2.24).
+/// Of the stresses at the quadrature points.
 template <class E>
 template <class Law>
 void PackedElements<E>::point_forces(const Law& law, const Group& group, const Nodal& x,
                                      const NodalScalar& tension, Nodal& force) const {
-  const bool volumetric_here = material_.volumetric_points == VolumetricPoints::full;
   for (int q = 0; q < E::points; ++q) {
     const Point& point = group.points[q];
     const Tensor<Pack> F = deformation_gradient(x, rule.gradient[q], point.K);
     const Pack J = determinant(F);
     min_J_ = xsimd::min(min_J_, J);
     max_J_ = xsimd::max(max_J_, J);
-    Tensor<Pack> P = law.stress(F) * material_.infarct.passive(point.infarct);
-    const Pack T = at_point(tension, q) * material_.infarct.active(point.infarct);
-    P.col(0) += material::active_stress_column(F, J, T, material_.active_form);
-    if (volumetric_here)
-      P += material_.volumetric.stress(F);
-    subtract_force(P, point, rule.gradient[q], force);
+    const Pack T = at_point(tension, q) * law.infarct.active(point.infarct);
+    subtract_force(law.stress(F, J, T, point.infarct), point, rule.gradient[q], force);
   }
 }
 
@@ -458,15 +454,9 @@ PointSample PackedElements<E>::sample_point(int group, int q, int i, const Tenso
   s.axes = X.axes;
   s.fibre_frame = mesh::fibre_frame(fibres_, X.axes, X.t);
   s.F = F_fibre * s.fibre_frame.transpose();
-  s.tension = tension * material_.infarct.active(X.M);
-  const double J = determinant(F_fibre);
-  const Mat3 P =
-      std::visit([&](const auto& law) { return law.stress(F_fibre); }, material_.passive) *
-          material_.infarct.passive(X.M) +
-      material_.volumetric.stress(F_fibre);
-  s.cauchy_passive = P * F_fibre.transpose() / J;
-  s.cauchy_active = material::active_stress_column(F_fibre, J, s.tension, material_.active_form) *
-                    F_fibre.col(0).transpose() / J;
+  s.stress = material::with_point_law(material_, material_.volumetric, [&](const auto& law) {
+    return point_stress(law, F_fibre, tension * law.infarct.active(X.M), X.M);
+  });
   return s;
 }
 
@@ -492,7 +482,7 @@ std::vector<PointSample> PackedElements<E>::sample(std::span<const Vec3> positio
 }
 
 std::unique_ptr<Wall::Elements> make_elements(const mesh::Mesh& mesh, const mesh::FibreRule& fibres,
-                                              const WallMaterial& material) {
+                                              const material::Myocardium& material) {
   if (mesh.kind == mesh::CellKind::hexahedron)
     return std::make_unique<PackedElements<Hex8>>(mesh, fibres, material);
   return std::make_unique<PackedElements<Tet4>>(mesh, fibres, material);
@@ -500,7 +490,8 @@ std::unique_ptr<Wall::Elements> make_elements(const mesh::Mesh& mesh, const mesh
 
 }  // namespace
 
-Wall::Wall(const mesh::Mesh& mesh, const mesh::FibreRule& fibres, const WallMaterial& material)
+Wall::Wall(const mesh::Mesh& mesh, const mesh::FibreRule& fibres,
+           const material::Myocardium& material)
     : elements_(make_elements(mesh, fibres, material)) {}
 Wall::~Wall() = default;
 Wall::Wall(Wall&&) noexcept = default;

@@ -1,30 +1,15 @@
 #pragma once
 
-#include "lv/material/active_stress.hpp"
-#include "lv/material/law.hpp"
-#include "lv/material/volumetric.hpp"
+#include "lv/material/myocardium.hpp"
 #include "lv/mesh/fibres.hpp"
 #include "lv/mesh/mesh.hpp"
+#include "lv/solid/cell_stress.hpp"
 
 #include <memory>
 #include <span>
 #include <vector>
 
 namespace lv::solid {
-
-/// Where the volumetric penalty (2.20) is integrated: at the points of the rest of the energy, or
-/// from mean dilatations, which do not lock: a hexahedron's own, from its mean deformation
-/// gradient; of tetrahedra, which are too stiff one by one, that of all around a node.
-enum class VolumetricPoints { full, mean };
-
-/// What the wall is made of.
-struct WallMaterial {
-  material::Passive passive = material::HolzapfelOgden{};
-  material::Volumetric volumetric;
-  VolumetricPoints volumetric_points = VolumetricPoints::mean;
-  material::InfarctScaling infarct;
-  material::ActiveForm active_form = material::ActiveForm::niederer;  ///< what the tension means
-};
 
 /// Smallest and largest J over the quadrature points of all ranks.
 struct VolumeRange {
@@ -41,11 +26,9 @@ struct PointSample {
   double infarct = 0.0;  ///< M
   Mat3 F = Mat3::Identity();
   Mat3 fibre_frame = Mat3::Identity();  ///< columns f0, s0, n0
-  mesh::WallAxes axes;   ///< circumferential, longitudinal, radial directions of the reference wall
-  double tension = 0.0;  ///< T_MI [kPa]
-  Mat3 cauchy_passive = Mat3::Zero();  ///< of (2.18) and the volumetric penalty (2.20), without the
-                                       ///< fluid's pressure [kPa]
-  Mat3 cauchy_active = Mat3::Zero();   ///< [kPa]
+  mesh::WallAxes axes;  ///< circumferential, longitudinal, radial directions of the reference wall
+  CellStress
+      stress;  ///< its pressure is that of the volumetric penalty (2.20), without the fluid's
 };
 
 /// The wall as finite elements: the total-Lagrangian weak form (2.10) of all stresses. Every rank
@@ -55,7 +38,7 @@ class Wall {
  public:
   /// The mesh must outlive the wall. Throws InputError for an element that is inverted or
   /// collapsed, naming it.
-  Wall(const mesh::Mesh& mesh, const mesh::FibreRule& fibres, const WallMaterial& material);
+  Wall(const mesh::Mesh& mesh, const mesh::FibreRule& fibres, const material::Myocardium& material);
   ~Wall();
   Wall(Wall&&) noexcept;
   Wall& operator=(Wall&&) noexcept;

@@ -14,7 +14,7 @@ using calibrate::Parameters;
 using units::mmHg;
 
 quasi_static::Muscle muscle(const Parameters& p) {
-  solid::WallMaterial wall;
+  material::Myocardium wall;
   wall.passive = material::HolzapfelOgden{}.scaled(p.scale).with_anisotropy_scaled(p.C_a);
   material::NiedererHunterSmith active;
   active.T_scale = p.T_scale;

@@ -54,8 +54,8 @@ mesh::Mesh LandBeam::mesh() const {
   return mesh::refine(coarse);
 }
 
-solid::WallMaterial LandBeam::material() const {
-  solid::WallMaterial m;
+material::Myocardium LandBeam::material() const {
+  material::Myocardium m;
   m.passive = material::Guccione{.C = 2.0, .b_f = 8.0, .b_t = 2.0, .b_fs = 4.0};
   return m;
 }

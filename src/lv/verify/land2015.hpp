@@ -17,7 +17,7 @@ struct LandBeam {
   /// 40 x 4 x 4 quadratic elements.
   [[nodiscard]] mesh::Mesh mesh() const;
   [[nodiscard]] mesh::FibreRule fibres() const { return {0.0, 0.0, 0.0, 0.0}; }
-  [[nodiscard]] solid::WallMaterial material() const;
+  [[nodiscard]] material::Myocardium material() const;
 
   /// The node that begins at (10, 0.5, 1) mm.
   [[nodiscard]] int watched_node(const mesh::Mesh& mesh) const;
@@ -38,7 +38,7 @@ struct LandEllipsoid {
 
 /// What problems 2 and 3 ask of that ventricle.
 struct LandProblem {
-  solid::WallMaterial material;
+  material::Myocardium material;
   mesh::FibreRule fibres;
   double pressure = 0.0;  ///< [kPa]
   double tension = 0.0;   ///< S = T f0 (x) f0 [kPa]

@@ -56,7 +56,7 @@ void thick_sphere_static(Findings& found) {
   const double exact = 2.0 / 3.0 * std::numbers::pi * std::pow(sphere.a, 3);
   const auto volume_error = [&](double edge_length, int order) {
     const mesh::Mesh mesh = sphere.mesh(edge_length, order);
-    solid::WallMaterial rubber;
+    material::Myocardium rubber;
     rubber.passive = material::NeoHookean{sphere.mu};
     Engine engine(mesh, {}, {rubber, Contractility(0.0), {Kind::sliding, quasi_static::rigid_base}},
                   {});

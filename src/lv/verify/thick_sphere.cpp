@@ -80,7 +80,7 @@ Outcome settle(int n, immersed::CouplingKind kind) {
   immersed::ModelParameters parameters;
   parameters.grid = {{n, n, n}, Vec3::Constant(-0.5 * box), Vec3::Constant(h)};
   parameters.coupling.kind = kind;
-  solid::WallMaterial material;
+  material::Myocardium material;
   material.passive = lv::material::NeoHookean{shell.mu};
   parameters.blood.viscosity = viscosity;
   immersed::Model model(mesh, {}, material, {}, parameters);

@@ -17,7 +17,7 @@ using units::mmHg;
 /// The muscle of the paper's healthy subject at rest.
 quasi_static::Muscle healthy_muscle() {
   const material::Calcium calcium;
-  solid::WallMaterial wall;
+  material::Myocardium wall;
   wall.passive = material::HolzapfelOgden{};
   return {wall,
           quasi_static::Contractility({}, calcium.Ca_0, calcium.Ca_max),

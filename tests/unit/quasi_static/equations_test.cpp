@@ -117,7 +117,7 @@ TEST_CASE("an isochoric uniform deformation is in balance inside the wall",
   Mat3 F;
   F << 1.2, 0.1, 0.0, 0.0, 1.0 / 1.2, 0.05, 0.0, 0.0, 1.0;
   for (const Mesh& mesh : meshes()) {
-    solid::WallMaterial rubber;
+    material::Myocardium rubber;
     rubber.passive = material::NeoHookean{3.0};
     const Equations equations(mesh, {}, {rubber, Contractility(0.0), {}});
     State state = equations.rest();

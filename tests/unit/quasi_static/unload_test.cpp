@@ -22,7 +22,7 @@ mesh::Mesh coarse_ventricle() {
 }
 
 Muscle muscle(double stiffness) {
-  solid::WallMaterial wall;
+  material::Myocardium wall;
   wall.passive = material::HolzapfelOgden{}.scaled(stiffness);
   return {wall,
           Contractility({}, 0.01, 1.0),
