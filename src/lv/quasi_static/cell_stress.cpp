@@ -44,7 +44,7 @@ struct PartShapes {
 class PartTables {
  public:
   explicit PartTables(const mesh::Mesh& mesh)
-      : mesh_(mesh), places_(solid::node_places(mesh.kind, mesh.order)) {}
+      : mesh_(mesh), places_(mesh::node_places(mesh.kind, mesh.order)) {}
 
   const PartShapes& of(int cell, std::span<const int> element) {
     std::vector<int> where;

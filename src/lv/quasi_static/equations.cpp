@@ -2,6 +2,7 @@
 
 #include "lv/base/check.hpp"
 #include "lv/base/parallel.hpp"
+#include "lv/mesh/shapes.hpp"
 #include "lv/quasi_static/constitution.hpp"
 
 #include <algorithm>
@@ -103,8 +104,8 @@ std::vector<int> unknowns(const ReferenceWall& wall, int e, int node_count) {
 /// Each node of quadratic elements as a mean of the corners of one of them.
 std::vector<std::vector<Pattern::Share>> shares_of_corners(const ReferenceWall& wall,
                                                            mesh::CellKind kind, int node_count) {
-  const std::vector<Vec3> places = solid::node_places(kind, 2);
-  const std::vector<Vec3> corners = solid::node_places(kind, 1);
+  const std::vector<Vec3> places = mesh::node_places(kind, 2);
+  const std::vector<Vec3> corners = mesh::node_places(kind, 1);
   const Eigen::MatrixXd weights =
       solid::element_shapes(kind, 1, {places, std::vector<double>(places.size(), 1.0)}).value;
   std::vector<int> at;  // the corners among the nodes of an element
