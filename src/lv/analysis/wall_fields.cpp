@@ -119,10 +119,10 @@ material::Myocardium without_penalty(material::Myocardium material) {
 
 }  // namespace
 
-FieldAnalysis::FieldAnalysis(const mesh::Mesh& mesh, const mesh::FibreRule& fibres,
-                             const material::Myocardium& material,
-                             const solid::BasalSupport& support)
-    : mesh_(mesh), wall_(mesh, fibres, without_penalty(material)), base_(mesh, support) {}
+FieldAnalysis::FieldAnalysis(const mesh::Mesh& mesh, const solid::CardiacModel& model)
+    : mesh_(mesh),
+      wall_(mesh, model.fibres, without_penalty(model.myocardium)),
+      base_(mesh, model.base) {}
 
 std::vector<CellFields> FieldAnalysis::fields(const heartbeat::Snapshot& snapshot) const {
   if (snapshot.stress.empty())

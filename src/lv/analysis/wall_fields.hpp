@@ -1,7 +1,7 @@
 #pragma once
 
 #include "lv/heartbeat/beat.hpp"
-#include "lv/solid/boundary.hpp"
+#include "lv/solid/cardiac_model.hpp"
 #include "lv/solid/wall.hpp"
 
 #include <vector>
@@ -50,8 +50,7 @@ struct CellFields : solid::CellStress {
 class FieldAnalysis {
  public:
   /// The mesh must outlive the analysis.
-  FieldAnalysis(const mesh::Mesh& mesh, const mesh::FibreRule& fibres,
-                const material::Myocardium& material, const solid::BasalSupport& support);
+  FieldAnalysis(const mesh::Mesh& mesh, const solid::CardiacModel& model);
 
   [[nodiscard]] std::vector<CellFields> fields(const heartbeat::Snapshot& snapshot) const;
 

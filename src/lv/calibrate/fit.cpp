@@ -15,7 +15,7 @@
 namespace lv::calibrate {
 namespace {
 
-using quasi_static::Loads;
+using solid::Loads;
 
 /// Volumes are met this much better than asked; unloading leaves them scattered by less.
 constexpr double margin = 5e-3;

@@ -41,7 +41,7 @@ struct Plan {
 struct Evaluation {
   std::string purpose;  ///< which fit asked for it
   Parameters parameters;
-  quasi_static::Loads loads;
+  solid::Loads loads;
   double volume = 0.0;  ///< [mm^3]
 };
 

@@ -8,7 +8,7 @@
 namespace lv::calibrate {
 namespace {
 
-using quasi_static::Loads;
+using solid::Loads;
 
 /// How far apart loads are, in mmHg; full activation counts as much as a systolic pressure.
 double distance(const Loads& a, const Loads& b) {
@@ -18,12 +18,11 @@ double distance(const Loads& a, const Loads& b) {
 
 }  // namespace
 
-Ventricle::Ventricle(const mesh::Mesh& mesh, const mesh::FibreRule& fibres, MuscleOf muscle_of,
+Ventricle::Ventricle(const mesh::Mesh& mesh, ModelOf model_of,
                      const quasi_static::Parameters& solver,
                      const quasi_static::UnloadParameters& unloading)
     : given_(mesh),
-      fibres_(fibres),
-      muscle_of_(std::move(muscle_of)),
+      model_of_(std::move(model_of)),
       solver_(solver),
       unloading_(unloading),
       wall_(mesh),
@@ -46,7 +45,7 @@ std::vector<Vec3> Ventricle::positions(const Parameters& parameters, const Loads
 const mesh::Mesh& Ventricle::wall(const Parameters& parameters) {
   if (unloading_.pressure == 0.0 || (unloaded_ && unloaded_with_ == parameters))
     return wall_;
-  unloaded_ = quasi_static::unload(given_, fibres_, muscle_of_(parameters), unloading_, solver_,
+  unloaded_ = quasi_static::unload(given_, model_of_(parameters), unloading_, solver_,
                                    unloaded_ ? &*unloaded_ : nullptr);
   unloaded_with_ = parameters;
   engine_.reset();
@@ -58,7 +57,7 @@ const mesh::Mesh& Ventricle::wall(const Parameters& parameters) {
 
 void Ventricle::go_to(const Parameters& parameters, const Loads& loads) {
   static_cast<void>(wall(parameters));
-  approach(muscle_of_(parameters), loads);
+  approach(model_of_(parameters), loads);
   if (known_.empty() || distance(nearest(loads).loads, loads) > 0.0)
     known_.push_back({loads, engine_->state()});
   else
@@ -66,16 +65,16 @@ void Ventricle::go_to(const Parameters& parameters, const Loads& loads) {
 }
 
 /// Brings the engine to equilibrium with the loads.
-void Ventricle::approach(const quasi_static::Muscle& muscle, const Loads& loads) {
+void Ventricle::approach(const quasi_static::StaticModel& model, const Loads& loads) {
   if (!engine_)
-    engine_.emplace(wall_, fibres_, muscle, solver_);
+    engine_.emplace(wall_, model, solver_);
   if (!known_.empty()) {
     const Equilibrium& start = nearest(loads);
     engine_->restore(start.state, start.loads);
   } else {
     engine_->relax();
   }
-  engine_->set_muscle(muscle);
+  engine_->set_model(model);
   if (distance(engine_->loads(), loads) > 0.0)
     engine_->go_to(loads);
 }

@@ -20,7 +20,7 @@ struct Parameters {
 
 /// What a fit asks of a ventricle; all may throw RunError where there is no equilibrium.
 struct Model {
-  using Loads = quasi_static::Loads;
+  using Loads = solid::Loads;
   /// Of the cavity in equilibrium [mm^3].
   std::function<double(const Parameters&, const Loads&)> volume;
   /// Of the cavity without load [mm^3].
@@ -36,37 +36,35 @@ struct Model {
 /// the last result on.
 class Ventricle {
  public:
-  using MuscleOf = std::function<quasi_static::Muscle(const Parameters&)>;
+  using ModelOf = std::function<quasi_static::StaticModel(const Parameters&)>;
 
   /// The mesh must outlive it.
-  Ventricle(const mesh::Mesh& mesh, const mesh::FibreRule& fibres, MuscleOf muscle_of,
-            const quasi_static::Parameters& solver,
+  Ventricle(const mesh::Mesh& mesh, ModelOf model_of, const quasi_static::Parameters& solver,
             const quasi_static::UnloadParameters& unloading = {});
 
   // Each throws RunError where there is no equilibrium and is collective.
 
   /// Of the cavity [mm^3].
-  [[nodiscard]] double volume(const Parameters& parameters, const quasi_static::Loads& loads);
+  [[nodiscard]] double volume(const Parameters& parameters, const solid::Loads& loads);
   [[nodiscard]] double unloaded_volume(const Parameters& parameters);
 
   /// Of the nodes [mm].
   [[nodiscard]] std::vector<Vec3> positions(const Parameters& parameters,
-                                            const quasi_static::Loads& loads);
+                                            const solid::Loads& loads);
   /// Free of stress.
   [[nodiscard]] const mesh::Mesh& wall(const Parameters& parameters);
 
  private:
   struct Equilibrium {
-    quasi_static::Loads loads;
+    solid::Loads loads;
     quasi_static::State state;
   };
-  void go_to(const Parameters& parameters, const quasi_static::Loads& loads);
-  void approach(const quasi_static::Muscle& muscle, const quasi_static::Loads& loads);
-  [[nodiscard]] Equilibrium& nearest(const quasi_static::Loads& loads);
+  void go_to(const Parameters& parameters, const solid::Loads& loads);
+  void approach(const quasi_static::StaticModel& model, const solid::Loads& loads);
+  [[nodiscard]] Equilibrium& nearest(const solid::Loads& loads);
 
   const mesh::Mesh& given_;
-  mesh::FibreRule fibres_;
-  MuscleOf muscle_of_;
+  ModelOf model_of_;
   quasi_static::Parameters solver_;
   quasi_static::UnloadParameters unloading_;
   mesh::Mesh wall_;  ///< free of stress

@@ -40,8 +40,8 @@ struct StrainRows {
 };
 
 StrainRows strain_rows(const Model& model, const Parameters& at,
-                       const std::vector<Fitted>& parameters, const quasi_static::Loads& ed,
-                       const quasi_static::Loads& es) {
+                       const std::vector<Fitted>& parameters, const solid::Loads& ed,
+                       const solid::Loads& es) {
   const auto strains = [&](const Parameters& p, double d_ed, double d_es) {
     return as_vector(
         model.strains(p, {ed.pressure + d_ed, ed.activation}, {es.pressure + d_es, es.activation}));
@@ -79,8 +79,7 @@ Eigen::MatrixXd inverse_of_normal_matrix(const Eigen::MatrixXd& J) {
 Sensitivity sensitivity(const Model& model, const Parameters& at,
                         const std::vector<Fitted>& parameters,
                         const std::vector<Observation>& observations, double edv,
-                        const quasi_static::Loads& ed, const quasi_static::Loads& es,
-                        const Errors& errors) {
+                        const solid::Loads& ed, const solid::Loads& es, const Errors& errors) {
   const auto n = static_cast<Eigen::Index>(parameters.size());
   const auto m = static_cast<Eigen::Index>(observations.size());
   Sensitivity s{parameters, Eigen::MatrixXd(m, n), Eigen::VectorXd(m), {}, {}, {}, {}};

@@ -19,7 +19,7 @@ struct Fitted {
 /// measured.
 struct Observation {
   std::string name;
-  quasi_static::Loads loads;
+  solid::Loads loads;
   double target = 0.0;  ///< [mm^3]
   double weight = 1.0;
   double pressure_ratio = 1.0;      ///< to the measured pressure of its phase
@@ -58,8 +58,7 @@ struct Sensitivity {
 [[nodiscard]] Sensitivity sensitivity(const Model& model, const Parameters& at,
                                       const std::vector<Fitted>& parameters,
                                       const std::vector<Observation>& observations, double edv,
-                                      const quasi_static::Loads& ed = {},
-                                      const quasi_static::Loads& es = {},
+                                      const solid::Loads& ed = {}, const solid::Loads& es = {},
                                       const Errors& errors = {});
 
 }  // namespace lv::calibrate

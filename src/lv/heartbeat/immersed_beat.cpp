@@ -45,7 +45,7 @@ class ImmersedRun {
       : setup_(setup),
         folder_(std::move(folder)),
         observers_(observers),
-        model_(setup.mesh, setup.fibres, setup.material, setup.active, setup.model),
+        model_(setup.mesh, setup.heart, setup.model),
         checkpoint_timer_(setup.output.checkpoint_interval) {}
 
   Beat run() {
@@ -94,7 +94,7 @@ class ImmersedRun {
   void end_filling(bool steady);
   void end_contraction(bool steady);
   [[nodiscard]] double time_in_phase() const { return run_.time - run_.phase_start; }
-  [[nodiscard]] immersed::Loads loads_now() const {
+  [[nodiscard]] solid::Loads loads_now() const {
     return loads(setup_.protocol, run_.phase, time_in_phase());
   }
   void housekeeping();
@@ -212,7 +212,7 @@ std::string ImmersedRun::what_is_wrong(const immersed::StepReport& report) {
 bool ImmersedRun::advance() {
   const double dt = step_size();
   volume_before_ = model_.cavity_volume();
-  last_ = model_.step(loads_now(), dt);
+  last_ = model_.step(loads_now(), dt, drag(setup_.protocol, run_.phase, time_in_phase()));
   run_.time += dt;
   ++run_.beat.steps;
   if (run_.beat.steps % 10 == 0)
@@ -298,7 +298,7 @@ void ImmersedRun::record_curve() {
     return;
   const auto motion =
       fluid::motion(model_.velocity(), setup_.model.grid, setup_.model.blood.density);
-  const immersed::Loads now = loads_now();
+  const solid::Loads now = loads_now();
   run_.beat.curves.push_back({run_.time, run_.phase, now.pressure, model_.cavity_volume(),
                               now.calcium, model_.mean_tension(), motion.kinetic_energy,
                               motion.largest_velocity, last_.J.min_J, last_.J.max_J, step_size()});

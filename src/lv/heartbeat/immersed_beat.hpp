@@ -8,9 +8,7 @@ namespace lv::heartbeat {
 
 struct BeatSetup {
   const mesh::Mesh& mesh;
-  mesh::FibreRule fibres;
-  material::Myocardium material;
-  material::NiedererHunterSmith active;
+  solid::CardiacModel heart;
   immersed::ModelParameters model;
   Protocol protocol;
   StepControl control;

@@ -12,16 +12,14 @@ namespace lv::heartbeat {
 namespace {
 
 using quasi_static::Engine;
-using quasi_static::Loads;
 using quasi_static::Step;
+using solid::Loads;
 using units::mmHg;
 
 class QuasiStaticRun {
  public:
   QuasiStaticRun(const QuasiStaticSetup& setup, const Observers& observers)
-      : setup_(setup),
-        observers_(observers),
-        engine_(setup.mesh, setup.fibres, setup.muscle, setup.parameters) {
+      : setup_(setup), observers_(observers), engine_(setup.mesh, setup.model, setup.parameters) {
     record({engine_.loads(), 0.0, 0.0, engine_.cavity_volume(), {}});
   }
 

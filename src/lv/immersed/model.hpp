@@ -3,31 +3,21 @@
 #include "lv/fluid/advect.hpp"
 #include "lv/fluid/stokes.hpp"
 #include "lv/immersed/coupling.hpp"
-#include "lv/solid/boundary.hpp"
+#include "lv/solid/cardiac_model.hpp"
 #include "lv/solid/contraction.hpp"
 #include "lv/solid/endocardial_surface.hpp"
+#include "lv/solid/loads.hpp"
 #include "lv/solid/wall.hpp"
 
 #include <memory>
-#include <optional>
 #include <vector>
 
 namespace lv::immersed {
-
-/// What acts on the model from outside at one time.
-struct Loads {
-  double pressure = 0.0;  ///< on the endocardium [kPa]
-  double calcium = 0.0;   ///< [uM]
-  /// Prescribed active tension [kPa]; without, that of Appendix A.
-  std::optional<double> tension = std::nullopt;
-  double drag = 0.0;  ///< uniform resistance to the velocity [1/s]; moves no equilibrium
-};
 
 struct ModelParameters {
   fluid::Grid grid;
   fluid::Blood blood;
   CouplingParameters coupling;
-  solid::BasalSupport base;
 };
 
 /// Everything that one rank's part of a Model carries from step to step.
@@ -63,11 +53,12 @@ class Model {
  public:
   /// The mesh must outlive the model. Throws InputError when the wall does not fit in the box, or
   /// an element is inverted.
-  Model(const mesh::Mesh& mesh, const mesh::FibreRule& fibres, const material::Myocardium& material,
-        const material::NiedererHunterSmith& active, const ModelParameters& parameters);
+  Model(const mesh::Mesh& mesh, const solid::CardiacModel& heart,
+        const ModelParameters& parameters);
 
-  /// Advances by dt [s] from the present time, at which `loads` act.
-  StepReport step(const Loads& loads, double dt);
+  /// Advances by dt [s] from the present time, at which `loads` act. `drag` [1/s] is a uniform
+  /// resistance to the velocity, which moves no equilibrium.
+  StepReport step(const solid::Loads& loads, double dt, double drag = 0.0);
 
   /// The model as it is now, and back to an earlier state.
   [[nodiscard]] const ModelState& state();
@@ -95,14 +86,16 @@ class Model {
   [[nodiscard]] const fluid::Slab& slab() const { return slab_; }
 
  private:
-  void nodal_forces(const Loads& loads);
-  void move_blood(const Loads& loads, double dt);
+  void activate(const solid::Loads& loads);
+  void nodal_forces(double pressure);
+  void move_blood(double drag, double dt);
   StepReport move_wall(double dt);
   [[nodiscard]] bool inside_box(std::span<const Vec3> positions) const;
 
   ModelParameters parameters_;
   fluid::Slab slab_;
   solid::Wall wall_;
+  material::ActiveLaw active_;
   std::vector<double> strength_;  ///< of contraction, per node
   solid::Contraction contraction_;
   solid::BasalPenalty base_;

@@ -139,10 +139,10 @@ Case for_calibration(Case c) {
 
 void make_calibration(const Case& c, const MeshResult& mesh, const std::filesystem::path& folder) {
   calibrate::Ventricle ventricle(
-      mesh.mesh, c.fibres, [&](const Parameters& p) { return muscle(with(c, p)); },
+      mesh.mesh, [&](const Parameters& p) { return static_model(with(c, p)); },
       c.quasi_static.solver, c.unloaded);
   const std::vector<StrainTarget> targets = strain_targets(c, mesh.regions);
-  using quasi_static::Loads;
+  using solid::Loads;
   const calibrate::Model model{
       [&](const Parameters& p, const Loads& loads) {
         if (parallel::any(interrupt::requested()))

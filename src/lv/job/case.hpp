@@ -99,7 +99,7 @@ struct QuasiStatic {
   double edge_length = 7.0;  ///< target, of quadratic elements [mm]
   int layers = 0;            ///< quadratic elements through the wall; 0: as edge_length asks
   double apex = 0.3, endocardium = 0.5;  ///< see mesh::WallMeshParameters
-  material::Volumetric stabilisation = quasi_static::Muscle{}.stabilisation;
+  material::Volumetric stabilisation = quasi_static::StaticModel::default_stabilisation;
   quasi_static::Parameters solver;
 };
 
@@ -184,20 +184,17 @@ struct Case {
 [[nodiscard]] std::string place_of(const Case& c, const std::string& parameter);
 
 /// Passive and active law as the walls of both engines know them.
-[[nodiscard]] material::Myocardium wall_material(const Case& c);
+[[nodiscard]] material::Myocardium myocardium(const Case& c);
 
 /// How the wall is meshed for the engine of the case.
 [[nodiscard]] mesh::WallMeshParameters mesh_parameters(const Case& c);
 
-/// Pressures, calcium and, for a prescribed active stress, its tension.
-[[nodiscard]] heartbeat::Protocol protocol(const Case& c);
+/// The ventricle as the engine of the case knows it, its base held by the springs of the case or by
+/// the quasi-static engine's, so stiff that it does not move.
+[[nodiscard]] solid::CardiacModel cardiac_model(const Case& c);
 
-/// How the base is held: by the springs of the case, or by the quasi-static engine's, so stiff that
-/// it does not move.
-[[nodiscard]] solid::BasalSupport basal_support(const Case& c);
-
-/// The muscle of the quasi-static engine.
-[[nodiscard]] quasi_static::Muscle muscle(const Case& c);
+/// The same for the quasi-static engine, whichever is the engine of the case.
+[[nodiscard]] quasi_static::StaticModel static_model(const Case& c);
 
 /// The immersed engine's parameters, with the box placed around the middle of the wall.
 [[nodiscard]] immersed::ModelParameters model_parameters(const Case& c, const mesh::Mesh& mesh);

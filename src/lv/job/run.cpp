@@ -316,12 +316,12 @@ class Pipeline {
 
 /// Seconds that a step takes, from a few steps of the model at rest.
 double trial_step(const Case& c, const mesh::Mesh& mesh, const immersed::ModelParameters& p) {
-  immersed::Model model(mesh, c.fibres, wall_material(c), c.active, p);
+  immersed::Model model(mesh, cardiac_model(c), p);
   model.relax(c.protocol.calcium.Ca_0);
   constexpr int steps = 3;
   const auto start = std::chrono::steady_clock::now();
   for (int i = 0; i < steps; ++i)
-    static_cast<void>(model.step({0.0, c.protocol.calcium.Ca_0, 0.0}, c.time.longest));
+    static_cast<void>(model.step({.calcium = c.protocol.calcium.Ca_0}, c.time.longest));
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   return elapsed.count() / steps;
 }
@@ -343,7 +343,7 @@ std::string immersed_cost(const Case& c, const mesh::Mesh& mesh) {
 
 /// What the quasi-static engine would solve, in words. Making its equations checks the elements.
 std::string static_size(const Case& c, const mesh::Mesh& mesh) {
-  const quasi_static::Equations equations(mesh, c.fibres, muscle(c));
+  const quasi_static::Equations equations(mesh, static_model(c));
   return fmt::format("  quasi-static: {} finite elements of order {}, {} unknowns\n",
                      mesh::elements(mesh).size(), mesh.order, equations.size());
 }
@@ -417,7 +417,7 @@ std::string bench(const BenchOptions& options) {
     c.coupling.kind = immersed::CouplingKind::quadrature;
   const MeshResult result = make_mesh(c, make_anatomy(c));
   const lv::bench::Bench measured =
-      lv::bench::measure(result.mesh, model_parameters(c, result.mesh), wall_material(c));
+      lv::bench::measure(result.mesh, model_parameters(c, result.mesh), myocardium(c));
   return options.json ? lv::bench::json(measured) : lv::bench::text(measured);
 }
 

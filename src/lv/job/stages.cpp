@@ -45,7 +45,7 @@ mesh::Surface load_surface(const Archive& archive, const std::string& name) {
 }
 
 analysis::FieldAnalysis field_analysis(const Case& c, const mesh::Mesh& m) {
-  return {m, c.fibres, wall_material(c), basal_support(c)};
+  return {m, cardiac_model(c)};
 }
 
 /// Velocity averaged to the cell centres, and pressure, of the whole box on the root.
@@ -304,14 +304,13 @@ heartbeat::Beat make_beat(const Case& c, const MeshResult& mesh,
   const heartbeat::Observers observers{[&](const heartbeat::Frame& f) { writer.frame(f); },
                                        [&](const heartbeat::RunState& run) { writer.curves(run); }};
   if (c.engine == Engine::quasi_static)
-    return heartbeat::run_quasi_static_beat({mesh.mesh, c.fibres, muscle(c), c.quasi_static.solver,
-                                             protocol(c), c.output.frame_interval},
-                                            observers);
+    return heartbeat::run_quasi_static_beat(
+        {mesh.mesh, static_model(c), c.quasi_static.solver, c.protocol, c.output.frame_interval},
+        observers);
   check_box(c, mesh.mesh);  // the grid may have changed since the mesh was made
   check_spacing(c, mesh.mesh);
-  const heartbeat::BeatSetup setup{
-      mesh.mesh,   c.fibres, wall_material(c), c.active, model_parameters(c, mesh.mesh),
-      protocol(c), c.time,   c.output};
+  const heartbeat::BeatSetup setup{mesh.mesh,  cardiac_model(c), model_parameters(c, mesh.mesh),
+                                   c.protocol, c.time,           c.output};
   return heartbeat::run_immersed_beat(setup, folder, observers);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "lv/material/active_law.hpp"
 #include "lv/material/law.hpp"
 #include "lv/material/volumetric.hpp"
 
@@ -13,6 +14,7 @@ enum class VolumetricPoints { full, mean };
 /// What the wall is made of.
 struct Myocardium {
   Passive passive = HolzapfelOgden{};
+  ActiveLaw active = NiedererHunterSmith{};
   Volumetric volumetric;  ///< of the immersed engine
   VolumetricPoints volumetric_points = VolumetricPoints::mean;
   InfarctScaling infarct;

@@ -76,8 +76,8 @@ class PartTables {
 }  // namespace
 
 std::vector<CellStress> Equations::cell_stress(const State& state, double activation) const {
-  const Constitution law{muscle_, activation};
-  const PointMaker maker(mesh_, fibres_);
+  const Constitution law{model_, activation};
+  const PointMaker maker(mesh_, model_.heart.fibres);
   PartTables tables(mesh_);
   const int parts = mesh_.order == 2 ? 8 : 1;
   std::vector<CellStress> result(mesh_.cell_count());

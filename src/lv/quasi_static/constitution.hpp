@@ -6,14 +6,14 @@ namespace lv::quasi_static {
 
 /// The sum of stresses at one point under an activation, without the pressure's part.
 struct Constitution {
-  const Muscle& muscle;
+  const StaticModel& model;
   double activation;
 
   /// With the infarct's factor.
   [[nodiscard]] Tension tension(const Mat3& F, double M) const {
-    Tension T = muscle.contractility.at(F.col(0).norm(), activation);
-    T.value *= muscle.material.infarct.active(M);
-    T.derivative *= muscle.material.infarct.active(M);
+    Tension T = model.contractility.at(F.col(0).norm(), activation);
+    T.value *= model.heart.myocardium.infarct.active(M);
+    T.derivative *= model.heart.myocardium.infarct.active(M);
     return T;
   }
 
@@ -35,7 +35,7 @@ struct Constitution {
  private:
   template <class F>
   [[nodiscard]] auto with_law(const F& f) const {
-    return material::with_point_law(muscle.material, muscle.stabilisation, f);
+    return material::with_point_law(model.heart.myocardium, model.stabilisation, f);
   }
 };
 

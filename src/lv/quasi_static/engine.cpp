@@ -32,10 +32,9 @@ constexpr double growth = 1.7;
 
 }  // namespace
 
-Engine::Engine(const mesh::Mesh& mesh, const mesh::FibreRule& fibres, const Muscle& muscle,
-               const Parameters& parameters)
+Engine::Engine(const mesh::Mesh& mesh, const StaticModel& model, const Parameters& parameters)
     : parameters_(parameters),
-      equations_(mesh, fibres, muscle),
+      equations_(mesh, model),
       newton_(equations_, parameters.newton),
       state_(equations_.rest()) {}
 
@@ -87,8 +86,8 @@ void Engine::go_to(const Loads& target, const std::function<void(const Step&)>& 
   loads_ = target;
 }
 
-void Engine::set_muscle(const Muscle& muscle) {
-  equations_.set_muscle(muscle);
+void Engine::set_model(const StaticModel& model) {
+  equations_.set_model(model);
   newton_.forget_tangent();
   if (loads_ == Loads{}) {
     relax();

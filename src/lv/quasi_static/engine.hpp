@@ -29,8 +29,7 @@ struct Step {
 class Engine {
  public:
   /// The mesh must outlive the engine. Throws InputError as reference_wall.
-  Engine(const mesh::Mesh& mesh, const mesh::FibreRule& fibres, const Muscle& muscle,
-         const Parameters& parameters);
+  Engine(const mesh::Mesh& mesh, const StaticModel& model, const Parameters& parameters);
 
   /// Goes straight from the present loads to others, in steps as long as Newton's method manages;
   /// `observe` (may be empty) is told each equilibrium. Throws RunError, with the last equilibrium
@@ -41,7 +40,7 @@ class Engine {
   /// manages, else all the way from rest. Without loads the wall is undeformed, as at first:
   /// balanced by the tension of resting muscle alone it would lie on the switches I4 = 1 of (2.16),
   /// where Newton's method finds no way on.
-  void set_muscle(const Muscle& muscle);
+  void set_model(const StaticModel& model);
 
   /// Back to the undeformed wall without loads.
   void relax();

@@ -131,10 +131,10 @@ std::vector<std::vector<Pattern::Share>> shares_of_corners(const ReferenceWall& 
 }
 
 /// Linear elements would lock with the stabilisation of quadratic ones.
-Muscle for_order(Muscle muscle, int order) {
+StaticModel for_order(StaticModel model, int order) {
   if (order == 1)
-    muscle.stabilisation.beta_s = 0.0;
-  return muscle;
+    model.stabilisation.beta_s = 0.0;
+  return model;
 }
 
 }  // namespace
@@ -150,17 +150,16 @@ ElementState element_state(const ReferenceWall& wall, int e, const State& state)
   return s;
 }
 
-Equations::Equations(const mesh::Mesh& mesh, const mesh::FibreRule& fibres, const Muscle& muscle)
+Equations::Equations(const mesh::Mesh& mesh, const StaticModel& model)
     : mesh_(mesh),
-      wall_(reference_wall(mesh, fibres)),
+      wall_(reference_wall(mesh, model.heart.fibres)),
       endocardium_(mesh),
-      fibres_(fibres),
-      muscle_(for_order(muscle, mesh.order)),
-      base_(mesh, muscle.base) {}
+      model_(for_order(model, mesh.order)),
+      base_(mesh, model.heart.base) {}
 
-void Equations::set_muscle(const Muscle& muscle) {
-  muscle_ = for_order(muscle, mesh_.order);
-  base_ = solid::BasalPenalty(mesh_, muscle.base);
+void Equations::set_model(const StaticModel& model) {
+  model_ = for_order(model, mesh_.order);
+  base_ = solid::BasalPenalty(mesh_, model.heart.base);
 }
 
 State Equations::rest() const {
@@ -178,7 +177,7 @@ Pattern Equations::pattern() const {
 
 std::vector<double> Equations::residual(const State& state, const Loads& loads) const {
   std::vector<double> R(size(), 0.0);
-  const Constitution law{muscle_, loads.activation};
+  const Constitution law{model_, loads.activation};
   bool inverted = false;
   for (std::size_t i = 0; i < wall_.points.size(); ++i) {
     const int e = wall_.own[i];
@@ -215,7 +214,7 @@ std::vector<double> Equations::residual(const State& state, const Loads& loads) 
 
 void Equations::tangent(const State& state, const Loads& loads, SparseMatrix& K) const {
   K.set_zero();
-  const Constitution law{muscle_, loads.activation};
+  const Constitution law{model_, loads.activation};
   ElementTangent element(wall_.elements.nodes_per_element, wall_.pressures.nodes_per_element,
                          wall_.points.empty() ? 0 : wall_.points.front().size());
   for (std::size_t i = 0; i < wall_.points.size(); ++i) {
@@ -241,7 +240,7 @@ void Equations::tangent(const State& state, const Loads& loads, SparseMatrix& K)
 }
 
 double Equations::mean_tension(const State& state, double activation) const {
-  const Constitution law{muscle_, activation};
+  const Constitution law{model_, activation};
   std::array<double, 2> sums{};
   for (std::size_t i = 0; i < wall_.points.size(); ++i) {
     const ElementState s = element_state(wall_, wall_.own[i], state);

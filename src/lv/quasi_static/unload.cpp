@@ -59,11 +59,10 @@ struct Trial {
 
 class Unloader {
  public:
-  Unloader(const mesh::Mesh& given, const mesh::FibreRule& fibres, const Muscle& muscle,
-           const UnloadParameters& parameters, const Parameters& solver)
+  Unloader(const mesh::Mesh& given, const StaticModel& model, const UnloadParameters& parameters,
+           const Parameters& solver)
       : given_(given),
-        fibres_(fibres),
-        muscle_(muscle),
+        model_(model),
         parameters_(parameters),
         solver_(solver),
         endocardium_(given),
@@ -184,10 +183,10 @@ class Unloader {
     ++equilibria_;
     Trial trial{X, {}, {}, {}};
     try {
-      Engine engine(wall, fibres_, muscle_, solver_);
+      Engine engine(wall, model_, solver_);
       if (near != nullptr) {
         engine.restore({given_.nodes, near->pressures}, {pressure_, 0.0});
-        engine.set_muscle(muscle_);
+        engine.set_model(model_);
       } else {
         engine.go_to({pressure_, 0.0});
       }
@@ -220,8 +219,7 @@ class Unloader {
   };
 
   const mesh::Mesh& given_;
-  const mesh::FibreRule& fibres_;
-  const Muscle& muscle_;
+  const StaticModel& model_;
   const UnloadParameters& parameters_;
   const Parameters& solver_;
   solid::EndocardialSurface endocardium_;
@@ -235,10 +233,10 @@ class Unloader {
 
 }  // namespace
 
-Unloaded unload(const mesh::Mesh& given, const mesh::FibreRule& fibres, const Muscle& muscle,
+Unloaded unload(const mesh::Mesh& given, const StaticModel& model,
                 const UnloadParameters& parameters, const Parameters& solver,
                 const Unloaded* start) {
-  return Unloader(given, fibres, muscle, parameters, solver).run(start);
+  return Unloader(given, model, parameters, solver).run(start);
 }
 
 }  // namespace lv::quasi_static

@@ -44,8 +44,8 @@ struct Unloaded {
 ///
 /// `start` may be the result for other muscle, from where few steps are needed. Throws RunError,
 /// with the distance that is left, when the tolerance is not met. Collective.
-[[nodiscard]] Unloaded unload(const mesh::Mesh& given, const mesh::FibreRule& fibres,
-                              const Muscle& muscle, const UnloadParameters& parameters,
-                              const Parameters& solver, const Unloaded* start = nullptr);
+[[nodiscard]] Unloaded unload(const mesh::Mesh& given, const StaticModel& model,
+                              const UnloadParameters& parameters, const Parameters& solver,
+                              const Unloaded* start = nullptr);
 
 }  // namespace lv::quasi_static

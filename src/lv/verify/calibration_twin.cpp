@@ -2,7 +2,6 @@
 #include "lv/base/parallel.hpp"
 #include "lv/base/units.hpp"
 #include "lv/calibrate/fit.hpp"
-#include "lv/material/calcium.hpp"
 #include "lv/verify/problems.hpp"
 #include "lv/verify/small_ventricle.hpp"
 
@@ -13,15 +12,12 @@ namespace {
 using calibrate::Parameters;
 using units::mmHg;
 
-quasi_static::Muscle muscle(const Parameters& p) {
-  material::Myocardium wall;
-  wall.passive = material::HolzapfelOgden{}.scaled(p.scale).with_anisotropy_scaled(p.C_a);
-  material::NiedererHunterSmith active;
-  active.T_scale = p.T_scale;
-  const material::Calcium calcium;
-  return {wall,
-          quasi_static::Contractility(active, calcium.Ca_0, calcium.Ca_max),
-          {solid::BasalSupport::Kind::sliding, quasi_static::rigid_base}};
+quasi_static::StaticModel model(const Parameters& p) {
+  solid::CardiacModel heart{.base = {.stiffness = quasi_static::rigid_base}};
+  heart.myocardium.passive =
+      material::HolzapfelOgden{}.scaled(p.scale).with_anisotropy_scaled(p.C_a);
+  heart.myocardium.active = material::NiedererHunterSmith{.T_scale = p.T_scale};
+  return heart;
 }
 
 /// The idealised ventricle on a coarse mesh; the mesh's own error cancels.
@@ -65,12 +61,11 @@ std::vector<double> segment_strains(const mesh::Mesh& mesh, const mesh::Regions&
 
 void calibration_twin(Findings& found) {
   const mesh::Mesh mesh = coarse_ventricle();
-  calibrate::Ventricle ventricle(mesh, {}, muscle, {});
-  const calibrate::Model model{[&](const Parameters& p, const quasi_static::Loads& loads) {
-                                 return ventricle.volume(p, loads);
-                               },
-                               [&](const Parameters& p) { return ventricle.unloaded_volume(p); },
-                               {}};
+  calibrate::Ventricle ventricle(mesh, model, {});
+  const calibrate::Model model{
+      [&](const Parameters& p, const solid::Loads& loads) { return ventricle.volume(p, loads); },
+      [&](const Parameters& p) { return ventricle.unloaded_volume(p); },
+      {}};
   calibrate::Plan plan = both_parameters();
   plan.edv.volume = model.volume(truth, {plan.ed_pressure, 0.0});
   plan.esv.volume = model.volume(truth, {plan.es_pressure, 1.0});
@@ -86,8 +81,8 @@ void calibration_twin(Findings& found) {
 void strain_twin(Findings& found) {
   const mesh::Mesh mesh = coarse_ventricle();
   const mesh::Regions regions = mesh::divide(mesh, {});
-  calibrate::Ventricle ventricle(mesh, {}, muscle, {});
-  using quasi_static::Loads;
+  calibrate::Ventricle ventricle(mesh, model, {});
+  using solid::Loads;
   const calibrate::Model model{
       [&](const Parameters& p, const Loads& loads) { return ventricle.volume(p, loads); },
       [&](const Parameters& p) { return ventricle.unloaded_volume(p); },

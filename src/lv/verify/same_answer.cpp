@@ -31,12 +31,12 @@ double largest_difference(const std::vector<double>& a, const std::vector<double
 /// The first steps of a contraction under a rising pressure.
 heartbeat::Archive contract() {
   const mesh::Mesh mesh = ideal_mesh({.edge_length = edge});
-  immersed::Model model(mesh, {}, {}, {}, in_default_box(mesh, cells));
+  immersed::Model model(mesh, {}, in_default_box(mesh, cells));
   model.relax(0.3);
   constexpr int steps = 80;
   for (int n = 0; n < steps; ++n) {
     const double ramp = heartbeat::smooth_step(static_cast<double>(n) / steps);
-    static_cast<void>(model.step({2.0 * ramp, 0.3 + 0.7 * ramp, 0.0}, 2e-4));
+    static_cast<void>(model.step({2.0 * ramp, ramp, 0.3 + 0.7 * ramp}, 2e-4));
   }
   heartbeat::Archive result;
   result.set("positions", flat(model.positions()));

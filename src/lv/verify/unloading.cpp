@@ -1,5 +1,4 @@
 #include "lv/base/units.hpp"
-#include "lv/material/calcium.hpp"
 #include "lv/quasi_static/unload.hpp"
 #include "lv/solid/endocardial_surface.hpp"
 #include "lv/verify/problems.hpp"
@@ -14,14 +13,9 @@ namespace {
 
 using units::mmHg;
 
-/// The muscle of the paper's healthy subject at rest.
-quasi_static::Muscle healthy_muscle() {
-  const material::Calcium calcium;
-  material::Myocardium wall;
-  wall.passive = material::HolzapfelOgden{};
-  return {wall,
-          quasi_static::Contractility({}, calcium.Ca_0, calcium.Ca_max),
-          {solid::BasalSupport::Kind::sliding, quasi_static::rigid_base}};
+/// The paper's healthy subject.
+quasi_static::StaticModel healthy() {
+  return solid::CardiacModel{.base = {.stiffness = quasi_static::rigid_base}};
 }
 
 double largest_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
@@ -37,14 +31,14 @@ double largest_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b) 
 /// which has twice the volume, is taken for the one that was seen.
 void unloading_round_trip(Findings& found) {
   const mesh::Mesh known = ideal_mesh({.edge_length = 5.0, .layers = 2, .order = 2});
-  const quasi_static::Muscle muscle = healthy_muscle();
+  const quasi_static::StaticModel model = healthy();
   const double pressure = 8.0 * mmHg;
-  quasi_static::Engine engine(known, {}, muscle, {});
+  quasi_static::Engine engine(known, model, {});
   engine.go_to({pressure, 0.0});
   mesh::Mesh seen = known;
   seen.nodes = engine.state().positions;
   const quasi_static::Unloaded back =
-      quasi_static::unload(seen, {}, muscle, {.pressure = pressure, .tolerance = 1e-3}, {});
+      quasi_static::unload(seen, model, {.pressure = pressure, .tolerance = 1e-3}, {});
   const solid::EndocardialSurface endocardium(known);
   found.add_error("largest distance, loaded again, from the loaded shape",
                   back.steps.back().largest, 1e-3, "mm");

@@ -13,7 +13,7 @@
 namespace {
 
 using namespace lv::calibrate;
-using lv::quasi_static::Loads;
+using lv::solid::Loads;
 using lv::units::mmHg;
 
 constexpr double V_0 = 70e3;

@@ -10,9 +10,8 @@
 namespace {
 
 using namespace lv;
-using quasi_static::Contractility;
 using quasi_static::Engine;
-using quasi_static::Muscle;
+using quasi_static::StaticModel;
 using units::mmHg;
 
 mesh::Mesh coarse_ventricle() {
@@ -21,12 +20,10 @@ mesh::Mesh coarse_ventricle() {
                          {.edge_length = 8.0, .layers = 2, .order = 2});
 }
 
-Muscle muscle(double stiffness) {
-  material::Myocardium wall;
-  wall.passive = material::HolzapfelOgden{}.scaled(stiffness);
-  return {wall,
-          Contractility({}, 0.01, 1.0),
-          {solid::BasalSupport::Kind::sliding, quasi_static::rigid_base}};
+StaticModel model(double stiffness) {
+  solid::CardiacModel heart{.base = {.stiffness = quasi_static::rigid_base}};
+  heart.myocardium.passive = material::HolzapfelOgden{}.scaled(stiffness);
+  return heart;
 }
 
 }  // namespace
@@ -34,21 +31,21 @@ Muscle muscle(double stiffness) {
 TEST_CASE("muscle that is replaced at rest fills as if it had been there from the start",
           "[quasi_static]") {
   const mesh::Mesh mesh = coarse_ventricle();
-  Engine changed(mesh, {}, muscle(3.0), {});
-  changed.set_muscle(muscle(1.0));
+  Engine changed(mesh, model(3.0), {});
+  changed.set_model(model(1.0));
   changed.go_to({4.0 * mmHg, 0.0});
-  Engine fresh(mesh, {}, muscle(1.0), {});
+  Engine fresh(mesh, model(1.0), {});
   fresh.go_to({4.0 * mmHg, 0.0});
   CHECK(changed.cavity_volume() == Approx(fresh.cavity_volume()).epsilon(1e-5));
 }
 
 TEST_CASE("a wall goes on from where its loads were taken away", "[quasi_static]") {
   const mesh::Mesh mesh = coarse_ventricle();
-  Engine engine(mesh, {}, muscle(1.0), {});
+  Engine engine(mesh, model(1.0), {});
   engine.go_to({4.0 * mmHg, 0.0});
   const double filled = engine.cavity_volume();
   engine.go_to({0.0, 0.0});
-  engine.set_muscle(muscle(1.0));
+  engine.set_model(model(1.0));
   engine.go_to({4.0 * mmHg, 0.0});
   CHECK(engine.cavity_volume() == Approx(filled).epsilon(1e-5));
 }
@@ -56,9 +53,9 @@ TEST_CASE("a wall goes on from where its loads were taken away", "[quasi_static]
 TEST_CASE("unloading from the result for other muscle finds the same wall", "[quasi_static]") {
   const mesh::Mesh seen = coarse_ventricle();
   const quasi_static::UnloadParameters parameters{.pressure = 3.0 * mmHg, .tolerance = 1e-3};
-  const auto soft = quasi_static::unload(seen, {}, muscle(1.0), parameters, {});
-  const auto stiff = quasi_static::unload(seen, {}, muscle(2.0), parameters, {});
-  const auto again = quasi_static::unload(seen, {}, muscle(2.0), parameters, {}, &soft);
+  const auto soft = quasi_static::unload(seen, model(1.0), parameters, {});
+  const auto stiff = quasi_static::unload(seen, model(2.0), parameters, {});
+  const auto again = quasi_static::unload(seen, model(2.0), parameters, {}, &soft);
   CHECK(soft.steps.back().unloaded_volume < stiff.steps.back().unloaded_volume);
   CHECK(stiff.steps.back().unloaded_volume < solid::EndocardialSurface(seen).volume(seen.nodes));
   CHECK(stiff.steps.back().largest <= 1e-3);
@@ -70,6 +67,6 @@ TEST_CASE("unloading that does not come to its tolerance says what is left", "[q
   const mesh::Mesh seen = coarse_ventricle();
   using Catch::Matchers::Contains;
   CHECK_THROWS_WITH(
-      quasi_static::unload(seen, {}, muscle(1.0), {.pressure = 3.0 * mmHg, .iterations = 2}, {}),
+      quasi_static::unload(seen, model(1.0), {.pressure = 3.0 * mmHg, .iterations = 2}, {}),
       Contains("loaded again it is off by") && Contains("unloaded.iterations"));
 }
