@@ -18,16 +18,17 @@ struct Parameters {
   [[nodiscard]] bool operator==(const Parameters&) const = default;
 };
 
-/// What a fit asks of a ventricle; all may throw RunError where there is no equilibrium.
+/// What a fit asks of a ventricle; nowhere need there be an equilibrium.
 struct Model {
   using Loads = solid::Loads;
   /// Of the cavity in equilibrium [mm^3].
-  std::function<double(const Parameters&, const Loads&)> volume;
+  std::function<Outcome<double>(const Parameters&, const Loads&)> volume;
   /// Of the cavity without load [mm^3].
-  std::function<double(const Parameters&)> unloaded_volume;
+  std::function<Outcome<double>(const Parameters&)> unloaded_volume;
   /// Regional strains between two equilibria, in the order of Plan::strains. May be empty without
   /// such.
-  std::function<std::vector<double>(const Parameters&, const Loads& ed, const Loads& es)> strains;
+  std::function<Outcome<std::vector<double>>(const Parameters&, const Loads& ed, const Loads& es)>
+      strains;
 };
 
 /// The quasi-static engine as such a model. It keeps the equilibrium of every load that it was
@@ -42,25 +43,24 @@ class Ventricle {
   Ventricle(const mesh::Mesh& mesh, ModelOf model_of, const quasi_static::Parameters& solver,
             const quasi_static::UnloadParameters& unloading = {});
 
-  // Each throws RunError where there is no equilibrium and is collective.
+  // Each is collective.
 
   /// Of the cavity [mm^3].
-  [[nodiscard]] double volume(const Parameters& parameters, const solid::Loads& loads);
-  [[nodiscard]] double unloaded_volume(const Parameters& parameters);
+  Outcome<double> volume(const Parameters& parameters, const solid::Loads& loads);
+  Outcome<double> unloaded_volume(const Parameters& parameters);
 
   /// Of the nodes [mm].
-  [[nodiscard]] std::vector<Vec3> positions(const Parameters& parameters,
-                                            const solid::Loads& loads);
-  /// Free of stress.
-  [[nodiscard]] const mesh::Mesh& wall(const Parameters& parameters);
+  Outcome<std::vector<Vec3>> positions(const Parameters& parameters, const solid::Loads& loads);
+
+  /// Free of stress, with the parameters that were asked for last.
+  [[nodiscard]] const mesh::Mesh& wall() const { return wall_; }
 
  private:
   struct Equilibrium {
     solid::Loads loads;
     quasi_static::State state;
   };
-  void go_to(const Parameters& parameters, const solid::Loads& loads);
-  void approach(const quasi_static::StaticModel& model, const solid::Loads& loads);
+  Outcome<double> approach(const quasi_static::StaticModel& model, const solid::Loads& loads);
   [[nodiscard]] Equilibrium& nearest(const solid::Loads& loads);
 
   const mesh::Mesh& given_;

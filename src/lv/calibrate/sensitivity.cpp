@@ -26,9 +26,11 @@ double by_parameter(const Model& model, const Parameters& at, const Fitted& whic
                     const Observation& o) {
   const Parameters above = scaled(at, which, std::exp(parameter_step));
   const Parameters below = scaled(at, which, std::exp(-parameter_step));
-  double change = std::log(model.volume(above, o.loads) / model.volume(below, o.loads));
+  double change =
+      std::log(model.volume(above, o.loads).value() / model.volume(below, o.loads).value());
   if (o.target_by_unloaded != 0.0)
-    change -= o.target_by_unloaded * (model.unloaded_volume(above) - model.unloaded_volume(below)) /
+    change -= o.target_by_unloaded *
+              (model.unloaded_volume(above).value() - model.unloaded_volume(below).value()) /
               o.target;
   return change / (2.0 * parameter_step);
 }
@@ -44,7 +46,8 @@ StrainRows strain_rows(const Model& model, const Parameters& at,
                        const solid::Loads& es) {
   const auto strains = [&](const Parameters& p, double d_ed, double d_es) {
     return as_vector(
-        model.strains(p, {ed.pressure + d_ed, ed.activation}, {es.pressure + d_es, es.activation}));
+        model.strains(p, {ed.pressure + d_ed, ed.activation}, {es.pressure + d_es, es.activation})
+            .value());
   };
   const auto difference = [](const Eigen::VectorXd& above, const Eigen::VectorXd& below,
                              double step) {
@@ -89,7 +92,7 @@ Sensitivity sensitivity(const Model& model, const Parameters& at,
     const Observation& o = observations[k];
     for (Eigen::Index j = 0; j < n; ++j)
       s.by_parameter(k, j) = by_parameter(model, at, parameters[j], o);
-    const auto under = [&](double p) { return model.volume(at, {p, o.loads.activation}); };
+    const auto under = [&](double p) { return model.volume(at, {p, o.loads.activation}).value(); };
     s.by_pressure[k] =
         (under(o.loads.pressure + pressure_step) - under(o.loads.pressure - pressure_step)) /
         (2.0 * pressure_step);

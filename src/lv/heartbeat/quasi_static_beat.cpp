@@ -40,7 +40,7 @@ class QuasiStaticRun {
 
  private:
   void go_to(const Loads& loads) {
-    engine_.go_to(loads, [&](const Step& step) {
+    const auto follow = [&](const Step& step) {
       ++run_.beat.steps;
       record(step);
       log::info("{} {:3.0f}%  {:.2f} mmHg  {:.2f} ml  T {:.1f} kPa  {} corrections, {} {}{}",
@@ -53,7 +53,8 @@ class QuasiStaticRun {
                     : fmt::format(", {} iterations of GMRES", step.newton.linear_iterations));
       if (parallel::any(interrupt::requested()))
         throw Interrupted("stopped; run the same command again to start the beat anew");
-    });
+    };
+    engine_.go_to(loads, follow).value();
   }
 
   void record(const Step& step) {

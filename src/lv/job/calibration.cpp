@@ -150,10 +150,14 @@ void make_calibration(const Case& c, const MeshResult& mesh, const std::filesyst
         return ventricle.volume(p, loads);
       },
       [&](const Parameters& p) { return ventricle.unloaded_volume(p); },
-      [&](const Parameters& p, const Loads& ed, const Loads& es) {
+      [&](const Parameters& p, const Loads& ed, const Loads& es) -> Outcome<std::vector<double>> {
         const auto end_diastole = ventricle.positions(p, ed);
+        if (!end_diastole)
+          return end_diastole.why();
         const auto end_systole = ventricle.positions(p, es);
-        return regional_strains(c, ventricle.wall(p), targets, end_diastole, end_systole);
+        if (!end_systole)
+          return end_systole.why();
+        return regional_strains(c, ventricle.wall(), targets, *end_diastole, *end_systole);
       }};
   const calibrate::Plan task = plan(c, targets);
   const calibrate::Fit fit =

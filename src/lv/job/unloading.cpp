@@ -72,7 +72,7 @@ void check_elements(const mesh::Mesh& wall) {
 void make_unloading(const Case& c, const MeshResult& seen, const mesh::Mesh& elements,
                     const std::filesystem::path& folder) {
   const Unloaded unloaded =
-      quasi_static::unload(elements, static_model(c), c.unloaded, c.quasi_static.solver);
+      quasi_static::unload(elements, static_model(c), c.unloaded, c.quasi_static.solver).value();
   MeshResult result = seen;
   result.mesh.nodes =
       c.engine == Engine::quasi_static ? unloaded.nodes : carried(elements, unloaded, seen.mesh);

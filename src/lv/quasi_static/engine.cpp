@@ -38,7 +38,8 @@ Engine::Engine(const mesh::Mesh& mesh, const StaticModel& model, const Parameter
       newton_(equations_, parameters.newton),
       state_(equations_.rest()) {}
 
-void Engine::go_to(const Loads& target, const std::function<void(const Step&)>& observe) {
+Outcome<double> Engine::go_to(const Loads& target,
+                              const std::function<void(const Step&)>& observe) {
   const Loads start = loads_;
   std::optional<State> before;
   double last_length = 0.0;
@@ -50,11 +51,9 @@ void Engine::go_to(const Loads& target, const std::function<void(const Step&)>& 
       length = 1.0 - progress;  // no crumbs
     const Loads loads = between(start, target, progress + length);
     State next = before ? extrapolate(*before, state_, length / last_length) : state_;
-    NewtonReport report;
-    try {
-      report = newton_.solve(next, loads);
-    } catch (const NoConvergence& failure) {
-      log::info("a step of {:.3g} of the way failed: {}", length, failure.what());
+    const NewtonReport report = newton_.solve(next, loads);
+    if (!report.converged) {
+      log::info("a step of {:.3g} of the way failed: {}", length, report.why);
       if (before) {
         before.reset();  // once more without extrapolation
         length *= 0.5;
@@ -62,13 +61,12 @@ void Engine::go_to(const Loads& target, const std::function<void(const Step&)>& 
         length *= 0.25;
       }
       if (length < parameters_.smallest_step)
-        throw RunError(
+        return Unsolved{
             fmt::format("No equilibrium was found beyond {:.2f} mmHg and {:.0f}% of the active "
                         "tension: {}",
-                        loads_.pressure / units::mmHg, 100.0 * loads_.activation, failure.what()),
+                        loads_.pressure / units::mmHg, 100.0 * loads_.activation, report.why),
             "Look at the mesh's worst element and at the stiffness (a wall too soft for its "
-            "pressure "
-            "has no equilibrium); try a finer mesh, or a smaller quasi_static.first_step");
+            "pressure has no equilibrium); try a finer mesh, or a smaller quasi_static.first_step"};
       continue;
     }
     before = std::move(state_);
@@ -84,22 +82,21 @@ void Engine::go_to(const Loads& target, const std::function<void(const Step&)>& 
       length /= growth;
   }
   loads_ = target;
+  return cavity_volume();
 }
 
-void Engine::set_model(const StaticModel& model) {
+Outcome<double> Engine::set_model(const StaticModel& model) {
   equations_.set_model(model);
   newton_.forget_tangent();
-  if (loads_ == Loads{}) {
+  if (loads_.pressure == 0.0 && loads_.activation == 0.0) {
     relax();
-    return;
+    return cavity_volume();
   }
-  try {
-    newton_.solve(state_, loads_);
-  } catch (const NoConvergence&) {
-    const Loads loads = loads_;
-    relax();
-    go_to(loads);
-  }
+  if (newton_.solve(state_, loads_).converged)
+    return cavity_volume();
+  const Loads loads = loads_;
+  relax();
+  return go_to(loads);
 }
 
 void Engine::relax() {

@@ -31,16 +31,16 @@ class Engine {
   /// The mesh must outlive the engine. Throws InputError as reference_wall.
   Engine(const mesh::Mesh& mesh, const StaticModel& model, const Parameters& parameters);
 
-  /// Goes straight from the present loads to others, in steps as long as Newton's method manages;
-  /// `observe` (may be empty) is told each equilibrium. Throws RunError, with the last equilibrium
-  /// and what to try, when the smallest step fails; the engine stays at that equilibrium.
-  void go_to(const Loads& loads, const std::function<void(const Step&)>& observe = {});
+  /// Goes straight from the present loads to others, in steps as long as Newton's method manages,
+  /// and returns the cavity's volume there [mm^3]; `observe` (may be empty) is told each
+  /// equilibrium. Where the smallest step fails the engine stays at the last equilibrium.
+  Outcome<double> go_to(const Loads& loads, const std::function<void(const Step&)>& observe = {});
 
   /// Replaces the muscle and finds the equilibrium under the same loads, at once if Newton's method
-  /// manages, else all the way from rest. Without loads the wall is undeformed, as at first:
-  /// balanced by the tension of resting muscle alone it would lie on the switches I4 = 1 of (2.16),
-  /// where Newton's method finds no way on.
-  void set_model(const StaticModel& model);
+  /// manages, else all the way from rest; returns the cavity's volume [mm^3]. Without loads the
+  /// wall is undeformed, as at first: balanced by the tension of resting muscle alone it would lie
+  /// on the switches I4 = 1 of (2.16), where Newton's method finds no way on.
+  Outcome<double> set_model(const StaticModel& model);
 
   /// Back to the undeformed wall without loads.
   void relax();

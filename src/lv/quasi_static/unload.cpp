@@ -68,18 +68,18 @@ class Unloader {
         endocardium_(given),
         target_(as_vector(given.nodes)) {}
 
-  Unloaded run(const Unloaded* start) {
+  Outcome<Unloaded> run(const Unloaded* start) {
     if (start == nullptr || !try_from(as_vector(start->nodes), &start->loaded))
       approach();
     if (now_.step.largest > parameters_.tolerance)
-      throw RunError(
+      return Unsolved{
           fmt::format("The shape without load was not found at {:.2f} mmHg: loaded again it is off "
                       "by {:.3g} mm (rms {:.3g} mm) after {} equilibria",
                       parameters_.pressure / units::mmHg, now_.step.largest, now_.step.rms,
                       equilibria_),
           "Check unloaded.pressure (a soft wall may never have had so much), or raise "
-          "unloaded.tolerance or unloaded.iterations");
-    return {as_shape(now_.X), std::move(now_.loaded), std::move(steps_)};
+          "unloaded.tolerance or unloaded.iterations"};
+    return Unloaded{as_shape(now_.X), std::move(now_.loaded), std::move(steps_)};
   }
 
  private:
@@ -182,20 +182,16 @@ class Unloader {
       return {};
     ++equilibria_;
     Trial trial{X, {}, {}, {}};
-    try {
-      Engine engine(wall, model_, solver_);
-      if (near != nullptr) {
-        engine.restore({given_.nodes, near->pressures}, {pressure_, 0.0});
-        engine.set_model(model_);
-      } else {
-        engine.go_to({pressure_, 0.0});
-      }
-      trial.loaded = engine.state();
-      trial.step.volume = engine.cavity_volume();
-    } catch (const RunError& failure) {
-      log::info("a wall that was tried without load has no equilibrium: {}", failure.what());
+    Engine engine(wall, model_, solver_);
+    if (near != nullptr)
+      engine.restore({given_.nodes, near->pressures}, {pressure_, 0.0});
+    const auto volume = near != nullptr ? engine.set_model(model_) : engine.go_to({pressure_, 0.0});
+    if (!volume) {
+      log::info("a wall that was tried without load has no equilibrium: {}", volume.why().what);
       return {};
     }
+    trial.loaded = engine.state();
+    trial.step.volume = *volume;
     trial.R = target_ - as_vector(trial.loaded.positions);
     trial.step.unloaded_volume = endocardium_.volume(wall.nodes);
     const Eigen::Map<const Eigen::Matrix3Xd> R(trial.R.data(), 3, trial.R.size() / 3);
@@ -233,9 +229,9 @@ class Unloader {
 
 }  // namespace
 
-Unloaded unload(const mesh::Mesh& given, const StaticModel& model,
-                const UnloadParameters& parameters, const Parameters& solver,
-                const Unloaded* start) {
+Outcome<Unloaded> unload(const mesh::Mesh& given, const StaticModel& model,
+                         const UnloadParameters& parameters, const Parameters& solver,
+                         const Unloaded* start) {
   return Unloader(given, model, parameters, solver).run(start);
 }
 

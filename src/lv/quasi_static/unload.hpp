@@ -42,10 +42,10 @@ struct Unloaded {
 /// are: an X that is loaded and unloaded comes back with its fibres. Depth t and M(X) are carried
 /// along with the nodes.
 ///
-/// `start` may be the result for other muscle, from where few steps are needed. Throws RunError,
-/// with the distance that is left, when the tolerance is not met. Collective.
-[[nodiscard]] Unloaded unload(const mesh::Mesh& given, const StaticModel& model,
-                              const UnloadParameters& parameters, const Parameters& solver,
-                              const Unloaded* start = nullptr);
+/// `start` may be the result for other muscle, from where few steps are needed. Unsolved, with the
+/// distance that is left, when the tolerance is not met. Collective.
+Outcome<Unloaded> unload(const mesh::Mesh& given, const StaticModel& model,
+                         const UnloadParameters& parameters, const Parameters& solver,
+                         const Unloaded* start = nullptr);
 
 }  // namespace lv::quasi_static

@@ -12,7 +12,7 @@ namespace {
 using calibrate::Parameters;
 using units::mmHg;
 
-quasi_static::StaticModel model(const Parameters& p) {
+quasi_static::StaticModel static_model(const Parameters& p) {
   solid::CardiacModel heart{.base = {.stiffness = quasi_static::rigid_base}};
   heart.myocardium.passive =
       material::HolzapfelOgden{}.scaled(p.scale).with_anisotropy_scaled(p.C_a);
@@ -61,14 +61,14 @@ std::vector<double> segment_strains(const mesh::Mesh& mesh, const mesh::Regions&
 
 void calibration_twin(Findings& found) {
   const mesh::Mesh mesh = coarse_ventricle();
-  calibrate::Ventricle ventricle(mesh, model, {});
+  calibrate::Ventricle ventricle(mesh, static_model, {});
   const calibrate::Model model{
       [&](const Parameters& p, const solid::Loads& loads) { return ventricle.volume(p, loads); },
       [&](const Parameters& p) { return ventricle.unloaded_volume(p); },
       {}};
   calibrate::Plan plan = both_parameters();
-  plan.edv.volume = model.volume(truth, {plan.ed_pressure, 0.0});
-  plan.esv.volume = model.volume(truth, {plan.es_pressure, 1.0});
+  plan.edv.volume = model.volume(truth, {plan.ed_pressure, 0.0}).value();
+  plan.esv.volume = model.volume(truth, {plan.es_pressure, 1.0}).value();
   const calibrate::Fit fit = calibrate::fit(model, {.C_a = 0.7, .T_scale = 2.5}, plan);
   found.add_within("C_a", fit.parameters.C_a, truth.C_a, 0.005);
   found.add_within("T_scale", fit.parameters.T_scale, truth.T_scale, 0.005);
@@ -81,22 +81,23 @@ void calibration_twin(Findings& found) {
 void strain_twin(Findings& found) {
   const mesh::Mesh mesh = coarse_ventricle();
   const mesh::Regions regions = mesh::divide(mesh, {});
-  calibrate::Ventricle ventricle(mesh, model, {});
+  calibrate::Ventricle ventricle(mesh, static_model, {});
   using solid::Loads;
   const calibrate::Model model{
       [&](const Parameters& p, const Loads& loads) { return ventricle.volume(p, loads); },
       [&](const Parameters& p) { return ventricle.unloaded_volume(p); },
-      [&](const Parameters& p, const Loads& ed, const Loads& es) {
-        const auto end_diastole = ventricle.positions(p, ed);
-        const auto end_systole = ventricle.positions(p, es);
+      [&](const Parameters& p, const Loads& ed, const Loads& es) -> Outcome<std::vector<double>> {
+        const auto end_diastole = ventricle.positions(p, ed).value();
+        const auto end_systole = ventricle.positions(p, es).value();
         return segment_strains(mesh, regions, end_diastole, end_systole);
       }};
   calibrate::Plan plan = both_parameters();
   const Loads ed{plan.ed_pressure, 0.0};
   const Loads es{plan.es_pressure, 1.0};
-  plan.edv.volume = 0.95 * model.volume(truth, ed);
-  plan.esv.volume = 1.05 * model.volume(truth, es);
-  for (const double strain : model.strains(truth, ed, es))
+  plan.edv.volume = 0.95 * model.volume(truth, ed).value();
+  plan.esv.volume = 1.05 * model.volume(truth, es).value();
+  const std::vector<double> strains = model.strains(truth, ed, es).value();
+  for (const double strain : strains)
     plan.strains.push_back({"", strain});
   plan.errors = {.volume = 10.0, .strain = 1e-3};
   const calibrate::Fit fit = calibrate::fit(model, {.C_a = 1.0, .T_scale = 3.0}, plan);

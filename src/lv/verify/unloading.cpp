@@ -34,11 +34,11 @@ void unloading_round_trip(Findings& found) {
   const quasi_static::StaticModel model = healthy();
   const double pressure = 8.0 * mmHg;
   quasi_static::Engine engine(known, model, {});
-  engine.go_to({pressure, 0.0});
+  engine.go_to({pressure, 0.0}).value();
   mesh::Mesh seen = known;
   seen.nodes = engine.state().positions;
   const quasi_static::Unloaded back =
-      quasi_static::unload(seen, model, {.pressure = pressure, .tolerance = 1e-3}, {});
+      quasi_static::unload(seen, model, {.pressure = pressure, .tolerance = 1e-3}, {}).value();
   const solid::EndocardialSurface endocardium(known);
   found.add_error("largest distance, loaded again, from the loaded shape",
                   back.steps.back().largest, 1e-3, "mm");

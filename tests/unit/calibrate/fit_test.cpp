@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 namespace {
 
@@ -118,9 +119,9 @@ TEST_CASE("the bracket keeps away from where the model has no equilibrium", "[ca
   Plan p = plan();
   p.passive = Passive::C_a;
   p.edv.volume = volume({.C_a = 0.72}, {p.ed_pressure, 0.0});
-  const auto fragile = [](const Parameters& q, const Loads& loads) {
+  const auto fragile = [](const Parameters& q, const Loads& loads) -> lv::Outcome<double> {
     if (q.C_a < 0.7)
-      throw lv::RunError("no equilibrium", "");
+      return lv::Unsolved{"no equilibrium", ""};
     return volume(q, loads);
   };
   CHECK(fit({fragile, unloaded_volume, {}}, {}, p).parameters.C_a == Approx(0.72).epsilon(1e-3));
@@ -196,4 +197,22 @@ TEST_CASE("of a volume with a maximum the stiffer root is found, and the maximum
         fit(hill, {.scale = start}, p),
         Catch::Matchers::Contains("101.00 ml cannot be reached: the model's volume is "
                                   "largest near scale"));
+}
+
+TEST_CASE("what is no lack of an equilibrium ends a fit", "[calibrate]") {
+  Plan p = plan_for({.C_a = 2.5, .T_scale = 4.0});
+  p.passive = Passive::scale_and_exponent;
+  int calls = 0;
+  const auto disk_full_after = [&](int count) {
+    return [&, count](const Parameters& q, const Loads& loads) {
+      if (++calls > count)
+        throw lv::RunError("the disk is full", "");
+      return volume(q, loads);
+    };
+  };
+  fit({disk_full_after(1'000'000), unloaded_volume, {}}, {}, p);
+  const int all = std::exchange(calls, 0);
+  for (int count = 0; count < all; ++count, calls = 0)
+    CHECK_THROWS_WITH(fit({disk_full_after(count), unloaded_volume, {}}, {}, p),
+                      Catch::Matchers::Contains("the disk is full"));
 }
