@@ -54,10 +54,10 @@ void Model::relax(double calcium) {
 
 StepReport Model::step(const solid::Loads& loads, double dt, double drag) {
   activate(loads);
-  nodal_forces(loads.pressure);
+  const solid::VolumeRange J = nodal_forces(loads.pressure);
   move_blood(drag, dt);
   StepReport report = move_wall(dt);
-  report.J = wall_.volume_range();
+  report.J = {parallel::min(J.min_J), parallel::max(J.max_J)};
   state_.dt_before = state_.dt;
   state_.dt = dt;
   state_.calcium = loads.calcium;
@@ -73,12 +73,14 @@ void Model::activate(const solid::Loads& loads) {
   }
 }
 
-void Model::nodal_forces(double pressure) {
+solid::VolumeRange Model::nodal_forces(double pressure) {
   std::fill(node_forces_.begin(), node_forces_.end(), Vec3::Zero());
-  wall_.add_elastic_forces(state_.positions, contraction_.tension(), node_forces_);
+  const solid::VolumeRange J =
+      wall_.add_elastic_forces(state_.positions, contraction_.tension(), node_forces_);
   endocardium_.add_gradient(pressure, state_.positions, node_forces_);
   base_.add_forces(state_.positions, node_forces_);
   parallel::sum({node_forces_.data()->data(), 3 * node_forces_.size()});
+  return J;
 }
 
 void Model::move_blood(double drag, double dt) {

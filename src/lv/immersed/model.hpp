@@ -39,7 +39,7 @@ struct StepReport {
   /// resolve, near -1 for one that flips from step to step.
   double smoothness = 1.0;
   double velocity_change = 0.0;  ///< rms of the last change of the nodes' velocities [mm/s]
-  solid::VolumeRange J;          ///< at the start of the step
+  solid::VolumeRange J;          ///< at the start of the step, over all ranks
 };
 
 /// The wall immersed in blood (2.1)-(2.4), advanced by a staggered leapfrog: positions at whole
@@ -87,7 +87,7 @@ class Model {
 
  private:
   void activate(const solid::Loads& loads);
-  void nodal_forces(double pressure);
+  solid::VolumeRange nodal_forces(double pressure);
   void move_blood(double drag, double dt);
   StepReport move_wall(double dt);
   [[nodiscard]] bool inside_box(std::span<const Vec3> positions) const;

@@ -57,6 +57,23 @@ Tensor<double> lane(const From& tensor, int i) {
   return result;
 }
 
+/// Smallest and largest of what it was shown, lane by lane.
+struct PackRange {
+  Pack lowest = Pack(std::numeric_limits<double>::max());
+  Pack highest = Pack(std::numeric_limits<double>::lowest());
+
+  void include(const Pack& value) {
+    lowest = xsimd::min(lowest, value);
+    highest = xsimd::max(highest, value);
+  }
+  [[nodiscard]] VolumeRange over_lanes() const {
+    VolumeRange range{lane(lowest, 0), lane(highest, 0)};
+    for (int i = 1; i < pack_size; ++i)
+      range = {std::min(range.min_J, lane(lowest, i)), std::max(range.max_J, lane(highest, i))};
+    return range;
+  }
+};
+
 void set_lane(Pack& pack, int i, double value) {
   alignas(Pack) std::array<double, pack_size> values;
   pack.store_aligned(values.data());
@@ -72,9 +89,9 @@ class Wall::Elements {
   virtual ~Elements() = default;
   [[nodiscard]] virtual std::span<const double> nodal_volumes() const = 0;
   virtual void add_stretch(std::span<const Vec3> positions, std::span<double> integrals) const = 0;
-  virtual void add_elastic_forces(std::span<const Vec3> positions, std::span<const double> tension,
-                                  std::span<Vec3> forces) const = 0;
-  [[nodiscard]] virtual VolumeRange volume_range() const = 0;
+  virtual VolumeRange add_elastic_forces(std::span<const Vec3> positions,
+                                         std::span<const double> tension,
+                                         std::span<Vec3> forces) const = 0;
   [[nodiscard]] virtual std::vector<PointSample> sample(std::span<const Vec3> positions,
                                                         std::span<const double> tension) const = 0;
 };
@@ -91,9 +108,8 @@ class PackedElements final : public Wall::Elements {
 
   [[nodiscard]] std::span<const double> nodal_volumes() const override { return nodal_volumes_; }
   void add_stretch(std::span<const Vec3> positions, std::span<double> integrals) const override;
-  void add_elastic_forces(std::span<const Vec3> positions, std::span<const double> tension,
-                          std::span<Vec3> forces) const override;
-  [[nodiscard]] VolumeRange volume_range() const override;
+  VolumeRange add_elastic_forces(std::span<const Vec3> positions, std::span<const double> tension,
+                                 std::span<Vec3> forces) const override;
   [[nodiscard]] std::vector<PointSample> sample(std::span<const Vec3> positions,
                                                 std::span<const double> tension) const override;
 
@@ -136,11 +152,11 @@ class PackedElements final : public Wall::Elements {
   static void subtract_force(const Tensor<Pack>& P, const Point& point, const Gradients& gradient,
                              Nodal& force);
   template <class Law>
-  void add_forces(const Law& law, std::span<const Vec3> positions, std::span<const double> tension,
-                  std::span<Vec3> forces) const;
+  PackRange add_forces(const Law& law, std::span<const Vec3> positions,
+                       std::span<const double> tension, std::span<Vec3> forces) const;
   template <class Law>
   void point_forces(const Law& law, const Group& group, const Nodal& x, const NodalScalar& tension,
-                    Nodal& force) const;
+                    Nodal& force, PackRange& J_range) const;
   void add_volumes();
   [[nodiscard]] std::vector<double> nodal_pressure(std::span<const Vec3> positions) const;
   void volumetric_forces(const Group& group, const Nodal& x, const NodalScalar& pressure,
@@ -157,8 +173,6 @@ class PackedElements final : public Wall::Elements {
   std::vector<Vec3> radial_;  ///< per node of tetrahedra, else empty
   std::vector<Group> groups_;
   std::vector<double> nodal_volumes_;
-  mutable Pack min_J_ = Pack(1.0);
-  mutable Pack max_J_ = Pack(1.0);
 };
 
 template <class E>
@@ -327,20 +341,21 @@ void PackedElements<E>::add_stretch(std::span<const Vec3> positions,
 }
 
 template <class E>
-void PackedElements<E>::add_elastic_forces(std::span<const Vec3> positions,
-                                           std::span<const double> tension,
-                                           std::span<Vec3> forces) const {
-  min_J_ = Pack(std::numeric_limits<double>::max());
-  max_J_ = Pack(std::numeric_limits<double>::lowest());
+VolumeRange PackedElements<E>::add_elastic_forces(std::span<const Vec3> positions,
+                                                  std::span<const double> tension,
+                                                  std::span<Vec3> forces) const {
   const bool at_points = material_.volumetric_points == material::VolumetricPoints::full;
-  material::with_point_law(material_, at_points ? material_.volumetric : material::Volumetric{0.0},
-                           [&](const auto& law) { add_forces(law, positions, tension, forces); });
+  return material::with_point_law(
+      material_, at_points ? material_.volumetric : material::Volumetric{0.0},
+      [&](const auto& law) { return add_forces(law, positions, tension, forces).over_lanes(); });
 }
 
 template <class E>
 template <class Law>
-void PackedElements<E>::add_forces(const Law& law, std::span<const Vec3> positions,
-                                   std::span<const double> tension, std::span<Vec3> forces) const {
+PackRange PackedElements<E>::add_forces(const Law& law, std::span<const Vec3> positions,
+                                        std::span<const double> tension,
+                                        std::span<Vec3> forces) const {
+  PackRange J;
   const bool mean_dilatation = material_.volumetric_points == material::VolumetricPoints::mean;
   const std::vector<double> pressure =
       mean_dilatation && E::nodes == 4 ? nodal_pressure(positions) : std::vector<double>{};
@@ -348,12 +363,13 @@ void PackedElements<E>::add_forces(const Law& law, std::span<const Vec3> positio
     const Nodal x = gather(group, positions);
     Nodal force;
     force.fill(Vector<Pack>(Pack(0.0), Pack(0.0), Pack(0.0)));
-    point_forces(law, group, x, gather(group, tension), force);
+    point_forces(law, group, x, gather(group, tension), force, J);
     if (mean_dilatation)
       volumetric_forces(group, x, pressure.empty() ? NodalScalar{} : gather(group, pressure),
                         force);
     scatter(group, force, forces);
   }
+  return J;
 }
 
 template <class E>
@@ -368,13 +384,13 @@ Pack PackedElements<E>::at_point(const NodalScalar& nodal, int q) {
 template <class E>
 template <class Law>
 void PackedElements<E>::point_forces(const Law& law, const Group& group, const Nodal& x,
-                                     const NodalScalar& tension, Nodal& force) const {
+                                     const NodalScalar& tension, Nodal& force,
+                                     PackRange& J_range) const {
   for (int q = 0; q < E::points; ++q) {
     const Point& point = group.points[q];
     const Tensor<Pack> F = deformation_gradient(x, rule.gradient[q], point.K);
     const Pack J = determinant(F);
-    min_J_ = xsimd::min(min_J_, J);
-    max_J_ = xsimd::max(max_J_, J);
+    J_range.include(J);
     const Pack T = at_point(tension, q) * law.infarct.active(point.infarct);
     subtract_force(law.stress(F, J, T, point.infarct), point, rule.gradient[q], force);
   }
@@ -426,17 +442,6 @@ void PackedElements<E>::volumetric_forces(const Group& group, const Nodal& x,
   P *= group.volume;
   for (int a = 0; a < E::nodes; ++a)
     force[a] -= P * group.mean_gradient[a];
-}
-
-template <class E>
-VolumeRange PackedElements<E>::volume_range() const {
-  double lowest = lane(min_J_, 0);
-  double highest = lane(max_J_, 0);
-  for (int i = 1; i < pack_size; ++i) {
-    lowest = std::min(lowest, lane(min_J_, i));
-    highest = std::max(highest, lane(max_J_, i));
-  }
-  return {parallel::min(lowest), parallel::max(highest)};
 }
 
 template <class E>
@@ -510,13 +515,10 @@ std::span<const double> Wall::nodal_volumes() const {
   return elements_->nodal_volumes();
 }
 
-void Wall::add_elastic_forces(std::span<const Vec3> positions, std::span<const double> tension,
-                              std::span<Vec3> forces) const {
-  elements_->add_elastic_forces(positions, tension, forces);
-}
-
-VolumeRange Wall::volume_range() const {
-  return elements_->volume_range();
+VolumeRange Wall::add_elastic_forces(std::span<const Vec3> positions,
+                                     std::span<const double> tension,
+                                     std::span<Vec3> forces) const {
+  return elements_->add_elastic_forces(positions, tension, forces);
 }
 
 std::vector<PointSample> Wall::sample(std::span<const Vec3> positions,

@@ -11,7 +11,7 @@
 
 namespace lv::solid {
 
-/// Smallest and largest J over the quadrature points of all ranks.
+/// Smallest and largest J over quadrature points.
 struct VolumeRange {
   double min_J = 1.0;
   double max_J = 1.0;
@@ -47,12 +47,10 @@ class Wall {
   void nodal_stretch(std::span<const Vec3> positions, std::span<double> stretch) const;
 
   /// Adds the nodal forces of this rank's elements, F_a = -int P : grad phi_a dX [mN], to `forces`.
-  /// `tension` is the active tension per node [kPa], before the infarct's factor.
-  void add_elastic_forces(std::span<const Vec3> positions, std::span<const double> tension,
-                          std::span<Vec3> forces) const;
-
-  /// Smallest and largest J of the last add_elastic_forces, over all ranks.
-  [[nodiscard]] VolumeRange volume_range() const;
+  /// `tension` is the active tension per node [kPa], before the infarct's factor. Returns the range
+  /// of J in these elements.
+  VolumeRange add_elastic_forces(std::span<const Vec3> positions, std::span<const double> tension,
+                                 std::span<Vec3> forces) const;
 
   /// Reference volume that belongs to each node, int phi_a dX [mm^3]; complete on every rank.
   [[nodiscard]] std::span<const double> nodal_volumes() const;
