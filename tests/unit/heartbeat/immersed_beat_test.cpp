@@ -31,13 +31,12 @@ mesh::Mesh coarse_mesh() {
 
 /// The row of the contraction with the smallest volume.
 const CurveRow& least(const Beat& beat) {
-  return *std::min_element(beat.curves.begin(), beat.curves.end(),
-                           [](const CurveRow& a, const CurveRow& b) {
-                             if ((a.phase == heartbeat::Phase::filling) !=
-                                 (b.phase == heartbeat::Phase::filling))
-                               return b.phase == heartbeat::Phase::filling;
-                             return a.volume < b.volume;
-                           });
+  return *std::min_element(
+      beat.curves.begin(), beat.curves.end(), [](const CurveRow& a, const CurveRow& b) {
+        if ((a.phase == heartbeat::Phase::filling) != (b.phase == heartbeat::Phase::filling))
+          return b.phase == heartbeat::Phase::filling;
+        return a.volume < b.volume;
+      });
 }
 
 }  // namespace
@@ -45,8 +44,8 @@ const CurveRow& least(const Beat& beat) {
 TEST_CASE("end-systole of a calcium transient is where the cavity is smallest", "[heartbeat]") {
   const mesh::Mesh mesh = coarse_mesh();
   const BeatSetup setup = twitch(mesh);
-  const test::TemporaryFolder folder("transient");
-  const Beat beat = heartbeat::run_immersed_beat(setup, folder.path(), {});
+  const test::TemporaryFolder folder;
+  const Beat beat = heartbeat::run_immersed_beat(setup, folder / "", {});
   CHECK(beat.contraction_was_steady);  // it ended because the ventricle filled again
   CHECK(beat.end_systole.volume < beat.end_diastole.volume);
   CHECK(beat.end_systole.volume <= least(beat).volume);
@@ -60,8 +59,8 @@ TEST_CASE("a transient that is cut short ends with what it has, and says so", "[
   const mesh::Mesh mesh = coarse_mesh();
   BeatSetup setup = twitch(mesh);
   setup.protocol.contraction_longest = 0.02;
-  const test::TemporaryFolder folder("transient_cut_short");
-  const Beat beat = heartbeat::run_immersed_beat(setup, folder.path(), {});
+  const test::TemporaryFolder folder;
+  const Beat beat = heartbeat::run_immersed_beat(setup, folder / "", {});
   CHECK_FALSE(beat.contraction_was_steady);
   CHECK(beat.end_systole.time == Approx(0.07).margin(1e-3));
 }
