@@ -75,7 +75,8 @@ void engines_agree(Findings& found) {
   const Answer quasi_static = quasi_static_answer();
   if (!parallel::is_root())
     return;
-  const auto compare = [&](const char* state, const analysis::Shape analysis::Results::*shape,
+  const auto compare = [&](const char* state,
+                           const analysis::VentricleShape analysis::Results::*shape,
                            std::vector<CellFields> analysis::BeatFields::*fields) {
     const analysis::Results& a = immersed.analysis.results;
     const analysis::Results& b = quasi_static.analysis.results;
