@@ -56,6 +56,19 @@ const mesh::Mesh& Ventricle::wall(const Parameters& parameters) {
   return wall_;
 }
 
+const std::optional<quasi_static::Unloaded>& Ventricle::unloaded(const Parameters& parameters) {
+  static_cast<void>(wall(parameters));
+  return unloaded_;
+}
+
+void Ventricle::restore(Memory memory) {
+  known_ = std::move(memory.known);
+  unloaded_ = std::move(memory.unloaded);
+  unloaded_with_ = memory.unloaded_with;
+  wall_.nodes = unloaded_ ? unloaded_->nodes : given_.nodes;
+  engine_.reset();
+}
+
 void Ventricle::go_to(const Parameters& parameters, const Loads& loads) {
   static_cast<void>(wall(parameters));
   approach(muscle_of_(parameters), loads);

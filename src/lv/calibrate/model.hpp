@@ -54,12 +54,24 @@ class Ventricle {
                                             const quasi_static::Loads& loads);
   /// Free of stress.
   [[nodiscard]] const mesh::Mesh& wall(const Parameters& parameters);
+  /// The same with its equilibrium under the load that it was seen with; nothing when it was given
+  /// free of stress.
+  [[nodiscard]] const std::optional<quasi_static::Unloaded>& unloaded(const Parameters& parameters);
 
- private:
   struct Equilibrium {
     quasi_static::Loads loads;
     quasi_static::State state;
   };
+  /// All that further answers depend on.
+  struct Memory {
+    std::vector<Equilibrium> known;
+    std::optional<quasi_static::Unloaded> unloaded;
+    Parameters unloaded_with;
+  };
+  [[nodiscard]] Memory memory() const { return {known_, unloaded_, unloaded_with_}; }
+  void restore(Memory memory);
+
+ private:
   void go_to(const Parameters& parameters, const quasi_static::Loads& loads);
   void approach(const quasi_static::Muscle& muscle, const quasi_static::Loads& loads);
   [[nodiscard]] Equilibrium& nearest(const quasi_static::Loads& loads);

@@ -1,5 +1,7 @@
 #include "lv/quasi_static/newton.hpp"
 
+#include "lv/base/interrupt.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -86,6 +88,7 @@ class Newton::Attempt {
   }
 
   void iterate() {
+    interrupt::check_together();
     if (++report_.iterations > newton_.parameters_.iterations)
       throw NoConvergence(fmt::format(
           "no equilibrium after {} corrections (the last moved the wall by {:.2g} mm rms)",

@@ -60,12 +60,13 @@ struct Trial {
 class Unloader {
  public:
   Unloader(const mesh::Mesh& given, const mesh::FibreRule& fibres, const Muscle& muscle,
-           const UnloadParameters& parameters, const Parameters& solver)
+           const UnloadParameters& parameters, const Parameters& solver, UnloadRecord record)
       : given_(given),
         fibres_(fibres),
         muscle_(muscle),
         parameters_(parameters),
         solver_(solver),
+        record_(std::move(record)),
         cavity_(given),
         target_(as_vector(given.nodes)) {}
 
@@ -181,8 +182,31 @@ class Unloader {
     wall.nodes = as_shape(X);
     if (!is_sound(wall))
       return {};
-    ++equilibria_;
-    Trial trial{X, {}, {}, {}};
+    std::optional<State> loaded = next_equilibrium(wall, near);
+    if (!loaded)
+      return {};
+    Trial trial{X, {}, std::move(*loaded), {}};
+    trial.step.volume = cavity_.volume(trial.loaded.positions);
+    trial.R = target_ - as_vector(trial.loaded.positions);
+    trial.step.unloaded_volume = cavity_.volume(wall.nodes);
+    const Eigen::Map<const Eigen::Matrix3Xd> R(trial.R.data(), 3, trial.R.size() / 3);
+    trial.step.largest = R.colwise().norm().maxCoeff();
+    trial.step.rms = std::sqrt(R.colwise().squaredNorm().mean());
+    return trial;
+  }
+
+  /// From the record, or found and put there.
+  std::optional<State> next_equilibrium(const mesh::Mesh& wall, const State* near) {
+    const auto n = static_cast<std::size_t>(equilibria_++);
+    if (n >= record_.known.size()) {
+      record_.known.push_back(equilibrium(wall, near));
+      if (record_.keep)
+        record_.keep(record_.known);
+    }
+    return record_.known[n];
+  }
+
+  std::optional<State> equilibrium(const mesh::Mesh& wall, const State* near) {
     try {
       Engine engine(wall, fibres_, muscle_, solver_);
       if (near != nullptr) {
@@ -191,18 +215,11 @@ class Unloader {
       } else {
         engine.go_to({pressure_, 0.0});
       }
-      trial.loaded = engine.state();
-      trial.step.volume = engine.cavity_volume();
+      return engine.state();
     } catch (const RunError& failure) {
       log::info("a wall that was tried without load has no equilibrium: {}", failure.what());
       return {};
     }
-    trial.R = target_ - as_vector(trial.loaded.positions);
-    trial.step.unloaded_volume = cavity_.volume(wall.nodes);
-    const Eigen::Map<const Eigen::Matrix3Xd> R(trial.R.data(), 3, trial.R.size() / 3);
-    trial.step.largest = R.colwise().norm().maxCoeff();
-    trial.step.rms = std::sqrt(R.colwise().squaredNorm().mean());
-    return trial;
   }
 
   void accept(Trial&& trial) {
@@ -224,6 +241,7 @@ class Unloader {
   const Muscle& muscle_;
   const UnloadParameters& parameters_;
   const Parameters& solver_;
+  UnloadRecord record_;
   solid::Cavity cavity_;
   Eigen::VectorXd target_;
   double pressure_ = 0.0;  ///< in force [kPa]
@@ -236,9 +254,9 @@ class Unloader {
 }  // namespace
 
 Unloaded unload(const mesh::Mesh& given, const mesh::FibreRule& fibres, const Muscle& muscle,
-                const UnloadParameters& parameters, const Parameters& solver,
-                const Unloaded* start) {
-  return Unloader(given, fibres, muscle, parameters, solver).run(start);
+                const UnloadParameters& parameters, const Parameters& solver, const Unloaded* start,
+                UnloadRecord record) {
+  return Unloader(given, fibres, muscle, parameters, solver, std::move(record)).run(start);
 }
 
 }  // namespace lv::quasi_static
