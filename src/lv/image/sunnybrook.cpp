@@ -121,6 +121,15 @@ Contour read_contour(const fs::path& file, const Place& place, Side side, PixelO
   return contour;
 }
 
+/// One border of one image is drawn once.
+void check_first(const std::vector<Contour>& loops, const Place& place, Side side,
+                 const fs::path& file) {
+  if (const Contour* other = geometry::find(loops, place.slice, side))
+    throw InputError(file.string(),
+                     fmt::format("draws the same border of the same image as {}", other->file),
+                     "Keep one of them in the folder and its subfolders");
+}
+
 /// Phases are numbers of images in order of time: where a slice lacks one, those of its contours
 /// would be of other times than the other slices'. `drawn` holds a contour file of each slice.
 void check_phases(const DicomStack& stack, const std::map<int, fs::path>& drawn) {
@@ -153,7 +162,7 @@ DrawnPhases read_sunnybrook(const fs::path& folder, const DicomStack& stack, Pix
                      "Name the folder with the contour files");
   const auto places = images_by_instance(stack);
   std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder))
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
     if (entry.is_regular_file())
       files.push_back(entry.path());
   std::sort(files.begin(), files.end());
@@ -174,8 +183,10 @@ DrawnPhases read_sunnybrook(const fs::path& folder, const DicomStack& stack, Pix
     } else {
       const Place place = place_of(places, name->instance, file);
       drawn_on.emplace(place.slice, file);
-      drawn.phases[place.phase].short_axis.push_back(
-          read_contour(file, place, name->border == "i" ? Side::endo : Side::epi, origin));
+      const Side side = name->border == "i" ? Side::endo : Side::epi;
+      std::vector<Contour>& loops = drawn.phases[place.phase].short_axis;
+      check_first(loops, place, side, file);
+      loops.push_back(read_contour(file, place, side, origin));
     }
   }
   if (drawn.phases.empty())
