@@ -397,20 +397,24 @@ std::vector<double> volume_curve(const Volume& volume, const std::vector<int>& c
 
 Phases propose_phases(const std::vector<double>& volumes) {
   constexpr double grown = 0.1;  // of the stroke volume
-  const int n = static_cast<int>(volumes.size());
+  std::vector<int> shown;        // frames without labels say nothing of the heart
+  for (std::size_t f = 0; f < volumes.size(); ++f)
+    if (volumes[f] > 0.0)
+      shown.push_back(static_cast<int>(f));
+  if (shown.empty())
+    return {};
+  const auto smaller = [&](int a, int b) { return volumes[a] < volumes[b]; };
+  const auto systole = std::min_element(shown.begin(), shown.end(), smaller);
   Phases phases;
-  phases.end_diastole =
-      static_cast<int>(std::max_element(volumes.begin(), volumes.end()) - volumes.begin());
-  phases.end_systole =
-      static_cast<int>(std::min_element(volumes.begin(), volumes.end()) - volumes.begin());
-  phases.early_diastole = phases.end_systole;
-  const double least = volumes[phases.end_systole];
-  const double stroke = volumes[phases.end_diastole] - least;
-  for (int k = 1; k < n; ++k) {
-    const int at = (phases.end_systole + k) % n;
+  phases.end_diastole = *std::max_element(shown.begin(), shown.end(), smaller);
+  phases.end_systole = *systole;
+  phases.early_diastole = *systole;
+  const double stroke = volumes[phases.end_diastole] - volumes[phases.end_systole];
+  std::rotate(shown.begin(), systole, shown.end());
+  for (const int at : shown) {
     if (at == phases.end_diastole)
       break;
-    if (volumes[at] >= least + grown * stroke) {
+    if (at != phases.end_systole && volumes[at] >= volumes[phases.end_systole] + grown * stroke) {
       phases.early_diastole = at;
       break;
     }

@@ -54,9 +54,10 @@ struct LabelContours {
 [[nodiscard]] std::vector<double> volume_curve(const Volume& volume,
                                                const std::vector<int>& cavity);
 
-/// Phases proposed from a volume curve, counted from 0: end-diastole at the largest volume,
-/// end-systole at the smallest, early diastole at the first time after it (going round) at which
-/// the volume has grown by a tenth of the stroke volume.
+/// Phases proposed from a volume curve, counted from 0, among the frames that show any volume:
+/// end-diastole at the largest, end-systole at the smallest, early diastole at the first time after
+/// it (going round) and before end-diastole at which the volume has grown by a tenth of the stroke
+/// volume; end-systole again where no frame shows that.
 struct Phases {
   int end_diastole = 0, end_systole = 0, early_diastole = 0;
 };

@@ -1,6 +1,7 @@
 #include "lv/image/sunnybrook.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/files.hpp"
 #include "lv/base/lines.hpp"
 
 #include <fmt/format.h>
@@ -156,22 +157,15 @@ void check_phases(const DicomStack& stack, const std::map<int, fs::path>& drawn)
 
 DrawnPhases read_sunnybrook(const fs::path& folder, const DicomStack& stack, PixelOrigin origin,
                             DrawnBy drawn_by) {
-  std::error_code failed;
-  if (!fs::is_directory(folder, failed))
-    throw InputError(folder.string(), "there is no such folder",
-                     "Name the folder with the contour files");
+  const FolderFiles files = files_in(folder, true);
   const auto places = images_by_instance(stack);
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder))
-    if (entry.is_regular_file())
-      files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
   DrawnPhases drawn;
+  drawn.notes = summary(files.left_out);
   std::map<int, fs::path> drawn_on;
   int others = 0;
   int papillary = 0;
   int unknown = 0;
-  for (const fs::path& file : files) {
+  for (const fs::path& file : files.files) {
     const auto name = parse_name(file.filename().string());
     unknown += name ? 0 : 1;
     if (!name)

@@ -20,6 +20,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <system_error>
 
 namespace lv::job {
 namespace {
@@ -140,8 +141,27 @@ std::vector<int> infarcted_labels(const Case& c) {
   return labels;
 }
 
+/// The one frame of a label map that the case means: a person has one scar.
+image::Volume scar_map(const Case& c, const std::string& file) {
+  image::Volume volume = image::read_nifti(file);
+  for (const std::string& note : volume.notes)
+    log::warn("scar: {}", note);
+  if (volume.frames == 1 || c.scar.frame > 0)
+    return image::frame_of(volume, std::max(c.scar.frame, 1), place_of(c, "infarct.labels.frame"));
+  std::vector<int> frames = image::frames_with(volume, infarcted_labels(c));
+  if (frames.size() > 1)
+    throw InputError(place_of(c, "infarct.labels.file"),
+                     fmt::format("{} has {} frames and infarct.labels.frame is not set; there is "
+                                 "scar in the frames {}",
+                                 volume.file, volume.frames, fmt::join(frames, ", ")),
+                     "Choose a frame");
+  frames.push_back(1);
+  log::info("scar: frame {} of {}", frames.front(), volume.file);
+  return image::frame_of(volume, frames.front(), place_of(c, "infarct.labels.file"));
+}
+
 Infarct within_nifti(const Case& c, const Shape& shape, const Mesh& mesh, const std::string& file) {
-  const image::Volume volume = image::read_nifti(file);
+  const image::Volume volume = scar_map(c, file);
   image::require_labels(volume, 0, c.scar.scar, place_of(c, "infarct.labels.scar"),
                         "infarct.labels.scar");
   image::require_labels(volume, 0, c.scar.no_reflow, place_of(c, "infarct.labels.no_reflow"),
@@ -348,7 +368,8 @@ Ingredients infarct_files(const Case& c) {
     add("infarct.labels.file", c.scar.labels);
   if (c.scar.source == InfarctSource::lge && !c.scar.lge.image.empty()) {
     const auto place = beside(c, c.scar.lge.image);
-    if (std::filesystem::is_directory(place))
+    std::error_code failed;
+    if (std::filesystem::is_directory(place, failed))
       add_folder(place, files);
     else
       add("infarct.lge.image", c.scar.lge.image);

@@ -230,10 +230,13 @@ void declare_infarct(Declarations& d) {
       "are relative to the case file");
   d.table = "infarct.labels";
   d.text("file", LV_AT(scar.labels),
-         "labelled volume in image space: NIfTI (.nii, .nii.gz), .vti or .vtk (structured points)");
+         "labelled volume in image space: NIfTI (.nii, .nii.gz, .hdr with .img), .vti or .vtk "
+         "(structured points)");
   d.text("array", LV_AT(scar.array),
          "array of labels, at points (centres of voxels) or in cells; empty: the only one");
   d.whole_list("scar", LV_AT(scar.scar), "the labels that mean scar");
+  d.whole("frame", LV_AT(scar.frame), between(0, 10000),
+          "time of a map of several, counted from 1; 0: the only one that shows scar");
   d.whole_list("no_reflow", LV_AT(scar.no_reflow),
                "the labels of the scar's dark core, which is infarct too", true);
   d.whole_list("muscle", LV_AT(scar.muscle), "the labels of the other muscle, for in_plane", true);

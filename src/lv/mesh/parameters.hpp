@@ -107,6 +107,7 @@ struct InfarctParameters {
   std::vector<int> scar{1};    ///< the labels that mean scar
   std::vector<int> no_reflow;  ///< the labels that mean its dark core; may be empty
   std::vector<int> muscle;     ///< the labels of other muscle, for in_plane; may be empty
+  int frame = 0;               ///< of a label map of several times, from 1; 0: the only one
   bool in_plane = false;       ///< move each slice of a label map onto the wall
   std::array<double, 3> shift{0.0, 0.0, 0.0};  ///< of the images in image space [mm]
   LateEnhancement lge;
