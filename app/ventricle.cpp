@@ -1,6 +1,7 @@
 #include "lv/base/check.hpp"
 #include "lv/base/launch.hpp"
 #include "lv/base/parallel.hpp"
+#include "lv/base/printable.hpp"
 #include "lv/base/table.hpp"
 #include "lv/base/units.hpp"
 #include "lv/heartbeat/immersed_beat.hpp"
@@ -62,7 +63,7 @@ void write_new_case(const std::string& file) {
   if (std::filesystem::exists(file))
     throw lv::InputError(file, "exists already", "Choose another name");
   lv::write_file(file, lv::job::starter_case(std::filesystem::path(file).stem()));
-  fmt::print("wrote {}; next: ventricle validate {}\n", file, file);
+  lv::print(fmt::format("wrote {}; next: ventricle validate {}\n", file, file));
 }
 
 /// Runs this program under mpirun if it is to run on several ranks. Its exit code; nothing if this
@@ -83,7 +84,7 @@ int bench(const Command& command, int argc, char** argv) {
   const lv::parallel::Session session(&argc, &argv);
   const std::string result = lv::job::bench(command.bench);
   if (lv::parallel::is_root())
-    fmt::print("{}", result);
+    lv::print(result);
   return 0;
 }
 
@@ -99,7 +100,7 @@ int run_parallel(Command& command, int argc, char** argv) {
     lv::job::run(c, command.run);
   } catch (const lv::heartbeat::Interrupted& stop) {  // thrown on all ranks together
     if (lv::parallel::is_root())
-      fmt::print(stderr, "ventricle: {}\n", stop.what());
+      fmt::print(stderr, "ventricle: {}\n", lv::printable_lines(stop.what()));
     return interrupted;
   }
   return 0;
@@ -109,7 +110,7 @@ int validate(const Command& command, int argc, char** argv) {
   if (lv::launch::under_mpirun())
     throw lv::InputError("validate", "runs on one rank", "Run it without mpirun");
   const lv::parallel::Session session(&argc, &argv);
-  fmt::print("{}", lv::job::validate(lv::job::read_case(command.case_file)));
+  lv::print(lv::job::validate(lv::job::read_case(command.case_file)));
   return 0;
 }
 
@@ -123,7 +124,7 @@ int measure_strain(Command& command, int argc, char** argv) {
 
 int verify(const Command& command, int argc, char** argv) {
   if (command.list) {
-    fmt::print("{}", lv::verify::list());
+    lv::print(lv::verify::list());
     return 0;
   }
   if (command.solve_in.empty())
@@ -146,7 +147,7 @@ int write_page(const Command& command, const std::string& name, int argc, char**
   const lv::parallel::Session session(&argc, &argv);
   const std::string file = command.page.empty() ? name + ".html" : command.page;
   lv::job::write_page(command.works, file);
-  fmt::print("wrote {}\n", file);
+  lv::print(fmt::format("wrote {}\n", file));
   return 0;
 }
 
@@ -313,8 +314,8 @@ int dispatch(int argc, char** argv) {
   if (*run || *fit)
     return run_parallel(command, argc, argv);
   if (app.got_subcommand("phantom")) {
-    fmt::print("{}", lv::phantom::write_study(command.ventricle, command.scan, command.study,
-                                              command.folder));
+    lv::print(
+        lv::phantom::write_study(command.ventricle, command.scan, command.study, command.folder));
     return 0;
   }
   if (*time)
@@ -323,13 +324,13 @@ int dispatch(int argc, char** argv) {
     if (app.got_subcommand(page))
       return write_page(command, page, argc, argv);
   if (app.got_subcommand("images")) {
-    fmt::print("{}", lv::job::list_images(command.images));
+    lv::print(lv::job::list_images(command.images));
     return 0;
   }
   if (app.got_subcommand("verify"))
     return verify(command, argc, argv);
   if (*list)
-    fmt::print("{}", lv::job::manual(command.markdown));
+    lv::print(lv::job::manual(command.markdown));
   return 0;
 }
 
@@ -349,7 +350,7 @@ int fail(const std::string& message, int code, unsigned patience = 2) {
   std::signal(SIGTERM, SIG_DFL);  // from here on mpirun may end this rank
   if (rank != 0)
     sleep(patience);  // the root says it, unless the trouble is this rank's alone
-  fmt::print(stderr, "ventricle: {}\n", message);
+  fmt::print(stderr, "ventricle: {}\n", lv::printable_lines(message));
   std::fflush(nullptr);
   if (parallel)
     size > 1 ? MPI_Abort(MPI_COMM_WORLD, code) : MPI_Finalize();

@@ -1,6 +1,7 @@
 #include "lv/base/log.hpp"
 
 #include "lv/base/parallel.hpp"
+#include "lv/base/printable.hpp"
 
 #include <spdlog/sinks/basic_file_sink.h>
 #include <spdlog/sinks/stdout_sinks.h>
@@ -40,10 +41,10 @@ void silence() {
 }
 
 void info(const std::string& line) {
-  logger().info(line);
+  logger().info(printable_lines(line));
 }
 void warn(const std::string& line) {
-  logger().warn(line);
+  logger().warn(printable_lines(line));
 }
 
 std::string duration(double seconds) {

@@ -7,12 +7,12 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <optional>
 #include <sstream>
 #include <system_error>
 #include <utility>
@@ -52,14 +52,12 @@ std::vector<Number> parsed(const std::vector<std::string>& fields, const std::st
                            Number missing) {
   std::vector<Number> numbers;
   for (const std::string& field : fields) {
-    Number value = missing;
-    const char* all = field.data() + field.size();
-    const auto [end, error] = std::from_chars(field.data(), all, value);
-    if (!field.empty() && (error != std::errc() || end != all))
+    const auto value = field.empty() ? std::optional(missing) : number_of<Number>(field);
+    if (!value)
       throw InputError(fmt::format("column {}", column),
                        fmt::format("\"{}\" is not such a number as this column holds", field),
                        "The table seems to be damaged");
-    numbers.push_back(value);
+    numbers.push_back(*value);
   }
   return numbers;
 }

@@ -34,9 +34,42 @@ std::vector<double> as_numbers(const std::vector<int>& whole) {
   return {whole.begin(), whole.end()};
 }
 
+std::vector<double> as_numbers(const std::vector<Vec3>& vectors) {
+  std::vector<double> numbers;
+  for (const Vec3& v : vectors)
+    numbers.insert(numbers.end(), v.begin(), v.end());
+  return numbers;
+}
+
+std::vector<Vec3> load_vectors(const Archive& archive, const std::string& name,
+                               std::optional<std::size_t> count = {}) {
+  const std::vector<double>& numbers = archive.get_rows(name, 3, count);
+  std::vector<Vec3> vectors;
+  for (std::size_t a = 0; a < numbers.size(); a += 3)
+    vectors.emplace_back(&numbers[a]);
+  return vectors;
+}
+
 void store(const mesh::Surface& surface, const std::string& name, Archive& archive) {
   archive.set(name + ".nodes_per_face", {static_cast<double>(surface.nodes_per_face)});
   archive.set(name, as_numbers(surface.nodes));
+}
+
+void store(const mesh::GivenFibres& fibres, Archive& archive) {
+  archive.set("fibres.at_nodes", {fibres.at == mesh::GivenFibres::At::nodes ? 1.0 : 0.0});
+  archive.set("fibres.f0", as_numbers(fibres.f0));
+  archive.set("fibres.s0", as_numbers(fibres.s0));
+}
+
+mesh::GivenFibres load_fibres(const Archive& archive, const mesh::Mesh& m) {
+  using At = mesh::GivenFibres::At;
+  const At at = archive.number("fibres.at_nodes") == 0.0 ? At::cells : At::nodes;
+  const std::size_t count =
+      at == At::nodes ? m.nodes.size() : static_cast<std::size_t>(m.cell_count());
+  const auto load = [&](const char* name) {
+    return archive.get(name).empty() ? std::vector<Vec3>{} : load_vectors(archive, name, count);
+  };
+  return {at, load("fibres.f0"), load("fibres.s0")};
 }
 
 mesh::Surface load_surface(const Archive& archive, const std::string& name) {
@@ -242,11 +275,12 @@ void write_mesh_result(const MeshResult& result, const std::filesystem::path& fo
   Archive archive;
   archive.set("kind", {m.kind == mesh::CellKind::hexahedron ? 0.0 : 1.0});
   archive.set("order", {static_cast<double>(m.order)});
-  archive.set("nodes", {m.nodes.front().data(), m.nodes.front().data() + 3 * m.nodes.size()});
+  archive.set("nodes", as_numbers(m.nodes));
   archive.set("cells", as_numbers(m.cells));
   archive.set("transmural", m.transmural);
   archive.set("infarct", m.infarct);
   archive.set("infarcted", result.infarcted);
+  store(m.fibres, archive);
   store(m.endo, "endo", archive);
   store(m.epi, "epi", archive);
   store(m.base, "base", archive);
@@ -280,13 +314,12 @@ MeshResult read_mesh_result(const std::filesystem::path& folder) {
   mesh::Mesh& m = result.mesh;
   m.kind = archive.number("kind") == 0.0 ? mesh::CellKind::hexahedron : mesh::CellKind::tetrahedron;
   m.order = heartbeat::whole_number(archive.number("order"));
-  const auto& nodes = archive.get_rows("nodes", 3);
-  for (std::size_t a = 0; a < nodes.size(); a += 3)
-    m.nodes.emplace_back(nodes[a], nodes[a + 1], nodes[a + 2]);
+  m.nodes = load_vectors(archive, "nodes");
   m.cells = archive.get_whole("cells");
   m.transmural = archive.get("transmural");
   m.infarct = archive.get("infarct");
   result.infarcted = archive.get("infarcted");
+  m.fibres = load_fibres(archive, m);
   m.endo = load_surface(archive, "endo");
   m.epi = load_surface(archive, "epi");
   m.base = load_surface(archive, "base");

@@ -4,6 +4,7 @@
 #include "lv/mesh/mesh.hpp"
 
 #include <filesystem>
+#include <functional>
 #include <string>
 
 /// Meshes for tests, and the files of other programs that hold them.
@@ -41,8 +42,28 @@ enum class VtkTags { none, surface_cells, point_arrays };
 [[nodiscard]] std::string vtu_text(const mesh::Mesh& mesh, VtkTags tags);
 
 /// Gmsh files with the physical surfaces "endo" (1), "epi" (2), "base" (3), and the volumes "wall"
-/// (1) and, for the flagged cells, "scar" (2).
-[[nodiscard]] std::string gmsh22_text(const mesh::Mesh& mesh, const std::vector<bool>& scar = {});
+/// (1) and, for the flagged cells, "scar" (2). Elements of format 2.2 have their group's number as
+/// elementary tag, or that of the function.
+[[nodiscard]] std::string gmsh22_text(const mesh::Mesh& mesh, const std::vector<bool>& scar = {},
+                                      const std::function<int(int group)>& elementary = {});
 [[nodiscard]] std::string gmsh41_text(const mesh::Mesh& mesh);
+
+/// The mesh's elements as quadratic ones: nodes in the middles of edges behind the corners.
+struct Quadratic {
+  std::vector<Vec3> nodes;
+  std::vector<std::vector<int>> cells;
+};
+[[nodiscard]] Quadratic quadratic(const mesh::Mesh& mesh);
+
+/// The surface of a side as a .vtp file; its points are numbered as the mesh's nodes are, plus
+/// `first`, in the array GlobalNodeID; without it if that is negative.
+[[nodiscard]] std::string vtp_text(const mesh::Mesh& mesh, const mesh::Surface& side, int first);
+
+/// A data array of a .vtu file.
+[[nodiscard]] std::string vtu_array(const std::string& name, const std::vector<Vec3>& vectors);
+
+/// The text with the first `from` in it replaced, which must be there.
+[[nodiscard]] std::string replaced(std::string text, const std::string& from,
+                                   const std::string& to);
 
 }  // namespace lv::test
