@@ -80,7 +80,10 @@ class SurfaceNodes {
       vtkDataArray& numbers = numbers_of(grid);
       for (vtkIdType p = 0; p < grid.GetNumberOfPoints(); ++p)
         nodes_.emplace(std::llround(numbers.GetComponent(p, 0)), static_cast<int>(p));
+      return;
     }
+    check_places(surface);
+    check_places(grid);
     locator_->SetDataSet(&grid);
     locator_->BuildLocator();
     tolerance_ = 1e-5 * grid.GetLength();
@@ -92,6 +95,14 @@ class SurfaceNodes {
 
  private:
   static constexpr const char* numbers_name = "GlobalNodeID";
+
+  /// VTK does not expect others.
+  void check_places(vtkDataSet& data) const {
+    for (vtkIdType p = 0; p < data.GetNumberOfPoints(); ++p)
+      if (!Vec3(data.GetPoint(p)).allFinite())
+        throw InputError(file_, fmt::format("point {} of it or of the mesh is not a place", p),
+                         "Repair the coordinates in the file");
+  }
 
   static bool has_numbers(vtkDataSet& data) {
     return data.GetPointData()->HasArray(numbers_name) != 0;

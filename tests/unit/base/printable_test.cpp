@@ -22,14 +22,15 @@ TEST_CASE("marks that turn or hide text are written out, letters of any script s
   CHECK(printable("a\u202Eb\u2066c\u200Fd\u200Be\uFEFFf\u2028") ==
         "a\\u202eb\\u2066c\\u200fd\\u200be\\ufefff\\u2028");
   CHECK(printable("\U000E0041") == "\\U000e0041");
-  for (const std::string kept : {"Grün, mm³, 心臓, שלום, سلام, 🫀", "a\\x1b is text", ""})
+  for (const std::string kept :
+       {"Grün, mm³, 心臓, שלום, سلام, 🫀", "a\\x1b is text", ""})
     CHECK(printable(kept) == kept);
 }
 
 TEST_CASE("bytes that are not UTF-8 are written out", "[unit][base]") {
-  CHECK(printable("Gr\xFC\xDF") == "Gr\\xfc\\xdf");            // Latin-1
-  CHECK(printable("\xC0\xAF") == "\\xc0\\xaf");                // longer than need be
-  CHECK(printable("\xED\xA0\x80") == "\\xed\\xa0\\x80");       // half of a pair
+  CHECK(printable("Gr\xFC\xDF") == "Gr\\xfc\\xdf");                // Latin-1
+  CHECK(printable("\xC0\xAF") == "\\xc0\\xaf");                    // longer than need be
+  CHECK(printable("\xED\xA0\x80") == "\\xed\\xa0\\x80");           // half of a pair
   CHECK(printable("\xF4\x90\x80\x80") == "\\xf4\\x90\\x80\\x80");  // beyond the last character
   CHECK(printable("cut \xE5\xBF") == "cut \\xe5\\xbf");
   CHECK(printable("\xFF\xFEs\0"s) == "\\xff\\xfes\\x00");
@@ -44,9 +45,8 @@ TEST_CASE("text that is made safe twice is the same, and lines keep their ends",
 
 TEST_CASE("texts in JSON are made safe at any depth, and bytes that are not UTF-8 do not stop it",
           "[unit][base]") {
-  const nlohmann::ordered_json json{{"name", "\x1B[2J"},
-                                    {"notes", {"a\u202Eb", {{"deep", "\xFF"}}}},
-                                    {"number", 1.5}};
+  const nlohmann::ordered_json json{
+      {"name", "\x1B[2J"}, {"notes", {"a\u202Eb", {{"deep", "\xFF"}}}}, {"number", 1.5}};
   CHECK(json_text(json, -1) ==
         R"({"name":"\\x1b[2J","notes":["a\\u202eb",{"deep":"\\xff"}],"number":1.5})");
 }

@@ -313,8 +313,8 @@ std::string vtp_text(const Mesh& mesh, const Surface& side, int first) {
   std::map<int, int> place;
   for (const int node : nodes) {
     place[node] = static_cast<int>(place.size());
-    points += fmt::format("{} {} {}\n", mesh.nodes[node].x(), mesh.nodes[node].y(),
-                          mesh.nodes[node].z());
+    points +=
+        fmt::format("{} {} {}\n", mesh.nodes[node].x(), mesh.nodes[node].y(), mesh.nodes[node].z());
     ids += fmt::format("{}\n", node + first);
   }
   std::string connectivity;
