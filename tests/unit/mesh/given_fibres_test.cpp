@@ -24,11 +24,10 @@ using mesh::GivenFibres;
 using mesh::ImportedMesh;
 using mesh::ImportParameters;
 using mesh::Mesh;
+using test::kinds;
 using test::replaced;
 using test::VtkTags;
 using At = GivenFibres::At;
-
-const std::vector<CellKind> kinds{CellKind::hexahedron, CellKind::tetrahedron};
 
 /// A direction that turns with the place, of no particular length or sign.
 Vec3 along(const Vec3& X) {
@@ -55,13 +54,7 @@ std::vector<Vec3> in_cells(const Mesh& mesh, Vec3 (*direction)(const Vec3&), int
   return directions;
 }
 
-ImportParameters by_numbers() {
-  const std::array<std::string, 3> numbers{"1", "2", "3"};
-  ImportParameters parameters;
-  parameters.side_array = "side";
-  parameters.endo = numbers[0];
-  parameters.epi = numbers[1];
-  parameters.base = numbers[2];
+ImportParameters with_fibres(ImportParameters parameters) {
   parameters.fibres = "f0";
   parameters.sheets = "s0";
   return parameters;
@@ -80,15 +73,9 @@ std::string vtu_with_fibres(const Mesh& mesh, At at) {
                             test::vtu_array("s0", in_cells(mesh, across, faces)));
 }
 
-ImportedMesh import_text(const std::string& text, ImportParameters parameters) {
-  const test::TemporaryFile file(".vtu", text);
-  parameters.file = file.path();
-  return mesh::import_mesh(parameters);
-}
-
 std::string message(const std::string& text, const ImportParameters& parameters) {
   try {
-    static_cast<void>(import_text(text, parameters));
+    static_cast<void>(test::import_text(".vtu", text, parameters));
   } catch (const InputError& error) {
     return error.what();
   }
@@ -133,7 +120,8 @@ TEST_CASE(
       Mesh mesh = test::coarse_mesh(kind);
       for (Vec3& X : mesh.nodes)
         X = turn * X + Vec3(120.0, -35.0, 410.0);
-      const ImportedMesh imported = import_text(vtu_with_fibres(mesh, at), by_numbers());
+      const ImportedMesh imported =
+          test::import_text(".vtu", vtu_with_fibres(mesh, at), with_fibres(test::by_cells()));
       const GivenFibres& fibres = imported.mesh.fibres;
       REQUIRE(fibres.at == at);
       REQUIRE(fibres.f0.size() ==
@@ -161,11 +149,10 @@ TEST_CASE("fibres and sheets come from SimVascular's files of the same cells", "
   };
   const test::TemporaryFile fibres(".vtu", file_of(along));
   const test::TemporaryFile sheets(".vtu", file_of(across));
-  ImportParameters parameters;
-  parameters.sides = mesh::SideSource::geometry;
+  ImportParameters parameters = test::by_geometry();
   parameters.fibres = fibres.path();
   parameters.sheets = sheets.path();
-  const ImportedMesh imported = import_text(plain, parameters);
+  const ImportedMesh imported = test::import_text(".vtu", plain, parameters);
   REQUIRE(imported.mesh.fibres.f0.size() == static_cast<std::size_t>(mesh.cell_count()));
   CHECK(angle(imported.frame.axes * imported.mesh.fibres.f0[7],
               along(mesh.nodes[mesh.cell(7)[0]])) < 1e-9);
@@ -192,10 +179,7 @@ TEST_CASE("directions that are none are refused with their place", "[unit][mesh]
   };
   const std::vector<Vec3> f0 = in_cells(mesh, along, 0);
   const std::vector<Vec3> s0 = in_cells(mesh, across, 0);
-  ImportParameters parameters;
-  parameters.sides = mesh::SideSource::geometry;
-  parameters.fibres = "f0";
-  parameters.sheets = "s0";
+  ImportParameters parameters = with_fibres(test::by_geometry());
   std::vector<Vec3> bad = f0;
   bad[5].setZero();
   bad[9].setZero();
@@ -225,15 +209,15 @@ TEST_CASE("directions that are none are refused with their place", "[unit][mesh]
 
 TEST_CASE("what may be fibres and is not named is noted", "[unit][mesh]") {
   const Mesh mesh = test::coarse_mesh(CellKind::hexahedron);
-  ImportParameters parameters;
-  parameters.sides = mesh::SideSource::geometry;
+  ImportParameters parameters = test::by_geometry();
   const auto notes = [&](const std::string& name, double length) {
     std::vector<Vec3> directions = at_nodes(mesh, along);
     for (Vec3& direction : directions)
       direction = length * direction.normalized();
-    return import_text(replaced(test::vtu_text(mesh, VtkTags::none), "<PointData>\n",
-                                "<PointData>\n" + test::vtu_array(name, directions)),
-                       parameters)
+    return test::import_text(".vtu",
+                             replaced(test::vtu_text(mesh, VtkTags::none), "<PointData>\n",
+                                      "<PointData>\n" + test::vtu_array(name, directions)),
+                             parameters)
         .notes;
   };
   REQUIRE(notes("muscle", 1.0).size() == 1);  // unit vectors

@@ -16,6 +16,7 @@ using mesh::CellKind;
 using mesh::ImportParameters;
 using mesh::Mesh;
 using test::AbaqusTags;
+using test::by_geometry;
 using test::replaced;
 using test::VtkTags;
 
@@ -40,12 +41,6 @@ std::string message(const std::string& ending, const std::string& text,
 
 std::string abaqus_message(const Mesh& mesh, ImportParameters parameters = {}) {
   return message(".inp", test::abaqus_text(mesh, AbaqusTags::node_sets), std::move(parameters));
-}
-
-ImportParameters by_geometry() {
-  ImportParameters parameters;
-  parameters.sides = mesh::SideSource::geometry;
-  return parameters;
 }
 
 Catch::Matchers::StdString::ContainsMatcher has(const std::string& part) {

@@ -9,6 +9,9 @@
 #include <fmt/ranges.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
 #include <fstream>
 #include <map>
 #include <stdexcept>
@@ -141,6 +144,15 @@ std::vector<GmshElement> gmsh_elements(const Mesh& mesh, const std::vector<bool>
   return elements;
 }
 
+template <class Number>
+void append(std::string& bytes, Number value, bool swapped) {
+  std::array<char, sizeof(Number)> raw;
+  std::memcpy(raw.data(), &value, sizeof(Number));
+  if (swapped)
+    std::reverse(raw.begin(), raw.end());
+  bytes.append(raw.begin(), raw.end());
+}
+
 constexpr const char* physical_names =
     "$PhysicalNames\n5\n2 1 \"endo\"\n2 2 \"epi\"\n2 3 \"base\"\n3 1 \"wall\"\n3 2 "
     "\"scar\"\n$EndPhysicalNames\n";
@@ -190,6 +202,29 @@ TemporaryFile::TemporaryFile(const std::string& ending, const std::string& text)
 TemporaryFile::~TemporaryFile() {
   std::error_code ignored;
   std::filesystem::remove(path_, ignored);
+}
+
+mesh::ImportedMesh import_text(const std::string& ending, const std::string& text,
+                               mesh::ImportParameters parameters) {
+  const TemporaryFile file(ending, text);
+  parameters.file = file.path();
+  return mesh::import_mesh(parameters);
+}
+
+mesh::ImportParameters by_geometry() {
+  mesh::ImportParameters parameters;
+  parameters.sides = mesh::SideSource::geometry;
+  return parameters;
+}
+
+mesh::ImportParameters by_cells() {
+  const std::array<std::string, 3> numbers{"1", "2", "3"};
+  mesh::ImportParameters parameters;
+  parameters.side_array = "side";
+  parameters.endo = numbers[0];
+  parameters.epi = numbers[1];
+  parameters.base = numbers[2];
+  return parameters;
 }
 
 std::string abaqus_text(const Mesh& mesh, AbaqusTags tags) {
@@ -277,6 +312,39 @@ std::string gmsh22_text(const Mesh& mesh, const std::vector<bool>& scar,
     text += fmt::format("{} {} 2 {} {} {}\n", e.number, e.type, e.entity,
                         elementary ? elementary(e.entity) : e.entity, e.nodes);
   return text + "$EndElements\n";
+}
+
+std::string gmsh22_bytes(const Mesh& mesh, bool swapped) {
+  std::string bytes = "$MeshFormat\n2.2 1 8\n";
+  append(bytes, std::int32_t{1}, swapped);
+  bytes +=
+      "\n$EndMeshFormat\n$PhysicalNames\n3\n2 1 \"endo\"\n2 2 \"epi\"\n2 3 \"base\"\n"
+      "$EndPhysicalNames\n$Nodes\n" +
+      std::to_string(mesh.nodes.size()) + "\n";
+  for (std::size_t a = 0; a < mesh.nodes.size(); ++a) {
+    append(bytes, static_cast<std::int32_t>(a + 1), swapped);
+    for (const double x : mesh.nodes[a])
+      append(bytes, x, swapped);
+  }
+  const int faces = mesh.endo.size() + mesh.epi.size() + mesh.base.size();
+  bytes += fmt::format("\n$EndNodes\n$Elements\n{}\n", faces + mesh.cell_count());
+  std::int32_t number = 0;
+  const auto block = [&](std::int32_t type, int count, int group, const auto& nodes_of) {
+    for (const std::int32_t value : {type, count, 2})
+      append(bytes, value, swapped);
+    for (int i = 0; i < count; ++i) {
+      for (const std::int32_t value : {++number, group, 1})
+        append(bytes, value, swapped);
+      for (const int node : nodes_of(i))
+        append(bytes, static_cast<std::int32_t>(node + 1), swapped);
+    }
+  };
+  const bool hexahedra = mesh.kind == CellKind::hexahedron;
+  for (int s = 0; s < 3; ++s)
+    block(hexahedra ? 3 : 2, sides(mesh)[s]->size(), s + 1,
+          [&](int f) { return sides(mesh)[s]->face(f); });
+  block(hexahedra ? 5 : 4, mesh.cell_count(), 7, [&](int c) { return mesh.cell(c); });
+  return bytes + "\n$EndElements\n";
 }
 
 std::string gmsh41_text(const Mesh& mesh) {

@@ -1,11 +1,13 @@
 #pragma once
 
 #include "lv/geometry/ellipsoid.hpp"
+#include "lv/mesh/import.hpp"
 #include "lv/mesh/mesh.hpp"
 
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 /// Meshes for tests, and the files of other programs that hold them.
 namespace lv::test {
@@ -31,6 +33,18 @@ class TemporaryFile {
   std::filesystem::path path_;
 };
 
+/// What import_mesh makes of a file that ends in `ending` and holds `text`.
+[[nodiscard]] mesh::ImportedMesh import_text(const std::string& ending, const std::string& text,
+                                             mesh::ImportParameters parameters = {});
+
+/// Sides by geometry; by the numbers 1, 2, 3 in the cell array "side"; else they are "endo", "epi"
+/// and "base".
+[[nodiscard]] mesh::ImportParameters by_geometry();
+[[nodiscard]] mesh::ImportParameters by_cells();
+
+inline const std::vector<mesh::CellKind> kinds{mesh::CellKind::hexahedron,
+                                               mesh::CellKind::tetrahedron};
+
 /// How an ABAQUS file marks the sides ENDO, EPI and BASE.
 enum class AbaqusTags { none, labelled_faces, node_sets, shells };
 [[nodiscard]] std::string abaqus_text(const mesh::Mesh& mesh, AbaqusTags tags);
@@ -47,6 +61,10 @@ enum class VtkTags { none, surface_cells, point_arrays };
 [[nodiscard]] std::string gmsh22_text(const mesh::Mesh& mesh, const std::vector<bool>& scar = {},
                                       const std::function<int(int group)>& elementary = {});
 [[nodiscard]] std::string gmsh41_text(const mesh::Mesh& mesh);
+
+/// A binary file of format 2.2 with those sides and the volume 7, all of one elementary tag, in
+/// this machine's order of bytes or the other.
+[[nodiscard]] std::string gmsh22_bytes(const mesh::Mesh& mesh, bool swapped);
 
 /// The mesh's elements as quadratic ones: nodes in the middles of edges behind the corners.
 struct Quadratic {

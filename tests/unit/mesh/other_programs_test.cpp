@@ -27,17 +27,11 @@ using mesh::ImportParameters;
 using mesh::Mesh;
 using mesh::Surface;
 using test::AbaqusTags;
+using test::by_geometry;
+using test::import_text;
+using test::kinds;
 using test::replaced;
 using test::VtkTags;
-
-const std::vector<CellKind> kinds{CellKind::hexahedron, CellKind::tetrahedron};
-
-ImportedMesh import_text(const std::string& ending, const std::string& text,
-                         ImportParameters parameters = {}) {
-  const test::TemporaryFile file(ending, text);
-  parameters.file = file.path();
-  return mesh::import_mesh(parameters);
-}
 
 std::string refusal(const std::function<void()>& act) {
   try {
@@ -50,12 +44,6 @@ std::string refusal(const std::function<void()>& act) {
 
 Catch::Matchers::StdString::ContainsMatcher has(const std::string& part) {
   return Catch::Contains(part);
-}
-
-ImportParameters by_geometry() {
-  ImportParameters parameters;
-  parameters.sides = mesh::SideSource::geometry;
-  return parameters;
 }
 
 std::vector<mesh::FaceKey> sorted_keys(const Surface& surface) {
@@ -129,47 +117,10 @@ std::string quadratic_gmsh(const test::Quadratic& mesh, int type) {
 }
 
 template <class Number>
-void append(std::string& bytes, Number value, bool swapped = false) {
+void append(std::string& bytes, Number value) {
   std::array<char, sizeof(Number)> raw;
   std::memcpy(raw.data(), &value, sizeof(Number));
-  if (swapped)
-    std::reverse(raw.begin(), raw.end());
   bytes.append(raw.begin(), raw.end());
-}
-
-/// A binary Gmsh file of format 2.2 with sides and the volume "wall" (7), all of one elementary
-/// tag.
-std::string binary_gmsh22(const Mesh& mesh, bool swapped) {
-  std::string bytes = "$MeshFormat\n2.2 1 8\n";
-  append(bytes, std::int32_t{1}, swapped);
-  bytes +=
-      "\n$EndMeshFormat\n$PhysicalNames\n3\n2 1 \"endo\"\n2 2 \"epi\"\n2 3 \"base\"\n"
-      "$EndPhysicalNames\n$Nodes\n" +
-      std::to_string(mesh.nodes.size()) + "\n";
-  for (std::size_t a = 0; a < mesh.nodes.size(); ++a) {
-    append(bytes, static_cast<std::int32_t>(a + 1), swapped);
-    for (const double x : mesh.nodes[a])
-      append(bytes, x, swapped);
-  }
-  const std::array<const Surface*, 3> sides{&mesh.endo, &mesh.epi, &mesh.base};
-  const int faces = mesh.endo.size() + mesh.epi.size() + mesh.base.size();
-  bytes += fmt::format("\n$EndNodes\n$Elements\n{}\n", faces + mesh.cell_count());
-  std::int32_t number = 0;
-  const auto block = [&](std::int32_t type, int count, int group, const auto& nodes_of) {
-    for (const std::int32_t value : {type, count, 2})
-      append(bytes, value, swapped);
-    for (int i = 0; i < count; ++i) {
-      for (const std::int32_t value : {++number, group, 1})
-        append(bytes, value, swapped);
-      for (const int node : nodes_of(i))
-        append(bytes, static_cast<std::int32_t>(node + 1), swapped);
-    }
-  };
-  const bool hexahedra = mesh.kind == CellKind::hexahedron;
-  for (int s = 0; s < 3; ++s)
-    block(hexahedra ? 3 : 2, sides[s]->size(), s + 1, [&](int f) { return sides[s]->face(f); });
-  block(hexahedra ? 5 : 4, mesh.cell_count(), 7, [&](int c) { return mesh.cell(c); });
-  return bytes + "\n$EndElements\n";
 }
 
 /// A tetrahedron with a corner at (10, 20, 30) and edges of 2 along the axes.
@@ -275,13 +226,13 @@ TEST_CASE(
 TEST_CASE("binary files of Gmsh 2.2 are read in both orders of bytes", "[unit][mesh]") {
   for (const CellKind kind : kinds) {
     const Mesh mesh = test::coarse_mesh(kind);
-    check_sides(import_text(".msh", binary_gmsh22(mesh, true)).mesh, mesh);
-    const std::string bytes = binary_gmsh22(mesh, false);
+    check_sides(import_text(".msh", test::gmsh22_bytes(mesh, true)).mesh, mesh);
+    const std::string bytes = test::gmsh22_bytes(mesh, false);
     check_sides(import_text(".msh", bytes).mesh, mesh);
     for (const double share : {0.2, 0.6, 0.95})
       CHECK_THAT(refusal([&] {
-                   import_text(".msh",
-                               bytes.substr(0, static_cast<std::size_t>(
+                   return import_text(
+                       ".msh", bytes.substr(0, static_cast<std::size_t>(
                                                    share * static_cast<double>(bytes.size()))));
                  }),
                  has("cannot be read") && has("truncated or damaged"));
@@ -323,7 +274,7 @@ TEST_CASE("damaged lines of Gmsh 2.2 are named", "[unit][mesh]") {
   const Mesh mesh = test::coarse_mesh(CellKind::hexahedron);
   const std::string text = test::gmsh22_text(mesh);
   const auto message = [&](const std::string& from, const std::string& to) {
-    return refusal([&] { import_text(".msh", replaced(text, from, to)); });
+    return refusal([&] { return import_text(".msh", replaced(text, from, to)); });
   };
   CHECK_THAT(message("\n7 ", "\n6 "), has("node 6 is defined a second time"));
   CHECK_THAT(message("\n7 ", "\nx "), has("\"x\" is not a number"));
@@ -380,14 +331,15 @@ TEST_CASE("sides come from files of their surfaces, by the numbers of nodes or b
       Mesh moved = mesh;
       for (Vec3& X : moved.nodes)
         X.x() += 5.0;
-      CHECK_THAT(
-          refusal([&] { import_text(".vtu", test::vtu_text(moved, VtkTags::none), parameters); }),
-          has("no node of the mesh lies at point"));
+      CHECK_THAT(refusal([&] {
+                   return import_text(".vtu", test::vtu_text(moved, VtkTags::none), parameters);
+                 }),
+                 has("no node of the mesh lies at point"));
     }
     const test::TemporaryFile other(".vtp", test::vtp_text(mesh, mesh.endo, 1000000));
     ImportParameters parameters;
     parameters.endo = other.path();
-    CHECK_THAT(refusal([&] { import_text(".vtu", numbered, parameters); }),
+    CHECK_THAT(refusal([&] { return import_text(".vtu", numbered, parameters); }),
                has("GlobalNodeID 10") && has("is no node of the mesh"));
   }
 }
@@ -413,8 +365,9 @@ TEST_CASE("a face that is in the sets of endocardium and epicardium alone is ref
   Mesh mesh = test::coarse_mesh(CellKind::hexahedron);
   for (int i = 0; i < 4; ++i)
     mesh.epi.nodes.push_back(mesh.endo.face(0)[i]);
-  CHECK_THAT(refusal([&] { import_text(".inp", test::abaqus_text(mesh, AbaqusTags::node_sets)); }),
-             has("is tagged both as endocardium and as epicardium"));
+  CHECK_THAT(
+      refusal([&] { return import_text(".inp", test::abaqus_text(mesh, AbaqusTags::node_sets)); }),
+      has("is tagged both as endocardium and as epicardium"));
 }
 
 TEST_CASE("a surface that says SPACE=RAS is turned to LPS, one that says nothing is not",
@@ -531,7 +484,7 @@ TEST_CASE("files in UTF-16 are refused by what they are", "[unit][mesh]") {
         {".vtk", test::vtk_text(mesh, VtkTags::point_arrays)},
         {".vtu", test::vtu_text(mesh, VtkTags::point_arrays)},
         {".msh", test::gmsh22_text(mesh)}})
-    CHECK_THAT(refusal([&, e = ending, t = text] { import_text(e, utf16(t)); }),
+    CHECK_THAT(refusal([&, e = ending, t = text] { return import_text(e, utf16(t)); }),
                has("is not UTF-8 text but UTF-16"));
   CHECK_THAT(refusal([&] { contains(".stl", utf16(stl_text("x")), Vec3::Zero()); }),
              has("is not UTF-8 text but UTF-16"));
