@@ -196,6 +196,8 @@ void check_contents(const std::filesystem::path& work) {
 WorkLock::WorkLock(const std::filesystem::path& work) {
   std::error_code error;
   std::filesystem::create_directories(work, error);
+  if (std::filesystem::is_directory(work, error))
+    check_contents(work);
   const std::filesystem::path file = work / ".lock";
   descriptor_ = ::open(file.c_str(), O_RDWR | O_CREAT, 0644);
   if (descriptor_ < 0)
@@ -210,7 +212,6 @@ WorkLock::WorkLock(const std::filesystem::path& work) {
     throw RunError(fmt::format("another run is at work in {}", work.string()),
                    "Wait for it to end, or name another folder with --work");
   }
-  check_contents(work);
 }
 
 WorkLock::~WorkLock() {
