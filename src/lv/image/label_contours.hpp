@@ -39,7 +39,7 @@ struct LabelContours {
 /// - A map of small voxels whose slices lie askew to the long axis is first resampled: see
 ///   on_short_axis. Otherwise slices whose normal lies more than 25 degrees from the long axis of
 ///   the cavity are refused, more than 15 noted. The long axis is then the principal axis of the
-///   cavity's pixels, if their standard deviation along it is 1.25 times the next one and the next
+///   cavity's pixels, each slice moved onto the line that the middles of most follow, if their standard deviation along it is 1.25 times the next one and the next
 ///   is nearer to the third.
 /// - A wall that reaches the edge of the image is noted.
 /// - Slices with muscle alone count beyond the apex (the end with the smaller cavity), next to it;

@@ -49,6 +49,7 @@ void read_sunnybrook(const Case& c, const image::DicomStack& stack, CineStudy& s
   study.drawn = diastole->second;
   if (!c.strain.long_axis.empty())
     study.drawn.long_axis = geometry::read_curves(beside(c, c.strain.long_axis));
+  image::drop_strays(study.drawn, study.notes);
   image::close_walls(study.drawn, thinnest_wall, study.notes);
   geometry::check_contours(study.drawn);
   if (const auto systole = drawn.phases.find(c.strain.end_systole); systole != drawn.phases.end())

@@ -186,8 +186,13 @@ bool is_drawn(const Case& c) {
 
 Drawn read_drawn(const Case& c) {
   Drawn drawn = read_source(c);
-  if (c.anatomy.source != AnatomySource::contours)
-    image::close_walls(drawn.contours, c.anatomy.contours.fit.thinnest_wall, drawn.notes);
+  const double thinnest = c.anatomy.contours.fit.thinnest_wall;
+  const bool mended = c.anatomy.source != AnatomySource::contours;
+  if (mended)
+    image::drop_strays(drawn.contours, drawn.notes);
+  image::drop_open_base(drawn.contours, thinnest, drawn.notes);
+  if (mended)
+    image::close_walls(drawn.contours, thinnest, drawn.notes);
   geometry::check_contours(drawn.contours);
   return drawn;
 }
