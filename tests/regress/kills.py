@@ -44,14 +44,13 @@ engines = {
     "quasi_static": 'engine = "quasi_static"\n' + common,
     "immersed": 'engine = "immersed"\n' + common + """
 [mesh]
-edge_length = "5 mm"
+edge_length = "4.5 mm"
 
 [box]
-size = ["140 mm", "140 mm", "180 mm"]
-cells = [28, 28, 36]
+cells = [32, 32, 42]
 
 [time]
-longest_step = "7e-4 s"
+longest_step = "6e-4 s"
 
 [protocol]
 filling_ramp = "0.02 s"
