@@ -240,8 +240,10 @@ class Pipeline {
 
   /// The wall without load for the parameters in use, into a folder.
   void unload(const std::filesystem::path& part, const std::filesystem::path& elements) const {
-    make_unloading(fitted_case(part), read_mesh_result(folder(Stage::mesh)),
-                   read_mesh_result(elements).mesh, part, calibration() / unloaded_shape_name);
+    make_unloading(
+        fitted_case(part), read_mesh_result(folder(Stage::mesh)), read_mesh_result(elements).mesh,
+        part,
+        case_.calibration.asked() ? calibration() / unloaded_shape_name : std::filesystem::path());
   }
 
   /// Where the stress-free wall of a beat is.

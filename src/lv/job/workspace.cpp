@@ -183,12 +183,15 @@ std::vector<std::string> state_of(const std::filesystem::path& work) {
 }
 
 void check_contents(const std::filesystem::path& work) {
-  std::error_code failed;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(work)) {
-    const std::filesystem::file_status status = std::filesystem::status(entry, failed);
-    if (!std::filesystem::is_regular_file(status) && !std::filesystem::is_directory(status))
-      throw RunError(fmt::format("{} is neither a file nor a folder{}", entry.path().string(),
-                                 failed ? ": " + failed.message() : ""),
+  using std::filesystem::recursive_directory_iterator;
+  std::error_code ignored;  // what a run that is at work takes away meanwhile is not there
+  recursive_directory_iterator entry(work);
+  for (; entry != recursive_directory_iterator(); entry.increment(ignored)) {
+    const std::filesystem::file_status status = std::filesystem::status(*entry, ignored);
+    const bool is_there = std::filesystem::exists(entry->symlink_status(ignored));
+    if (is_there && !std::filesystem::is_regular_file(status) &&
+        !std::filesystem::is_directory(status))
+      throw RunError(fmt::format("{} is neither a file nor a folder", entry->path().string()),
                      "Remove it, or name another work folder with --work");
   }
 }
@@ -196,8 +199,6 @@ void check_contents(const std::filesystem::path& work) {
 WorkLock::WorkLock(const std::filesystem::path& work) {
   std::error_code error;
   std::filesystem::create_directories(work, error);
-  if (std::filesystem::is_directory(work, error))
-    check_contents(work);
   const std::filesystem::path file = work / ".lock";
   descriptor_ = ::open(file.c_str(), O_RDWR | O_CREAT, 0644);
   if (descriptor_ < 0)
@@ -211,6 +212,12 @@ WorkLock::WorkLock(const std::filesystem::path& work) {
                      "Name a folder on a local disk with --work");
     throw RunError(fmt::format("another run is at work in {}", work.string()),
                    "Wait for it to end, or name another folder with --work");
+  }
+  try {
+    check_contents(work);
+  } catch (...) {
+    ::close(descriptor_);
+    throw;
   }
 }
 
