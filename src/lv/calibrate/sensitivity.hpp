@@ -53,13 +53,17 @@ struct Sensitivity {
   Eigen::MatrixXd covariance;
 };
 
-/// `ed` and `es` are the loads between which strains are measured; without `model.strains` they and
-/// `errors` mean nothing.
+/// What was measured besides the observed volumes. Without `Model::strains`, loads and errors mean
+/// nothing.
+struct Measured {
+  double edv = 0.0;            ///< [mm^3]
+  quasi_static::Loads ed, es;  ///< between which strains are measured
+  Errors errors;
+};
+
 [[nodiscard]] Sensitivity sensitivity(const Model& model, const Parameters& at,
                                       const std::vector<Fitted>& parameters,
-                                      const std::vector<Observation>& observations, double edv,
-                                      const quasi_static::Loads& ed = {},
-                                      const quasi_static::Loads& es = {},
-                                      const Errors& errors = {});
+                                      const std::vector<Observation>& observations,
+                                      const Measured& measured);
 
 }  // namespace lv::calibrate

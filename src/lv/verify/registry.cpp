@@ -8,6 +8,7 @@
 
 namespace lv::verify {
 
+// NOLINTNEXTLINE(readability-function-size): a table
 std::span<const Problem> problems() {
   using enum Length;
   static const std::vector<Problem> all{
