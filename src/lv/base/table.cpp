@@ -1,18 +1,21 @@
 #include "lv/base/table.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/files.hpp"
 #include "lv/base/lines.hpp"
+#include "lv/base/memory.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <optional>
 #include <sstream>
 #include <system_error>
 #include <utility>
@@ -52,14 +55,12 @@ std::vector<Number> parsed(const std::vector<std::string>& fields, const std::st
                            Number missing) {
   std::vector<Number> numbers;
   for (const std::string& field : fields) {
-    Number value = missing;
-    const char* all = field.data() + field.size();
-    const auto [end, error] = std::from_chars(field.data(), all, value);
-    if (!field.empty() && (error != std::errc() || end != all))
+    const auto value = field.empty() ? std::optional(missing) : number_of<Number>(field);
+    if (!value)
       throw InputError(fmt::format("column {}", column),
                        fmt::format("\"{}\" is not such a number as this column holds", field),
                        "The table seems to be damaged");
-    numbers.push_back(value);
+    numbers.push_back(*value);
   }
   return numbers;
 }
@@ -114,10 +115,11 @@ std::string Table::number(double value, int digits) {
 
 void write_file(const std::filesystem::path& file, const std::string& text) {
   const std::filesystem::path unfinished = file.string() + ".part";
+  std::error_code error;
+  std::filesystem::remove(unfinished, error);  // whatever it is, a pipe perhaps
   std::ofstream out(unfinished, std::ios::binary | std::ios::trunc);
   out << text;
   out.close();
-  std::error_code error;
   if (out)
     std::filesystem::rename(unfinished, file, error);
   if (!out || error)
@@ -127,12 +129,22 @@ void write_file(const std::filesystem::path& file, const std::string& text) {
 }
 
 std::string read_file(const std::filesystem::path& file) {
+  constexpr std::size_t piece = std::size_t{1} << 20U;
+  require_readable(file, "Check the path and its permissions");
+  std::error_code error;
+  if (const auto size = std::filesystem::file_size(file, error); !error)
+    require_memory(file.string(), static_cast<double>(size));
   std::ifstream in(file, std::ios::binary);
-  if (!in || std::filesystem::is_directory(file))
-    throw InputError(file.string(), "cannot be read", "Check the path and its permissions");
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
+  std::string text;
+  while (in) {
+    const std::size_t before = text.size();
+    text.resize(before + piece);
+    in.read(text.data() + before, piece);
+    text.resize(before + static_cast<std::size_t>(in.gcount()));
+  }
+  if (!in.eof())
+    throw InputError(file.string(), "cannot be read to its end", "Check the disk");
+  return text;
 }
 
 }  // namespace lv

@@ -12,14 +12,14 @@ namespace lv::calibrate {
 /// A fitted parameter: its name and place.
 struct Fitted {
   std::string name;
-  double Parameters::*member;
+  double FitParameters::*member;
 };
 
 /// A volume that the model should have under loads, and how its target follows from what was
 /// measured.
-struct Observation {
+struct ObservedVolume {
   std::string name;
-  quasi_static::Loads loads;
+  solid::Loads loads;
   double target = 0.0;  ///< [mm^3]
   double weight = 1.0;
   double pressure_ratio = 1.0;      ///< to the measured pressure of its phase
@@ -56,14 +56,14 @@ struct Sensitivity {
 /// What was measured besides the observed volumes. Without `Model::strains`, loads and errors mean
 /// nothing.
 struct Measured {
-  double edv = 0.0;            ///< [mm^3]
-  quasi_static::Loads ed, es;  ///< between which strains are measured
+  double edv = 0.0;     ///< [mm^3]
+  solid::Loads ed, es;  ///< between which strains are measured
   Errors errors;
 };
 
-[[nodiscard]] Sensitivity sensitivity(const Model& model, const Parameters& at,
+[[nodiscard]] Sensitivity sensitivity(const Model& model, const FitParameters& at,
                                       const std::vector<Fitted>& parameters,
-                                      const std::vector<Observation>& observations,
+                                      const std::vector<ObservedVolume>& observations,
                                       const Measured& measured);
 
 }  // namespace lv::calibrate

@@ -1,12 +1,12 @@
 #include "lv/image/sunnybrook.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/files.hpp"
 #include "lv/base/lines.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <regex>
@@ -74,22 +74,19 @@ Place place_of(const std::multimap<int, Place>& places, int instance, const fs::
 
 /// Two numbers, separated by blanks or a comma.
 std::optional<Eigen::Vector2d> parse_point(std::string_view line) {
+  constexpr std::string_view separators = " \t,";
   Eigen::Vector2d x;
-  const char* at = line.data();
-  const char* end = line.data() + line.size();
-  const auto skip = [&] {
-    while (at != end && (*at == ' ' || *at == '\t' || *at == ',' || *at == '\r'))
-      ++at;
-  };
   for (const int d : {0, 1}) {
-    skip();
-    const auto result = std::from_chars(at, end, x[d]);
-    if (result.ec != std::errc() || !std::isfinite(x[d]))
+    line.remove_prefix(std::min(line.find_first_not_of(separators), line.size()));
+    const std::string_view word = line.substr(0, line.find_first_of(separators));
+    const auto value = number_of<double>(word);
+    if (!value || !std::isfinite(*value))
       return std::nullopt;
-    at = result.ptr;
+    x[d] = *value;
+    line.remove_prefix(word.size());
   }
-  skip();
-  return at == end ? std::optional(x) : std::nullopt;
+  return line.find_first_not_of(separators) == std::string_view::npos ? std::optional(x)
+                                                                      : std::nullopt;
 }
 
 Contour read_contour(const fs::path& file, const Place& place, Side side, PixelOrigin origin) {
@@ -121,6 +118,15 @@ Contour read_contour(const fs::path& file, const Place& place, Side side, PixelO
   return contour;
 }
 
+/// One border of one image is drawn once.
+void check_first(const std::vector<Contour>& loops, const Place& place, Side side,
+                 const fs::path& file) {
+  if (const Contour* other = geometry::find(loops, place.slice, side))
+    throw InputError(file.string(),
+                     fmt::format("draws the same border of the same image as {}", other->file),
+                     "Keep one of them in the folder and its subfolders");
+}
+
 /// Phases are numbers of images in order of time: where a slice lacks one, those of its contours
 /// would be of other times than the other slices'. `drawn` holds a contour file of each slice.
 void check_phases(const DicomStack& stack, const std::map<int, fs::path>& drawn) {
@@ -147,22 +153,15 @@ void check_phases(const DicomStack& stack, const std::map<int, fs::path>& drawn)
 
 DrawnPhases read_sunnybrook(const fs::path& folder, const DicomStack& stack, PixelOrigin origin,
                             DrawnBy drawn_by) {
-  std::error_code failed;
-  if (!fs::is_directory(folder, failed))
-    throw InputError(folder.string(), "there is no such folder",
-                     "Name the folder with the contour files");
+  const FolderFiles files = files_in(folder, true);
   const auto places = images_by_instance(stack);
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (entry.is_regular_file())
-      files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
   DrawnPhases drawn;
+  drawn.notes = summary(files.left_out);
   std::map<int, fs::path> drawn_on;
   int others = 0;
   int papillary = 0;
   int unknown = 0;
-  for (const fs::path& file : files) {
+  for (const fs::path& file : files.files) {
     const auto name = parse_name(file.filename().string());
     unknown += name ? 0 : 1;
     if (!name)
@@ -174,8 +173,10 @@ DrawnPhases read_sunnybrook(const fs::path& folder, const DicomStack& stack, Pix
     } else {
       const Place place = place_of(places, name->instance, file);
       drawn_on.emplace(place.slice, file);
-      drawn.phases[place.phase].short_axis.push_back(
-          read_contour(file, place, name->border == "i" ? Side::endo : Side::epi, origin));
+      const Side side = name->border == "i" ? Side::endo : Side::epi;
+      std::vector<Contour>& loops = drawn.phases[place.phase].short_axis;
+      check_first(loops, place, side, file);
+      loops.push_back(read_contour(file, place, side, origin));
     }
   }
   if (drawn.phases.empty())

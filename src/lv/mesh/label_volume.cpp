@@ -1,7 +1,11 @@
 #include "lv/mesh/label_volume.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/ending.hpp"
+#include "lv/base/files.hpp"
+#include "lv/base/formats.hpp"
 #include "lv/mesh/foreign_mesh.hpp"
+#include "lv/mesh/stated_space.hpp"
 #include "lv/mesh/vtk_file.hpp"
 
 #include <fmt/format.h>
@@ -15,6 +19,8 @@
 #include <vtkStructuredPointsReader.h>
 #include <vtkXMLImageDataReader.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -34,17 +40,20 @@ vtkSmartPointer<vtkImageData> read_legacy(const std::string& file) {
 vtkSmartPointer<vtkImageData> read_xml(const std::string& file) {
   vtkNew<vtkXMLImageDataReader> reader;
   reader->SetFileName(file.c_str());
+  reader->UpdateInformation();
+  if (reader->GetNumberOfTimeSteps() > 1)
+    throw InputError(file, fmt::format("has {} times", reader->GetNumberOfTimeSteps()),
+                     "Save the one that shows the infarct");
   reader->Update();
   return reader->GetOutput();
 }
 
 vtkSmartPointer<vtkImageData> read_image(const std::string& file) {
-  const std::string ending = std::filesystem::path(file).extension().string();
-  if (!std::filesystem::is_regular_file(file))
-    throw InputError(file, "there is no such file", "Check the name of the labelled volume");
+  require_readable(file, "Check the name of the labelled volume");
+  const std::string ending = ending_of(file);
   if (ending != ".vti" && ending != ".vtk")
     throw InputError(file, fmt::format("has the unknown ending \"{}\"", ending),
-                     "Labelled volumes are read from .vti and .vtk (structured points)");
+                     fmt::format("Labelled volumes are read from {}", formats::label_volumes));
   return read_by_vtk(file, [&] { return ending == ".vti" ? read_xml(file) : read_legacy(file); });
 }
 
@@ -77,11 +86,11 @@ struct LabelVolume::Image {
   vtkSmartPointer<vtkImageData> data;
   vtkDataArray* labels;
   bool in_cells;
-  double unit;
+  Vec3 scale;  ///< from the file's coordinates to millimetres in LPS
 
   /// The number of the voxel that holds x; -1 outside.
   [[nodiscard]] vtkIdType voxel_at(const Vec3& x) const {
-    const Vec3 in_file = x / unit;
+    const Vec3 in_file = x.cwiseQuotient(scale);
     std::array<double, 3> place{};  // counted in voxels
     data->TransformPhysicalPointToContinuousIndex(in_file.data(), place.data());
     const int* extent = data->GetExtent();
@@ -100,7 +109,7 @@ struct LabelVolume::Image {
 LabelVolume::LabelVolume(const std::string& file, const std::string& array, double unit)
     : image_(std::make_unique<Image>()) {
   image_->data = read_image(file);
-  image_->unit = unit;
+  image_->scale = unit * (says_ras(file, *image_->data) ? ras_to_lps : Vec3(Vec3::Ones()));
   const std::string name = chosen_array(file, *image_->data, array);
   image_->labels = image_->data->GetPointData()->GetArray(name.c_str());
   image_->in_cells = image_->labels == nullptr;
@@ -115,6 +124,11 @@ LabelVolume::LabelVolume(const std::string& file, const std::string& array, doub
                      fmt::format("array \"{}\" has {} labels for {} voxels", name,
                                  image_->labels->GetNumberOfTuples(), voxels),
                      "The file seems to be truncated or damaged");
+  if (image_->labels->GetNumberOfComponents() != 1)
+    throw InputError(file,
+                     fmt::format("array \"{}\" has {} numbers for each voxel", name,
+                                 image_->labels->GetNumberOfComponents()),
+                     "Labels are one number a voxel");
   std::set<int> found;
   for (vtkIdType i = 0; i < image_->labels->GetNumberOfTuples(); ++i) {
     const double label = image_->labels->GetComponent(i, 0);
@@ -139,7 +153,8 @@ bool LabelVolume::has(const Vec3& x, const std::vector<int>& labels) const {
 
 Eigen::AlignedBox3d LabelVolume::box() const {
   const double* b = image_->data->GetBounds();
-  return {image_->unit * Vec3(b[0], b[2], b[4]), image_->unit * Vec3(b[1], b[3], b[5])};
+  return bounds(std::array{image_->scale.cwiseProduct(Vec3(b[0], b[2], b[4])).eval(),
+                           image_->scale.cwiseProduct(Vec3(b[1], b[3], b[5])).eval()});
 }
 
 }  // namespace lv::mesh

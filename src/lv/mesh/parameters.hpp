@@ -31,20 +31,25 @@ enum class SideSource {
 /// What a tag is depends on the file. Gmsh: the name or number of a physical surface. ABAQUS: the
 /// name of a *Surface, of an *Elset of surface elements, or of an *Nset. VTK: with `side_array`, a
 /// number in that cell-data array on the triangles and quadrilaterals stored beside the volume
-/// cells; without, the name of a point array that is 1 on the side's nodes and 0 elsewhere. A face
-/// belongs to a set of nodes if all its nodes do.
+/// cells; without, the name of a point array that is 1 on the side's nodes and 0 elsewhere; or the
+/// .vtp file of the side's surface, as SimVascular writes it. A face belongs to a set of nodes if
+/// all its nodes do; if that makes it part of the base and of another side, it is base.
 struct ImportParameters {
   std::string file;   ///< .inp (ABAQUS), .msh (Gmsh 2.2 or 4.1), .vtk or .vtu
   double unit = 1.0;  ///< length of the file's unit [mm]
   SideSource sides = SideSource::tags;
-  std::string endo = "endo";    ///< tag of the endocardium
-  std::string epi = "epi";      ///< tag of the epicardium
-  std::string base = "base";    ///< tag of the base
-  std::string side_array;       ///< VTK: cell-data array with the sides' numbers
-  std::string infarct_array;    ///< VTK: point array of M(X); empty: "infarct", if the file has it
-  std::string infarct_set;      ///< infarcted elements: an ABAQUS *Elset, the name or number of a
-                                ///< Gmsh physical volume, a VTK cell array that is 1 on them and 0
-                                ///< elsewhere; empty: none are asked for
+  std::string endo = "endo";  ///< tag of the endocardium
+  std::string epi = "epi";    ///< tag of the epicardium
+  std::string base = "base";  ///< tag of the base
+  std::string side_array;     ///< VTK: cell-data array with the sides' numbers
+  std::string infarct_array;  ///< VTK: point array of M(X); empty: "infarct", if the file has it
+  std::string infarct_set;    ///< infarcted elements: an ABAQUS *Elset, the name or number of a
+                              ///< Gmsh physical volume, a VTK cell array that is 1 on them and 0
+                              ///< elsewhere; empty: none are asked for
+  /// VTK: the array, at cells or points, of the fibres' directions (empty: they follow a rule) and
+  /// of the sheets'; or a .vtk or .vtu file with the same cells and such an array, as SimVascular's
+  /// FIB_DIR
+  std::string fibres, sheets;
   double base_tolerance = 0.1;  ///< largest distance of the base's nodes from their plane [mm]
   double shortest = 20.0;       ///< smallest believable extent of a wall [mm]
   double longest = 200.0;       ///< largest believable extent of a wall [mm]
@@ -78,7 +83,7 @@ struct DescribedInfarct {
 /// What of a late-enhancement image is bright enough for scar.
 enum class ScarThreshold {
   sd,   ///< the mean of remote muscle and some standard deviations
-  fwhm  ///< half of the brightest in the wall
+  fwhm  ///< half way from no signal to the brightest in the wall
 };
 
 /// A late-enhancement image and its threshold.
@@ -86,8 +91,10 @@ struct LateEnhancement {
   std::string image;                ///< NIfTI file, or folder of DICOM files
   std::vector<std::string> series;  ///< of the DICOM files; empty: the only one
   ScarThreshold threshold = ScarThreshold::sd;
-  double deviations = 5.0;  ///< above the mean of remote muscle
-  std::vector<int> remote;  ///< AHA segments of remote muscle; empty: not said
+  double deviations = 5.0;    ///< above the mean of remote muscle
+  std::vector<int> remote;    ///< AHA segments of remote muscle; empty: not said
+  double zero = 0.0;          ///< grey value without signal, for fwhm
+  double largest_part = 0.5;  ///< of the wall that may be scar
   bool fill_no_reflow = true;
   bool in_plane = false;       ///< move each slice onto the wall
   double largest_shift = 8.0;  ///< of a slice [mm]
@@ -105,6 +112,7 @@ struct InfarctParameters {
   std::vector<int> scar{1};    ///< the labels that mean scar
   std::vector<int> no_reflow;  ///< the labels that mean its dark core; may be empty
   std::vector<int> muscle;     ///< the labels of other muscle, for in_plane; may be empty
+  int frame = 0;               ///< of a label map of several times, from 1; 0: the only one
   bool in_plane = false;       ///< move each slice of a label map onto the wall
   std::array<double, 3> shift{0.0, 0.0, 0.0};  ///< of the images in image space [mm]
   LateEnhancement lge;

@@ -1,9 +1,9 @@
 #include "lv/report/summary.hpp"
 
+#include "lv/base/json_file.hpp"
 #include "lv/base/units.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
@@ -14,8 +14,8 @@ namespace {
 
 using analysis::RegionalValue;
 using analysis::Results;
-using analysis::Shape;
 using analysis::Statistics;
+using analysis::VentricleShape;
 using Json = nlohmann::ordered_json;
 using units::degree;
 using units::mmHg;
@@ -27,7 +27,7 @@ Json number(double value) {
   return std::stod(fmt::format("{:.7g}", value));
 }
 
-Json shape_json(const Shape& s) {
+Json shape_json(const VentricleShape& s) {
   return {{"time_s", number(s.time)},
           {"pressure_mmHg", number(s.pressure / mmHg)},
           {"cavity_volume_ml", number(1e-3 * s.cavity_volume)},
@@ -210,7 +210,7 @@ std::string summary_json(const RunFacts& facts, const heartbeat::Beat& beat, con
   json["warnings"] = facts.warnings;
   json["parameters"] = pairs(facts.parameters);
   json["set_in_case_file"] = pairs(facts.origins);
-  return json.dump(2) + "\n";
+  return json_text(json) + "\n";
 }
 
 std::string summary_text(const RunFacts& facts, const heartbeat::Beat& beat, const Results& r) {
@@ -223,9 +223,9 @@ std::string summary_text(const RunFacts& facts, const heartbeat::Beat& beat, con
   const auto row = [&](const char* what, double a, double b, double c) {
     text += fmt::format("  {:<34}{:>14.2f}{:>14.2f}{:>14.2f}\n", what, a, b, c);
   };
-  const Shape& e = r.early_diastole;
-  const Shape& d = r.end_diastole;
-  const Shape& s = r.end_systole;
+  const VentricleShape& e = r.early_diastole;
+  const VentricleShape& d = r.end_diastole;
+  const VentricleShape& s = r.end_systole;
   row("endocardial pressure (mmHg)", 0.0, d.pressure / mmHg, s.pressure / mmHg);
   row("cavity volume (ml)", 1e-3 * e.cavity_volume, 1e-3 * d.cavity_volume, 1e-3 * s.cavity_volume);
   row("wall volume (ml)", 1e-3 * e.wall_volume, 1e-3 * d.wall_volume, 1e-3 * s.wall_volume);
