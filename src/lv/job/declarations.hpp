@@ -300,6 +300,7 @@ class Declarations {
   }
 
  private:
+  // NOLINTNEXTLINE(readability-function-size): all that a declaration holds
   void add(const std::string& key, const std::string& type, const std::string& unit,
            const std::string& rule, const std::string& help, const std::string& equation,
            std::function<std::string(const Case&)> get,
