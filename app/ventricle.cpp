@@ -7,6 +7,7 @@
 #include "lv/job/list_images.hpp"
 #include "lv/job/read_case.hpp"
 #include "lv/job/run.hpp"
+#include "lv/job/version.hpp"
 #include "lv/phantom/study.hpp"
 #include "lv/verify/run.hpp"
 
@@ -106,8 +107,6 @@ int run_parallel(Command& command, int argc, char** argv) {
 }
 
 int validate(const Command& command, int argc, char** argv) {
-  if (lv::launch::under_mpirun())
-    throw lv::InputError("validate", "runs on one rank", "Run it without mpirun");
   const lv::parallel::Session session(&argc, &argv);
   fmt::print("{}", lv::job::validate(lv::job::read_case(command.case_file)));
   return 0;
@@ -244,6 +243,18 @@ void add_images(CLI::App& app, Command& command) {
                      "labels of the cavity: volume at each time of a label map");
 }
 
+/// Commands that one rank carries out: several would each do the work, and write the same files.
+void require_one_rank(const CLI::App& app, const Command& command) {
+  static constexpr std::array<const char*, 8> alone{"new",    "validate", "phantom",    "images",
+                                                    "report", "compare",  "parameters", "verify"};
+  if (lv::launch::ranks() < 2 || !command.solve_in.empty())
+    return;
+  for (const char* name : alone)
+    if (app.got_subcommand(name))
+      throw lv::InputError(fmt::format("ventricle {}", name), "runs on one rank",
+                           "Run it without mpirun");
+}
+
 int dispatch(int argc, char** argv) {
   Command command;
   CLI::App app{"ventricle: left-ventricular mechanics from cardiac magnetic resonance"};
@@ -302,6 +313,7 @@ int dispatch(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : wrong_input;
   }
+  require_one_rank(app, command);
   if (*start)
     write_new_case(command.new_file);
   if (*check)
@@ -337,7 +349,7 @@ int dispatch(int argc, char** argv) {
 int fail(const std::string& message, int code, unsigned patience = 2) {
   int running = 0;
   int finished = 0;
-  int rank = 0;
+  int rank = lv::launch::rank();
   int size = 1;
   MPI_Initialized(&running);
   MPI_Finalized(&finished);

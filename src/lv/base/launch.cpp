@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <initializer_list>
 
 namespace lv::launch {
 namespace {
@@ -64,7 +65,23 @@ void execute(std::vector<std::string> command) {
   execvp(args[0], args.data());
 }
 
+/// The number in the first of these variables that is set.
+int number_in(std::initializer_list<const char*> names, int otherwise) {
+  for (const char* name : names)
+    if (const char* text = std::getenv(name); text != nullptr)
+      return std::atoi(text);
+  return otherwise;
+}
+
 }  // namespace
+
+int ranks() {
+  return number_in({"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}, 1);
+}
+
+int rank() {
+  return number_in({"OMPI_COMM_WORLD_RANK", "PMI_RANK"}, 0);
+}
 
 bool under_mpirun() {
   // set by OpenMPI's mpirun, and by other launchers such as Slurm's srun

@@ -9,6 +9,11 @@ namespace lv::launch {
 /// Whether mpirun has started this process.
 [[nodiscard]] bool under_mpirun();
 
+/// How many processes a launcher has started together with this one, and which of them it is, as
+/// the environment says before MPI is there: 1 and 0 where it says nothing.
+[[nodiscard]] int ranks();
+[[nodiscard]] int rank();
+
 /// Runs `ranks` copies of this program under mpirun with these arguments, waits for them and
 /// returns their exit code. SIGINT and SIGTERM reach the ranks as SIGUSR1 (see interrupt.hpp):
 /// mpirun itself would kill them before a checkpoint is written. Throws RunError when mpirun is

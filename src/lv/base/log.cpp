@@ -24,14 +24,32 @@ spdlog::logger& logger() {
   return instance;
 }
 
+/// The file that lines go to besides, if any.
+struct File {
+  std::shared_ptr<spdlog::logger> logger;
+  NamesAlone names;
+};
+
+File& kept() {
+  static File file;
+  return file;
+}
+
+void write(spdlog::level::level_enum level, const std::string& line) {
+  logger().log(level, line);
+  if (kept().logger)
+    kept().logger->log(level, kept().names(line));
+}
+
 }  // namespace
 
-void to_file(const std::filesystem::path& file) {
+void to_file(const std::filesystem::path& file, const NamesAlone& names) {
   if (!parallel::is_root())
     return;
   auto sink = std::make_shared<spdlog::sinks::basic_file_sink_mt>(file.string());
-  sink->set_pattern("[%Y-%m-%d %H:%M:%S] %l %v");
-  logger().sinks().push_back(std::move(sink));
+  kept() = {std::make_shared<spdlog::logger>("file", std::move(sink)), names};
+  kept().logger->set_pattern("[%Y-%m-%d %H:%M:%S] %l %v");
+  kept().logger->flush_on(spdlog::level::info);
 }
 
 void silence() {
@@ -40,10 +58,10 @@ void silence() {
 }
 
 void info(const std::string& line) {
-  logger().info(line);
+  write(spdlog::level::info, line);
 }
 void warn(const std::string& line) {
-  logger().warn(line);
+  write(spdlog::level::warn, line);
 }
 
 std::string duration(double seconds) {

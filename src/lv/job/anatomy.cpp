@@ -3,7 +3,7 @@
 #include "lv/base/check.hpp"
 #include "lv/base/table.hpp"
 #include "lv/job/drawn.hpp"
-#include "lv/mesh/abaqus_blocks.hpp"
+#include "lv/job/parameters.hpp"
 #include "lv/mesh/import.hpp"
 #include "lv/mesh/refine.hpp"
 #include "lv/report/fields_vtk.hpp"
@@ -87,27 +87,7 @@ Shape from_mesh(const Case& c) {
   return shape;
 }
 
-std::vector<double> numbers(const Vec3& v) {
-  return {v.x(), v.y(), v.z()};
-}
-
-}  // namespace
-
-std::string septum_note(const Case& c) {
-  const bool said = c.origin.contains("regions.septum_angle") ||
-                    c.origin.contains("anatomy.contours.septum_point") ||
-                    !c.anatomy.labels.right_ventricle.empty();
-  if (said || c.anatomy.source == AnatomySource::ellipsoid)
-    return "";
-  if (c.anatomy.source == AnatomySource::guide_points)
-    return "";  // the list may show it: see the notes of the anatomy
-  return is_drawn(c)
-             ? assumed_septum
-             : "the septum is assumed on the mesh's x axis: regions bear the wrong names if it is "
-               "elsewhere (set regions.septum_angle)";
-}
-
-Shape make_anatomy(const Case& c) {
+Shape read_shape(const Case& c) {
   if (is_drawn(c))
     return from_drawn(c);
   if (c.anatomy.source == AnatomySource::mesh) {
@@ -120,6 +100,36 @@ Shape make_anatomy(const Case& c) {
   shape.wall = [e = c.anatomy.ellipsoid](double u, double theta, double t) {
     return e.point(u, theta, t);
   };
+  return shape;
+}
+
+std::vector<double> numbers(const Vec3& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
+}  // namespace
+
+std::string septum_note(const Case& c) {
+  const bool said = c.origin.contains("regions.septum_angle") ||
+                    c.anatomy.contours.fit.frame.septum ||
+                    !c.anatomy.labels.right_ventricle.empty();
+  if (said || c.anatomy.source == AnatomySource::ellipsoid)
+    return "";
+  if (c.anatomy.source == AnatomySource::guide_points)
+    return "";  // the list may show it: see the notes of the anatomy
+  return is_drawn(c)
+             ? assumed_septum
+             : "the septum is assumed on the mesh's x axis: regions bear the wrong names if it is "
+               "elsewhere (set regions.septum_angle)";
+}
+
+Shape make_anatomy(const Case& c) {
+  Shape shape = read_shape(c);
+  const NamesAlone names = names_alone(c);  // notes may name files: they are kept and shown
+  for (std::string& note : shape.notes)
+    note = names(note);
+  if (shape.quality)
+    shape.quality->notes = shape.notes;
   return shape;
 }
 
@@ -141,22 +151,6 @@ void write_anatomy(const Shape& shape, const fs::path& folder) {
   report::quality_table(*shape.quality).write_csv(folder / "quality.csv");
   write_file(folder / "quality.json", report::quality_json(*shape.quality));
   write_file(folder / "quality.txt", report::quality_text(*shape.quality));
-}
-
-Ingredients anatomy_files(const Case& c) {
-  Ingredients files = drawn_files(c);
-  const auto add = [&](const std::string& parameter, const std::string& name) {
-    if (!name.empty())
-      files["contents of " + parameter] = fingerprint_of_file(beside(c, name));
-  };
-  if (c.anatomy.source == AnatomySource::mesh) {
-    add("anatomy.mesh.file", c.anatomy.mesh.import.file);
-    const fs::path file = beside(c, c.anatomy.mesh.import.file);
-    if (file.extension() == ".inp" && fs::exists(file))
-      for (const std::string& included : mesh::read_abaqus_blocks(file.string()).files)
-        files["contents of " + included] = fingerprint_of_file(included);
-  }
-  return files;
 }
 
 }  // namespace lv::job

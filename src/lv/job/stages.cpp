@@ -9,8 +9,8 @@
 #include "lv/heartbeat/quasi_static_beat.hpp"
 #include "lv/job/infarct.hpp"
 #include "lv/job/parameters.hpp"
-#include "lv/job/run.hpp"
 #include "lv/job/strain.hpp"
+#include "lv/job/version.hpp"
 #include "lv/job/workspace.hpp"
 #include "lv/mesh/infarct.hpp"
 #include "lv/mesh/quality.hpp"
@@ -137,8 +137,9 @@ report::RunFacts run_facts(const Case& c, const MeshResult& mesh, const BeatResu
   }
   facts.wall_clock = beat.beat.wall_clock;
   for (const Parameter& p : parameters())
-    facts.parameters.emplace_back(p.name, p.get(c));
-  facts.origins.assign(c.origin.begin(), c.origin.end());
+    facts.parameters.emplace_back(p.name, p.shown(c));
+  for (const auto& [name, place] : c.origin)
+    facts.origins.emplace_back(name, std::filesystem::path(place).filename().string());
   if (const std::string note = septum_note(c); !note.empty())
     facts.warnings.push_back(note);
   if (!beat.beat.filling_was_steady)
@@ -218,6 +219,13 @@ std::string beside_measured(const Case& c, const MeshResult& mesh, const BeatRes
 
 }  // namespace
 
+void check_room(const Case& c, const mesh::Mesh& mesh) {
+  if (c.engine != Engine::immersed)
+    return;
+  check_box(c, mesh);
+  check_spacing(c, mesh);
+}
+
 MeshResult make_mesh(const Case& c, const Shape& shape) {
   MeshResult result;
   result.mesh = shape.given ? *shape.given : mesh::wall_mesh(shape.wall, mesh_parameters(c));
@@ -225,10 +233,7 @@ MeshResult make_mesh(const Case& c, const Shape& shape) {
   result.mesh.infarct = std::move(infarct.M);
   result.infarcted = std::move(infarct.part);
   result.slice_moves = std::move(infarct.slice_moves);
-  if (c.engine == Engine::immersed) {
-    check_box(c, result.mesh);
-    check_spacing(c, result.mesh);
-  } else if (c.quasi_static.order == 2 && result.mesh.order == 1) {
+  if (c.engine == Engine::quasi_static && c.quasi_static.order == 2 && result.mesh.order == 1) {
     // each element of a given mesh becomes a quadratic one
     result.mesh = mesh::refine(result.mesh);
     result.infarcted = mesh::refine_numbers(result.infarcted);
@@ -260,7 +265,7 @@ void write_mesh_result(const MeshResult& result, const std::filesystem::path& fo
 
 void show_mesh(const MeshResult& result, const Case& c, const std::filesystem::path& folder) {
   const mesh::Mesh& m = result.mesh;
-  const auto undeformed = field_analysis(c, m).at_rest();
+  const auto undeformed = analysis::FieldAnalysis(m, c.fibres, {}, {}).at_rest();  // directions
   if (!parallel::is_root())
     return;
   report::write_mesh(folder / "mesh.vtu", m, result.regions, undeformed);
@@ -306,8 +311,6 @@ heartbeat::Beat make_beat(const Case& c, const MeshResult& mesh,
     return heartbeat::run_quasi_static_beat({mesh.mesh, c.fibres, muscle(c), c.quasi_static.solver,
                                              protocol(c), c.output.frame_interval},
                                             observers);
-  check_box(c, mesh.mesh);  // the grid may have changed since the mesh was made
-  check_spacing(c, mesh.mesh);
   const heartbeat::BeatSetup setup{
       mesh.mesh,   c.fibres, wall_material(c), c.active, model_parameters(c, mesh.mesh),
       protocol(c), c.time,   c.output};
