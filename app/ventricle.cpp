@@ -311,6 +311,8 @@ int dispatch(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0 && lv::launch::rank() > 0)
+      return 0;  // help and version are told once
     return app.exit(error) == 0 ? 0 : wrong_input;
   }
   require_one_rank(app, command);

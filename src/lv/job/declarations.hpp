@@ -6,7 +6,7 @@
 #include <initializer_list>
 #include <type_traits>
 
-/// How parameters.cpp declares parameters: rows of a table, each made by the function of its kind.
+/// How parameters.cpp declares parameters: rows of tables, each made by the function of its kind.
 namespace lv::job {
 
 inline constexpr Range any{};
@@ -66,38 +66,36 @@ constexpr Parameter choice(const char* name, Place at, const char* words, const 
 }
 
 /// The parameter counts only where this holds too.
-inline Parameter when(const Condition& condition, Parameter p) {
+constexpr Parameter when(const Condition& condition, Parameter p) {
   *std::find(p.conditions.begin(), p.conditions.end(), nullptr) = &condition;
   return p;
 }
 
 /// That a case sets the parameter says something, even if it sets it to its default.
-inline Parameter whether_set(Parameter p) {
+constexpr Parameter whether_set(Parameter p) {
   p.whether_set_counts = true;
   return p;
 }
 
 /// The parameter changes how a stage goes about its work, not what comes out.
-inline Parameter same_results(Parameter p) {
+constexpr Parameter same_results(Parameter p) {
   p.changes_results = false;
   return p;
 }
 
-/// Collects the rows of the table.
-class Declarations {
- public:
-  std::vector<Parameter> list;
-
-  /// Rows that the same stages read under the same conditions.
-  void add(Stages read_by, std::initializer_list<const Condition*> conditions,
-           std::initializer_list<Parameter> rows) {
-    for (Parameter p : rows) {
-      p.read_by = read_by;
-      for (const Condition* condition : conditions)
-        p = when(*condition, p);
-      list.push_back(p);
-    }
-  }
+/// Rows that the same stages read under the same conditions.
+struct Group {
+  Stages read_by;
+  std::initializer_list<const Condition*> conditions;
+  std::initializer_list<Parameter> rows;
 };
+
+/// A row with what its group says of it.
+inline Parameter in_group(const Group& group, Parameter row) {
+  row.read_by = group.read_by;
+  for (const Condition* condition : group.conditions)
+    row = when(*condition, row);
+  return row;
+}
 
 }  // namespace lv::job

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 
 namespace lv::job {
 namespace {
@@ -15,783 +16,827 @@ using namespace conditions;
 constexpr Stages meshing(Stage::mesh, Stage::calibrate, Stage::unload);
 constexpr Stages mechanics(Stage::calibrate, Stage::unload, Stage::beat);
 
-void declare_anatomy(Declarations& d) {
-  d.add(Stages(Stage::results), {},
-        {
-            value("name", LV_AT(name), "name of the subject or case, for reports"),
-        });
-  d.add(Stages(Stage::mesh, Stage::unload, Stage::beat), {},
-        {
-            choice("engine", LV_AT(engine), "immersed quasi_static",
-                   "the dynamic immersed boundary model, or equilibrium without inertia and blood: "
-                   "the answer of slow loads, in seconds"),
-        });
-  d.add(Stages(Stage::anatomy, Stage::mesh, Stage::calibrate, Stage::unload), {},
-        {
-            choice("anatomy.source", LV_AT(anatomy.source),
-                   "ellipsoid contours mesh labels sunnybrook guide_points",
-                   "where the shape of the wall at early diastole comes from", "2.2"),
-        });
-  d.add(Stages(Stage::anatomy), {&ellipsoid},
-        {
-            number("anatomy.ellipsoid.endo_radius", LV_AT(anatomy.ellipsoid.endo_radius), "mm",
-                   between(1.0, 200.0), "semi-axis of the endocardium across the long axis"),
-            number("anatomy.ellipsoid.endo_length", LV_AT(anatomy.ellipsoid.endo_length), "mm",
-                   between(1.0, 200.0), "semi-axis of the endocardium along the long axis"),
-            number("anatomy.ellipsoid.epi_radius", LV_AT(anatomy.ellipsoid.epi_radius), "mm",
-                   between(1.0, 200.0), "semi-axis of the epicardium across the long axis"),
-            number("anatomy.ellipsoid.epi_length", LV_AT(anatomy.ellipsoid.epi_length), "mm",
-                   between(1.0, 200.0), "semi-axis of the epicardium along the long axis"),
-            number("anatomy.ellipsoid.base_height", LV_AT(anatomy.ellipsoid.base_height), "mm",
-                   between(-100.0, 200.0), "height of the basal plane above the widest section"),
-        });
-  d.add(Stages(Stage::anatomy), {&from_contours},
-        {
-            path("anatomy.contours.short_axis", LV_AT(anatomy.contours.short_axis),
-                 "CSV of short-axis loops with columns slice, contour (endo or epi), point, x_mm, "
-                 "y_mm, z_mm in scanner coordinates; names are relative to the case file"),
-            path("anatomy.contours.long_axis", LV_AT(anatomy.contours.long_axis),
-                 "CSV of open curves on long-axis images, same columns; may be left out"),
-            path("anatomy.contours.apex_endo", LV_AT(anatomy.contours.apex_endo),
-                 "CSV of points at the tip of the endocardium, same columns; may be left out"),
-            path("anatomy.contours.apex_epi", LV_AT(anatomy.contours.apex_epi),
-                 "CSV of points at the tip of the epicardium, same columns; may be left out"),
-        });
-  d.add(Stages(Stage::strain, Stage::anatomy), {&fitted},
-        {
-            choice("anatomy.contours.base_plane", LV_AT(anatomy.contours.fit.frame.base_plane),
-                   "long_axis basal_slice",
-                   "the base plane through the centre of the most basal endocardial loop is normal "
-                   "to the long axis, or the plane of that loop",
-                   "2.2"),
-        });
-  d.add(Stages(Stage::anatomy), {&drawn},
-        {
-            choice("anatomy.contours.base_at", LV_AT(anatomy.contours.base_at),
-                   "automatic slice slab annulus",
-                   "the base plane lies in the most basal endocardial loop, half a slice spacing "
-                   "above it where the slab of the slice ends, or at the mitral annulus (guide "
-                   "points, ends of long-axis curves); automatic: slice for contours, slab for "
-                   "labels and sunnybrook, annulus for guide_points that show it"),
-        });
-  d.add(Stages(Stage::strain, Stage::anatomy), {},
-        {
-            when(septum_shown, number("anatomy.contours.septum_point",
-                                      LV_AT(anatomy.contours.fit.frame.septum), "mm", any,
-                                      "a point of the middle of the septum in scanner coordinates: "
-                                      "the model's x direction, from which regions are counted")),
-            when(fitted,
-                 number("anatomy.contours.intervals_around", LV_AT(anatomy.contours.fit.around), "",
-                        between(6, 64), "spline intervals about the long axis", "2.2")),
-            when(fitted,
-                 number("anatomy.contours.intervals_along", LV_AT(anatomy.contours.fit.along), "",
-                        between(4, 64), "spline intervals from the apex to above the base", "2.2")),
-            when(fitted,
-                 number("anatomy.contours.smoothing_length",
-                        LV_AT(anatomy.contours.fit.smoothing_length), "mm", between(0.0, 50.0),
-                        "ripples of 2 pi times this wave length are halved; 0: none")),
-            when(fitted, number("anatomy.contours.margin", LV_AT(anatomy.contours.fit.margin), "mm",
-                                between(0.0, 50.0),
-                                "contour points up to this height above the base plane count")),
-            when(fitted, value("anatomy.contours.correct_shifts",
-                               LV_AT(anatomy.contours.fit.correct_shifts),
-                               "move short-axis slices in their planes to agree with the long-axis "
-                               "contours (different breath-holds)")),
-            when(fitted,
-                 value("anatomy.contours.align_slices", LV_AT(anatomy.contours.fit.align_slices),
-                       "without two long-axis images, move short-axis slices in their planes to "
-                       "make the wall smooth; a tilt of the whole stack cannot be seen in this way "
-                       "and stays")),
-        });
-  d.add(Stages(Stage::strain, Stage::anatomy, Stage::mesh, Stage::calibrate, Stage::unload),
-        {&fitted_or_moved},
-        {
-            number("anatomy.contours.largest_shift", LV_AT(anatomy.contours.fit.largest_shift),
-                   "mm", between(0.0, 50.0), "a slice that would have to move farther is an error"),
-        });
-  d.add(Stages(Stage::anatomy), {&drawn},
-        {
-            number("anatomy.contours.thinnest_wall", LV_AT(anatomy.contours.fit.thinnest_wall),
-                   "mm", between(0.1, 20.0), "a thinner wall is an error"),
-        });
-  d.add(Stages(Stage::anatomy), {&from_labels},
-        {
-            path("anatomy.labels.file", LV_AT(anatomy.labels.file),
-                 "NIfTI label map, of one or more times; names are relative to the case file"),
-            value("anatomy.labels.cavity", LV_AT(anatomy.labels.cavity),
-                  "labels of the left ventricle's blood (with those of papillary muscles, if "
-                  "labelled)"),
-            value("anatomy.labels.muscle", LV_AT(anatomy.labels.muscle),
-                  "labels of the left ventricle's muscle"),
-            value("anatomy.labels.right_ventricle", LV_AT(anatomy.labels.right_ventricle),
-                  "labels of the right ventricle: where the septum is; may be left out"),
-            number("anatomy.labels.frame", LV_AT(anatomy.labels.frame), "", between(0, 10000),
-                   "time of a map of several, counted from 1; 0: the only one"),
-        });
-  d.add(
-      Stages(Stage::anatomy), {&from_sunnybrook},
-      {
-          path("anatomy.sunnybrook.contours", LV_AT(anatomy.sunnybrook.contours),
-               "folder of text contours IM-0001-0059-icontour-manual.txt and so on, in pixels"),
-          path("anatomy.sunnybrook.dicom", LV_AT(anatomy.sunnybrook.dicom),
-               "folder of the DICOM files they were drawn on"),
-          value("anatomy.sunnybrook.series", LV_AT(anatomy.sunnybrook.series),
-                "series to use: number, description or SeriesInstanceUID, as `ventricle images` "
-                "lists them; may be left out if there is one"),
-          number(
-              "anatomy.sunnybrook.phase", LV_AT(anatomy.sunnybrook.phase), "", between(0, 10000),
-              "phase to use, counted from 1 in order of time among the DICOM files; 0: not chosen"),
-          choice("anatomy.sunnybrook.pixel_origin", LV_AT(anatomy.sunnybrook.pixel_origin),
-                 "corner centre",
-                 "pixel coordinates (0, 0) are the image's outer corner, or the centre of its "
-                 "first pixel"),
-          choice("anatomy.sunnybrook.drawn", LV_AT(anatomy.sunnybrook.drawn_by), "manual auto",
-                 "which contours to use, as the file names say"),
-      });
-  d.add(Stages(Stage::anatomy), {&from_guide_points},
-        {
-            path("anatomy.guide_points.file", LV_AT(anatomy.guide_points.file),
-                 "tab-separated list with columns x, y, z, contour type, slice and time frame"),
-            number("anatomy.guide_points.frame", LV_AT(anatomy.guide_points.frame), "",
-                   between(-1, 100000), "time frame to use; -1: the only one"),
-            choice("anatomy.guide_points.apex_point", LV_AT(anatomy.guide_points.apex_point),
-                   "endo epi", "the surface whose tip a point of type APEX_POINT is"),
-        });
-  d.add(Stages(Stage::anatomy), {&from_mesh},
-        {
-            path("anatomy.mesh.file", LV_AT(anatomy.mesh.import.file),
-                 "mesh of hexahedra or tetrahedra: ABAQUS .inp, Gmsh .msh, .vtk or .vtu; names are "
-                 "relative to the case file"),
-            number("anatomy.mesh.length_unit", LV_AT(anatomy.mesh.import.unit), "mm", positive,
-                   "length of the file's unit"),
-            choice("anatomy.mesh.sides", LV_AT(anatomy.mesh.import.sides), "tags geometry",
-                   "the sides of the wall are named by the file's tags, or found: the flat opening "
-                   "is the base, the inner of the other two the endocardium"),
-            when(tagged, value("anatomy.mesh.endo", LV_AT(anatomy.mesh.import.endo),
-                               "tag of the endocardium")),
-            when(tagged, value("anatomy.mesh.epi", LV_AT(anatomy.mesh.import.epi),
-                               "tag of the epicardium")),
-            when(tagged,
-                 value("anatomy.mesh.base", LV_AT(anatomy.mesh.import.base), "tag of the base")),
-            when(tagged, value("anatomy.mesh.side_array", LV_AT(anatomy.mesh.import.side_array),
-                               "VTK: cell array with the sides' numbers on surface cells; empty: "
-                               "the tags name point arrays that are 1 on a side")),
-            when(infarct_of_mesh,
-                 value("anatomy.mesh.infarct_array", LV_AT(anatomy.mesh.import.infarct_array),
-                       "VTK: point array of M(X); empty: infarct, if the file has it")),
-            number("anatomy.mesh.base_tolerance", LV_AT(anatomy.mesh.import.base_tolerance), "mm",
-                   between(0.0, 10.0), "largest distance of the base's nodes from their plane"),
-            number("anatomy.mesh.refinements", LV_AT(anatomy.mesh.refinements), "", between(0, 3),
-                   "how often every element is cut into eight"),
-        });
-}
+constexpr Group of_anatomy[]{
+    {Stages(Stage::results),
+     {},
+     {
+         value("name", LV_AT(name), "name of the subject or case, for reports"),
+     }},
+    {Stages(Stage::mesh, Stage::unload, Stage::beat),
+     {},
+     {
+         choice("engine", LV_AT(engine), "immersed quasi_static",
+                "the dynamic immersed boundary model, or equilibrium without inertia and blood: "
+                "the answer of slow loads, in seconds"),
+     }},
+    {Stages(Stage::anatomy, Stage::mesh, Stage::calibrate, Stage::unload),
+     {},
+     {
+         choice("anatomy.source", LV_AT(anatomy.source),
+                "ellipsoid contours mesh labels sunnybrook guide_points",
+                "where the shape of the wall at early diastole comes from", "2.2"),
+     }},
+    {Stages(Stage::anatomy),
+     {&ellipsoid},
+     {
+         number("anatomy.ellipsoid.endo_radius", LV_AT(anatomy.ellipsoid.endo_radius), "mm",
+                between(1.0, 200.0), "semi-axis of the endocardium across the long axis"),
+         number("anatomy.ellipsoid.endo_length", LV_AT(anatomy.ellipsoid.endo_length), "mm",
+                between(1.0, 200.0), "semi-axis of the endocardium along the long axis"),
+         number("anatomy.ellipsoid.epi_radius", LV_AT(anatomy.ellipsoid.epi_radius), "mm",
+                between(1.0, 200.0), "semi-axis of the epicardium across the long axis"),
+         number("anatomy.ellipsoid.epi_length", LV_AT(anatomy.ellipsoid.epi_length), "mm",
+                between(1.0, 200.0), "semi-axis of the epicardium along the long axis"),
+         number("anatomy.ellipsoid.base_height", LV_AT(anatomy.ellipsoid.base_height), "mm",
+                between(-100.0, 200.0), "height of the basal plane above the widest section"),
+     }},
+    {Stages(Stage::anatomy),
+     {&from_contours},
+     {
+         path("anatomy.contours.short_axis", LV_AT(anatomy.contours.short_axis),
+              "CSV of short-axis loops with columns slice, contour (endo or epi), point, x_mm, "
+              "y_mm, z_mm in scanner coordinates; names are relative to the case file"),
+         path("anatomy.contours.long_axis", LV_AT(anatomy.contours.long_axis),
+              "CSV of open curves on long-axis images, same columns; may be left out"),
+         path("anatomy.contours.apex_endo", LV_AT(anatomy.contours.apex_endo),
+              "CSV of points at the tip of the endocardium, same columns; may be left out"),
+         path("anatomy.contours.apex_epi", LV_AT(anatomy.contours.apex_epi),
+              "CSV of points at the tip of the epicardium, same columns; may be left out"),
+     }},
+    {Stages(Stage::strain, Stage::anatomy),
+     {&fitted},
+     {
+         choice("anatomy.contours.base_plane", LV_AT(anatomy.contours.fit.frame.base_plane),
+                "long_axis basal_slice",
+                "the base plane through the centre of the most basal endocardial loop is normal "
+                "to the long axis, or the plane of that loop",
+                "2.2"),
+     }},
+    {Stages(Stage::anatomy),
+     {&drawn},
+     {
+         choice("anatomy.contours.base_at", LV_AT(anatomy.contours.base_at),
+                "automatic slice slab annulus",
+                "the base plane lies in the most basal endocardial loop, half a slice spacing "
+                "above it where the slab of the slice ends, or at the mitral annulus (guide "
+                "points, ends of long-axis curves); automatic: slice for contours, slab for "
+                "labels and sunnybrook, annulus for guide_points that show it"),
+     }},
+    {Stages(Stage::strain, Stage::anatomy),
+     {},
+     {
+         when(septum_shown, number("anatomy.contours.septum_point",
+                                   LV_AT(anatomy.contours.fit.frame.septum), "mm", any,
+                                   "a point of the middle of the septum in scanner coordinates: "
+                                   "the model's x direction, from which regions are counted")),
+         when(fitted,
+              number("anatomy.contours.intervals_around", LV_AT(anatomy.contours.fit.around), "",
+                     between(6, 64), "spline intervals about the long axis", "2.2")),
+         when(fitted,
+              number("anatomy.contours.intervals_along", LV_AT(anatomy.contours.fit.along), "",
+                     between(4, 64), "spline intervals from the apex to above the base", "2.2")),
+         when(fitted, number("anatomy.contours.smoothing_length",
+                             LV_AT(anatomy.contours.fit.smoothing_length), "mm", between(0.0, 50.0),
+                             "ripples of 2 pi times this wave length are halved; 0: none")),
+         when(fitted, number("anatomy.contours.margin", LV_AT(anatomy.contours.fit.margin), "mm",
+                             between(0.0, 50.0),
+                             "contour points up to this height above the base plane count")),
+         when(fitted,
+              value("anatomy.contours.correct_shifts", LV_AT(anatomy.contours.fit.correct_shifts),
+                    "move short-axis slices in their planes to agree with the long-axis "
+                    "contours (different breath-holds)")),
+         when(fitted,
+              value("anatomy.contours.align_slices", LV_AT(anatomy.contours.fit.align_slices),
+                    "without two long-axis images, move short-axis slices in their planes to "
+                    "make the wall smooth; a tilt of the whole stack cannot be seen in this way "
+                    "and stays")),
+     }},
+    {Stages(Stage::strain, Stage::anatomy, Stage::mesh, Stage::calibrate, Stage::unload),
+     {&fitted_or_moved},
+     {
+         number("anatomy.contours.largest_shift", LV_AT(anatomy.contours.fit.largest_shift), "mm",
+                between(0.0, 50.0), "a slice that would have to move farther is an error"),
+     }},
+    {Stages(Stage::anatomy),
+     {&drawn},
+     {
+         number("anatomy.contours.thinnest_wall", LV_AT(anatomy.contours.fit.thinnest_wall), "mm",
+                between(0.1, 20.0), "a thinner wall is an error"),
+     }},
+    {Stages(Stage::anatomy),
+     {&from_labels},
+     {
+         path("anatomy.labels.file", LV_AT(anatomy.labels.file),
+              "NIfTI label map, of one or more times; names are relative to the case file"),
+         value("anatomy.labels.cavity", LV_AT(anatomy.labels.cavity),
+               "labels of the left ventricle's blood (with those of papillary muscles, if "
+               "labelled)"),
+         value("anatomy.labels.muscle", LV_AT(anatomy.labels.muscle),
+               "labels of the left ventricle's muscle"),
+         value("anatomy.labels.right_ventricle", LV_AT(anatomy.labels.right_ventricle),
+               "labels of the right ventricle: where the septum is; may be left out"),
+         number("anatomy.labels.frame", LV_AT(anatomy.labels.frame), "", between(0, 10000),
+                "time of a map of several, counted from 1; 0: the only one"),
+     }},
+    {Stages(Stage::anatomy),
+     {&from_sunnybrook},
+     {
+         path("anatomy.sunnybrook.contours", LV_AT(anatomy.sunnybrook.contours),
+              "folder of text contours IM-0001-0059-icontour-manual.txt and so on, in pixels"),
+         path("anatomy.sunnybrook.dicom", LV_AT(anatomy.sunnybrook.dicom),
+              "folder of the DICOM files they were drawn on"),
+         value("anatomy.sunnybrook.series", LV_AT(anatomy.sunnybrook.series),
+               "series to use: number, description or SeriesInstanceUID, as `ventricle images` "
+               "lists them; may be left out if there is one"),
+         number(
+             "anatomy.sunnybrook.phase", LV_AT(anatomy.sunnybrook.phase), "", between(0, 10000),
+             "phase to use, counted from 1 in order of time among the DICOM files; 0: not chosen"),
+         choice("anatomy.sunnybrook.pixel_origin", LV_AT(anatomy.sunnybrook.pixel_origin),
+                "corner centre",
+                "pixel coordinates (0, 0) are the image's outer corner, or the centre of its "
+                "first pixel"),
+         choice("anatomy.sunnybrook.drawn", LV_AT(anatomy.sunnybrook.drawn_by), "manual auto",
+                "which contours to use, as the file names say"),
+     }},
+    {Stages(Stage::anatomy),
+     {&from_guide_points},
+     {
+         path("anatomy.guide_points.file", LV_AT(anatomy.guide_points.file),
+              "tab-separated list with columns x, y, z, contour type, slice and time frame"),
+         number("anatomy.guide_points.frame", LV_AT(anatomy.guide_points.frame), "",
+                between(-1, 100000), "time frame to use; -1: the only one"),
+         choice("anatomy.guide_points.apex_point", LV_AT(anatomy.guide_points.apex_point),
+                "endo epi", "the surface whose tip a point of type APEX_POINT is"),
+     }},
+    {Stages(Stage::anatomy),
+     {&from_mesh},
+     {
+         path("anatomy.mesh.file", LV_AT(anatomy.mesh.import.file),
+              "mesh of hexahedra or tetrahedra: ABAQUS .inp, Gmsh .msh, .vtk or .vtu; names are "
+              "relative to the case file"),
+         number("anatomy.mesh.length_unit", LV_AT(anatomy.mesh.import.unit), "mm", positive,
+                "length of the file's unit"),
+         choice("anatomy.mesh.sides", LV_AT(anatomy.mesh.import.sides), "tags geometry",
+                "the sides of the wall are named by the file's tags, or found: the flat opening "
+                "is the base, the inner of the other two the endocardium"),
+         when(tagged, value("anatomy.mesh.endo", LV_AT(anatomy.mesh.import.endo),
+                            "tag of the endocardium")),
+         when(tagged,
+              value("anatomy.mesh.epi", LV_AT(anatomy.mesh.import.epi), "tag of the epicardium")),
+         when(tagged,
+              value("anatomy.mesh.base", LV_AT(anatomy.mesh.import.base), "tag of the base")),
+         when(tagged, value("anatomy.mesh.side_array", LV_AT(anatomy.mesh.import.side_array),
+                            "VTK: cell array with the sides' numbers on surface cells; empty: "
+                            "the tags name point arrays that are 1 on a side")),
+         when(infarct_of_mesh,
+              value("anatomy.mesh.infarct_array", LV_AT(anatomy.mesh.import.infarct_array),
+                    "VTK: point array of M(X); empty: infarct, if the file has it")),
+         number("anatomy.mesh.base_tolerance", LV_AT(anatomy.mesh.import.base_tolerance), "mm",
+                between(0.0, 10.0), "largest distance of the base's nodes from their plane"),
+         number("anatomy.mesh.refinements", LV_AT(anatomy.mesh.refinements), "", between(0, 3),
+                "how often every element is cut into eight"),
+     }},
+};
 
-void declare_mesh(Declarations& d) {
-  d.add(meshing, {&meshed_here, &linear_elements},
-        {
-            number("mesh.edge_length", LV_AT(mesh.edge_length), "mm", between(0.2, 10.0),
-                   "target length of element edges; below the box's mesh width for nodal coupling",
-                   "2.5"),
-            number("mesh.layers", LV_AT(mesh.layers), "", between(0, 40),
-                   "elements through the wall; 0: as edge_length asks"),
-        });
-  d.add(
-      meshing, {&static_engine},
-      {
-          number("quasi_static.order", LV_AT(quasi_static.order), "", between(1, 2),
-                 "2: quadratic elements, on a mesh of their own; 1: linear hexahedra on the "
-                 "immersed engine's mesh"),
-          when(quadratic_elements,
-               when(meshed_here, number("quasi_static.edge_length", LV_AT(quasi_static.edge_length),
-                                        "mm", between(0.5, 20.0),
-                                        "target length of the edges of quadratic elements"))),
-          when(quadratic_elements,
-               when(meshed_here,
-                    number("quasi_static.layers", LV_AT(quasi_static.layers), "", between(0, 20),
-                           "quadratic elements through the wall; 0: as edge_length asks"))),
-          when(
-              quadratic_elements,
+constexpr Group of_mesh[]{
+    {meshing,
+     {&meshed_here, &linear_elements},
+     {
+         number("mesh.edge_length", LV_AT(mesh.edge_length), "mm", between(0.2, 10.0),
+                "target length of element edges; below the box's mesh width for nodal coupling",
+                "2.5"),
+         number("mesh.layers", LV_AT(mesh.layers), "", between(0, 40),
+                "elements through the wall; 0: as edge_length asks"),
+     }},
+    {meshing,
+     {&static_engine},
+     {
+         number("quasi_static.order", LV_AT(quasi_static.order), "", between(1, 2),
+                "2: quadratic elements, on a mesh of their own; 1: linear hexahedra on the "
+                "immersed engine's mesh"),
+         when(quadratic_elements,
+              when(meshed_here,
+                   number("quasi_static.edge_length", LV_AT(quasi_static.edge_length), "mm",
+                          between(0.5, 20.0), "target length of the edges of quadratic elements"))),
+         when(quadratic_elements,
+              when(meshed_here,
+                   number("quasi_static.layers", LV_AT(quasi_static.layers), "", between(0, 20),
+                          "quadratic elements through the wall; 0: as edge_length asks"))),
+         when(quadratic_elements,
               when(meshed_here,
                    number(
                        "quasi_static.apex", LV_AT(quasi_static.apex), "", between(0.1, 1.0),
                        "length along the wall of quadratic elements next to the apex, as a "
                        "fraction of that in an even mesh of as many elements; others are longer"))),
-          when(quadratic_elements,
-               when(meshed_here, number("quasi_static.endocardium", LV_AT(quasi_static.endocardium),
-                                        "", between(0.1, 1.0),
-                                        "the same through the wall, next to the endocardium"))),
-      });
-  d.add(
-      Stages(Stage::mesh, Stage::calibrate, Stage::unload, Stage::beat), {},
-      {
-          number(
-              "fibres.helix_endo", LV_AT(fibres.helix_endo), "deg", between(-90.0, 90.0),
-              "helix angle at the endocardium; negative is a right-handed helix (the paper's sign)",
-              "2.2"),
-          number("fibres.helix_epi", LV_AT(fibres.helix_epi), "deg", between(-90.0, 90.0),
-                 "helix angle at the epicardium", "2.2"),
-          number("fibres.sheet_endo", LV_AT(fibres.sheet_endo), "deg", between(-90.0, 90.0),
-                 "sheet angle at the endocardium", "2.2"),
-          number("fibres.sheet_epi", LV_AT(fibres.sheet_epi), "deg", between(-90.0, 90.0),
-                 "sheet angle at the epicardium", "2.2"),
-      });
-  d.add(Stages(Stage::anatomy, Stage::mesh, Stage::calibrate, Stage::unload), {},
-        {
-            whether_set(number("regions.septum_angle", LV_AT(regions.septum_angle), "deg",
-                               between(-360.0, 360.0),
-                               "direction of the middle of the septum about the long axis, from "
-                               "the model's x axis towards y",
-                               "Fig. 3")),
-        });
-  d.add(meshing, {},
-        {
-            number("regions.slice_spacing", LV_AT(regions.slice_spacing), "mm", between(0.0, 50.0),
-                   "spacing of the seven slice planes from the base on; 0: the wall's length / 6.5",
-                   "Fig. 3"),
-        });
-  d.add(mechanics, {&static_engine},
-        {
-            number("quasi_static.stabilisation", LV_AT(quasi_static.stabilisation.beta_s), "kPa",
-                   not_negative,
-                   "volumetric stiffness at every quadrature point, which keeps elements from "
-                   "buckling inside; zero at J = 1"),
-            number("quasi_static.first_step", LV_AT(quasi_static.solver.first_step), "",
-                   between(1e-3, 1.0), "first load step, as a share of the whole load"),
-            choice("quasi_static.linear_solver", LV_AT(quasi_static.solver.newton.linear.method),
-                   "direct iterative",
-                   "how the linear equations are solved: by MUMPS, or by GMRES with multigrid, for "
-                   "meshes whose factors do not fit into memory (quadratic elements alone)"),
-            when(iterative, number("quasi_static.linear_tolerance",
-                                   LV_AT(quasi_static.solver.newton.linear.tolerance), "",
-                                   between(1e-14, 1e-2),
-                                   "of the iterative solver: residual over right-hand side")),
-            number("quasi_static.tolerance", LV_AT(quasi_static.solver.newton.tolerance), "mm",
-                   between(1e-12, 0.1),
-                   "Newton's method ends when its correction moves the wall by less, rms"),
-        });
-}
+         when(quadratic_elements,
+              when(meshed_here, number("quasi_static.endocardium", LV_AT(quasi_static.endocardium),
+                                       "", between(0.1, 1.0),
+                                       "the same through the wall, next to the endocardium"))),
+     }},
+    {Stages(Stage::mesh, Stage::calibrate, Stage::unload, Stage::beat),
+     {},
+     {
+         number(
+             "fibres.helix_endo", LV_AT(fibres.helix_endo), "deg", between(-90.0, 90.0),
+             "helix angle at the endocardium; negative is a right-handed helix (the paper's sign)",
+             "2.2"),
+         number("fibres.helix_epi", LV_AT(fibres.helix_epi), "deg", between(-90.0, 90.0),
+                "helix angle at the epicardium", "2.2"),
+         number("fibres.sheet_endo", LV_AT(fibres.sheet_endo), "deg", between(-90.0, 90.0),
+                "sheet angle at the endocardium", "2.2"),
+         number("fibres.sheet_epi", LV_AT(fibres.sheet_epi), "deg", between(-90.0, 90.0),
+                "sheet angle at the epicardium", "2.2"),
+     }},
+    {Stages(Stage::anatomy, Stage::mesh, Stage::calibrate, Stage::unload),
+     {},
+     {
+         whether_set(number("regions.septum_angle", LV_AT(regions.septum_angle), "deg",
+                            between(-360.0, 360.0),
+                            "direction of the middle of the septum about the long axis, from "
+                            "the model's x axis towards y",
+                            "Fig. 3")),
+     }},
+    {meshing,
+     {},
+     {
+         number("regions.slice_spacing", LV_AT(regions.slice_spacing), "mm", between(0.0, 50.0),
+                "spacing of the seven slice planes from the base on; 0: the wall's length / 6.5",
+                "Fig. 3"),
+     }},
+    {mechanics,
+     {&static_engine},
+     {
+         number("quasi_static.stabilisation", LV_AT(quasi_static.stabilisation.beta_s), "kPa",
+                not_negative,
+                "volumetric stiffness at every quadrature point, which keeps elements from "
+                "buckling inside; zero at J = 1"),
+         number("quasi_static.first_step", LV_AT(quasi_static.solver.first_step), "",
+                between(1e-3, 1.0), "first load step, as a share of the whole load"),
+         choice("quasi_static.linear_solver", LV_AT(quasi_static.solver.newton.linear.method),
+                "direct iterative",
+                "how the linear equations are solved: by MUMPS, or by GMRES with multigrid, for "
+                "meshes whose factors do not fit into memory (quadratic elements alone)"),
+         when(iterative,
+              number("quasi_static.linear_tolerance",
+                     LV_AT(quasi_static.solver.newton.linear.tolerance), "", between(1e-14, 1e-2),
+                     "of the iterative solver: residual over right-hand side")),
+         number("quasi_static.tolerance", LV_AT(quasi_static.solver.newton.tolerance), "mm",
+                between(1e-12, 0.1),
+                "Newton's method ends when its correction moves the wall by less, rms"),
+     }},
+};
 
-void declare_infarct(Declarations& d) {
-  d.add(Stages(Stage::anatomy, Stage::mesh, Stage::calibrate, Stage::unload), {},
-        {
-            choice("infarct.source", LV_AT(scar.source),
-                   "mesh none described elements surface labels lge",
-                   "where the infarct comes from: the mesh file's point array of M (no infarct if "
-                   "it has none), nowhere, or one of the tables below; an element is infarcted if "
-                   "its centre is",
-                   "2.11"),
-        });
-  d.add(meshing, {},
-        {
-            when(infarct_laid_on,
-                 number("infarct.border", LV_AT(scar.border), "mm", above_up_to(0.0, 100.0),
-                        "width of the border zone, over which M falls from 1 to 0", "2.11")),
-            when(infarct_without_unit,
-                 number("infarct.length_unit", LV_AT(scar.length_unit), "mm", positive,
-                        "length of the unit of surface.file or labels.file")),
-            when(infarct_of_images,
-                 number("infarct.shift", LV_AT(scar.shift), "mm", between(-50.0, 50.0),
-                        "by which the labels or the late-enhancement image are moved in scanner "
-                        "coordinates before they are laid on the wall")),
-        });
-  d.add(meshing, {&infarct_described},
-        {
-            number("infarct.described.angle", LV_AT(scar.described.angle), "deg",
-                   between(-360.0, 360.0),
-                   "direction of the sector's middle about the long axis, from the middle of the "
-                   "septum towards the anterior wall; 30 deg is antero-septal",
-                   "2.2"),
-            number("infarct.described.width", LV_AT(scar.described.width), "deg",
-                   between(0.0, 360.0), "angle that the sector spans"),
-            number("infarct.described.bottom", LV_AT(scar.described.bottom), "", between(0.0, 1.0),
-                   "height at which the sector begins, from 0 at the apex to 1 at the base"),
-            number("infarct.described.top", LV_AT(scar.described.top), "", between(0.0, 1.0),
-                   "height at which the sector ends"),
-            number("infarct.described.apex", LV_AT(scar.described.apex), "", between(0.0, 1.0),
-                   "below this height the wall is infarcted all round"),
-            number("infarct.described.transmurality", LV_AT(scar.described.transmurality), "",
-                   above_up_to(0.0, 1.0),
-                   "part of the wall's thickness that is infarcted, from the endocardium"),
-        });
-  d.add(
-      Stages(Stage::anatomy, Stage::mesh, Stage::calibrate, Stage::unload), {&infarct_of_elements},
-      {
-          value(
-              "infarct.elements.set", LV_AT(scar.set),
-              "set of elements in anatomy.mesh.file: an ABAQUS *Elset, the name or number of a "
-              "Gmsh physical volume, or a VTK cell array that is 1 in the infarct and 0 elsewhere"),
-      });
-  d.add(meshing, {&infarct_of_surface},
-        {
-            path("infarct.surface.file", LV_AT(scar.surface),
-                 "closed surface in image space (a mesh's own coordinates): .stl, .ply, .vtp or "
-                 ".vtk; names are relative to the case file"),
-        });
-  d.add(meshing, {&infarct_of_labels},
-        {
-            path("infarct.labels.file", LV_AT(scar.labels),
-                 "labelled volume in image space: NIfTI (.nii, .nii.gz), .vti or .vtk (structured "
-                 "points)"),
-            when(labels_in_vtk, value("infarct.labels.array", LV_AT(scar.array),
-                                      "array of labels, at points (centres of voxels) or in cells; "
-                                      "empty: the only one")),
-            filled_list("infarct.labels.scar", LV_AT(scar.scar), "the labels that mean scar"),
-            value("infarct.labels.no_reflow", LV_AT(scar.no_reflow),
-                  "the labels of the scar's dark core, which is infarct too"),
-            when(moved_labels, value("infarct.labels.muscle", LV_AT(scar.muscle),
-                                     "the labels of the other muscle, for in_plane")),
-            when(labels_in_nifti,
-                 value("infarct.labels.in_plane", LV_AT(scar.in_plane),
-                       "NIfTI: move each slice in its plane until the middle of its muscle and "
-                       "scar lies on that of the wall there (another breath-hold)")),
-        });
-  d.add(
-      meshing, {&infarct_of_lge},
-      {
-          path("infarct.lge.image", LV_AT(scar.lge.image),
-               "late-enhancement image: a NIfTI file or a folder of DICOM files; linear between "
-               "pixels and between slices"),
-          when(lge_in_dicom, value("infarct.lge.series", LV_AT(scar.lge.series),
-                                   "DICOM series to use, as `ventricle images` lists them; may be "
-                                   "left out if there is one")),
-          choice("infarct.lge.threshold", LV_AT(scar.lge.threshold), "sd fwhm",
-                 "scar is brighter than remote muscle by so many standard deviations, or than half "
-                 "of the brightest in the wall"),
-          when(threshold_sd,
-               number("infarct.lge.deviations", LV_AT(scar.lge.deviations), "", positive,
-                      "standard deviations above the mean of remote muscle (threshold = \"sd\")")),
-          when(threshold_sd,
-               value("infarct.lge.remote", LV_AT(scar.lge.remote),
-                     "AHA segments (1 to 17) of remote, healthy muscle (threshold = \"sd\")")),
-          value("infarct.lge.fill_no_reflow", LV_AT(scar.lge.fill_no_reflow),
-                "dark parts of the wall that the scar shuts off from epicardium and base count to "
-                "it"),
-          value("infarct.lge.in_plane", LV_AT(scar.lge.in_plane),
-                "move each slice in its plane to where its grey values fit best to cavity, wall "
-                "and surroundings (another breath-hold); where they do not show that clearly it "
-                "stays, with a warning"),
-          when(moved_lge,
-               number("infarct.lge.largest_shift", LV_AT(scar.lge.largest_shift), "mm",
-                      above_up_to(0.0, 50.0), "moves up to this one are tried (in_plane)")),
-      });
-  d.add(mechanics, {&infarcted},
-        {
-            number("infarct.stiffening", LV_AT(infarct.stiffening), "", not_negative,
-                   "an infarct of extent M is (1 + stiffening M) times as stiff", "2.23"),
-        });
-}
+constexpr Group of_infarct[]{
+    {Stages(Stage::anatomy, Stage::mesh, Stage::calibrate, Stage::unload),
+     {},
+     {
+         choice("infarct.source", LV_AT(scar.source),
+                "mesh none described elements surface labels lge",
+                "where the infarct comes from: the mesh file's point array of M (no infarct if "
+                "it has none), nowhere, or one of the tables below; an element is infarcted if "
+                "its centre is",
+                "2.11"),
+     }},
+    {meshing,
+     {},
+     {
+         when(infarct_laid_on,
+              number("infarct.border", LV_AT(scar.border), "mm", above_up_to(0.0, 100.0),
+                     "width of the border zone, over which M falls from 1 to 0", "2.11")),
+         when(infarct_without_unit,
+              number("infarct.length_unit", LV_AT(scar.length_unit), "mm", positive,
+                     "length of the unit of surface.file or labels.file")),
+         when(infarct_of_images,
+              number("infarct.shift", LV_AT(scar.shift), "mm", between(-50.0, 50.0),
+                     "by which the labels or the late-enhancement image are moved in scanner "
+                     "coordinates before they are laid on the wall")),
+     }},
+    {meshing,
+     {&infarct_described},
+     {
+         number("infarct.described.angle", LV_AT(scar.described.angle), "deg",
+                between(-360.0, 360.0),
+                "direction of the sector's middle about the long axis, from the middle of the "
+                "septum towards the anterior wall; 30 deg is antero-septal",
+                "2.2"),
+         number("infarct.described.width", LV_AT(scar.described.width), "deg", between(0.0, 360.0),
+                "angle that the sector spans"),
+         number("infarct.described.bottom", LV_AT(scar.described.bottom), "", between(0.0, 1.0),
+                "height at which the sector begins, from 0 at the apex to 1 at the base"),
+         number("infarct.described.top", LV_AT(scar.described.top), "", between(0.0, 1.0),
+                "height at which the sector ends"),
+         number("infarct.described.apex", LV_AT(scar.described.apex), "", between(0.0, 1.0),
+                "below this height the wall is infarcted all round"),
+         number("infarct.described.transmurality", LV_AT(scar.described.transmurality), "",
+                above_up_to(0.0, 1.0),
+                "part of the wall's thickness that is infarcted, from the endocardium"),
+     }},
+    {Stages(Stage::anatomy, Stage::mesh, Stage::calibrate, Stage::unload),
+     {&infarct_of_elements},
+     {
+         value(
+             "infarct.elements.set", LV_AT(scar.set),
+             "set of elements in anatomy.mesh.file: an ABAQUS *Elset, the name or number of a "
+             "Gmsh physical volume, or a VTK cell array that is 1 in the infarct and 0 elsewhere"),
+     }},
+    {meshing,
+     {&infarct_of_surface},
+     {
+         path("infarct.surface.file", LV_AT(scar.surface),
+              "closed surface in image space (a mesh's own coordinates): .stl, .ply, .vtp or "
+              ".vtk; names are relative to the case file"),
+     }},
+    {meshing,
+     {&infarct_of_labels},
+     {
+         path("infarct.labels.file", LV_AT(scar.labels),
+              "labelled volume in image space: NIfTI (.nii, .nii.gz), .vti or .vtk (structured "
+              "points)"),
+         when(labels_in_vtk, value("infarct.labels.array", LV_AT(scar.array),
+                                   "array of labels, at points (centres of voxels) or in cells; "
+                                   "empty: the only one")),
+         filled_list("infarct.labels.scar", LV_AT(scar.scar), "the labels that mean scar"),
+         value("infarct.labels.no_reflow", LV_AT(scar.no_reflow),
+               "the labels of the scar's dark core, which is infarct too"),
+         when(moved_labels, value("infarct.labels.muscle", LV_AT(scar.muscle),
+                                  "the labels of the other muscle, for in_plane")),
+         when(labels_in_nifti,
+              value("infarct.labels.in_plane", LV_AT(scar.in_plane),
+                    "NIfTI: move each slice in its plane until the middle of its muscle and "
+                    "scar lies on that of the wall there (another breath-hold)")),
+     }},
+    {meshing,
+     {&infarct_of_lge},
+     {
+         path("infarct.lge.image", LV_AT(scar.lge.image),
+              "late-enhancement image: a NIfTI file or a folder of DICOM files; linear between "
+              "pixels and between slices"),
+         when(lge_in_dicom, value("infarct.lge.series", LV_AT(scar.lge.series),
+                                  "DICOM series to use, as `ventricle images` lists them; may be "
+                                  "left out if there is one")),
+         choice("infarct.lge.threshold", LV_AT(scar.lge.threshold), "sd fwhm",
+                "scar is brighter than remote muscle by so many standard deviations, or than half "
+                "of the brightest in the wall"),
+         when(threshold_sd,
+              number("infarct.lge.deviations", LV_AT(scar.lge.deviations), "", positive,
+                     "standard deviations above the mean of remote muscle (threshold = \"sd\")")),
+         when(threshold_sd,
+              value("infarct.lge.remote", LV_AT(scar.lge.remote),
+                    "AHA segments (1 to 17) of remote, healthy muscle (threshold = \"sd\")")),
+         value("infarct.lge.fill_no_reflow", LV_AT(scar.lge.fill_no_reflow),
+               "dark parts of the wall that the scar shuts off from epicardium and base count to "
+               "it"),
+         value("infarct.lge.in_plane", LV_AT(scar.lge.in_plane),
+               "move each slice in its plane to where its grey values fit best to cavity, wall "
+               "and surroundings (another breath-hold); where they do not show that clearly it "
+               "stays, with a warning"),
+         when(moved_lge,
+              number("infarct.lge.largest_shift", LV_AT(scar.lge.largest_shift), "mm",
+                     above_up_to(0.0, 50.0), "moves up to this one are tried (in_plane)")),
+     }},
+    {mechanics,
+     {&infarcted},
+     {
+         number("infarct.stiffening", LV_AT(infarct.stiffening), "", not_negative,
+                "an infarct of extent M is (1 + stiffening M) times as stiff", "2.23"),
+     }},
+};
 
-void declare_muscle(Declarations& d) {
-  d.add(mechanics, {},
-        {
-            choice("passive.law", LV_AT(passive.law), "holzapfel_ogden guccione neo_hookean",
-                   "passive law of the muscle", "2.14"),
-            when(holzapfel_ogden, number("passive.C_a", LV_AT(passive.C_a), "", positive,
-                                         "factor of a_f, a_s and a_fs", "2.25")),
-        });
-  d.add(mechanics, {&holzapfel_ogden},
-        {
-            number("passive.holzapfel_ogden.a", LV_AT(passive.holzapfel_ogden.a), "kPa", positive,
-                   "isotropic stiffness", "2.14"),
-            number("passive.holzapfel_ogden.b", LV_AT(passive.holzapfel_ogden.b), "", positive,
-                   "isotropic exponent", "2.14"),
-            number("passive.holzapfel_ogden.a_f", LV_AT(passive.holzapfel_ogden.a_f), "kPa",
-                   not_negative, "fibre stiffness", "2.14"),
-            number("passive.holzapfel_ogden.b_f", LV_AT(passive.holzapfel_ogden.b_f), "", positive,
-                   "fibre exponent", "2.14"),
-            number("passive.holzapfel_ogden.a_s", LV_AT(passive.holzapfel_ogden.a_s), "kPa",
-                   not_negative, "sheet stiffness", "2.14"),
-            number("passive.holzapfel_ogden.b_s", LV_AT(passive.holzapfel_ogden.b_s), "", positive,
-                   "sheet exponent", "2.14"),
-            number("passive.holzapfel_ogden.a_fs", LV_AT(passive.holzapfel_ogden.a_fs), "kPa",
-                   not_negative, "fibre-sheet shear stiffness", "2.14"),
-            number("passive.holzapfel_ogden.b_fs", LV_AT(passive.holzapfel_ogden.b_fs), "",
-                   positive, "fibre-sheet shear exponent", "2.14"),
-        });
-  d.add(mechanics, {&guccione},
-        {
-            number("passive.guccione.C", LV_AT(passive.guccione.C), "kPa", positive,
-                   "overall stiffness"),
-            number("passive.guccione.b_f", LV_AT(passive.guccione.b_f), "", not_negative,
-                   "exponent along the fibre"),
-            number("passive.guccione.b_t", LV_AT(passive.guccione.b_t), "", not_negative,
-                   "exponent across the fibre"),
-            number("passive.guccione.b_fs", LV_AT(passive.guccione.b_fs), "", not_negative,
-                   "exponent of fibre-cross-fibre shear"),
-        });
-  d.add(mechanics, {&neo_hookean},
-        {
-            number("passive.neo_hookean.mu", LV_AT(passive.neo_hookean.mu), "kPa", positive,
-                   "shear modulus"),
-        });
-  d.add(Stages(Stage::beat), {&immersed_engine},
-        {
-            number("volumetric.beta_s", LV_AT(volumetric.beta_s), "kPa", not_negative,
-                   "penalty that reinforces incompressibility; the paper: 100 kPa", "2.20"),
-            choice("volumetric.points", LV_AT(volumetric_points), "full mean",
-                   "where the penalty is integrated: at all points of an element, or from mean "
-                   "dilatations (of a hexahedron, around a node of tetrahedra), which do not lock",
-                   "2.20"),
-        });
-  d.add(
-      mechanics, {},
-      {
-          choice("active.law", LV_AT(active_form), "niederer second_piola cauchy",
-                 "active tension of Niederer, Hunter and Smith, J T F f0 (x) f0; or a prescribed "
-                 "tension as the second Piola-Kirchhoff stress T f0 (x) f0, or as the Cauchy "
-                 "stress T along the fibre",
-                 "2.21"),
-          when(prescribed_tension,
-               number("active.tension", LV_AT(prescribed_tension), "kPa", not_negative,
-                      "prescribed tension at end-systole (laws second_piola and cauchy)")),
-          when(niederer, number("active.T_scale", LV_AT(active.T_scale), "", not_negative,
-                                "strength of contraction, T_ref = T_scale x T_ref_unscaled", "A")),
-          when(niederer,
-               number("active.T_ref_unscaled", LV_AT(active.T_ref_unscaled), "kPa", positive,
-                      "tension at full activation and resting length for T_scale = 1", "A")),
-          when(moving_fibres,
-               when(niederer, number("active.a", LV_AT(active.a), "", not_negative,
-                                     "curvature of the force-velocity relation", "A.10"))),
-      });
-  d.add(Stages(Stage::beat), {&niederer, &moving_fibres},
-        {
-            number("active.A_1", LV_AT(active.A[0]), "", any, "weight of a fading memory", "A.11"),
-            number("active.alpha_1", LV_AT(active.alpha[0]), "1/s", positive,
-                   "rate of a fading memory", "A.11"),
-            number("active.A_2", LV_AT(active.A[1]), "", any, "weight of a fading memory", "A.11"),
-            number("active.alpha_2", LV_AT(active.alpha[1]), "1/s", positive,
-                   "rate of a fading memory", "A.11"),
-            number("active.A_3", LV_AT(active.A[2]), "", any, "weight of a fading memory", "A.11"),
-            number("active.alpha_3", LV_AT(active.alpha[2]), "1/s", positive,
-                   "rate of a fading memory", "A.11"),
-        });
-  d.add(
-      mechanics, {&niederer},
-      {
-          number("active.alpha_0", LV_AT(active.alpha_0), "1/s", positive,
-                 "rate of activation of actin sites", "A.4"),
-          number("active.alpha_r1", LV_AT(active.alpha_r1), "1/s", positive,
-                 "slow rate of relaxation", "A.4"),
-          number("active.alpha_r2", LV_AT(active.alpha_r2), "1/s", positive,
-                 "fast rate of relaxation", "A.4"),
-          number("active.beta_0", LV_AT(active.beta_0), "", any,
-                 "dependence of the isometric tension on stretch", "A.6"),
-          number("active.beta_1", LV_AT(active.beta_1), "", any,
-                 "dependence of the calcium sensitivity on stretch", "A.5"),
-          number("active.Ca_50ref", LV_AT(active.Ca_50ref), "uM", positive,
-                 "calcium at half activation at resting length", "A.5"),
-          number("active.Ca_trpn_max", LV_AT(active.Ca_trpn_max), "uM", positive,
-                 "binding sites on troponin", "A.2"),
-          number("active.gamma", LV_AT(active.gamma), "", positive,
-                 "how much tension slows unbinding", "A.3"),
-          number("active.k_on", LV_AT(active.k_on), "1/(uM s)", positive, "rate of binding", "A.2"),
-          number("active.k_off_ref", LV_AT(active.k_off_ref), "1/s", positive,
-                 "rate of unbinding without tension", "A.3"),
-          number("active.K_z", LV_AT(active.K_z), "", positive, "half point of fast relaxation",
-                 "A.4"),
-          number("active.z_p", LV_AT(active.z_p), "", positive,
-                 "point of linearisation of fast relaxation", "A.8"),
-          number("active.stretch_min", LV_AT(active.stretch_min), "", between(0.1, 1.0),
-                 "guard: smallest stretch that (A.5)-(A.7) are given", "A.5"),
-          number("active.stretch_max", LV_AT(active.stretch_max), "", between(1.0, 1.24),
-                 "guard: largest stretch that (A.5)-(A.7) are given", "A.5"),
-          number("active.unbinding_min", LV_AT(active.unbinding_min), "", between(0.0, 1.0),
-                 "guard: least value of the bracket in (A.3)", "A.3"),
-      });
-  d.add(
-      Stages(Stage::beat), {&immersed_engine},
-      {
-          choice("calcium.mode", LV_AT(protocol.calcium.mode), "hold transient",
-                 "calcium stays at its peak until the ventricle is steady, or decays as (A.1) says",
-                 "A.1"),
-      });
-  d.add(mechanics, {&calcium_counts},
-        {
-            number("calcium.Ca_0", LV_AT(protocol.calcium.Ca_0), "uM", not_negative,
-                   "resting calcium", "A.1"),
-            number("calcium.Ca_max", LV_AT(protocol.calcium.Ca_max), "uM", positive, "peak calcium",
-                   "A.1"),
-        });
-  d.add(Stages(Stage::beat), {&immersed_engine},
-        {
-            number("calcium.tau", LV_AT(protocol.calcium.tau), "s", positive, "time to the peak",
-                   "A.1"),
-        });
-}
+constexpr Group of_muscle[]{
+    {mechanics,
+     {},
+     {
+         choice("passive.law", LV_AT(passive.law), "holzapfel_ogden guccione neo_hookean",
+                "passive law of the muscle", "2.14"),
+         when(holzapfel_ogden, number("passive.C_a", LV_AT(passive.C_a), "", positive,
+                                      "factor of a_f, a_s and a_fs", "2.25")),
+     }},
+    {mechanics,
+     {&holzapfel_ogden},
+     {
+         number("passive.holzapfel_ogden.a", LV_AT(passive.holzapfel_ogden.a), "kPa", positive,
+                "isotropic stiffness", "2.14"),
+         number("passive.holzapfel_ogden.b", LV_AT(passive.holzapfel_ogden.b), "", positive,
+                "isotropic exponent", "2.14"),
+         number("passive.holzapfel_ogden.a_f", LV_AT(passive.holzapfel_ogden.a_f), "kPa",
+                not_negative, "fibre stiffness", "2.14"),
+         number("passive.holzapfel_ogden.b_f", LV_AT(passive.holzapfel_ogden.b_f), "", positive,
+                "fibre exponent", "2.14"),
+         number("passive.holzapfel_ogden.a_s", LV_AT(passive.holzapfel_ogden.a_s), "kPa",
+                not_negative, "sheet stiffness", "2.14"),
+         number("passive.holzapfel_ogden.b_s", LV_AT(passive.holzapfel_ogden.b_s), "", positive,
+                "sheet exponent", "2.14"),
+         number("passive.holzapfel_ogden.a_fs", LV_AT(passive.holzapfel_ogden.a_fs), "kPa",
+                not_negative, "fibre-sheet shear stiffness", "2.14"),
+         number("passive.holzapfel_ogden.b_fs", LV_AT(passive.holzapfel_ogden.b_fs), "", positive,
+                "fibre-sheet shear exponent", "2.14"),
+     }},
+    {mechanics,
+     {&guccione},
+     {
+         number("passive.guccione.C", LV_AT(passive.guccione.C), "kPa", positive,
+                "overall stiffness"),
+         number("passive.guccione.b_f", LV_AT(passive.guccione.b_f), "", not_negative,
+                "exponent along the fibre"),
+         number("passive.guccione.b_t", LV_AT(passive.guccione.b_t), "", not_negative,
+                "exponent across the fibre"),
+         number("passive.guccione.b_fs", LV_AT(passive.guccione.b_fs), "", not_negative,
+                "exponent of fibre-cross-fibre shear"),
+     }},
+    {mechanics,
+     {&neo_hookean},
+     {
+         number("passive.neo_hookean.mu", LV_AT(passive.neo_hookean.mu), "kPa", positive,
+                "shear modulus"),
+     }},
+    {Stages(Stage::beat),
+     {&immersed_engine},
+     {
+         number("volumetric.beta_s", LV_AT(volumetric.beta_s), "kPa", not_negative,
+                "penalty that reinforces incompressibility; the paper: 100 kPa", "2.20"),
+         choice("volumetric.points", LV_AT(volumetric_points), "full mean",
+                "where the penalty is integrated: at all points of an element, or from mean "
+                "dilatations (of a hexahedron, around a node of tetrahedra), which do not lock",
+                "2.20"),
+     }},
+    {mechanics,
+     {},
+     {
+         choice("active.law", LV_AT(active_form), "niederer second_piola cauchy",
+                "active tension of Niederer, Hunter and Smith, J T F f0 (x) f0; or a prescribed "
+                "tension as the second Piola-Kirchhoff stress T f0 (x) f0, or as the Cauchy "
+                "stress T along the fibre",
+                "2.21"),
+         when(prescribed_tension,
+              number("active.tension", LV_AT(prescribed_tension), "kPa", not_negative,
+                     "prescribed tension at end-systole (laws second_piola and cauchy)")),
+         when(niederer, number("active.T_scale", LV_AT(active.T_scale), "", not_negative,
+                               "strength of contraction, T_ref = T_scale x T_ref_unscaled", "A")),
+         when(niederer,
+              number("active.T_ref_unscaled", LV_AT(active.T_ref_unscaled), "kPa", positive,
+                     "tension at full activation and resting length for T_scale = 1", "A")),
+         when(moving_fibres,
+              when(niederer, number("active.a", LV_AT(active.a), "", not_negative,
+                                    "curvature of the force-velocity relation", "A.10"))),
+     }},
+    {Stages(Stage::beat),
+     {&niederer, &moving_fibres},
+     {
+         number("active.A_1", LV_AT(active.A[0]), "", any, "weight of a fading memory", "A.11"),
+         number("active.alpha_1", LV_AT(active.alpha[0]), "1/s", positive,
+                "rate of a fading memory", "A.11"),
+         number("active.A_2", LV_AT(active.A[1]), "", any, "weight of a fading memory", "A.11"),
+         number("active.alpha_2", LV_AT(active.alpha[1]), "1/s", positive,
+                "rate of a fading memory", "A.11"),
+         number("active.A_3", LV_AT(active.A[2]), "", any, "weight of a fading memory", "A.11"),
+         number("active.alpha_3", LV_AT(active.alpha[2]), "1/s", positive,
+                "rate of a fading memory", "A.11"),
+     }},
+    {mechanics,
+     {&niederer},
+     {
+         number("active.alpha_0", LV_AT(active.alpha_0), "1/s", positive,
+                "rate of activation of actin sites", "A.4"),
+         number("active.alpha_r1", LV_AT(active.alpha_r1), "1/s", positive,
+                "slow rate of relaxation", "A.4"),
+         number("active.alpha_r2", LV_AT(active.alpha_r2), "1/s", positive,
+                "fast rate of relaxation", "A.4"),
+         number("active.beta_0", LV_AT(active.beta_0), "", any,
+                "dependence of the isometric tension on stretch", "A.6"),
+         number("active.beta_1", LV_AT(active.beta_1), "", any,
+                "dependence of the calcium sensitivity on stretch", "A.5"),
+         number("active.Ca_50ref", LV_AT(active.Ca_50ref), "uM", positive,
+                "calcium at half activation at resting length", "A.5"),
+         number("active.Ca_trpn_max", LV_AT(active.Ca_trpn_max), "uM", positive,
+                "binding sites on troponin", "A.2"),
+         number("active.gamma", LV_AT(active.gamma), "", positive,
+                "how much tension slows unbinding", "A.3"),
+         number("active.k_on", LV_AT(active.k_on), "1/(uM s)", positive, "rate of binding", "A.2"),
+         number("active.k_off_ref", LV_AT(active.k_off_ref), "1/s", positive,
+                "rate of unbinding without tension", "A.3"),
+         number("active.K_z", LV_AT(active.K_z), "", positive, "half point of fast relaxation",
+                "A.4"),
+         number("active.z_p", LV_AT(active.z_p), "", positive,
+                "point of linearisation of fast relaxation", "A.8"),
+         number("active.stretch_min", LV_AT(active.stretch_min), "", between(0.1, 1.0),
+                "guard: smallest stretch that (A.5)-(A.7) are given", "A.5"),
+         number("active.stretch_max", LV_AT(active.stretch_max), "", between(1.0, 1.24),
+                "guard: largest stretch that (A.5)-(A.7) are given", "A.5"),
+         number("active.unbinding_min", LV_AT(active.unbinding_min), "", between(0.0, 1.0),
+                "guard: least value of the bracket in (A.3)", "A.3"),
+     }},
+    {Stages(Stage::beat),
+     {&immersed_engine},
+     {
+         choice("calcium.mode", LV_AT(protocol.calcium.mode), "hold transient",
+                "calcium stays at its peak until the ventricle is steady, or decays as (A.1) says",
+                "A.1"),
+     }},
+    {mechanics,
+     {&calcium_counts},
+     {
+         number("calcium.Ca_0", LV_AT(protocol.calcium.Ca_0), "uM", not_negative, "resting calcium",
+                "A.1"),
+         number("calcium.Ca_max", LV_AT(protocol.calcium.Ca_max), "uM", positive, "peak calcium",
+                "A.1"),
+     }},
+    {Stages(Stage::beat),
+     {&immersed_engine},
+     {
+         number("calcium.tau", LV_AT(protocol.calcium.tau), "s", positive, "time to the peak",
+                "A.1"),
+     }},
+};
 
-void declare_immersed_engine(Declarations& d) {
-  d.add(Stages(Stage::mesh, Stage::unload, Stage::beat), {&mass_counts},
-        {
-            number("blood.density", LV_AT(blood.density), "g/ml", positive,
-                   "density of blood and muscle", "2.1"),
-        });
-  d.add(Stages(Stage::beat), {&immersed_engine},
-        {
-            number("blood.viscosity", LV_AT(blood.viscosity), "cP", not_negative,
-                   "viscosity of blood and muscle; the paper prints 0.04 cP, a slip for 0.04 P",
-                   "2.1"),
-        });
-  d.add(Stages(Stage::beat), {&immersed_engine},
-        {
-            number("box.size", LV_AT(box.size), "mm", between(10.0, 1000.0),
-                   "size of the box around the ventricle", "2.5"),
-            number("box.cells", LV_AT(box.cells), "", between(8, 2048),
-                   "cells of the box along x, y and z", "2.5"),
-        });
-  d.add(Stages(Stage::beat), {&immersed_engine},
-        {
-            choice("coupling.kind", LV_AT(coupling.kind), "nodal quadrature",
-                   "forces and velocities pass between wall and grid at the nodes, or at Gauss "
-                   "points made anew every step (the paper's scheme, several times slower)",
-                   "2.9"),
-            choice("coupling.kernel", LV_AT(coupling.kernel), "peskin4 composite_bspline",
-                   "regularised delta function: the paper's 4-point kernel, or B-splines that keep "
-                   "the wall's velocity divergence-free",
-                   "2.5"),
-            when(quadrature, number("coupling.points_per_cell", LV_AT(coupling.points_per_cell), "",
-                                    between(0.5, 8.0),
-                                    "Gauss points per mesh width (quadrature coupling)", "2.5")),
-        });
-  d.add(mechanics, {},
-        {
-            choice("base.support", LV_AT(base.kind), "sliding fixed",
-                   "the basal plane is held along the axis and around it and moves freely "
-                   "outwards, or is held altogether",
-                   "2.4"),
-        });
-  d.add(Stages(Stage::beat), {&immersed_engine},
-        {
-            number("base.stiffness", LV_AT(base.stiffness), "kPa/mm", positive,
-                   "springs per area that hold the basal plane (immersed engine; the quasi-static "
-                   "engine holds it rigidly)",
-                   "2.4"),
-        });
-}
+constexpr Group of_blood_and_base[]{
+    {Stages(Stage::mesh, Stage::unload, Stage::beat),
+     {&mass_counts},
+     {
+         number("blood.density", LV_AT(blood.density), "g/ml", positive,
+                "density of blood and muscle", "2.1"),
+     }},
+    {Stages(Stage::beat),
+     {&immersed_engine},
+     {
+         number("blood.viscosity", LV_AT(blood.viscosity), "cP", not_negative,
+                "viscosity of blood and muscle; the paper prints 0.04 cP, a slip for 0.04 P",
+                "2.1"),
+     }},
+    {Stages(Stage::beat),
+     {&immersed_engine},
+     {
+         number("box.size", LV_AT(box.size), "mm", between(10.0, 1000.0),
+                "size of the box around the ventricle", "2.5"),
+         number("box.cells", LV_AT(box.cells), "", between(8, 2048),
+                "cells of the box along x, y and z", "2.5"),
+     }},
+    {Stages(Stage::beat),
+     {&immersed_engine},
+     {
+         choice("coupling.kind", LV_AT(coupling.kind), "nodal quadrature",
+                "forces and velocities pass between wall and grid at the nodes, or at Gauss "
+                "points made anew every step (the paper's scheme, several times slower)",
+                "2.9"),
+         choice("coupling.kernel", LV_AT(coupling.kernel), "peskin4 composite_bspline",
+                "regularised delta function: the paper's 4-point kernel, or B-splines that keep "
+                "the wall's velocity divergence-free",
+                "2.5"),
+         when(quadrature, number("coupling.points_per_cell", LV_AT(coupling.points_per_cell), "",
+                                 between(0.5, 8.0),
+                                 "Gauss points per mesh width (quadrature coupling)", "2.5")),
+     }},
+    {mechanics,
+     {},
+     {
+         choice("base.support", LV_AT(base.kind), "sliding fixed",
+                "the basal plane is held along the axis and around it and moves freely "
+                "outwards, or is held altogether",
+                "2.4"),
+     }},
+    {Stages(Stage::beat),
+     {&immersed_engine},
+     {
+         number("base.stiffness", LV_AT(base.stiffness), "kPa/mm", positive,
+                "springs per area that hold the basal plane (immersed engine; the quasi-static "
+                "engine holds it rigidly)",
+                "2.4"),
+     }},
+};
 
-void declare_measurements(Declarations& d) {
-  d.add(mechanics, {},
-        {
-            choice("calibrate.passive", LV_AT(calibration.passive),
-                   "none C_a scale scale_and_exponent",
-                   "what is fitted to edv: C_a; a factor of a, a_f, a_s and a_fs; or that and a "
-                   "factor of the exponents b, to the Klotz curve besides",
-                   "2.25"),
-            value("calibrate.active", LV_AT(calibration.active),
-                  "whether active.T_scale is fitted to esv"),
-        });
-  d.add(Stages(Stage::calibrate), {&fit},
-        {
-            when(passive_fit,
-                 number("calibrate.edv", LV_AT(calibration.edv), "ml", between(0.0, 2000.0),
-                        "measured volume at protocol.ed_pressure; 0: none", "3.1")),
-            when(active_fit,
-                 number("calibrate.esv", LV_AT(calibration.esv), "ml", between(0.0, 2000.0),
-                        "measured volume at protocol.es_pressure; 0: none", "3.1")),
-        });
-  d.add(Stages(Stage::calibrate, Stage::beat), {&fit},
-        {
-            number("calibrate.tolerance", LV_AT(calibration.tolerance), "", between(1e-5, 0.5),
-                   "volumes of the fitted model are right within this fraction; the paper: 0.05",
-                   "3.1"),
-        });
-  d.add(
-      Stages(Stage::calibrate), {&fit},
-      {
-          when(passive_fit, number("calibrate.stiffness_min", LV_AT(calibration.stiffness.low), "",
-                                   positive, "least C_a or factor")),
-          when(passive_fit, number("calibrate.stiffness_max", LV_AT(calibration.stiffness.high), "",
-                                   positive, "largest C_a or factor")),
-          when(exponent_fit, number("calibrate.exponent_min", LV_AT(calibration.exponent.low), "",
-                                    positive, "least factor of the b")),
-          when(exponent_fit, number("calibrate.exponent_max", LV_AT(calibration.exponent.high), "",
-                                    positive, "largest factor of the b")),
-          when(active_fit, number("calibrate.T_scale_min", LV_AT(calibration.T_scale.low), "",
-                                  positive, "least T_scale")),
-          when(active_fit, number("calibrate.T_scale_max", LV_AT(calibration.T_scale.high), "",
-                                  positive, "largest T_scale")),
-          when(active_fit,
-               path("calibrate.strains", LV_AT(calibration.strains),
-                    "CSV of circumferential strains at end-systole from end-diastole, fitted to "
-                    "besides the volumes, with columns slice (1 at the base to 7, or aha), segment "
-                    "(ant, antsept, ..., or 1 to 17) and strain; empty: none")),
-          when(strains_given, choice("calibrate.strain_measure", LV_AT(calibration.strain_measure),
-                                     "green_lagrange engineering",
-                                     "what that file holds: (lambda^2 - 1)/2 or lambda - 1")),
-          when(strains_given,
-               number("calibrate.strain_error", LV_AT(calibration.errors.strain), "",
-                      above_up_to(0.0, 1.0),
-                      "standard deviation of those strains: each weighs 1/strain_error")),
-          when(strains_given, number("calibrate.volume_error", LV_AT(calibration.errors.volume), "",
-                                     above_up_to(0.0, 1.0),
-                                     "standard deviation of the volumes, as a fraction, where "
-                                     "strains are fitted besides")),
-      });
-  d.add(Stages(Stage::beat), {&fit, &immersed_engine},
-        {
-            value("calibrate.confirm", LV_AT(calibration.confirm),
-                  "if the immersed engine's volumes are off by more than the tolerance, correct "
-                  "the parameters and run the beat again, at most twice"),
-        });
-  d.add(
-      mechanics, {},
-      {
-          number("unloaded.pressure", LV_AT(unloaded.pressure), "mmHg", between(0.0, 100.0),
-                 "pressure under which the shape of the anatomy was seen; the wall without load is "
-                 "found from it before the beat. 0: that shape is free of stress, as in the paper",
-                 "4"),
-      });
-  d.add(Stages(Stage::calibrate, Stage::unload), {&loaded},
-        {
-            number("unloaded.tolerance", LV_AT(unloaded.tolerance), "mm", above_up_to(0.0, 5.0),
-                   "largest distance of a node of the wall, loaded again, from where it was seen"),
-            number("unloaded.iterations", LV_AT(unloaded.iterations), "", between(1, 1000),
-                   "equilibria after which the search gives up"),
-        });
-  d.add(Stages(Stage::strain), {},
-        {
-            path("strain.cine", LV_AT(strain.cine),
-                 "short-axis cine that strain is measured from: a folder of DICOM files or a NIfTI "
-                 "file over time; names are relative to the case file"),
-            when(cine, value("strain.series", LV_AT(strain.series),
-                             "DICOM: number, UID or description of the series; may be left out if "
-                             "there is one")),
-            when(cine, path("strain.contours", LV_AT(strain.contours),
-                            "loops of endocardium and epicardium drawn on the cine at "
-                            "end-diastole: a CSV file in the form of anatomy.contours.short_axis, "
-                            "or a folder of text contours in the Sunnybrook form")),
-            when(cine, path("strain.long_axis", LV_AT(strain.long_axis),
-                            "CSV of curves on long-axis images at end-diastole, for the place of "
-                            "the apex and to follow long_axis_cine; may be left out")),
-            when(cine, path("strain.long_axis_cine", LV_AT(strain.long_axis_cine),
-                            "long-axis cines that show how far muscle moves through the short-axis "
-                            "planes, with the curves of long_axis: NIfTI files, or series of the "
-                            "DICOM folder cine; [] leaves that motion unseen")),
-            when(cine, path("strain.es_contours", LV_AT(strain.es_contours),
-                            "CSV of loops drawn at end-systole, which the carried contours are "
-                            "compared with; may be left out")),
-            when(cine,
-                 number("strain.end_diastole", LV_AT(strain.end_diastole), "", between(1, 1000),
-                        "which image of every slice, in order of time, the contours are drawn on")),
-            when(cine, number("strain.end_systole", LV_AT(strain.end_systole), "", between(0, 1000),
-                              "which image is end-systole; 0: the one with the smallest cavity")),
-            when(cine, number("strain.septum_point", LV_AT(strain.septum_point), "mm", any,
-                              "a point of the middle of the septum in scanner coordinates; none: "
-                              "that of anatomy.contours")),
-            when(cine,
-                 choice("strain.scheme", LV_AT(strain.registration.scheme), "direct incremental",
-                        "every image is matched with end-diastole, or with the one before it")),
-            when(cine, number("strain.knot_spacing", LV_AT(strain.registration.knot_spacing), "mm",
-                              between(2.0, 50.0), "of the B-spline map")),
-            when(cine, number("strain.bending", LV_AT(strain.registration.bending), "mm^2",
-                              between(0.0, 1e5),
-                              "weight of the map's bending energy against the images' difference")),
-            when(cine, number("strain.smoothing", LV_AT(strain.registration.smoothing), "mm",
-                              between(0.0, 10.0),
-                              "standard deviation of the Gaussian that images are smoothed with")),
-            when(cine, number("strain.margin", LV_AT(strain.registration.margin), "mm",
-                              between(0.0, 40.0),
-                              "pixels up to this distance outside the epicardium count")),
-        });
-  d.add(Stages(Stage::results), {},
-        {
-            path("strain.measured", LV_AT(strain.measured),
-                 "CSV of measured strains to compare with, instead of images: slice (1 at the "
-                 "base, one per slice of the model), component (cir or rad), segment, and a column "
-                 "per image"),
-            when(measured, value("strain.measured_column", LV_AT(strain.measured_column),
-                                 "the column of measured to take")),
-            when(measured, choice("strain.measured_kind", LV_AT(strain.measured_kind),
-                                  "green_lagrange engineering",
-                                  "which strain measured holds: (l^2/L^2 - 1)/2 or l/L - 1")),
-        });
-}
+constexpr Group of_measurements[]{
+    {mechanics,
+     {},
+     {
+         choice("calibrate.passive", LV_AT(calibration.passive),
+                "none C_a scale scale_and_exponent",
+                "what is fitted to edv: C_a; a factor of a, a_f, a_s and a_fs; or that and a "
+                "factor of the exponents b, to the Klotz curve besides",
+                "2.25"),
+         value("calibrate.active", LV_AT(calibration.active),
+               "whether active.T_scale is fitted to esv"),
+     }},
+    {Stages(Stage::calibrate),
+     {&fit},
+     {
+         when(passive_fit,
+              number("calibrate.edv", LV_AT(calibration.edv), "ml", between(0.0, 2000.0),
+                     "measured volume at protocol.ed_pressure; 0: none", "3.1")),
+         when(active_fit,
+              number("calibrate.esv", LV_AT(calibration.esv), "ml", between(0.0, 2000.0),
+                     "measured volume at protocol.es_pressure; 0: none", "3.1")),
+     }},
+    {Stages(Stage::calibrate, Stage::beat),
+     {&fit},
+     {
+         number("calibrate.tolerance", LV_AT(calibration.tolerance), "", between(1e-5, 0.5),
+                "volumes of the fitted model are right within this fraction; the paper: 0.05",
+                "3.1"),
+     }},
+    {Stages(Stage::calibrate),
+     {&fit},
+     {
+         when(passive_fit, number("calibrate.stiffness_min", LV_AT(calibration.stiffness.low), "",
+                                  positive, "least C_a or factor")),
+         when(passive_fit, number("calibrate.stiffness_max", LV_AT(calibration.stiffness.high), "",
+                                  positive, "largest C_a or factor")),
+         when(exponent_fit, number("calibrate.exponent_min", LV_AT(calibration.exponent.low), "",
+                                   positive, "least factor of the b")),
+         when(exponent_fit, number("calibrate.exponent_max", LV_AT(calibration.exponent.high), "",
+                                   positive, "largest factor of the b")),
+         when(active_fit, number("calibrate.T_scale_min", LV_AT(calibration.T_scale.low), "",
+                                 positive, "least T_scale")),
+         when(active_fit, number("calibrate.T_scale_max", LV_AT(calibration.T_scale.high), "",
+                                 positive, "largest T_scale")),
+         when(active_fit,
+              path("calibrate.strains", LV_AT(calibration.strains),
+                   "CSV of circumferential strains at end-systole from end-diastole, fitted to "
+                   "besides the volumes, with columns slice (1 at the base to 7, or aha), segment "
+                   "(ant, antsept, ..., or 1 to 17) and strain; empty: none")),
+         when(strains_given, choice("calibrate.strain_measure", LV_AT(calibration.strain_measure),
+                                    "green_lagrange engineering",
+                                    "what that file holds: (lambda^2 - 1)/2 or lambda - 1")),
+         when(strains_given,
+              number("calibrate.strain_error", LV_AT(calibration.errors.strain), "",
+                     above_up_to(0.0, 1.0),
+                     "standard deviation of those strains: each weighs 1/strain_error")),
+         when(strains_given, number("calibrate.volume_error", LV_AT(calibration.errors.volume), "",
+                                    above_up_to(0.0, 1.0),
+                                    "standard deviation of the volumes, as a fraction, where "
+                                    "strains are fitted besides")),
+     }},
+    {Stages(Stage::beat),
+     {&fit, &immersed_engine},
+     {
+         value("calibrate.confirm", LV_AT(calibration.confirm),
+               "if the immersed engine's volumes are off by more than the tolerance, correct "
+               "the parameters and run the beat again, at most twice"),
+     }},
+    {mechanics,
+     {},
+     {
+         number("unloaded.pressure", LV_AT(unloaded.pressure), "mmHg", between(0.0, 100.0),
+                "pressure under which the shape of the anatomy was seen; the wall without load is "
+                "found from it before the beat. 0: that shape is free of stress, as in the paper",
+                "4"),
+     }},
+    {Stages(Stage::calibrate, Stage::unload),
+     {&loaded},
+     {
+         number("unloaded.tolerance", LV_AT(unloaded.tolerance), "mm", above_up_to(0.0, 5.0),
+                "largest distance of a node of the wall, loaded again, from where it was seen"),
+         number("unloaded.iterations", LV_AT(unloaded.iterations), "", between(1, 1000),
+                "equilibria after which the search gives up"),
+     }},
+    {Stages(Stage::strain),
+     {},
+     {
+         path("strain.cine", LV_AT(strain.cine),
+              "short-axis cine that strain is measured from: a folder of DICOM files or a NIfTI "
+              "file over time; names are relative to the case file"),
+         when(cine, value("strain.series", LV_AT(strain.series),
+                          "DICOM: number, UID or description of the series; may be left out if "
+                          "there is one")),
+         when(cine, path("strain.contours", LV_AT(strain.contours),
+                         "loops of endocardium and epicardium drawn on the cine at "
+                         "end-diastole: a CSV file in the form of anatomy.contours.short_axis, "
+                         "or a folder of text contours in the Sunnybrook form")),
+         when(cine, path("strain.long_axis", LV_AT(strain.long_axis),
+                         "CSV of curves on long-axis images at end-diastole, for the place of "
+                         "the apex and to follow long_axis_cine; may be left out")),
+         when(cine, path("strain.long_axis_cine", LV_AT(strain.long_axis_cine),
+                         "long-axis cines that show how far muscle moves through the short-axis "
+                         "planes, with the curves of long_axis: NIfTI files, or series of the "
+                         "DICOM folder cine; [] leaves that motion unseen")),
+         when(cine, path("strain.es_contours", LV_AT(strain.es_contours),
+                         "CSV of loops drawn at end-systole, which the carried contours are "
+                         "compared with; may be left out")),
+         when(cine,
+              number("strain.end_diastole", LV_AT(strain.end_diastole), "", between(1, 1000),
+                     "which image of every slice, in order of time, the contours are drawn on")),
+         when(cine, number("strain.end_systole", LV_AT(strain.end_systole), "", between(0, 1000),
+                           "which image is end-systole; 0: the one with the smallest cavity")),
+         when(cine, number("strain.septum_point", LV_AT(strain.septum_point), "mm", any,
+                           "a point of the middle of the septum in scanner coordinates; none: "
+                           "that of anatomy.contours")),
+         when(cine, choice("strain.scheme", LV_AT(strain.registration.scheme), "direct incremental",
+                           "every image is matched with end-diastole, or with the one before it")),
+         when(cine, number("strain.knot_spacing", LV_AT(strain.registration.knot_spacing), "mm",
+                           between(2.0, 50.0), "of the B-spline map")),
+         when(cine, number("strain.bending", LV_AT(strain.registration.bending), "mm^2",
+                           between(0.0, 1e5),
+                           "weight of the map's bending energy against the images' difference")),
+         when(cine, number("strain.smoothing", LV_AT(strain.registration.smoothing), "mm",
+                           between(0.0, 10.0),
+                           "standard deviation of the Gaussian that images are smoothed with")),
+         when(cine,
+              number("strain.margin", LV_AT(strain.registration.margin), "mm", between(0.0, 40.0),
+                     "pixels up to this distance outside the epicardium count")),
+     }},
+    {Stages(Stage::results),
+     {},
+     {
+         path("strain.measured", LV_AT(strain.measured),
+              "CSV of measured strains to compare with, instead of images: slice (1 at the "
+              "base, one per slice of the model), component (cir or rad), segment, and a column "
+              "per image"),
+         when(measured, value("strain.measured_column", LV_AT(strain.measured_column),
+                              "the column of measured to take")),
+         when(measured, choice("strain.measured_kind", LV_AT(strain.measured_kind),
+                               "green_lagrange engineering",
+                               "which strain measured holds: (l^2/L^2 - 1)/2 or l/L - 1")),
+     }},
+};
 
-void declare_protocol(Declarations& d) {
-  d.add(Stages(Stage::calibrate, Stage::beat), {},
-        {
-            number("protocol.ed_pressure", LV_AT(protocol.ed_pressure), "mmHg",
-                   between(-50.0, 500.0), "end-diastolic pressure", "2.4"),
-            number("protocol.es_pressure", LV_AT(protocol.es_pressure), "mmHg",
-                   between(-50.0, 500.0), "end-systolic pressure", "2.4"),
-        });
-  d.add(Stages(Stage::beat), {},
-        {
-            number("protocol.filling_ramp", LV_AT(protocol.filling_ramp), "s",
-                   above_up_to(0.0, 100.0), "time in which the pressure rises to ed_pressure"),
-            when(immersed_engine, number("protocol.filling_tolerance",
-                                         LV_AT(protocol.filling_tolerance), "", between(1e-6, 0.5),
-                                         "filling ends when the volume has varied by less than "
-                                         "this fraction of itself over filling_window")),
-            when(immersed_engine, number("protocol.filling_window", LV_AT(protocol.filling_window),
-                                         "s", above_up_to(0.0, 100.0), "see filling_tolerance")),
-            when(immersed_engine,
-                 number("protocol.filling_longest", LV_AT(protocol.filling_longest), "s",
-                        above_up_to(0.0, 100.0),
-                        "filling ends after this time at the latest, with a warning")),
-            when(immersed_engine,
-                 number("protocol.filling_drag", LV_AT(protocol.filling_drag), "1/s", not_negative,
-                        "uniform resistance to the velocity once the pressure is constant; stops "
-                        "the ringing, moves no equilibrium")),
-            number("protocol.contraction_ramp", LV_AT(protocol.contraction_ramp), "s",
-                   above_up_to(0.0, 100.0),
-                   "time in which the pressure rises from ed_pressure to es_pressure"),
-            when(held_calcium,
-                 when(immersed_engine,
-                      number("protocol.contraction_tolerance",
-                             LV_AT(protocol.contraction_tolerance), "", between(1e-6, 0.5),
-                             "with calcium held, contraction ends when the volume has varied by "
-                             "less than this fraction over contraction_window"))),
-            when(held_calcium,
-                 when(immersed_engine,
-                      number("protocol.contraction_window", LV_AT(protocol.contraction_window), "s",
-                             above_up_to(0.0, 100.0), "see contraction_tolerance"))),
-            when(immersed_engine,
-                 number("protocol.contraction_longest", LV_AT(protocol.contraction_longest), "s",
-                        above_up_to(0.0, 100.0),
-                        "contraction ends after this time at the latest, with a warning")),
-            when(held_calcium,
-                 when(immersed_engine,
-                      number("protocol.contraction_drag", LV_AT(protocol.contraction_drag), "1/s",
-                             not_negative,
-                             "like filling_drag, once pressure and calcium are constant"))),
-        });
-  d.add(Stages(Stage::beat), {&immersed_engine},
-        {
-            number("time.longest_step", LV_AT(time.longest), "s", above_up_to(0.0, 0.01),
-                   "the time step, unless stability asks for less", "2.5"),
-            number("time.courant", LV_AT(time.courant), "", between(0.01, 1.0),
-                   "largest blood velocity x step / mesh width"),
-            number("time.velocity_limit", LV_AT(time.velocity_limit), "m/s", positive,
-                   "a step that makes the wall or the blood faster than this is taken back and "
-                   "repeated smaller"),
-            number("time.halvings", LV_AT(time.halvings), "", between(0, 12),
-                   "how often the step may be halved before the run gives up"),
-        });
-  d.add(
-      Stages(Stage::beat), {},
-      {
-          number("output.frame_interval", LV_AT(output.frame_interval), "s", positive,
-                 "simulated time between fields of wall and blood"),
-          when(immersed_engine, number("output.curve_interval", LV_AT(output.curve_interval), "s",
-                                       positive, "simulated time between rows of the curves")),
-          when(immersed_engine, value("output.blood", LV_AT(output.blood),
-                                      "whether frames contain velocity and pressure of the blood")),
-          same_results(when(immersed_engine,
-                            number("output.checkpoint_interval", LV_AT(output.checkpoint_interval),
-                                   "s", positive, "wall-clock time between checkpoints"))),
-      });
-}
+constexpr Group of_protocol[]{
+    {Stages(Stage::calibrate, Stage::beat),
+     {},
+     {
+         number("protocol.ed_pressure", LV_AT(protocol.ed_pressure), "mmHg", between(-50.0, 500.0),
+                "end-diastolic pressure", "2.4"),
+         number("protocol.es_pressure", LV_AT(protocol.es_pressure), "mmHg", between(-50.0, 500.0),
+                "end-systolic pressure", "2.4"),
+     }},
+    {Stages(Stage::beat),
+     {},
+     {
+         number("protocol.filling_ramp", LV_AT(protocol.filling_ramp), "s", above_up_to(0.0, 100.0),
+                "time in which the pressure rises to ed_pressure"),
+         when(immersed_engine, number("protocol.filling_tolerance",
+                                      LV_AT(protocol.filling_tolerance), "", between(1e-6, 0.5),
+                                      "filling ends when the volume has varied by less than "
+                                      "this fraction of itself over filling_window")),
+         when(immersed_engine, number("protocol.filling_window", LV_AT(protocol.filling_window),
+                                      "s", above_up_to(0.0, 100.0), "see filling_tolerance")),
+         when(immersed_engine,
+              number("protocol.filling_longest", LV_AT(protocol.filling_longest), "s",
+                     above_up_to(0.0, 100.0),
+                     "filling ends after this time at the latest, with a warning")),
+         when(immersed_engine,
+              number("protocol.filling_drag", LV_AT(protocol.filling_drag), "1/s", not_negative,
+                     "uniform resistance to the velocity once the pressure is constant; stops "
+                     "the ringing, moves no equilibrium")),
+         number("protocol.contraction_ramp", LV_AT(protocol.contraction_ramp), "s",
+                above_up_to(0.0, 100.0),
+                "time in which the pressure rises from ed_pressure to es_pressure"),
+         when(held_calcium,
+              when(immersed_engine,
+                   number("protocol.contraction_tolerance", LV_AT(protocol.contraction_tolerance),
+                          "", between(1e-6, 0.5),
+                          "with calcium held, contraction ends when the volume has varied by "
+                          "less than this fraction over contraction_window"))),
+         when(held_calcium,
+              when(immersed_engine,
+                   number("protocol.contraction_window", LV_AT(protocol.contraction_window), "s",
+                          above_up_to(0.0, 100.0), "see contraction_tolerance"))),
+         when(immersed_engine,
+              number("protocol.contraction_longest", LV_AT(protocol.contraction_longest), "s",
+                     above_up_to(0.0, 100.0),
+                     "contraction ends after this time at the latest, with a warning")),
+         when(held_calcium,
+              when(immersed_engine,
+                   number("protocol.contraction_drag", LV_AT(protocol.contraction_drag), "1/s",
+                          not_negative,
+                          "like filling_drag, once pressure and calcium are constant"))),
+     }},
+    {Stages(Stage::beat),
+     {&immersed_engine},
+     {
+         number("time.longest_step", LV_AT(time.longest), "s", above_up_to(0.0, 0.01),
+                "the time step, unless stability asks for less", "2.5"),
+         number("time.courant", LV_AT(time.courant), "", between(0.01, 1.0),
+                "largest blood velocity x step / mesh width"),
+         number("time.velocity_limit", LV_AT(time.velocity_limit), "m/s", positive,
+                "a step that makes the wall or the blood faster than this is taken back and "
+                "repeated smaller"),
+         number("time.halvings", LV_AT(time.halvings), "", between(0, 12),
+                "how often the step may be halved before the run gives up"),
+     }},
+    {Stages(Stage::beat),
+     {},
+     {
+         number("output.frame_interval", LV_AT(output.frame_interval), "s", positive,
+                "simulated time between fields of wall and blood"),
+         when(immersed_engine, number("output.curve_interval", LV_AT(output.curve_interval), "s",
+                                      positive, "simulated time between rows of the curves")),
+         when(immersed_engine, value("output.blood", LV_AT(output.blood),
+                                     "whether frames contain velocity and pressure of the blood")),
+         same_results(when(immersed_engine,
+                           number("output.checkpoint_interval", LV_AT(output.checkpoint_interval),
+                                  "s", positive, "wall-clock time between checkpoints"))),
+     }},
+};
 
-std::vector<Parameter> declare_all() {
-  Declarations d;
-  declare_anatomy(d);
-  declare_mesh(d);
-  declare_infarct(d);
-  declare_muscle(d);
-  declare_immersed_engine(d);
-  declare_measurements(d);
-  declare_protocol(d);
-  return std::move(d.list);
+std::vector<Parameter> rows_of_all() {
+  std::vector<Parameter> rows;
+  for (const std::span<const Group> groups :
+       {std::span<const Group>(of_anatomy), std::span<const Group>(of_mesh),
+        std::span<const Group>(of_infarct), std::span<const Group>(of_muscle),
+        std::span<const Group>(of_blood_and_base), std::span<const Group>(of_measurements),
+        std::span<const Group>(of_protocol)})
+    for (const Group& group : groups)
+      for (const Parameter& row : group.rows)
+        rows.push_back(in_group(group, row));
+  return rows;
 }
 
 /// The conditions of a parameter that do not hold in a stage.
@@ -850,7 +895,7 @@ const Parameter* find_parameter(const std::string& name) {
 }
 
 const std::vector<Parameter>& parameters() {
-  static const std::vector<Parameter> all = declare_all();
+  static const std::vector<Parameter> all = rows_of_all();
   return all;
 }
 
