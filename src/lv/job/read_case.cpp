@@ -143,12 +143,10 @@ class CaseReader {
          "must be larger than T_scale_min");
   }
 
+  /// A rule of a parameter that does not count says nothing.
   void rule(bool holds, const std::string& name, const std::string& what) {
-    if (holds)
-      return;
-    const auto set_at = case_.origin.find(name);
-    mistakes_.emplace_back(set_at == case_.origin.end() ? file_.string() : set_at->second,
-                           fmt::format("{} {}", name, what));
+    if (!holds && counts_only(*find_parameter(name), case_).empty())
+      mistakes_.emplace_back(place_of(case_, name), fmt::format("{} {}", name, what));
   }
 
   [[nodiscard]] std::string all_mistakes() const {
