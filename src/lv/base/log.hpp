@@ -11,7 +11,7 @@
 namespace lv::log {
 
 /// Sends lines to this file too, from now on, adding to what is there, without the folders of
-/// `names`: a log is kept and shared. Only the root writes.
+/// `names`: a log is kept and shared. Only the root writes. Throws RunError there when it cannot.
 void to_file(const std::filesystem::path& file, const NamesAlone& names);
 
 /// Keeps quiet on the terminal (for output that a program reads).

@@ -22,7 +22,7 @@ inline bool may_have_infarct(const Case& c) {
                                      : c.scar.source != Scar::none;
 }
 inline bool has_passive_fit(const Case& c) {
-  return c.calibration.passive != calibrate::Passive::none;
+  return c.calibration.passive != calibrate::FittedPassive::none;
 }
 inline bool has_niederer(const Case& c) {
   return c.active_form == material::ActiveForm::niederer;
@@ -106,6 +106,8 @@ LV_CONDITION(lge_in_dicom, !image::is_nifti_name(c.scar.lge.image),
              "where infarct.lge.image is a folder of DICOM files")
 LV_CONDITION(threshold_sd, c.scar.lge.threshold == mesh::ScarThreshold::sd,
              "with infarct.lge.threshold = \"sd\"")
+LV_CONDITION(threshold_fwhm, c.scar.lge.threshold == mesh::ScarThreshold::fwhm,
+             "with infarct.lge.threshold = \"fwhm\"")
 LV_CONDITION(moved_lge, c.scar.lge.in_plane, "with infarct.lge.in_plane = true")
 LV_CONDITION(fitted_or_moved,
              s == Stage::strain    ? !c.strain.long_axis_cine.empty()
@@ -133,7 +135,7 @@ LV_CONDITION(mass_counts, s == Stage::beat ? c.engine == Engine::immersed : may_
 // measurements
 LV_CONDITION(fit, c.calibration.asked(), "with a fit: set calibrate.passive or calibrate.active")
 LV_CONDITION(passive_fit, has_passive_fit(c), "with a passive fit: set calibrate.passive")
-LV_CONDITION(exponent_fit, c.calibration.passive == calibrate::Passive::scale_and_exponent,
+LV_CONDITION(exponent_fit, c.calibration.passive == calibrate::FittedPassive::scale_and_exponent,
              "with calibrate.passive = \"scale_and_exponent\"")
 LV_CONDITION(active_fit, c.calibration.active, "with calibrate.active = true")
 LV_CONDITION(strains_given, !c.calibration.strains.empty(), "with calibrate.strains")

@@ -1,5 +1,6 @@
 #include "lv/job/ingredients.hpp"
 
+#include "lv/base/files.hpp"
 #include "lv/job/version.hpp"
 #include "lv/mesh/abaqus_blocks.hpp"
 
@@ -33,18 +34,6 @@ fs::path name_of_pair(const fs::path& file) {
   return ending(file) == ".gz" ? file.stem().stem() : file.stem();
 }
 
-std::vector<fs::path> files_below(const fs::path& folder) {
-  std::vector<fs::path> files;
-  std::error_code failed;
-  constexpr auto options = fs::directory_options::skip_permission_denied;
-  for (fs::recursive_directory_iterator it(folder, options, failed), end; !failed && it != end;
-       it.increment(failed))
-    if (it->is_regular_file(failed))
-      files.push_back(it->path());
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
 /// A file and those without which it cannot be read.
 std::vector<fs::path> files_of(const fs::path& file) {
   if (!is_part_of_pair(file))
@@ -64,7 +53,7 @@ std::string contents(const fs::path& path) {
   std::error_code failed;
   Ingredients parts;
   if (fs::is_directory(path, failed))
-    for (const fs::path& file : files_below(path))
+    for (const fs::path& file : files_in(path, true).files)
       parts[file.lexically_relative(path).string()] = fingerprint_of_file(file);
   else
     for (const fs::path& file : files_of(path))

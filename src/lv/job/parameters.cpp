@@ -80,7 +80,8 @@ constexpr Group of_anatomy[]{
                 "the base plane lies in the most basal endocardial loop, half a slice spacing "
                 "above it where the slab of the slice ends, or at the mitral annulus (guide "
                 "points, ends of long-axis curves); automatic: slice for contours, slab for "
-                "labels and sunnybrook, annulus for guide_points that show it"),
+                "labels and sunnybrook, annulus for guide_points that show it, slab where that "
+                "makes no wall"),
      }},
     {Stages(Stage::strain, Stage::anatomy),
      {&septum_shown},
@@ -363,8 +364,8 @@ constexpr Group of_infarct[]{
      {&infarct_of_labels},
      {
          path("infarct.labels.file", LV_AT(scar.labels),
-              "labelled volume in image space: NIfTI (.nii, .nii.gz), .vti or .vtk (structured "
-              "points)"),
+              "labelled volume in image space: NIfTI (.nii, .nii.gz, .hdr with .img), .vti or .vtk "
+              "(structured points)"),
      }},
     {meshing,
      {&infarct_of_labels, &labels_in_vtk},
@@ -377,6 +378,16 @@ constexpr Group of_infarct[]{
      {&infarct_of_labels},
      {
          filled_list("infarct.labels.scar", LV_AT(scar.scar), "the labels that mean scar"),
+     }},
+    {meshing,
+     {&infarct_of_labels, &labels_in_nifti},
+     {
+         number("infarct.labels.frame", LV_AT(scar.frame), "", between(0, 10000),
+                "time of a map of several, counted from 1; 0: the only one that shows scar"),
+     }},
+    {meshing,
+     {&infarct_of_labels},
+     {
          value("infarct.labels.no_reflow", LV_AT(scar.no_reflow),
                "the labels of the scar's dark core, which is infarct too"),
      }},
@@ -412,7 +423,7 @@ constexpr Group of_infarct[]{
      {
          choice("infarct.lge.threshold", LV_AT(scar.lge.threshold), "sd fwhm",
                 "scar is brighter than remote muscle by so many standard deviations, or than half "
-                "of the brightest in the wall"),
+                "way from no signal to the brightest in the wall"),
      }},
     {meshing,
      {&infarct_of_lge, &threshold_sd},
@@ -423,8 +434,17 @@ constexpr Group of_infarct[]{
                "AHA segments (1 to 17) of remote, healthy muscle (threshold = \"sd\")"),
      }},
     {meshing,
+     {&infarct_of_lge, &threshold_fwhm},
+     {
+         whether_set(number("infarct.lge.zero", LV_AT(scar.lge.zero), "", any,
+                            "grey value of no signal (threshold = \"fwhm\"): that of air, where "
+                            "the image has an offset, as phase-sensitive reconstructions do")),
+     }},
+    {meshing,
      {&infarct_of_lge},
      {
+         number("infarct.lge.largest_part", LV_AT(scar.lge.largest_part), "", between(0.0, 1.0),
+                "of the wall that may be scar; more is refused, for it is rarely meant"),
          value("infarct.lge.fill_no_reflow", LV_AT(scar.lge.fill_no_reflow),
                "dark parts of the wall that the scar shuts off from epicardium and base count to "
                "it"),
@@ -894,7 +914,7 @@ constexpr Group of_protocol[]{
          number("time.velocity_limit", LV_AT(time.velocity_limit), "m/s", positive,
                 "a step that makes the wall or the blood faster than this is taken back and "
                 "repeated smaller"),
-         number("time.halvings", LV_AT(time.halvings), "", between(0, 12),
+         number("time.halvings", LV_AT(time.halvings), "", between(0, heartbeat::most_halvings),
                 "how often the step may be halved before the run gives up"),
      }},
     {Stages(Stage::beat),

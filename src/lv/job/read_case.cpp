@@ -118,7 +118,7 @@ class CaseReader {
 
   void check_calibration() {
     const Calibration& k = case_.calibration;
-    const bool passive = k.passive != calibrate::Passive::none;
+    const bool passive = k.passive != calibrate::FittedPassive::none;
     rule(!passive || k.edv > 0.0, "calibrate.passive", "needs the measured volume calibrate.edv");
     rule(!k.active || k.esv > 0.0, "calibrate.active", "needs the measured volume calibrate.esv");
     rule(k.edv == 0.0 || k.esv < k.edv, "calibrate.esv", "must be less than edv");
@@ -244,7 +244,8 @@ std::string starter_case(const std::string& name) {
         if (s.name == table)
           text += fmt::format("\n# {}\n[{}]\n", s.help, table);
     }
-    text += fmt::format("{} = {}  # {}; {}\n", key_of(p.name), p.get(defaults), meaning(p), p.rule());
+    text +=
+        fmt::format("{} = {}  # {}; {}\n", key_of(p.name), p.get(defaults), meaning(p), p.rule());
   }
   return text;
 }
@@ -254,7 +255,8 @@ std::string manual(bool markdown) {
   std::string text =
       markdown
           ? "# Parameters\n\nPrinted by `ventricle parameters --markdown`. Any unit of the same "
-            "dimension may be written. A parameter that is set where it does not count is refused. The "
+            "dimension may be written. A parameter that is set where it does not count is refused. "
+            "The "
             "last column names the paper's equation or section.\n"
           : "";
   for (const Section& s : sections()) {

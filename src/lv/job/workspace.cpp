@@ -43,6 +43,8 @@ struct Record {
 
 /// Empty when there is no readable record.
 Record recorded(const fs::path& folder) {
+  if (!why_unreadable(folder / record_name).empty())
+    return {};
   std::ifstream in(folder / record_name);
   const auto json = nlohmann::json::parse(in, nullptr, false);
   if (!json.is_object() || !json.contains("ingredients") || !json.at("ingredients").is_object())
@@ -156,12 +158,9 @@ std::string fingerprint(const Ingredients& ingredients) {
 }
 
 std::string fingerprint_of_file(const fs::path& file) {
-  std::error_code error;
-  std::ifstream in;
-  if (fs::is_regular_file(file, error))  // a pipe or a device has no end
-    in.open(file, std::ios::binary);
-  if (!in.is_open())
+  if (!why_unreadable(file).empty())
     return "absent";
+  std::ifstream in(file, std::ios::binary);
   Checksum crc;
   std::vector<char> piece(1U << 20U);
   do {
@@ -272,6 +271,8 @@ void StageFolder::finish() const {
 
 std::vector<std::string> state_of(const fs::path& work) {
   constexpr auto results = static_cast<std::size_t>(Stage::results);
+  if (fs::is_directory(work))
+    check_contents(work);
   std::vector<std::string> state;
   std::size_t found = 0;
   for (std::size_t s = 0; s <= results; ++s) {
@@ -304,6 +305,17 @@ std::vector<std::string> state_of(const fs::path& work) {
   return state;
 }
 
+void check_contents(const fs::path& work) {
+  std::error_code failed;
+  for (const auto& entry : fs::recursive_directory_iterator(work)) {
+    const fs::file_status status = fs::status(entry, failed);
+    if (!fs::is_regular_file(status) && !fs::is_directory(status))
+      throw RunError(fmt::format("{} is neither a file nor a folder{}", entry.path().string(),
+                                 failed ? ": " + failed.message() : ""),
+                     "Remove it, or name another work folder with --work");
+  }
+}
+
 WorkLock::WorkLock(const fs::path& work) {
   std::error_code error;
   fs::create_directories(work, error);
@@ -321,6 +333,7 @@ WorkLock::WorkLock(const fs::path& work) {
     throw RunError(fmt::format("another run is at work in {}", work.string()),
                    "Wait for it to end, or name another folder with --work");
   }
+  check_contents(work);
 }
 
 WorkLock::~WorkLock() {

@@ -339,7 +339,7 @@ Numbers mesh_of(const Case& shown, const Case& c) {
   numbers.insert(numbers.end(), made.infarcted.begin(), made.infarcted.end());
   for (const auto* regions : {&made.regions.slice, &made.regions.sector, &made.regions.aha})
     numbers.insert(numbers.end(), regions->begin(), regions->end());
-  const analysis::FieldAnalysis analysis(made.mesh, c.fibres, {}, {});
+  const analysis::FieldAnalysis analysis(made.mesh, {c.fibres, {}, {}});
   for (const analysis::CellFields& cell : analysis.at_rest())
     numbers.insert(numbers.end(), cell.fibre_frame.data(), cell.fibre_frame.data() + 9);
   if (c.scar.source == mesh::InfarctSource::described)
@@ -349,32 +349,34 @@ Numbers mesh_of(const Case& shown, const Case& c) {
 }
 
 void add_muscle(const Case& c, Numbers& numbers) {
-  const solid::WallMaterial wall = job::wall_material(c);
+  const material::Myocardium wall = job::myocardium(c);
   Tensor<double> F = Mat3::Identity();
   F << 1.1, 0.05, -0.02, 0.03, 0.95, 0.04, 0.01, 0.02, 0.97;
   const Mat3 P = std::visit([&](const auto& law) { return Mat3(law.stress(F)); }, wall.passive);
   numbers.insert(numbers.end(), P.data(), P.data() + 9);
   numbers.push_back(wall.infarct.passive(0.5));
   numbers.push_back(static_cast<double>(wall.active_form));
+  if (const auto* prescribed = std::get_if<material::PrescribedTension>(&wall.active))
+    numbers.push_back(prescribed->T_max);
   numbers.push_back(static_cast<double>(c.base.kind));
 }
 
 Numbers static_muscle_of(const Case& c) {
   Numbers numbers;
   add_muscle(c, numbers);
-  const quasi_static::Muscle muscle = job::muscle(c);
+  const quasi_static::StaticModel model = job::static_model(c);
   for (const double stretch : {0.7, 0.9, 1.05, 1.2})
     for (const double activation : {0.0, 0.6})
-      numbers.push_back(muscle.contractility.at(stretch, activation).value);
-  const quasi_static::Parameters& solver = c.quasi_static.solver;
-  numbers.insert(numbers.end(), {muscle.stabilisation.beta_s, solver.first_step,
+      numbers.push_back(model.contractility.at(stretch, activation).value);
+  const quasi_static::SolverParameters& solver = c.quasi_static.solver;
+  numbers.insert(numbers.end(), {model.stabilisation.beta_s, solver.first_step,
                                  solver.newton.tolerance, solver.newton.linear.tolerance});
   return numbers;
 }
 
 Numbers static_beat_of(const Case& c) {
   Numbers numbers = static_muscle_of(c);
-  const heartbeat::Protocol p = job::protocol(c);
+  const heartbeat::Protocol& p = c.protocol;
   numbers.insert(numbers.end(), {p.ed_pressure, p.es_pressure, p.filling_ramp, p.contraction_ramp,
                                  c.output.frame_interval});
   return numbers;
@@ -383,13 +385,13 @@ Numbers static_beat_of(const Case& c) {
 Numbers immersed_beat_of(const Case& c) {
   Numbers numbers;
   add_muscle(c, numbers);
-  numbers.push_back(job::wall_material(c).volumetric.beta_s);
-  const heartbeat::Protocol p = job::protocol(c);
+  numbers.push_back(job::myocardium(c).volumetric.beta_s);
+  const heartbeat::Protocol& p = c.protocol;
   for (const auto phase : {heartbeat::Phase::filling, heartbeat::Phase::contraction})
     for (const double time : {0.01, 0.05, 0.15, 1.0}) {
-      const immersed::Loads loads = heartbeat::loads(p, phase, time);
-      numbers.insert(numbers.end(),
-                     {loads.pressure, loads.calcium, loads.drag, loads.tension.value_or(-1.0)});
+      const solid::Loads loads = heartbeat::loads(p, phase, time);
+      numbers.insert(numbers.end(), {loads.pressure, loads.calcium, loads.activation,
+                                     heartbeat::drag(p, phase, time)});
     }
   if (c.active_form == material::ActiveForm::niederer)
     for (const double rate : {-5.0, 0.0, 20.0}) {
@@ -408,9 +410,9 @@ Numbers immersed_beat_of(const Case& c) {
   numbers.insert(
       numbers.end(),
       {model.blood.density, model.blood.viscosity, model.coupling.points_per_cell,
-       model.base.stiffness, p.filling_tolerance, p.filling_window, p.filling_longest,
-       p.contraction_tolerance, p.contraction_window, p.contraction_longest, c.time.longest,
-       c.time.courant, c.time.velocity_limit, static_cast<double>(c.time.halvings),
+       job::cardiac_model(c).base.stiffness, p.filling_tolerance, p.filling_window,
+       p.filling_longest, p.contraction_tolerance, p.contraction_window, p.contraction_longest,
+       c.time.longest, c.time.courant, c.time.velocity_limit, static_cast<double>(c.time.halvings),
        c.output.frame_interval, c.output.curve_interval, c.output.checkpoint_interval,
        c.output.blood ? 1.0 : 0.0});
   return numbers;
