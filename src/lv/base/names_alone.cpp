@@ -22,14 +22,25 @@ bool ends_name(const std::string& text, std::size_t at) {
   return text[at] == '.' && (at + 1 == text.size() || text[at + 1] == ' ');
 }
 
+/// Whether a folder is named here by itself. A name without a slash may be a word like any other:
+/// it is a folder's where a message begins with it.
+bool stands_alone(const std::string& text, const std::string& folder, std::size_t at) {
+  const std::size_t after = at + folder.size();
+  if (folder.find('/') != std::string::npos)
+    return ends_name(text, after) || text[after] == '/';
+  const bool first = at == 0 || (at > 1 && text.compare(at - 2, 2, ": ") == 0);
+  return first && after < text.size() && text[after] == ':';
+}
+
 std::string without(std::string text, const std::string& folder) {
   for (std::size_t at = text.find(folder); at != std::string::npos; at = text.find(folder, at)) {
-    const bool begins = at == 0 || !continues_name(text[at - 1]);
     const std::size_t after = at + folder.size();
-    if (begins && after < text.size() && text[after] == '/' && !ends_name(text, after + 1))
+    if (at > 0 && continues_name(text[at - 1]))
+      ++at;
+    else if (after < text.size() && text[after] == '/' && !ends_name(text, after + 1))
       text.erase(at, folder.size() + 1);
-    else if (begins && (ends_name(text, after) || text[after] == '/'))
-      text.replace(at, after - at, "(folder)");
+    else if (stands_alone(text, folder, at))
+      text.replace(at, folder.size(), "(folder)");
     else
       ++at;
   }

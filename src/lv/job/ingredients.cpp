@@ -48,16 +48,26 @@ std::vector<fs::path> files_of(const fs::path& file) {
   return pair;
 }
 
+/// Whether a file is one of these, or in one of these folders.
+bool is_among(const fs::path& file, const std::vector<fs::path>& places) {
+  return std::any_of(places.begin(), places.end(), [&](const fs::path& place) {
+    const fs::path way = fs::weakly_canonical(file).lexically_relative(fs::weakly_canonical(place));
+    return !way.empty() && *way.begin() != "..";
+  });
+}
+
 /// Readers go by endings, so the ending counts; in a folder names count too.
-std::string contents(const fs::path& path) {
+std::string contents(const fs::path& path, const std::vector<fs::path>& own) {
   std::error_code failed;
   Ingredients parts;
-  if (fs::is_directory(path, failed))
+  if (fs::is_directory(path, failed)) {
     for (const fs::path& file : files_in(path, true).files)
-      parts[file.lexically_relative(path).string()] = fingerprint_of_file(file);
-  else
+      if (!is_among(file, own))
+        parts[file.lexically_relative(path).string()] = fingerprint_of_file(file);
+  } else {
     for (const fs::path& file : files_of(path))
       parts[ending(file)] = fingerprint_of_file(file);
+  }
   return fs::exists(path, failed) ? fingerprint(parts) : "absent";
 }
 
@@ -107,7 +117,7 @@ bool sees_all(Stage stage) {
 
 const std::string& FileContents::of(const fs::path& path) {
   const auto found = known_.find(path);
-  return found != known_.end() ? found->second : known_[path] = contents(path);
+  return found != known_.end() ? found->second : known_[path] = contents(path, own_);
 }
 
 Case stage_view(const Case& c, Stage stage) {

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace lv::job {
 
@@ -18,6 +20,7 @@ class FileContents {
   [[nodiscard]] const std::string& of(const std::filesystem::path& path);
 
  private:
+  std::vector<std::filesystem::path> own_;
   std::map<std::filesystem::path, std::string> known_;
 };
 

@@ -47,7 +47,8 @@ class Pipeline {
         options_(options),
         work_(options.work.empty() ? c.file.parent_path() / (c.file.stem().string() + ".work")
                                    : options.work),
-        last_(last_stage()) {}
+        last_(last_stage()),
+        files_({work_, c.file}) {}
 
   void run() {
     std::optional<WorkLock> lock;

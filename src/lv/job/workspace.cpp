@@ -202,15 +202,21 @@ std::string StageFolder::reason() const {
   return lack.empty() ? "nothing has changed" : lack;
 }
 
-/// Where unfinished runs with other ingredients are kept: NAME.other, NAME.other2, ...
+/// Unfinished runs with other ingredients: NAME.other, NAME.other2, ...
 std::vector<fs::path> StageFolder::kept() const {
   std::vector<fs::path> folders;
-  for (int n = 1;; ++n) {
-    const fs::path folder = folder_.string() + ".other" + (n == 1 ? "" : std::to_string(n));
-    folders.push_back(folder);
-    if (!fs::exists(folder))
-      return folders;  // the last one is free
-  }
+  const std::string name = folder_.filename().string() + ".other";
+  for (const auto& entry : fs::directory_iterator(folder_.parent_path()))
+    if (entry.path().filename().string().starts_with(name))
+      folders.push_back(entry.path());
+  return folders;
+}
+
+fs::path StageFolder::free_name() const {
+  fs::path folder = folder_.string() + ".other";
+  for (int n = 2; fs::exists(folder); ++n)
+    folder = fmt::format("{}.other{}", folder_.string(), n);
+  return folder;
 }
 
 void StageFolder::set_aside(const fs::path& part) const {
@@ -220,7 +226,7 @@ void StageFolder::set_aside(const fs::path& part) const {
     fs::remove_all(part);
     return;
   }
-  const fs::path other = kept().back();
+  const fs::path other = free_name();
   move(part, other);
   log::warn(
       "{} held an unfinished run with other parameters, which is kept as {}: a run with its "
@@ -229,7 +235,7 @@ void StageFolder::set_aside(const fs::path& part) const {
 }
 
 void StageFolder::take_up(const fs::path& part) const {
-  if (fs::exists(part))
+  if (fs::exists(part) || !fs::exists(folder_.parent_path()))
     return;
   for (const fs::path& other : kept())
     if (recorded(other).ingredients == ingredients_) {

@@ -57,6 +57,7 @@ class StageFolder {
 
  private:
   [[nodiscard]] std::vector<std::filesystem::path> kept() const;
+  [[nodiscard]] std::filesystem::path free_name() const;
   void set_aside(const std::filesystem::path& part) const;
   void take_up(const std::filesystem::path& part) const;
 

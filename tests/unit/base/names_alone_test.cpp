@@ -18,5 +18,9 @@ TEST_CASE("what only looks like a folder stays", "[unit][base]") {
   CHECK(names("anatomy.sunnybrook.dicom in kPa/mm, a_f") ==
         "anatomy.sunnybrook.dicom in kPa/mm, a_f");
   CHECK(names("dicom/IM1.dcm") == "IM1.dcm");
+  CHECK(names("the run ended early: dicom: holds no image") ==
+        "the run ended early: (folder): holds no image");
+  CHECK(NamesAlone({"mesh"})("mesh runs, because it was interrupted") ==
+        "mesh runs, because it was interrupted");
   CHECK(NamesAlone({std::filesystem::path(), "/", "."})("a/b ./c /d") == "a/b ./c /d");
 }

@@ -112,6 +112,22 @@ TEST_CASE("contents do not depend on where a study lies", "[unit][job]") {
   fs::current_path(fs::temp_directory_path());
 }
 
+TEST_CASE("a work folder is no part of the study that it lies in", "[unit][job]") {
+  const test::TemporaryFolder study;
+  write_file(study / "IM1", "image");
+  const auto now = [&] {
+    job::FileContents files({study / "case.work", study / "case.toml"});
+    return files.of(study / "");
+  };
+  const std::string before = now();
+  fs::create_directories(study / "case.work");
+  write_file(study / "case.work/log.txt", "a line");
+  write_file(study / "case.toml", "name = \"a\"");
+  CHECK(now() == before);
+  write_file(study / "IM2", "image");
+  CHECK(now() != before);
+}
+
 TEST_CASE("the contents of a header are those of its image too, in any letter case",
           "[unit][job]") {
   for (const auto& [header, image] : {std::pair("a.hdr", "a.img"),
