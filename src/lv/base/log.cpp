@@ -1,7 +1,9 @@
 #include "lv/base/log.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/files.hpp"
 #include "lv/base/parallel.hpp"
+#include "lv/base/printable.hpp"
 #include "lv/base/table.hpp"
 
 #include <spdlog/sinks/basic_file_sink.h>
@@ -42,7 +44,8 @@ File& kept() {
   return file;
 }
 
-void write(spdlog::level::level_enum level, const std::string& line) {
+void write(spdlog::level::level_enum level, const std::string& text) {
+  const std::string line = printable_lines(text);
   logger().log(level, line);
   if (kept().logger)
     kept().logger->log(level, kept().names(line));
@@ -55,7 +58,7 @@ void to_file(const std::filesystem::path& file, const NamesAlone& names) {
     return;
   const std::filesystem::file_type type = std::filesystem::symlink_status(file).type();
   const bool is_new = type == std::filesystem::file_type::not_found;
-  if (const std::string why = is_new ? "" : why_unreadable(file); !why.empty())
+  if (const std::string why = is_new ? "" : unreadable(file); !why.empty())
     refuse(file, why);
   std::shared_ptr<spdlog::sinks::basic_file_sink_mt> sink;
   try {

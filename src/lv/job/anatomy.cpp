@@ -1,18 +1,20 @@
 #include "lv/job/anatomy.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/json_file.hpp"
 #include "lv/base/table.hpp"
 #include "lv/geometry/drawn_wall.hpp"
 #include "lv/job/drawn.hpp"
 #include "lv/job/parameters.hpp"
+#include "lv/mesh/foreign_mesh.hpp"
 #include "lv/mesh/import.hpp"
 #include "lv/mesh/refine.hpp"
 #include "lv/report/fields_vtk.hpp"
 #include "lv/report/tables_csv.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
+#include <array>
 #include <memory>
 
 namespace lv::job {
@@ -70,11 +72,19 @@ Shape from_drawn(const Case& c) {
   return shape;
 }
 
+/// Sides and directions of fibres may be files beside the mesh's.
+constexpr std::array perhaps_files{&mesh::ImportParameters::endo, &mesh::ImportParameters::epi,
+                                   &mesh::ImportParameters::base, &mesh::ImportParameters::fibres,
+                                   &mesh::ImportParameters::sheets};
+
 Shape from_mesh(const Case& c) {
   mesh::ImportParameters import = c.anatomy.mesh.import;
   if (import.file.empty())
     throw InputError(c.file.string(), "anatomy.mesh.file is not set", "Name the mesh's file");
   import.file = beside(c, import.file).string();
+  for (const auto name : perhaps_files)
+    if (mesh::names_file(import.*name))
+      import.*name = beside(c, import.*name).string();
   if (c.scar.source == mesh::InfarctSource::elements)
     import.infarct_set = c.scar.set;
   mesh::ImportedMesh imported = mesh::import_mesh(import);
@@ -147,7 +157,7 @@ void write_anatomy(const Shape& shape, const fs::path& folder) {
                                      {"y_axis_in_image_space", numbers(axes.col(1))},
                                      {"z_axis_in_image_space", numbers(axes.col(2))},
                                      {"notes", shape.notes}};
-  write_file(folder / "frame.json", frame.dump(2) + "\n");
+  write_file(folder / "frame.json", json_text(frame) + "\n");
   if (!shape.quality)
     return;
   report::fit_table(shape.quality->fit).write_csv(folder / "fit.csv");

@@ -69,6 +69,15 @@ LV_CONDITION(septum_shown, s == Stage::strain ? !c.strain.septum_point : is_draw
              "for a wall that is drawn (anatomy.source = \"contours\", \"labels\", \"sunnybrook\" "
              "or \"guide_points\"), or with strain.cine and no strain.septum_point")
 
+// fibres
+LV_CONDITION(fibres_given, !c.anatomy.mesh.import.fibres.empty(), "with anatomy.mesh.fibres")
+LV_CONDITION(fibres_by_rule,
+             c.anatomy.source != Source::mesh || c.anatomy.mesh.import.fibres.empty(),
+             "without anatomy.mesh.fibres, which brings the directions")
+LV_CONDITION(sheets_by_rule,
+             c.anatomy.source != Source::mesh || c.anatomy.mesh.import.sheets.empty(),
+             "without anatomy.mesh.sheets, which brings the directions")
+
 // meshes
 LV_CONDITION(meshed_here, c.anatomy.source != Source::mesh,
              "for a wall that is meshed here, of every anatomy.source but \"mesh\"")

@@ -52,10 +52,17 @@ constexpr Parameter filled_list(const char* name, Place at, const char* help) {
   return p;
 }
 
-/// A file or folder, or a list of them.
+/// A file or folder.
 constexpr Parameter path(const char* name, Place at, const char* help) {
   Parameter p = value(name, at, help);
   p.text = Text::path;
+  return p;
+}
+
+/// Words that may name a file, or a list of such.
+constexpr Parameter perhaps_path(const char* name, Place at, const char* help) {
+  Parameter p = value(name, at, help);
+  p.text = Text::perhaps_path;
   return p;
 }
 

@@ -81,19 +81,13 @@ void add_included(const fs::path& mesh, FileContents& files, Ingredients& ingred
       ingredients["contents of " + fs::path(file).filename().string()] += files.of(file);
 }
 
-bool is_list(const Parameter& p) {
-  Case c;
-  return std::holds_alternative<std::vector<std::string>*>(p.slot(c));
-}
-
 void add_files(const Parameter& p, const Case& c, FileContents& files, Ingredients& ingredients) {
-  std::error_code failed;
   std::vector<std::string> all;
   for (const std::string& name : paths(p, c)) {
-    const fs::path path = beside(c, name);
-    const bool is_word = is_list(p) && !fs::exists(path, failed);
-    all.push_back(is_word ? name : files.of(path));
-    add_included(path, files, ingredients);
+    const bool is_file = names_file(p, c, name);
+    all.push_back(is_file ? files.of(beside(c, name)) : name);
+    if (is_file)
+      add_included(beside(c, name), files, ingredients);
   }
   if (!all.empty())
     ingredients[fmt::format("contents of {}", p.name)] = fmt::format("{}", fmt::join(all, ", "));
@@ -141,7 +135,7 @@ Ingredients ingredients(const Case& c, Stage stage, FileContents& files) {
   for (const Parameter& p : parameters()) {
     if (!counts(p, c, stage) || !p.changes_results)
       continue;
-    if (p.text == Text::path)
+    if (p.text != Text::words)
       add_files(p, c, files, all);
     else
       all[p.name] = p.get(c);

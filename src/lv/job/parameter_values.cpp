@@ -199,9 +199,9 @@ struct Setter {
   }
 };
 
-std::string name_alone(const Case& c, const std::string& path) {
+std::string name_alone(const Parameter& p, const Case& c, const std::string& path) {
   std::error_code failed;
-  if (path.empty())
+  if (path.empty() || !names_file(p, c, path))
     return path;
   return std::filesystem::is_directory(beside(c, path), failed)
              ? "a folder"
@@ -265,23 +265,29 @@ std::string Parameter::get(const Case& c) const {
 }
 
 std::string Parameter::shown(const Case& c) const {
-  if (text != Text::path)
+  if (text == Text::words)
     return get(c);
   return std::visit(Overloaded{[&](const auto&) { return get(c); },
-                               [&](std::string* x) { return in_quotes(name_alone(c, *x)); },
+                               [&](std::string* x) { return in_quotes(name_alone(*this, c, *x)); },
                                [&](std::vector<std::string>* x) {
                                  std::vector<std::string> names;
                                  for (const std::string& file : *x)
-                                   names.push_back(name_alone(c, file));
+                                   names.push_back(name_alone(*this, c, file));
                                  return written(names);
                                }},
                     slot_of(*this, c));
 }
 
+bool names_file(const Parameter& p, const Case& c, const std::string& text) {
+  std::error_code failed;
+  return p.text == Text::path || (p.text == Text::perhaps_path &&
+                                  std::filesystem::is_regular_file(beside(c, text), failed));
+}
+
 std::vector<std::string> paths(const Parameter& p, const Case& c) {
   std::vector<std::string> names;
   const Slot slot = slot_of(p, c);
-  if (p.text != Text::path)
+  if (p.text == Text::words)
     return names;
   if (const auto* one = std::get_if<std::string*>(&slot))
     names.push_back(**one);
@@ -295,6 +301,8 @@ NamesAlone names_alone(const Case& c, const std::filesystem::path& work) {
   std::vector<std::filesystem::path> folders{c.file.parent_path(), work, work.parent_path()};
   for (const Parameter& p : parameters())
     for (const std::string& name : paths(p, c)) {
+      if (!names_file(p, c, name))
+        continue;
       const std::filesystem::path path = beside(c, name);
       std::error_code failed;
       if (std::filesystem::is_directory(path, failed))

@@ -183,9 +183,10 @@ constexpr Group of_anatomy[]{
     {Stages(Stage::anatomy),
      {&from_mesh, &tagged},
      {
-         value("anatomy.mesh.endo", LV_AT(anatomy.mesh.import.endo), "tag of the endocardium"),
-         value("anatomy.mesh.epi", LV_AT(anatomy.mesh.import.epi), "tag of the epicardium"),
-         value("anatomy.mesh.base", LV_AT(anatomy.mesh.import.base), "tag of the base"),
+         perhaps_path("anatomy.mesh.endo", LV_AT(anatomy.mesh.import.endo),
+                      "tag of the endocardium; with VTK also the .vtp file of its surface"),
+         perhaps_path("anatomy.mesh.epi", LV_AT(anatomy.mesh.import.epi), "tag of the epicardium"),
+         perhaps_path("anatomy.mesh.base", LV_AT(anatomy.mesh.import.base), "tag of the base"),
          value("anatomy.mesh.side_array", LV_AT(anatomy.mesh.import.side_array),
                "VTK: cell array with the sides' numbers on surface cells; empty: "
                "the tags name point arrays that are 1 on a side"),
@@ -203,6 +204,17 @@ constexpr Group of_anatomy[]{
                 between(0.0, 10.0), "largest distance of the base's nodes from their plane"),
          number("anatomy.mesh.refinements", LV_AT(anatomy.mesh.refinements), "", between(0, 3),
                 "how often every element is cut into eight"),
+         perhaps_path(
+             "anatomy.mesh.fibres", LV_AT(anatomy.mesh.import.fibres),
+             "VTK: array of fibre directions, in cells or at points, or a .vtu file with the same "
+             "cells and such an array (SimVascular's FIB_DIR); empty: the rule of [fibres]"),
+     }},
+    {Stages(Stage::anatomy),
+     {&from_mesh, &fibres_given},
+     {
+         perhaps_path(
+             "anatomy.mesh.sheets", LV_AT(anatomy.mesh.import.sheets),
+             "the same of sheet directions across the fibres; empty: the sheet angles of [fibres]"),
      }},
 };
 
@@ -237,14 +249,18 @@ constexpr Group of_mesh[]{
                 "the same through the wall, next to the endocardium"),
      }},
     {Stages(Stage::mesh, Stage::calibrate, Stage::unload, Stage::beat),
-     {},
+     {&fibres_by_rule},
      {
-         number(
-             "fibres.helix_endo", LV_AT(fibres.helix_endo), "deg", between(-90.0, 90.0),
-             "helix angle at the endocardium; negative is a right-handed helix (the paper's sign)",
-             "2.2"),
+         number("fibres.helix_endo", LV_AT(fibres.helix_endo), "deg", between(-90.0, 90.0),
+                "helix angle at the endocardium; negative is a right-handed helix (the paper's "
+                "sign)",
+                "2.2"),
          number("fibres.helix_epi", LV_AT(fibres.helix_epi), "deg", between(-90.0, 90.0),
                 "helix angle at the epicardium", "2.2"),
+     }},
+    {Stages(Stage::mesh, Stage::calibrate, Stage::unload, Stage::beat),
+     {&sheets_by_rule},
+     {
          number("fibres.sheet_endo", LV_AT(fibres.sheet_endo), "deg", between(-90.0, 90.0),
                 "sheet angle at the endocardium", "2.2"),
          number("fibres.sheet_epi", LV_AT(fibres.sheet_epi), "deg", between(-90.0, 90.0),
@@ -800,10 +816,10 @@ constexpr Group of_measurements[]{
          path("strain.long_axis", LV_AT(strain.long_axis),
               "CSV of curves on long-axis images at end-diastole, for the place of "
               "the apex and to follow long_axis_cine; may be left out"),
-         path("strain.long_axis_cine", LV_AT(strain.long_axis_cine),
-              "long-axis cines that show how far muscle moves through the short-axis "
-              "planes, with the curves of long_axis: NIfTI files, or series of the "
-              "DICOM folder cine; [] leaves that motion unseen"),
+         perhaps_path("strain.long_axis_cine", LV_AT(strain.long_axis_cine),
+                      "long-axis cines that show how far muscle moves through the short-axis "
+                      "planes, with the curves of long_axis: NIfTI files, or series of the "
+                      "DICOM folder cine; [] leaves that motion unseen"),
          path("strain.es_contours", LV_AT(strain.es_contours),
               "CSV of loops drawn at end-systole, which the carried contours are "
               "compared with; may be left out"),

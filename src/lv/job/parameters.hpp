@@ -68,9 +68,9 @@ using Slot = std::variant<double*, int*, bool*, std::string*, Choice, std::array
 
 /// How the text of a parameter is meant.
 enum class Text {
-  words,  ///< as it is
-  path    ///< a file or folder: its contents count, not its name. In a list, where there is one of
-          ///< that name
+  words,        ///< as it is
+  path,         ///< a file or folder: its contents count, not its name
+  perhaps_path  ///< a file where there is one of that name, else words
 };
 
 /// One parameter of a case file, declared once, in parameters.cpp: what it is, which stages read it
@@ -118,8 +118,11 @@ struct Section {
 /// does.
 [[nodiscard]] std::string counts_only(const Parameter& p, const Case& c);
 
-/// The files and folders that a parameter names, as the case file writes them; none for other
-/// parameters.
+/// Whether a text of a parameter is that of a file or folder.
+[[nodiscard]] bool names_file(const Parameter& p, const Case& c, const std::string& text);
+
+/// What a parameter names that are, or may be, files and folders, as the case file writes it; none
+/// for other parameters.
 [[nodiscard]] std::vector<std::string> paths(const Parameter& p, const Case& c);
 
 /// Takes the folders of a case, of its files and of its work out of texts that are kept.

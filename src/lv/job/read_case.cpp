@@ -1,8 +1,9 @@
 #include "lv/job/read_case.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/lines.hpp"
 #include "lv/base/nearest.hpp"
-#include "lv/base/table.hpp"
+#include "lv/base/printable.hpp"
 #include "lv/job/parameter_values.hpp"
 
 #include <fmt/format.h>
@@ -20,6 +21,7 @@ class CaseReader {
 
   Case read(const toml::table& root) {
     walk(root, "");
+    case_.name = printable(case_.name);
     check_together();
     check_that_all_count();
     if (!mistakes_.empty())
@@ -200,7 +202,7 @@ Case parse_case(const std::string& text, const std::filesystem::path& file) {
 }
 
 Case read_case(const std::filesystem::path& file) {
-  return parse_case(read_file(file), file);
+  return parse_case(read_text(file), file);
 }
 
 std::string starter_case(const std::string& name) {

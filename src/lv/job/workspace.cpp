@@ -1,6 +1,7 @@
 #include "lv/job/workspace.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/files.hpp"
 #include "lv/base/log.hpp"
 #include "lv/base/table.hpp"
 #include "lv/job/parameters.hpp"
@@ -43,7 +44,7 @@ struct Record {
 
 /// Empty when there is no readable record.
 Record recorded(const fs::path& folder) {
-  if (!why_unreadable(folder / record_name).empty())
+  if (!unreadable(folder / record_name).empty())
     return {};
   std::ifstream in(folder / record_name);
   const auto json = nlohmann::json::parse(in, nullptr, false);
@@ -158,7 +159,7 @@ std::string fingerprint(const Ingredients& ingredients) {
 }
 
 std::string fingerprint_of_file(const fs::path& file) {
-  if (!why_unreadable(file).empty())
+  if (!unreadable(file).empty())
     return "absent";
   std::ifstream in(file, std::ios::binary);
   Checksum crc;
@@ -325,6 +326,8 @@ void check_contents(const fs::path& work) {
 WorkLock::WorkLock(const fs::path& work) {
   std::error_code error;
   fs::create_directories(work, error);
+  if (fs::is_directory(work, error))
+    check_contents(work);
   const fs::path file = work / ".lock";
   descriptor_ = ::open(file.c_str(), O_RDWR | O_CREAT, 0644);
   if (descriptor_ < 0)
@@ -339,7 +342,6 @@ WorkLock::WorkLock(const fs::path& work) {
     throw RunError(fmt::format("another run is at work in {}", work.string()),
                    "Wait for it to end, or name another folder with --work");
   }
-  check_contents(work);
 }
 
 WorkLock::~WorkLock() {
