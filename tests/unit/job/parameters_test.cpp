@@ -75,6 +75,7 @@ const std::vector<Lines>& bases() {
       {{"anatomy.source", "\"guide_points\""}},
       given_mesh,
       with(given_mesh, "anatomy.mesh.sides", "\"geometry\""),
+      with(given_mesh, "anatomy.mesh.fibres", "\"f0\""),
       with(with(given_mesh, "infarct.source", "\"elements\""), "infarct.elements.set", "\"scar\""),
       {{"infarct.source", "\"described\""}},
       {{"infarct.source", "\"surface\""}},
