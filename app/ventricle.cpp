@@ -9,6 +9,7 @@
 #include "lv/job/list_images.hpp"
 #include "lv/job/read_case.hpp"
 #include "lv/job/run.hpp"
+#include "lv/job/version.hpp"
 #include "lv/phantom/study.hpp"
 #include "lv/verify/run.hpp"
 
@@ -405,6 +406,8 @@ int dispatch(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0 && lv::launch::world_rank() > 0)
+      return 0;  // help and version are told once
     return app.exit(error) == 0 ? 0 : wrong_input;
   }
   return perform(app, command, argc, argv);

@@ -78,12 +78,13 @@ std::string fragment(const Case& fitted) {
   for (const Parameter& p : parameters()) {
     if (std::find(names.begin(), names.end(), p.name) == names.end())
       continue;
-    const auto dot = p.name.rfind('.');
-    if (p.name.substr(0, dot) != table) {
-      table = p.name.substr(0, dot);
+    const std::string name = p.name;
+    const auto dot = name.rfind('.');
+    if (name.substr(0, dot) != table) {
+      table = name.substr(0, dot);
       text += fmt::format("\n[{}]\n", table);
     }
-    text += fmt::format("{} = {}\n", p.name.substr(dot + 1), p.get(fitted));
+    text += fmt::format("{} = {}\n", name.substr(dot + 1), p.get(fitted));
   }
   return text;
 }

@@ -10,8 +10,8 @@
 #include "lv/heartbeat/quasi_static_beat.hpp"
 #include "lv/job/infarct.hpp"
 #include "lv/job/parameters.hpp"
-#include "lv/job/run.hpp"
 #include "lv/job/strain.hpp"
+#include "lv/job/version.hpp"
 #include "lv/job/workspace.hpp"
 #include "lv/mesh/infarct.hpp"
 #include "lv/mesh/quality.hpp"
@@ -183,8 +183,9 @@ report::RunFacts run_facts(const Case& c, const MeshResult& mesh, const BeatResu
   }
   facts.wall_clock = beat.beat.wall_clock;
   for (const Parameter& p : parameters())
-    facts.parameters.emplace_back(p.name, p.get(c));
-  facts.origins.assign(c.origin.begin(), c.origin.end());
+    facts.parameters.emplace_back(p.name, p.shown(c));
+  for (const auto& [name, place] : c.origin)
+    facts.origins.emplace_back(name, std::filesystem::path(place).filename().string());
   if (const std::string note = septum_note(c); !note.empty())
     facts.warnings.push_back(note);
   if (!beat.beat.filling_was_steady)
@@ -286,6 +287,13 @@ std::string write_results(const Case& c, const MeshResult& mesh, const BeatResul
 
 }  // namespace
 
+void check_room(const Case& c, const mesh::Mesh& mesh) {
+  if (c.engine != Engine::immersed)
+    return;
+  check_box(c, mesh);
+  check_spacing(c, mesh);
+}
+
 MeshResult make_mesh(const Case& c, const Shape& shape) {
   MeshResult result;
   result.mesh = shape.given ? *shape.given : mesh::wall_mesh(shape.wall, mesh_parameters(c));
@@ -295,8 +303,6 @@ MeshResult make_mesh(const Case& c, const Shape& shape) {
   result.slice_moves = std::move(infarct.slice_moves);
   if (c.engine == Engine::immersed) {
     result.mesh.order = 1;  // the parts of a refined given mesh are its elements
-    check_box(c, result.mesh);
-    check_spacing(c, result.mesh);
   } else if (c.quasi_static.order == 2 && result.mesh.order == 1) {
     // each element of a given mesh becomes a quadratic one
     result.mesh = mesh::refine(result.mesh);
@@ -330,7 +336,7 @@ void write_mesh_result(const MeshResult& result, const std::filesystem::path& fo
 
 void show_mesh(const MeshResult& result, const Case& c, const std::filesystem::path& folder) {
   const mesh::Mesh& m = result.mesh;
-  const auto undeformed = field_analysis(c, m).at_rest();
+  const auto undeformed = analysis::FieldAnalysis(m, {c.fibres, {}, {}}).at_rest();  // directions
   parallel::on_root([&] {
     report::write_mesh(folder / "mesh.vtu", m, result.regions, undeformed);
     report::quality_table(mesh::quality(m)).write_csv(folder / "quality.csv");
@@ -384,8 +390,6 @@ heartbeat::Beat make_beat(const Case& c, const MeshResult& mesh,
     return heartbeat::run_quasi_static_beat(
         {mesh.mesh, static_model(c), c.quasi_static.solver, c.protocol, c.output.frame_interval},
         observers);
-  check_box(c, mesh.mesh);  // the grid may have changed since the mesh was made
-  check_spacing(c, mesh.mesh);
   const heartbeat::BeatSetup setup{mesh.mesh,  cardiac_model(c), model_parameters(c, mesh.mesh),
                                    c.protocol, c.time,           c.output};
   return heartbeat::run_immersed_beat(setup, folder, observers);

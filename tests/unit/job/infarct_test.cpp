@@ -1,6 +1,7 @@
 #include "lv/job/infarct.hpp"
 
 #include "lv/geometry/contours.hpp"
+#include "lv/job/ingredients.hpp"
 #include "lv/mesh/infarct.hpp"
 
 #include "mesh/mesh_files.hpp"
@@ -315,11 +316,16 @@ TEST_CASE("the infarct's file is among what the mesh depends on", "[unit][job]")
   job::Case c;
   c.file = folder / "case.toml";
   c.scar.surface = "surface.vtk";
-  CHECK(job::infarct_files(c).empty());  // the source is the mesh
+  const auto has_contents = [&] {
+    job::FileContents files;
+    return job::ingredients(c, job::Stage::mesh, files);
+  };
+  CHECK_FALSE(has_contents().contains("contents of infarct.surface.file"));  // the source: the mesh
   c.scar.source = InfarctSource::surface;
-  const auto before = job::infarct_files(c);
+  const auto before = has_contents();
+  CHECK(before.contains("contents of infarct.surface.file"));
   test::write_bytes(folder / "surface.vtk", "two");
-  CHECK(before != job::infarct_files(c));
+  CHECK(before != has_contents());
 }
 
 TEST_CASE("without an infarct nothing is said of it", "[unit][job]") {
