@@ -142,7 +142,7 @@ std::string read_text(const std::filesystem::path& file) {
 }
 
 LineReader::LineReader(const std::filesystem::path& file) : file_(file.string()) {
-  is_open_ = std::filesystem::is_regular_file(file) && std::ifstream(file).is_open();
+  is_open_ = why_unreadable(file).empty();
   if (is_open_)
     text_ = read_text(file);
 }

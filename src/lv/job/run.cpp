@@ -20,7 +20,7 @@
 #include "lv/mesh/quality.hpp"
 #include "lv/report/page.hpp"
 #include "lv/report/table_figures.hpp"
-#include "lv/solid/cavity.hpp"
+#include "lv/solid/endocardial_surface.hpp"
 
 #include <fmt/format.h>
 
@@ -32,27 +32,8 @@
 namespace lv::job {
 namespace {
 
-/// Runs something on the root alone; when it throws, all ranks throw.
-template <class Work>
-void on_root(const Work& work) {
-  std::exception_ptr failure;
-  if (parallel::is_root()) {
-    try {
-      work();
-    } catch (...) {
-      failure = std::current_exception();
-    }
-  }
-  if (!parallel::any(failure != nullptr))
-    return;
-  if (failure)
-    std::rethrow_exception(failure);
-  throw FailedElsewhere();
-}
-
-bool root_says(bool value) {
-  return parallel::any(parallel::is_root() && value);
-}
+using parallel::on_root;
+using parallel::root_says;
 
 /// Whether a parameter changes what the engines of the case compute.
 bool is_used(const Case& c, const std::string& name) {
@@ -95,7 +76,7 @@ class Pipeline {
   void run() {
     std::optional<WorkLock> lock;
     on_root([&] { lock.emplace(work_); });
-    log::to_file(work_ / "log.txt");
+    on_root([&] { log::to_file(work_ / "log.txt"); });
     log::info("{}: ventricle {} on {} rank{}, results in {}", case_.name, version(),
               parallel::size(), parallel::size() == 1 ? "" : "s", work_.string());
     if (case_.origin.empty())
@@ -163,8 +144,7 @@ class Pipeline {
   }
 
   void run_stage(std::size_t s, Ingredients ingredients) {
-    if (parallel::any(interrupt::requested()))
-      throw heartbeat::Interrupted("stopped; run the same command again to go on");
+    interrupt::check_together();
     const StageFolder stage(work_, stage_folder(s), std::move(ingredients));
     if (root_says(stage.up_to_date())) {
       if (options_.explain)
@@ -215,7 +195,8 @@ class Pipeline {
       case Stage::results: {
         const auto beat = folder(Stage::beat);
         const auto wall = wall_of(beat);
-        text_ = make_results(fitted_case(beat), read_mesh_result(wall), read_beat(beat),
+        const MeshResult mesh = read_mesh_result(wall);
+        text_ = make_results(fitted_case(beat), mesh, read_beat(beat, mesh.mesh),
                              fitted_volumes(case_, beat), unloaded_shape(wall), part);
         on_root([&] { write_file(part / "summary.txt", text_); });
         break;
@@ -232,8 +213,11 @@ class Pipeline {
   }
 
   void run_beat(const std::filesystem::path& part) {
-    if (root_says(std::filesystem::exists(part / beat_name)))
-      return;  // finished, but the folder had not got its name yet
+    if (root_says(std::filesystem::exists(part / beat_name))) {
+      // finished, but the folder had not got its name yet
+      on_root([&] { std::filesystem::remove(part / heartbeat::checkpoint_name); });
+      return;
+    }
     heartbeat::Beat beat;
     bool again = false;
     do {
@@ -257,7 +241,7 @@ class Pipeline {
   /// The wall without load for the parameters in use, into a folder.
   void unload(const std::filesystem::path& part, const std::filesystem::path& elements) const {
     make_unloading(fitted_case(part), read_mesh_result(folder(Stage::mesh)),
-                   read_mesh_result(elements).mesh, part);
+                   read_mesh_result(elements).mesh, part, calibration() / unloaded_shape_name);
   }
 
   /// Where the stress-free wall of a beat is.
@@ -317,12 +301,12 @@ class Pipeline {
 
 /// Seconds that a step takes, from a few steps of the model at rest.
 double trial_step(const Case& c, const mesh::Mesh& mesh, const immersed::ModelParameters& p) {
-  immersed::Model model(mesh, c.fibres, wall_material(c), c.active, p);
+  immersed::Model model(mesh, cardiac_model(c), p);
   model.relax(c.protocol.calcium.Ca_0);
   constexpr int steps = 3;
   const auto start = std::chrono::steady_clock::now();
   for (int i = 0; i < steps; ++i)
-    static_cast<void>(model.step({0.0, c.protocol.calcium.Ca_0, 0.0}, c.time.longest));
+    static_cast<void>(model.step({.calcium = c.protocol.calcium.Ca_0}, c.time.longest));
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   return elapsed.count() / steps;
 }
@@ -344,7 +328,7 @@ std::string immersed_cost(const Case& c, const mesh::Mesh& mesh) {
 
 /// What the quasi-static engine would solve, in words. Making its equations checks the elements.
 std::string static_size(const Case& c, const mesh::Mesh& mesh) {
-  const quasi_static::Equations equations(mesh, c.fibres, muscle(c));
+  const quasi_static::Equations equations(mesh, static_model(c));
   return fmt::format("  quasi-static: {} finite elements of order {}, {} unknowns\n",
                      mesh::elements(mesh).size(), mesh.order, equations.size());
 }
@@ -380,7 +364,7 @@ std::string validate(const Case& c) {
   std::string text = fmt::format(
       "{}: valid\n"
       "  early diastole: cavity {:.2f} ml, wall {:.2f} ml\n",
-      c.file.string(), 1e-3 * solid::Cavity(m).volume(m.nodes), 1e-3 * q.wall_volume);
+      c.file.string(), 1e-3 * solid::EndocardialSurface(m).volume(m.nodes), 1e-3 * q.wall_volume);
   if (c.origin.empty())
     text += fmt::format("  warning: {}\n", no_parameters);
   if (is_loaded(c))
@@ -418,7 +402,7 @@ std::string bench(const BenchOptions& options) {
     c.coupling.kind = immersed::CouplingKind::quadrature;
   const MeshResult result = make_mesh(c, make_anatomy(c));
   const lv::bench::Bench measured =
-      lv::bench::measure(result.mesh, model_parameters(c, result.mesh), wall_material(c));
+      lv::bench::measure(result.mesh, model_parameters(c, result.mesh), myocardium(c));
   return options.json ? lv::bench::json(measured) : lv::bench::text(measured);
 }
 

@@ -2,6 +2,8 @@
 
 #include "lv/base/check.hpp"
 #include "lv/base/ending.hpp"
+#include "lv/base/files.hpp"
+#include "lv/base/formats.hpp"
 #include "lv/mesh/cell.hpp"
 #include "lv/mesh/foreign_fibres.hpp"
 #include "lv/mesh/foreign_mesh.hpp"
@@ -28,8 +30,7 @@ constexpr double same_place = 1e-5;  ///< relative to the wall's extent
 
 ForeignMesh read(const ImportParameters& parameters) {
   const std::filesystem::path path(parameters.file);
-  if (!std::filesystem::is_regular_file(path))
-    throw InputError(parameters.file, "there is no such file", "Check the name of the mesh");
+  require_readable(path, "Check the name of the mesh");
   const std::string ending = ending_of(path);
   if (ending == ".vtk" || ending == ".vtu")
     return read_vtk(parameters);
@@ -42,7 +43,7 @@ ForeignMesh read(const ImportParameters& parameters) {
   if (ending == ".msh")
     return read_gmsh(parameters);
   throw InputError(parameters.file, fmt::format("has the unknown ending \"{}\"", ending),
-                   "Meshes are read from .inp (ABAQUS), .vtk, .vtu (VTK) and .msh (Gmsh)");
+                   fmt::format("Meshes are read from {}", formats::meshes));
 }
 
 /// Drops the nodes that no cell uses; whatever referred to them then refers to node -2, which no

@@ -2,6 +2,8 @@
 
 #include "lv/base/check.hpp"
 #include "lv/base/ending.hpp"
+#include "lv/base/files.hpp"
+#include "lv/base/formats.hpp"
 #include "lv/mesh/foreign_mesh.hpp"
 #include "lv/mesh/stated_space.hpp"
 #include "lv/mesh/vtk_file.hpp"
@@ -17,6 +19,8 @@
 #include <vtkStructuredPointsReader.h>
 #include <vtkXMLImageDataReader.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -36,19 +40,20 @@ vtkSmartPointer<vtkImageData> read_legacy(const std::string& file) {
 vtkSmartPointer<vtkImageData> read_xml(const std::string& file) {
   vtkNew<vtkXMLImageDataReader> reader;
   reader->SetFileName(file.c_str());
+  reader->UpdateInformation();
+  if (reader->GetNumberOfTimeSteps() > 1)
+    throw InputError(file, fmt::format("has {} times", reader->GetNumberOfTimeSteps()),
+                     "Save the one that shows the infarct");
   reader->Update();
   return reader->GetOutput();
 }
 
 vtkSmartPointer<vtkImageData> read_image(const std::string& file) {
+  require_readable(file, "Check the name of the labelled volume");
   const std::string ending = ending_of(file);
-  if (!std::filesystem::is_regular_file(file))
-    throw InputError(file, "there is no such file", "Check the name of the labelled volume");
   if (ending != ".vti" && ending != ".vtk")
-    throw InputError(
-        file, fmt::format("has the unknown ending \"{}\"", ending),
-        "Labelled volumes are read from NIfTI (.nii, .nii.gz, .hdr, .img, .img.gz), .vti and .vtk "
-        "(structured points)");
+    throw InputError(file, fmt::format("has the unknown ending \"{}\"", ending),
+                     fmt::format("Labelled volumes are read from {}", formats::label_volumes));
   return read_by_vtk(file, [&] { return ending == ".vti" ? read_xml(file) : read_legacy(file); });
 }
 
@@ -119,6 +124,11 @@ LabelVolume::LabelVolume(const std::string& file, const std::string& array, doub
                      fmt::format("array \"{}\" has {} labels for {} voxels", name,
                                  image_->labels->GetNumberOfTuples(), voxels),
                      "The file seems to be truncated or damaged");
+  if (image_->labels->GetNumberOfComponents() != 1)
+    throw InputError(file,
+                     fmt::format("array \"{}\" has {} numbers for each voxel", name,
+                                 image_->labels->GetNumberOfComponents()),
+                     "Labels are one number a voxel");
   std::set<int> found;
   for (vtkIdType i = 0; i < image_->labels->GetNumberOfTuples(); ++i) {
     const double label = image_->labels->GetComponent(i, 0);
