@@ -34,16 +34,16 @@ ForeignMesh read(const ImportParameters& parameters) {
   const std::string ending = ending_of(path);
   if (ending == ".vtk" || ending == ".vtu")
     return read_vtk(parameters);
-  if (!parameters.fibres.empty() && (ending == ".inp" || ending == ".msh"))
+  if (ending != ".inp" && ending != ".msh")
+    throw InputError(parameters.file, fmt::format("has the unknown ending \"{}\"", ending),
+                     fmt::format("Meshes are read from {}", formats::meshes));
+  if (!parameters.fibres.empty())
     throw InputError(parameters.file, "is no file that fibres are read from",
                      "Convert it to .vtu with the fibres as an array, or leave anatomy.mesh.fibres "
                      "out: they follow the rule of [fibres]");
-  if (ending == ".inp")
-    return read_abaqus(parameters);
-  if (ending == ".msh")
-    return read_gmsh(parameters);
-  throw InputError(parameters.file, fmt::format("has the unknown ending \"{}\"", ending),
-                   fmt::format("Meshes are read from {}", formats::meshes));
+  ForeignMesh foreign = ending == ".inp" ? read_abaqus(parameters) : read_gmsh(parameters);
+  foreign.in_ras = says_ras(parameters.file);
+  return foreign;
 }
 
 /// Drops the nodes that no cell uses; whatever referred to them then refers to node -2, which no
