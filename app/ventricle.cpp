@@ -69,7 +69,7 @@ int until_stopped(const Work& work) {
     return 0;
   } catch (const lv::Interrupted& stop) {
     if (lv::parallel::is_root())
-      fmt::print(stderr, "ventricle: {}\n", stop.what());
+      fmt::print(stderr, "ventricle: {}\n", lv::printable_lines(stop.what()));
     return interrupted;
   }
 }

@@ -47,6 +47,27 @@ void store(const mesh::Surface& surface, const std::string& name, Archive& archi
   archive.set(name, as_numbers(surface.nodes));
 }
 
+void store(const mesh::GivenFibres& fibres, Archive& archive) {
+  archive.set("fibres.at_nodes", {fibres.at == mesh::GivenFibres::At::nodes ? 1.0 : 0.0});
+  archive.set("fibres.f0", as_numbers(fibres.f0));
+  archive.set("fibres.s0", as_numbers(fibres.s0));
+}
+
+mesh::GivenFibres load_fibres(const Archive& archive, const mesh::Mesh& m) {
+  using At = mesh::GivenFibres::At;
+  const At at = archive.whole_number(archive.number("fibres.at_nodes"), {0.0, 1.0}) == 0
+                    ? At::cells
+                    : At::nodes;
+  const std::size_t count =
+      at == At::nodes ? m.nodes.size() : static_cast<std::size_t>(m.cell_count());
+  constexpr heartbeat::Range unit{-1.0 - 1e-6, 1.0 + 1e-6};
+  const auto load = [&](const char* name) {
+    return archive.get(name).empty() ? std::vector<Vec3>{}
+                                     : heartbeat::vectors(archive.get_rows(name, 3, count, unit));
+  };
+  return {at, load("fibres.f0"), load("fibres.s0")};
+}
+
 /// Nodes of cells or faces, `each` of one, of those that a wall has.
 std::vector<int> load_nodes(const Archive& archive, const std::string& name, std::size_t each,
                             std::size_t nodes) {
@@ -70,24 +91,6 @@ heartbeat::Snapshot load_whole_snapshot(const Archive& archive, const std::strin
   if (!fits || snapshot.positions.empty())
     archive.refuse(fmt::format("'{}' is of another wall", name));
   return snapshot;
-}
-
-void store(const mesh::GivenFibres& fibres, Archive& archive) {
-  archive.set("fibres.at_nodes", {fibres.at == mesh::GivenFibres::At::nodes ? 1.0 : 0.0});
-  archive.set("fibres.f0", as_numbers(fibres.f0));
-  archive.set("fibres.s0", as_numbers(fibres.s0));
-}
-
-mesh::GivenFibres load_fibres(const Archive& archive, const mesh::Mesh& m) {
-  using At = mesh::GivenFibres::At;
-  const At at = archive.number("fibres.at_nodes") == 0.0 ? At::cells : At::nodes;
-  const std::size_t count =
-      at == At::nodes ? m.nodes.size() : static_cast<std::size_t>(m.cell_count());
-  const auto load = [&](const char* name) {
-    return archive.get(name).empty() ? std::vector<Vec3>{}
-                                     : heartbeat::vectors(archive.get_rows(name, 3, count));
-  };
-  return {at, load("fibres.f0"), load("fibres.s0")};
 }
 
 analysis::FieldAnalysis field_analysis(const Case& c, const mesh::Mesh& m) {
@@ -371,8 +374,8 @@ MeshResult read_mesh_result(const std::filesystem::path& folder) {
   m.epi = load_surface(archive, "epi", nodes);
   m.base = load_surface(archive, "base", nodes);
   const auto cells = static_cast<std::size_t>(m.cell_count());
-  m.fibres = load_fibres(archive, m);
   result.infarcted = archive.get_rows("infarcted", 1, cells, part);
+  m.fibres = load_fibres(archive, m);
   result.regions = {archive.get_whole("slice", cells, {1.0, mesh::slice_count}),
                     archive.get_whole("sector", cells, {1.0, mesh::sectors_of_slice(1)}),
                     archive.get_whole("aha", cells, {1.0, 17.0})};
