@@ -228,7 +228,7 @@ void repair_order(ForeignMesh& foreign) {
   if (find_inverted(mirrored).count > 0)
     return;
   foreign.mesh = std::move(mirrored);
-  foreign.notes.push_back("all elements were inverted: the order of their nodes was mirrored");
+  foreign.notes.emplace_back("all elements were inverted: the order of their nodes was mirrored");
 }
 
 struct Pairs {

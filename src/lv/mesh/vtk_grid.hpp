@@ -22,7 +22,7 @@ struct VtkShape {
   int dimension = 3;
   int corners = 0;         ///< of tetrahedra, hexahedra, triangles and quadrilaterals
   bool is_linear = false;  ///< no nodes but the corners
-  std::string name;        ///< of volume cells
+  std::string name = {};   ///< of volume cells
 };
 [[nodiscard]] VtkShape shape_of(int cell_type);
 
