@@ -212,19 +212,16 @@ ForeignSide side_of_value(const ImportParameters& parameters, const std::string&
 }
 
 std::vector<ForeignSide> read_sides(const ImportParameters& parameters, vtkUnstructuredGrid& grid) {
-  std::vector<ForeignSide> sides;
-  if (parameters.side_array.empty()) {
-    for (const std::string& tag : side_tags(parameters))
-      sides.push_back(side_of_points(parameters.file, grid, tag));
-    return sides;
-  }
+  if (parameters.side_array.empty())
+    return find_sides(parameters, [&](const std::string& tag) {
+      return side_of_points(parameters.file, grid, tag);
+    });
   const auto by_value =
       sides_by_value(parameters.file, grid,
                      find_array(parameters.file, *grid.GetCellData(), grid.GetNumberOfCells(),
                                 "cell array", parameters.side_array));
-  for (const std::string& tag : side_tags(parameters))
-    sides.push_back(side_of_value(parameters, tag, by_value));
-  return sides;
+  return find_sides(
+      parameters, [&](const std::string& tag) { return side_of_value(parameters, tag, by_value); });
 }
 
 std::vector<double> read_infarct(const ImportParameters& parameters, vtkUnstructuredGrid& grid) {
