@@ -1,6 +1,7 @@
 #include "lv/image/dicom_study.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/time_left.hpp"
 
 #include <fmt/format.h>
 
@@ -248,17 +249,11 @@ void check_slice(const DicomSlice& slice, const std::string& where, const std::s
   }
 }
 
-std::string indented(const std::string& text) {
-  return "\n  " + text;
-}
-
 [[noreturn]] void fail_choice(const DicomStudy& study, const std::string& where,
                               const std::string& what, const std::string& parameter) {
-  std::string list;
-  for (const DicomStack& stack : study.stacks)
-    list += indented(fmt::format("\"{}\" {}", stack.key, stack.description));
-  throw InputError(where, what,
-                   fmt::format("Name the series to use with {}. There are:{}", parameter, list));
+  throw InputError(
+      where, what,
+      fmt::format("Name the series to use with {}. There are:{}", parameter, choices(study)));
 }
 
 }  // namespace
@@ -268,8 +263,11 @@ DicomStudy read_dicom_study(std::span<const fs::path> where) {
   std::map<std::pair<std::string, std::string>, std::vector<DicomImage>> groups;
   std::map<std::string, std::optional<int>> numbers;
   std::map<std::pair<std::string, int>, fs::path> seen;
-  for (const fs::path& file : files_in(where)) {
+  const std::vector<fs::path> files = files_in(where);
+  Progress progress("reading DICOM files", files.size());
+  for (const fs::path& file : files) {
     DicomFile read = read_dicom_headers(file);
+    progress.add();
     if (!read.reason.empty())
       study.skipped.push_back(fmt::format("{}: {}", file.string(), read.reason));
     for (DicomImage& image : read.images) {
@@ -325,6 +323,13 @@ std::string describe(const DicomStudy& study) {
       text += fmt::format("  note: {}\n", remark);
   }
   return text;
+}
+
+std::string choices(const DicomStudy& study) {
+  std::string list;
+  for (const DicomStack& stack : study.stacks)
+    list += fmt::format("\n  \"{}\" {}", stack.key, stack.description);
+  return list;
 }
 
 void require_images(const DicomStudy& study, const std::string& where) {

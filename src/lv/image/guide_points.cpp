@@ -362,4 +362,11 @@ GuidePoints read_guide_points(const fs::path& file, std::optional<int> frame, Si
   return found;
 }
 
+std::vector<int> guide_point_frames(const fs::path& file) {
+  std::set<int> frames;
+  for (const Row& row : List(file).rows())
+    frames.insert(row.frame);
+  return {frames.begin(), frames.end()};
+}
+
 }  // namespace lv::image

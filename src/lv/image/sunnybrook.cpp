@@ -145,6 +145,14 @@ void check_phases(const DicomStack& stack, const std::map<int, fs::path>& drawn)
 
 }  // namespace
 
+bool has_sunnybrook_names(const fs::path& folder) {
+  std::error_code failed;
+  for (const auto& entry : fs::directory_iterator(folder, failed))
+    if (parse_name(entry.path().filename().string()))
+      return true;
+  return false;
+}
+
 DrawnPhases read_sunnybrook(const fs::path& folder, const DicomStack& stack, PixelOrigin origin,
                             DrawnBy drawn_by) {
   std::error_code failed;

@@ -25,6 +25,9 @@ struct DrawnPhases {
   std::vector<std::string> notes;
 };
 
+/// Whether a folder holds files that are named as such contours are.
+[[nodiscard]] bool has_sunnybrook_names(const std::filesystem::path& folder);
+
 /// Reads text contours IM-SSSS-NNNN-icontour-manual.txt (endocardium) and ocontour (epicardium):
 /// one point "x y" a line in pixels, x along the row from the left, y down from the top. NNNN is
 /// the InstanceNumber of the DICOM image, whose header says slice, plane and time. Contours of

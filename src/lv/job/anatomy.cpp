@@ -1,13 +1,15 @@
 #include "lv/job/anatomy.hpp"
 
-#include "lv/base/check.hpp"
+#include "lv/base/json_file.hpp"
 #include "lv/base/table.hpp"
+#include "lv/job/case_lines.hpp"
 #include "lv/job/drawn.hpp"
 #include "lv/mesh/abaqus_blocks.hpp"
 #include "lv/mesh/import.hpp"
 #include "lv/mesh/refine.hpp"
 #include "lv/report/fields_vtk.hpp"
 #include "lv/report/tables_csv.hpp"
+#include "lv/solid/cavity.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -19,9 +21,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* frame_name = "frame.json";
+
 constexpr const char* assumed_septum =
     "the septum is assumed at the first point of the basal endocardial loop: regions bear the "
     "wrong names if it is elsewhere (set anatomy.contours.septum_point)";
+constexpr const char* assumed_septum_of_mesh =
+    "the septum is assumed on the mesh's x axis: regions bear the wrong names if it is elsewhere "
+    "(set regions.septum_angle)";
 
 geometry::BaseAt base_at(const Case& c, const Drawn& drawn) {
   switch (c.anatomy.contours.base_at) {
@@ -59,8 +66,10 @@ Shape from_drawn(const Case& c) {
   shape.frame = wall->frame();
   shape.notes = std::move(drawn.notes);
   shape.notes.insert(shape.notes.end(), wall->report().notes.begin(), wall->report().notes.end());
+  shape.warnings = std::move(drawn.warnings);
   if (!fit.frame.septum && !c.origin.contains("regions.septum_angle"))
-    shape.notes.emplace_back(assumed_septum);
+    shape.warnings.emplace_back(assumed_septum);
+  shape.notes.insert(shape.notes.end(), shape.warnings.begin(), shape.warnings.end());
   shape.quality = report::QualitySheet{
       wall->report(),     drawn.source,       base_rule(fit.frame.base_at, fit.frame.base_plane),
       drawn.label_cavity, drawn.label_muscle, shape.notes};
@@ -69,8 +78,11 @@ Shape from_drawn(const Case& c) {
 
 Shape from_mesh(const Case& c) {
   mesh::ImportParameters import = c.anatomy.mesh.import;
-  if (import.file.empty())
-    throw InputError(c.file.string(), "anatomy.mesh.file is not set", "Name the mesh's file");
+  if (import.file.empty()) {
+    Missing missing;
+    missing.add({"anatomy.mesh.file", fill_in, "the mesh: .inp, .msh, .vtk or .vtu"});
+    missing.raise(c, place_of(c, "anatomy.source"));
+  }
   import.file = beside(c, import.file).string();
   if (c.scar.source == mesh::InfarctSource::elements)
     import.infarct_set = c.scar.set;
@@ -84,6 +96,9 @@ Shape from_mesh(const Case& c) {
   shape.given = std::move(imported.mesh);
   shape.frame = imported.frame;
   shape.notes = imported.notes;
+  if (!c.origin.contains("regions.septum_angle"))
+    shape.warnings.emplace_back(assumed_septum_of_mesh);
+  shape.notes.insert(shape.notes.end(), shape.warnings.begin(), shape.warnings.end());
   return shape;
 }
 
@@ -93,34 +108,23 @@ std::vector<double> numbers(const Vec3& v) {
 
 }  // namespace
 
-std::string septum_note(const Case& c) {
-  const bool said = c.origin.contains("regions.septum_angle") ||
-                    c.origin.contains("anatomy.contours.septum_point") ||
-                    !c.anatomy.labels.right_ventricle.empty();
-  if (said || c.anatomy.source == AnatomySource::ellipsoid)
-    return "";
-  if (c.anatomy.source == AnatomySource::guide_points)
-    return "";  // the list may show it: see the notes of the anatomy
-  return is_drawn(c)
-             ? assumed_septum
-             : "the septum is assumed on the mesh's x axis: regions bear the wrong names if it is "
-               "elsewhere (set regions.septum_angle)";
-}
-
 Shape make_anatomy(const Case& c) {
   if (is_drawn(c))
     return from_drawn(c);
-  if (c.anatomy.source == AnatomySource::mesh) {
-    Shape shape = from_mesh(c);
-    if (const std::string note = septum_note(c); !note.empty())
-      shape.notes.push_back(note);
-    return shape;
-  }
+  if (c.anatomy.source == AnatomySource::mesh)
+    return from_mesh(c);
   Shape shape;
   shape.wall = [e = c.anatomy.ellipsoid](double u, double theta, double t) {
     return e.point(u, theta, t);
   };
   return shape;
+}
+
+double cavity_of(const Shape& shape) {
+  constexpr double edge_length = 4.0;  // right to a thousandth of the volume [mm]
+  const mesh::Mesh wall =
+      shape.given ? *shape.given : mesh::wall_mesh(shape.wall, {.edge_length = edge_length});
+  return solid::Cavity(wall).volume(wall.nodes);
 }
 
 void write_anatomy(const Shape& shape, const fs::path& folder) {
@@ -133,14 +137,21 @@ void write_anatomy(const Shape& shape, const fs::path& folder) {
                                      {"x_axis_in_image_space", numbers(axes.col(0))},
                                      {"y_axis_in_image_space", numbers(axes.col(1))},
                                      {"z_axis_in_image_space", numbers(axes.col(2))},
-                                     {"notes", shape.notes}};
-  write_file(folder / "frame.json", frame.dump(2) + "\n");
+                                     {"notes", shape.notes},
+                                     {"warnings", shape.warnings}};
+  write_file(folder / frame_name, frame.dump(2) + "\n");
   if (!shape.quality)
     return;
   report::fit_table(shape.quality->fit).write_csv(folder / "fit.csv");
   report::quality_table(*shape.quality).write_csv(folder / "quality.csv");
   write_file(folder / "quality.json", report::quality_json(*shape.quality));
   write_file(folder / "quality.txt", report::quality_text(*shape.quality));
+}
+
+std::vector<std::string> anatomy_warnings(const fs::path& folder) {
+  return from_json_file(folder / frame_name, [](const nlohmann::ordered_json& json) {
+    return json.at("warnings").get<std::vector<std::string>>();
+  });
 }
 
 Ingredients anatomy_files(const Case& c) {

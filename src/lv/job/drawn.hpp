@@ -5,6 +5,7 @@
 #include "lv/job/workspace.hpp"
 
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +21,7 @@ struct Drawn {
   std::optional<std::array<double, 3>> septum;            ///< if the source shows where it is [mm]
   geometry::BaseAt usual_base = geometry::BaseAt::slice;  ///< unless the case says otherwise
   std::vector<std::string> notes;
+  std::vector<std::string> warnings;  ///< what may be wrong about the case itself
 };
 
 /// Whether the anatomy of a case is drawn, not given as an ellipsoid or a mesh.
@@ -35,8 +37,13 @@ struct Drawn {
 /// All files of a folder, with what stands for their contents.
 void add_folder(const std::filesystem::path& folder, Ingredients& files);
 
-/// "phase 1: 9 endo, 0 epi, 141.30 ml" and so on, a line each, with a proposal of phases.
-[[nodiscard]] std::string describe_phases(const std::map<int, geometry::Contours>& phases);
+/// Volume of the endocardial loops of one phase [mm^3]; 0 where it cannot be told.
+[[nodiscard]] double volume_of(const geometry::Contours& contours);
+
+/// "phase 1: 9 endo, 0 epi, 141.30 ml" and so on, a line each, with a proposal of phases; they may
+/// be called something else.
+[[nodiscard]] std::string describe_phases(const std::map<int, geometry::Contours>& phases,
+                                          const std::string& called = "phase");
 
 /// The volume at each frame and the phases proposed from it.
 [[nodiscard]] std::string describe_volume_curve(const std::vector<double>& volumes);

@@ -139,8 +139,6 @@ report::RunFacts run_facts(const Case& c, const MeshResult& mesh, const BeatResu
   for (const Parameter& p : parameters())
     facts.parameters.emplace_back(p.name, p.get(c));
   facts.origins.assign(c.origin.begin(), c.origin.end());
-  if (const std::string note = septum_note(c); !note.empty())
-    facts.warnings.push_back(note);
   if (!beat.beat.filling_was_steady)
     facts.warnings.push_back(
         "filling ended at protocol.filling_longest before the volume was steady");
@@ -353,6 +351,9 @@ std::string make_results(const Case& c, const MeshResult& mesh, const BeatResult
     return "";
   const analysis::Results results = analysis::results(mesh.mesh, mesh.regions, beat.beat, fields);
   report::RunFacts facts = run_facts(c, mesh, beat);
+  const auto stage = [](Stage s) { return stage_folder(static_cast<std::size_t>(s)); };
+  const auto assumed = anatomy_warnings(folder.parent_path() / stage(Stage::anatomy));
+  facts.warnings.insert(facts.warnings.begin(), assumed.begin(), assumed.end());
   facts.fitted = fitted;
   facts.unloaded = unloaded;
   facts.scar = scar_facts(c, mesh);
