@@ -5,11 +5,14 @@
 #include "lv/base/units.hpp"
 #include "lv/heartbeat/immersed_beat.hpp"
 #include "lv/job/list_images.hpp"
+#include "lv/job/propose_case.hpp"
 #include "lv/job/read_case.hpp"
 #include "lv/job/run.hpp"
+#include "lv/job/validate.hpp"
 #include "lv/phantom/study.hpp"
 #include "lv/verify/run.hpp"
 
+#include "help.hpp"
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <mpi.h>
@@ -36,6 +39,8 @@ constexpr int interrupted = 130;  // with a checkpoint
 struct Command {
   std::string case_file;
   std::string new_file = "case.toml";
+  std::string source;  ///< that a new case is made from
+  std::string filter;  ///< of the parameters to list
   std::string until;
   std::vector<std::filesystem::path> works;
   std::string page;
@@ -58,10 +63,11 @@ int default_ranks() {
   return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 8);
 }
 
-void write_new_case(const std::string& file) {
+void write_new_case(const std::string& file, const std::string& source) {
   if (std::filesystem::exists(file))
     throw lv::InputError(file, "exists already", "Choose another name");
-  lv::write_file(file, lv::job::starter_case(std::filesystem::path(file).stem()));
+  lv::write_file(file, source.empty() ? lv::job::starter_case(std::filesystem::path(file).stem())
+                                      : lv::job::proposed_case(source, file));
   fmt::print("wrote {}; next: ventricle validate {}\n", file, file);
 }
 
@@ -90,6 +96,8 @@ int bench(const Command& command, int argc, char** argv) {
 int run_parallel(Command& command, int argc, char** argv) {
   const lv::job::Case c =
       lv::job::read_case(command.case_file);  // mistakes are told before ranks start
+  if (command.run.dry_run)
+    command.ranks = 1;
   if (const auto code = run_on_ranks(command, c.box.cells, argc, argv))
     return *code;
   const lv::parallel::Session session(&argc, &argv);
@@ -156,6 +164,7 @@ void add_run_options(CLI::App& app, Command& command) {
   app.add_option("--work", command.run.work,
                  "work folder (default: the case file's name with .work)");
   app.add_flag("--explain", command.run.explain, "say why each stage runs or does not");
+  app.add_flag("--dry-run", command.run.dry_run, "say what would run and why, and run nothing");
   app.add_option("--ranks", command.ranks, "MPI ranks (default: the number of cores, at most 8)")
       ->check(CLI::PositiveNumber);
 }
@@ -235,7 +244,7 @@ void add_phantom(CLI::App& app, Command& command) {
 void add_images(CLI::App& app, Command& command) {
   auto* images = app.add_subcommand(
       "images", "list series, slices, phases, labels and volumes of images, to fill in a case");
-  images->add_option("WHERE", command.images.where, "a folder of DICOM files, or a NIfTI file")
+  images->add_option("WHERE", command.images.where, "a folder of DICOM files, or any file")
       ->required();
   images->add_option("--contours", command.images.contours,
                      "folder of Sunnybrook contours: volumes per phase");
@@ -247,11 +256,15 @@ void add_images(CLI::App& app, Command& command) {
 int dispatch(int argc, char** argv) {
   Command command;
   CLI::App app{"ventricle: left-ventricular mechanics from cardiac magnetic resonance"};
-  app.require_subcommand(1);
+  app.require_subcommand(0, 1);
   app.set_version_flag("--version", "ventricle " + lv::job::version());
 
-  auto* start = app.add_subcommand("new", "write a commented starter case");
+  auto* start =
+      app.add_subcommand("new", "write a case: a commented starter, or one that images fill in");
   start->add_option("FILE", command.new_file, "the case file to write")->capture_default_str();
+  start->add_option("--from", command.source,
+                    "a label map (.nii, .nii.gz), a folder of DICOM files or of Sunnybrook "
+                    "contours, contours (.csv), guide points, or a mesh (.inp, .msh, .vtk, .vtu)");
 
   auto* check =
       app.add_subcommand("validate", "check a case, its anatomy and its mesh without running it");
@@ -273,6 +286,7 @@ int dispatch(int argc, char** argv) {
   strain->add_option("--work", command.run.work,
                      "work folder (default: the case file's name with .work)");
   strain->add_flag("--explain", command.run.explain, "say why the stage runs or does not");
+  strain->add_flag("--dry-run", command.run.dry_run, "say what would run and why, and run nothing");
 
   add_phantom(app, command);
   add_verify(app, command);
@@ -282,6 +296,8 @@ int dispatch(int argc, char** argv) {
 
   auto* list = app.add_subcommand("parameters",
                                   "list every parameter: default, range, meaning, paper equation");
+  list->add_option("FILTER", command.filter,
+                   "only those whose name or meaning contains this, such as calcium or mesh.");
   list->add_flag("--markdown", command.markdown, "as the manual page");
 
   auto* time = app.add_subcommand("bench", "time the kernels of a step on this machine");
@@ -297,13 +313,19 @@ int dispatch(int argc, char** argv) {
       ->check(CLI::PositiveNumber);
   time->add_flag("--json", command.bench.json, "one JSON object instead of a table");
 
+  app.footer(help::program);
+  for (const auto& [name, text] : help::commands)
+    app.get_subcommand(name)->footer(text);
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : wrong_input;
   }
+  if (app.get_subcommands().empty())
+    fmt::print("{}", app.help());
   if (*start)
-    write_new_case(command.new_file);
+    write_new_case(command.new_file, command.source);
   if (*check)
     return validate(command, argc, argv);
   if (*fit)
@@ -329,7 +351,7 @@ int dispatch(int argc, char** argv) {
   if (app.got_subcommand("verify"))
     return verify(command, argc, argv);
   if (*list)
-    fmt::print("{}", lv::job::manual(command.markdown));
+    fmt::print("{}", lv::job::manual(command.markdown, command.filter));
   return 0;
 }
 

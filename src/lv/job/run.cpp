@@ -6,27 +6,22 @@
 #include "lv/base/nearest.hpp"
 #include "lv/base/parallel.hpp"
 #include "lv/base/table.hpp"
-#include "lv/base/units.hpp"
 #include "lv/bench/bench.hpp"
 #include "lv/job/calibration.hpp"
 #include "lv/job/infarct.hpp"
 #include "lv/job/parameters.hpp"
 #include "lv/job/stages.hpp"
 #include "lv/job/strain.hpp"
-#include "lv/job/strain_targets.hpp"
 #include "lv/job/unloading.hpp"
+#include "lv/job/validate.hpp"
 #include "lv/job/workspace.hpp"
-#include "lv/mesh/quality.hpp"
 #include "lv/report/page.hpp"
 #include "lv/report/table_figures.hpp"
-#include "lv/solid/cavity.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <chrono>
-#include <string_view>
 
 namespace lv::job {
 namespace {
@@ -53,17 +48,6 @@ bool root_says(bool value) {
   return parallel::any(parallel::is_root() && value);
 }
 
-/// Whether a parameter changes what the engines of the case compute.
-bool is_used(const Case& c, const std::string& name) {
-  const auto in = [&](std::initializer_list<std::string_view> tables) {
-    return std::any_of(tables.begin(), tables.end(),
-                       [&](const auto& table) { return name.starts_with(table); });
-  };
-  if (c.engine == Engine::quasi_static)
-    return !in({"volumetric.", "box.", "coupling.", "time.", "base.stiffness", "blood.viscosity"});
-  return c.calibration.asked() || is_loaded(c) || !in({"quasi_static."});
-}
-
 /// Parameters of one stage, with the program's version. The results name all, used or not.
 Ingredients own_ingredients(const Case& c, Stage stage) {
   Ingredients ingredients{{"program version", version()}};
@@ -77,9 +61,6 @@ Ingredients own_ingredients(const Case& c, Stage stage) {
         fingerprint_of_file(beside(c, c.calibration.strains));
   return ingredients;
 }
-
-constexpr const char* no_parameters =
-    "the case file sets no parameter: this is the default case, the idealised healthy ventricle";
 
 /// The stages in their order, each with what it depends on.
 class Pipeline {
@@ -101,40 +82,82 @@ class Pipeline {
       log::warn("{}: {}", case_.file.string(), no_parameters);
     if (!case_.strain.measured.empty())  // a mistake there must not come up after the beat
       on_root([&] { static_cast<void>(measured_strains(case_)); });
+    const std::vector<Planned> stages = plan();
+    check_before(stages);
+    for (const Planned& p : stages)
+      run_stage(p.stage, p.ingredients);
+  }
+
+  /// What would run and why, a line a stage.
+  [[nodiscard]] std::string describe() const {
+    std::string text;
+    for (const Planned& p : plan()) {
+      const StageFolder stage(work_, stage_folder(p.stage), p.ingredients);
+      text += stage.up_to_date() ? fmt::format("{:<10} is up to date\n", stage_names[p.stage])
+                                 : fmt::format("{:<10} would run, because {}\n",
+                                               stage_names[p.stage], stage.reason());
+    }
+    return text;
+  }
+
+ private:
+  /// A stage that the case asks for, with what its result depends on.
+  struct Planned {
+    std::size_t stage;
+    Ingredients ingredients;
+  };
+
+  [[nodiscard]] bool asks_for(Stage stage) const {
+    if (stage == Stage::strain)
+      return case_.strain.asked();
+    if (stage == Stage::calibrate)
+      return case_.calibration.asked();
+    return stage != Stage::unload || is_loaded(case_);
+  }
+
+  [[nodiscard]] std::vector<Planned> plan() const {
+    std::vector<Planned> stages;
     Ingredients carried = anatomy_files(case_);  // to the next stage that runs
     Ingredients measured;                        // which the results are compared with
-    if (case_.strain.asked()) {
+    if (asks_for(Stage::strain)) {
       Ingredients ingredients = own_ingredients(case_, Stage::strain);
       ingredients.merge(strain_files(case_));
       measured["result of strain"] = fingerprint(ingredients);
-      run_stage(static_cast<std::size_t>(Stage::strain), std::move(ingredients));
+      stages.push_back({static_cast<std::size_t>(Stage::strain), std::move(ingredients)});
     }
     for (auto s = static_cast<std::size_t>(Stage::anatomy); s <= last_; ++s) {
-      Ingredients ingredients = own_ingredients(case_, static_cast<Stage>(s));
-      if (static_cast<Stage>(s) == Stage::results)
+      const auto stage = static_cast<Stage>(s);
+      Ingredients ingredients = own_ingredients(case_, stage);
+      if (stage == Stage::results)
         ingredients.insert(measured.begin(), measured.end());
-      if (static_cast<Stage>(s) == Stage::results && !case_.strain.measured.empty())
+      if (stage == Stage::results && !case_.strain.measured.empty())
         ingredients["contents of strain.measured"] =
             fingerprint_of_file(beside(case_, case_.strain.measured));
       ingredients.merge(carried);
-      if (static_cast<Stage>(s) == Stage::mesh)
+      if (stage == Stage::mesh)
         ingredients.merge(infarct_files(case_));
-      if (static_cast<Stage>(s) == Stage::calibrate && !case_.calibration.asked()) {
-        std::erase_if(ingredients, [](const auto& i) { return i.first.starts_with("calibrate."); });
-        carried = std::move(ingredients);
-        continue;
-      }
-      if (static_cast<Stage>(s) == Stage::unload && !is_loaded(case_)) {
-        std::erase_if(ingredients, [](const auto& i) { return i.first.starts_with("unloaded."); });
+      if (!asks_for(stage)) {
+        const std::string own = stage == Stage::calibrate ? "calibrate." : "unloaded.";
+        std::erase_if(ingredients, [&](const auto& i) { return i.first.starts_with(own); });
         carried = std::move(ingredients);
         continue;
       }
       carried = {{"result of " + stage_names[s], fingerprint(ingredients)}};
-      run_stage(s, std::move(ingredients));
+      stages.push_back({s, std::move(ingredients)});
     }
+    return stages;
   }
 
- private:
+  /// A fit that cannot succeed must not be found out after the stages before it.
+  void check_before(const std::vector<Planned>& stages) {
+    on_root([&] {
+      for (const Planned& p : stages)
+        if (static_cast<Stage>(p.stage) == Stage::calibrate &&
+            !StageFolder(work_, stage_folder(p.stage), p.ingredients).up_to_date())
+          check_measured_volumes(case_, cavity_of(shape()));
+    });
+  }
+
   [[nodiscard]] std::size_t last_stage() const {
     if (!options_.until)
       return stage_names.size() - 1;
@@ -187,7 +210,11 @@ class Pipeline {
         on_root([&] { make_strain(case_, part); });
         break;
       case Stage::anatomy:
-        on_root([&] { write_anatomy(shape(), part); });
+        on_root([&] {
+          for (const std::string& warning : shape().warnings)
+            log::warn("{}", warning);
+          write_anatomy(shape(), part);
+        });
         break;
       case Stage::mesh:
         on_root([&] { write_mesh_result(make_mesh(case_, shape()), part); });
@@ -314,43 +341,13 @@ class Pipeline {
   static constexpr const char* elements_name = "quasi_static";  ///< folder of the mesh for fits
 };
 
-/// Seconds that a step takes, from a few steps of the model at rest.
-double trial_step(const Case& c, const mesh::Mesh& mesh, const immersed::ModelParameters& p) {
-  immersed::Model model(mesh, c.fibres, wall_material(c), c.active, p);
-  model.relax(c.protocol.calcium.Ca_0);
-  constexpr int steps = 3;
-  const auto start = std::chrono::steady_clock::now();
-  for (int i = 0; i < steps; ++i)
-    static_cast<void>(model.step({0.0, c.protocol.calcium.Ca_0, 0.0}, c.time.longest));
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  return elapsed.count() / steps;
-}
-
-/// What the immersed engine would take, in words.
-std::string immersed_cost(const Case& c, const mesh::Mesh& mesh) {
-  const immersed::ModelParameters p = model_parameters(c, mesh);
-  const double seconds = trial_step(c, mesh, p);
-  const double shortest = c.protocol.filling_ramp + c.protocol.filling_window +
-                          c.protocol.contraction_ramp + c.protocol.contraction_window;
-  const double longest = c.protocol.filling_longest + c.protocol.contraction_longest;
-  return fmt::format(
-      "  grid: {} x {} x {}, mesh width {:.3f} mm\n"
-      "  cost: {:.3g} s a step on one rank; between {} and {} for the beat, less on more ranks\n",
-      p.grid.cells[0], p.grid.cells[1], p.grid.cells[2], p.grid.spacing.minCoeff(), seconds,
-      log::duration(shortest / c.time.longest * seconds),
-      log::duration(longest / c.time.longest * seconds));
-}
-
-/// What the quasi-static engine would solve, in words. Making its equations checks the elements.
-std::string static_size(const Case& c, const mesh::Mesh& mesh) {
-  const quasi_static::Equations equations(mesh, c.fibres, muscle(c));
-  return fmt::format("  quasi-static: {} finite elements of order {}, {} unknowns\n",
-                     mesh::elements(mesh).size(), mesh.order, equations.size());
-}
-
 }  // namespace
 
 void run(const Case& c, const RunOptions& options) {
+  if (options.dry_run) {
+    fmt::print("{}", Pipeline(c, options).describe());
+    return;
+  }
   interrupt::install();
   try {
     Pipeline(c, options).run();
@@ -368,40 +365,6 @@ void write_page(const std::vector<std::filesystem::path>& works,
     cases.push_back({work, state.empty(), state});
   }
   write_file(file, report::page(cases, version()));
-}
-
-std::string validate(const Case& c) {
-  const std::string strain = check_strain(c);
-  const Shape shape = make_anatomy(c);
-  const MeshResult result = make_mesh(c, shape);
-  const mesh::Mesh& m = result.mesh;
-  const mesh::Quality q = mesh::quality(m);
-  std::string text = fmt::format(
-      "{}: valid\n"
-      "  early diastole: cavity {:.2f} ml, wall {:.2f} ml\n",
-      c.file.string(), 1e-3 * solid::Cavity(m).volume(m.nodes), 1e-3 * q.wall_volume);
-  if (c.origin.empty())
-    text += fmt::format("  warning: {}\n", no_parameters);
-  if (is_loaded(c))
-    text +=
-        fmt::format("  this shape bears {:.2f} mmHg; the wall without load will be found from it\n",
-                    c.unloaded.pressure / units::mmHg);
-  if (const auto targets = strain_targets(c, result.regions); !targets.empty())
-    text += fmt::format("  strains of {} segments to fit to\n", targets.size());
-  text += strain;
-  if (shape.quality)
-    text += report::quality_text(*shape.quality);
-  else
-    for (const std::string& note : shape.notes)
-      text += fmt::format("  note: {}\n", note);
-  text += fmt::format(
-      "  mesh: {} elements, {} nodes, edges {:.2f} mm in the mean; worst element {} at ({:.1f}, "
-      "{:.1f}, {:.1f}) mm with scaled Jacobian {:.2f}\n",
-      q.cells, q.nodes, q.edge_length.mean, q.worst_cell, q.worst_place.x(), q.worst_place.y(),
-      q.worst_place.z(), q.scaled_jacobian.min);
-  if (const std::string infarct = describe_infarct(c, result); !infarct.empty())
-    text += fmt::format("  {}\n", infarct);
-  return text + (c.engine == Engine::immersed ? immersed_cost(c, m) : static_size(c, m));
 }
 
 int most_ranks(const std::array<int, 3>& cells) {
