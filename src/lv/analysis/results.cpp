@@ -1,7 +1,7 @@
 #include "lv/analysis/results.hpp"
 
 #include "lv/base/check.hpp"
-#include "lv/solid/cavity.hpp"
+#include "lv/solid/endocardial_surface.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,10 +9,10 @@
 namespace lv::analysis {
 namespace {
 
-Shape shape(const mesh::Mesh& mesh, const std::vector<Vec3>& positions,
-            const std::vector<CellFields>& cells) {
-  Shape s;
-  s.cavity_volume = solid::Cavity(mesh).volume(positions);
+VentricleShape shape(const mesh::Mesh& mesh, const std::vector<Vec3>& positions,
+                     const std::vector<CellFields>& cells) {
+  VentricleShape s;
+  s.cavity_volume = solid::EndocardialSurface(mesh).volume(positions);
   for (const CellFields& cell : cells)
     s.wall_volume += cell.J * cell.volume;
   for (const int a : mesh.endo.nodes)
@@ -31,9 +31,9 @@ Shape shape(const mesh::Mesh& mesh, const std::vector<Vec3>& positions,
   return s;
 }
 
-Shape shape(const mesh::Mesh& mesh, const heartbeat::Snapshot& snapshot,
-            const std::vector<CellFields>& cells) {
-  Shape s = shape(mesh, snapshot.positions, cells);
+VentricleShape shape(const mesh::Mesh& mesh, const heartbeat::Snapshot& snapshot,
+                     const std::vector<CellFields>& cells) {
+  VentricleShape s = shape(mesh, snapshot.positions, cells);
   s.time = snapshot.time;
   s.pressure = snapshot.pressure;
   return s;

@@ -8,7 +8,7 @@
 namespace lv::analysis {
 
 /// Size and shape of the ventricle at one time.
-struct Shape {
+struct VentricleShape {
   double time = 0.0;              ///< [s]
   double pressure = 0.0;          ///< on the endocardium [kPa]
   double cavity_volume = 0.0;     ///< [mm^3]
@@ -40,7 +40,7 @@ struct SliceRotation {
 
 /// All numbers of a beat, computed from its three states.
 struct Results {
-  Shape early_diastole, end_diastole, end_systole;
+  VentricleShape early_diastole, end_diastole, end_systole;
   std::vector<RegionalValue> regional;
   std::vector<SliceRotation> rotation;
   Statistics J_end_diastole{}, J_end_systole{};

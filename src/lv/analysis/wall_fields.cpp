@@ -23,16 +23,13 @@ void for_numbers(Fields& c, const F& f) {
   f(c.infarct);
   f(c.J);
   f(c.fibre_stretch);
-  f(c.tension);
   all(c.F);
   all(c.fibre_frame);
   all(c.axes.circumferential);
   all(c.axes.longitudinal);
   all(c.axes.radial);
-  all(c.cauchy_passive);
-  all(c.cauchy_active);
-  f(c.fibre_stress_passive);
-  f(c.fibre_stress_active);
+  for (double& number : c.as_numbers())
+    f(number);
 }
 
 void add(CellFields& cell, const solid::PointSample& p) {
@@ -44,17 +41,12 @@ void add(CellFields& cell, const solid::PointSample& p) {
   cell.infarct += w * p.infarct;
   cell.J += w * p.F.determinant();
   cell.fibre_stretch += w * (p.F * p.fibre_frame.col(0)).norm();
-  cell.tension += w * p.tension;
   cell.F += w * p.F;
   cell.fibre_frame += w * p.fibre_frame;
   cell.axes.circumferential += w * p.axes.circumferential;
   cell.axes.longitudinal += w * p.axes.longitudinal;
   cell.axes.radial += w * p.axes.radial;
-  cell.cauchy_passive += w * p.cauchy_passive;
-  cell.cauchy_active += w * p.cauchy_active;
-  const Vec3 f = (p.F * p.fibre_frame.col(0)).normalized();
-  cell.fibre_stress_passive += w * f.dot(p.cauchy_passive * f);
-  cell.fibre_stress_active += w * f.dot(p.cauchy_active * f);
+  cell.add(w, p.stress);
 }
 
 /// Sums to means; averaged directions are made orthonormal again.
@@ -77,7 +69,7 @@ CellFields zero_fields() {
   return cell;
 }
 
-Strain strain_in(const Mat3& F, const Vec3& f, const mesh::WallAxes& axes) {
+CellStrain strain_in(const Mat3& F, const Vec3& f, const mesh::WallAxes& axes) {
   const Mat3 E = 0.5 * (F.transpose() * F - Mat3::Identity());
   const auto& [c, l, r] = axes;
   return {
@@ -120,17 +112,17 @@ std::vector<CellFields> cell_fields(const solid::Wall& wall, const heartbeat::Sn
 
 namespace {
 
-solid::WallMaterial without_penalty(solid::WallMaterial material) {
+material::Myocardium without_penalty(material::Myocardium material) {
   material.volumetric.beta_s = 0.0;
   return material;
 }
 
 }  // namespace
 
-FieldAnalysis::FieldAnalysis(const mesh::Mesh& mesh, const mesh::FibreRule& fibres,
-                             const solid::WallMaterial& material,
-                             const solid::BasalSupport& support)
-    : mesh_(mesh), wall_(mesh, fibres, without_penalty(material)), base_(mesh, support) {}
+FieldAnalysis::FieldAnalysis(const mesh::Mesh& mesh, const solid::CardiacModel& model)
+    : mesh_(mesh),
+      wall_(mesh, model.fibres, without_penalty(model.myocardium)),
+      base_(mesh, model.base) {}
 
 std::vector<CellFields> FieldAnalysis::fields(const heartbeat::Snapshot& snapshot) const {
   if (snapshot.stress.empty())
@@ -153,11 +145,11 @@ std::vector<CellFields> shape_fields(const solid::Wall& wall, const mesh::Mesh& 
   return cell_fields(wall, s, std::vector<double>(mesh.cell_count(), 0.0));
 }
 
-Strain strain(const CellFields& now) {
+CellStrain strain(const CellFields& now) {
   return strain_in(now.F, now.fibre_frame.col(0), now.axes);
 }
 
-Strain strain(const CellFields& now, const CellFields& then) {
+CellStrain strain(const CellFields& now, const CellFields& then) {
   const Mat3 inverse = then.F.inverse();
   const Vec3 f = (then.F * then.fibre_frame.col(0)).normalized();
   return strain_in(now.F * inverse, f, mesh::wall_axes(inverse.transpose() * then.axes.radial));

@@ -3,6 +3,7 @@
 #include "lv/base/log.hpp"
 #include "lv/base/parallel.hpp"
 #include "lv/solid/element.hpp"
+#include "lv/solid/endocardial_surface.hpp"
 
 #include <Eigen/LU>
 #include <Eigen/SparseCore>
@@ -96,7 +97,7 @@ std::vector<Vec3> forces_without_pressure(const mesh::Mesh& mesh, const solid::W
                                           const heartbeat::Snapshot& s) {
   std::vector<Vec3> forces(mesh.nodes.size(), Vec3::Zero());
   wall.add_elastic_forces(s.positions, s.tension, forces);
-  solid::add_pressure_forces(mesh.endo, s.pressure, s.positions, forces);
+  solid::EndocardialSurface(mesh).add_gradient(s.pressure, s.positions, forces);
   base.add_forces(s.positions, forces);
   parallel::sum({forces.data()->data(), 3 * forces.size()});
   return forces;

@@ -39,7 +39,7 @@ struct Bench {
 ///   advect spread interpolate elastic active
 ///   step         a whole step of immersed::Model
 [[nodiscard]] Bench measure(const mesh::Mesh& mesh, const immersed::ModelParameters& parameters,
-                            const solid::WallMaterial& material);
+                            const material::Myocardium& material);
 
 /// A table for people, and one JSON object for programs.
 [[nodiscard]] std::string text(const Bench& bench);

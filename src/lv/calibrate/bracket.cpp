@@ -24,8 +24,8 @@ constexpr double nowhere = -10.0;  // misfit where there is no equilibrium
 
 class Search {
  public:
-  Search(const std::function<double(double)>& volume, const Unknown& unknown, const Target& target,
-         double accuracy)
+  Search(const std::function<Outcome<double>(double)>& volume, const Unknown& unknown,
+         const Target& target, double accuracy)
       : volume_(volume),
         unknown_(unknown),
         target_(target),
@@ -33,9 +33,12 @@ class Search {
         low_(std::log(unknown.range.low)),
         high_(std::log(unknown.range.high)) {}
 
-  double run() {
+  Outcome<double> run() {
     double a = std::clamp(std::log(unknown_.start), low_, high_);
-    double f_a = misfit(a);
+    const Outcome<double> at_start = misfit(a);
+    if (!at_start)
+      return at_start;
+    double f_a = *at_start;
     if (f_a == 0.0)
       return std::exp(a);
     double away = f_a > 0.0 ? 1.0 : -1.0;  // a cavity too large asks for more of the unknown
@@ -45,16 +48,16 @@ class Search {
       const double b = std::clamp(a + away * step, low_, high_);
       if (std::abs(b - a) < shortest)
         refuse();
-      const std::optional<double> f_b = misfit_if_any(b);
+      const Outcome<double> f_b = misfit(b);
       if (!f_b) {
         step *= 0.25;
         continue;
       }
       if (f_a * *f_b <= 0.0 && (f_a > 0.0 || away < 0.0))
-        return std::exp(away > 0.0 ? between(a, b, f_a, *f_b) : between(b, a, *f_b, f_a));
+        return away > 0.0 ? between(a, b, f_a, *f_b) : between(b, a, *f_b, f_a);
       if (f_a < 0.0 && *f_b < f_a) {  // smaller still: the other way, or the maximum is passed
         if (before)
-          return std::exp(beyond_maximum(*before, {b, *f_b}));
+          return beyond_maximum(*before, {b, *f_b});
         before = {b, *f_b};
         away = -away;
         continue;
@@ -70,36 +73,39 @@ class Search {
 
  private:
   /// ln(V/V_target), and zero where that is small enough, which ends the search.
-  double misfit(double log_x) {
-    const double f = std::log(volume_(std::exp(log_x)) / target_.volume);
+  Outcome<double> misfit(double log_x) {
+    const Outcome<double> volume = volume_(std::exp(log_x));
+    if (!volume)
+      return volume;
+    const double f = std::log(*volume / target_.volume);
     if (std::abs(f) < std::abs(nearest_.f))
       nearest_ = {log_x, f};
     return std::abs(f) <= accuracy_ ? 0.0 : f;
   }
 
-  /// Nothing where the model has no equilibrium.
-  std::optional<double> misfit_if_any(double log_x) {
-    try {
-      return misfit(log_x);
-    } catch (const RunError&) {
-      return {};
-    }
-  }
-
-  double between(double a, double b, double f_a, double f_b) {
+  Outcome<double> between(double a, double b, double f_a, double f_b) {
     if (f_a == 0.0 || f_b == 0.0)
-      return f_a == 0.0 ? a : b;
+      return std::exp(f_a == 0.0 ? a : b);
+    std::optional<Unsolved> hole;  // no equilibrium: found as a root, which ends the search
+    const auto misfit_or_hole = [&](double log_x) {
+      const Outcome<double> f = misfit(log_x);
+      if (!f)
+        hole = f.why();
+      return f ? *f : 0.0;
+    };
     std::uintmax_t trials = most_trials;
     const auto [x, y] = boost::math::tools::toms748_solve(
-        [this](double log_x) { return misfit(log_x); }, a, b, f_a, f_b,
-        [](double l, double r) { return r - l < narrowest; }, trials);
+        misfit_or_hole, a, b, f_a, f_b, [](double l, double r) { return r - l < narrowest; },
+        trials);
+    if (hole)
+      return *hole;
     if (x != y && std::abs(nearest_.f) <= scatter * accuracy_)
-      return nearest_.log_x;
+      return std::exp(nearest_.log_x);
     if (x != y)
-      throw RunError(fmt::format("The volume jumps between {0} = {1:.9g} and {2:.9g}",
-                                 unknown_.name, std::exp(x), std::exp(y)),
-                     "Lower quasi_static.tolerance, or raise calibrate.tolerance");
-    return x;
+      return Unsolved{fmt::format("The volume jumps between {0} = {1:.9g} and {2:.9g}",
+                                  unknown_.name, std::exp(x), std::exp(y)),
+                      "Lower quasi_static.tolerance, or raise calibrate.tolerance"};
+    return std::exp(x);
   }
 
   struct Point {
@@ -107,12 +113,15 @@ class Search {
   };
 
   /// The stiffer root when a maximum of the volume lies between two points that have less.
-  double beyond_maximum(const Point& a, const Point& b) {
+  Outcome<double> beyond_maximum(const Point& a, const Point& b) {
     const Point& stiff = a.log_x > b.log_x ? a : b;
     std::uintmax_t trials = most_trials;
     constexpr int bits = 10;  // of the place
     const auto [log_x, minus_f] = boost::math::tools::brent_find_minima(
-        [this](double x) { return -misfit_if_any(x).value_or(nowhere); },
+        [this](double x) {
+          const Outcome<double> f = misfit(x);
+          return f ? -*f : -nowhere;
+        },
         std::min(a.log_x, b.log_x), std::max(a.log_x, b.log_x), bits, trials);
     if (minus_f > 0.0)
       refuse_beyond(log_x, -minus_f);
@@ -144,14 +153,11 @@ class Search {
   }
 
   [[nodiscard]] std::string volume_at(double x) const {
-    try {
-      return fmt::format("{:.2f} ml", 1e-3 * volume_(x));
-    } catch (const RunError&) {
-      return "unknown (no equilibrium)";
-    }
+    const Outcome<double> volume = volume_(x);
+    return volume ? fmt::format("{:.2f} ml", 1e-3 * *volume) : "unknown (no equilibrium)";
   }
 
-  const std::function<double(double)>& volume_;
+  const std::function<Outcome<double>(double)>& volume_;
   const Unknown& unknown_;
   const Target& target_;
   double accuracy_;
@@ -161,8 +167,8 @@ class Search {
 
 }  // namespace
 
-double find_root(const std::function<double(double)>& volume, const Unknown& unknown,
-                 const Target& target, double accuracy) {
+Outcome<double> find_root(const std::function<Outcome<double>(double)>& volume,
+                          const Unknown& unknown, const Target& target, double accuracy) {
   LV_CHECK(unknown.range.low > 0.0 && unknown.range.low < unknown.range.high);
   return Search(volume, unknown, target, accuracy).run();
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "lv/base/outcome.hpp"
+
 #include <functional>
 #include <string>
 
@@ -33,8 +35,9 @@ struct Target {
 /// the start, then found by TOMS 748 (Alefeld, Potra & Shi, ACM Trans. Math. Softw. 21:327, 1995),
 /// both in the unknown's logarithm.
 ///
-/// Throws InputError with the volumes at both ends of the range when the target is beyond them.
-[[nodiscard]] double find_root(const std::function<double(double)>& volume, const Unknown& unknown,
-                               const Target& target, double accuracy);
+/// Away from the start there may be values without an equilibrium, which it keeps clear of. Throws
+/// InputError with the volumes at both ends of the range when the target is beyond them.
+Outcome<double> find_root(const std::function<Outcome<double>(double)>& volume,
+                          const Unknown& unknown, const Target& target, double accuracy);
 
 }  // namespace lv::calibrate

@@ -17,7 +17,7 @@
 namespace lv::calibrate {
 namespace {
 
-using quasi_static::Loads;
+using solid::Loads;
 
 /// Volumes are met this much better than asked; unloading leaves them scattered by less.
 constexpr double margin = 5e-3;
@@ -40,8 +40,8 @@ constexpr int most_corrections = 20;
 
 /// The parts of Fitter::run, with the equilibria that they took on ordinary ventricles.
 std::vector<FitPart> parts_of(const Plan& plan) {
-  const bool passive = plan.passive != Passive::none;
-  const bool curve = plan.passive == Passive::scale_and_exponent;
+  const bool passive = plan.passive != FittedPassive::none;
+  const bool curve = plan.passive == FittedPassive::scale_and_exponent;
   std::vector<FitPart> parts;
   const auto fit_passive = [&](double trials) {
     if (passive)
@@ -68,25 +68,32 @@ std::vector<FitPart> parts_of(const Plan& plan) {
   return parts;
 }
 
+Eigen::VectorXd as_vector(const std::vector<double>& numbers) {
+  return Eigen::Map<const Eigen::VectorXd>(numbers.data(),
+                                           static_cast<Eigen::Index>(numbers.size()));
+}
+
 class Fitter {
  public:
-  Fitter(const Model& model, const Parameters& start, const Plan& plan)
+  Fitter(const Model& model, const FitParameters& start, const Plan& plan)
       : plan_(plan), model_(model), forecast_(parts_of(plan)) {
     fit_.parameters = start;
     if (plan.strains.empty())
       model_.strains = {};
-    model_.volume = [this, &model](const Parameters& p, const Loads& loads) {
+    model_.volume = [this, &model](const FitParameters& p, const Loads& loads) {
       const auto began = std::chrono::steady_clock::now();
-      const double volume = model.volume(p, loads);
+      const auto volume = model.volume(p, loads);
       const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - began;
       forecast_.record(loads.activation > 0.0 ? MuscleState::contracts : MuscleState::rests,
                        elapsed.count());
-      fit_.history.push_back({purpose_, p, loads, volume});
+      if (!volume)
+        return volume;
+      fit_.history.push_back({purpose_, p, loads, *volume});
       log::info(
           "{:<22} C_a {:.4g}  scale {:.4g}  exponent {:.4g}  T_scale {:.4g}  {:.2f} mmHg  "
-          "{:.3f} ml, about {} left",
+          "{:.3f} ml{}",
           purpose_, p.C_a, p.scale, p.exponent, p.T_scale, loads.pressure / units::mmHg,
-          1e-3 * volume, log::duration(forecast_.seconds_left()));
+          1e-3 * *volume, forecast_.words());
       return volume;
     };
   }
@@ -94,14 +101,15 @@ class Fitter {
   Fit run() {
     observe();
     std::vector<Fitted> fitted;
-    if (plan_.passive != Passive::none)
-      fitted.push_back(plan_.passive == Passive::C_a ? Fitted{"C_a", &Parameters::C_a}
-                                                     : Fitted{"scale", &Parameters::scale});
-    if (plan_.passive == Passive::scale_and_exponent)
-      fitted.push_back({"exponent", &Parameters::exponent});
+    if (plan_.passive != FittedPassive::none)
+      fitted.push_back(plan_.passive == FittedPassive::C_a
+                           ? Fitted{"C_a", &FitParameters::C_a}
+                           : Fitted{"scale", &FitParameters::scale});
+    if (plan_.passive == FittedPassive::scale_and_exponent)
+      fitted.push_back({"exponent", &FitParameters::exponent});
     fit_passive(fitted, far);
     if (plan_.active) {
-      fitted.push_back({"T_scale", &Parameters::T_scale});
+      fitted.push_back({"T_scale", &FitParameters::T_scale});
       bracket(fitted.back(), plan_.T_scale, es_loads(), plan_.esv, far);
       // with the tension at rest, the end-diastolic volume has moved a little
       fit_passive(fitted, near);
@@ -127,39 +135,44 @@ class Fitter {
 
   /// Of `fitted`, the passive parameters.
   void fit_passive(const std::vector<Fitted>& fitted, double first_factor) {
-    if (plan_.passive == Passive::none)
+    if (plan_.passive == FittedPassive::none)
       return;
     bracket(fitted.front(), plan_.stiffness, ed_loads(), plan_.edv, first_factor);
-    if (plan_.passive == Passive::scale_and_exponent)
+    if (plan_.passive == FittedPassive::scale_and_exponent)
       fit_exponent(fitted[0], fitted[1]);
   }
 
   void bracket(const Fitted& which, const Range& range, const Loads& loads, const Target& target,
                double first_factor) {
     begin(fmt::format("bracket of {}", which.name));
-    solve(which, range, loads, target, first_factor);
+    solve(which, range, loads, target, first_factor).value();
   }
 
   /// Brings the scale back to the measured end-diastolic volume after a small change.
-  void keep_edv(const Fitted& scale) { solve(scale, plan_.stiffness, ed_loads(), plan_.edv, near); }
+  Outcome<double> keep_edv(const Fitted& scale) {
+    return solve(scale, plan_.stiffness, ed_loads(), plan_.edv, near);
+  }
 
-  void solve(const Fitted& which, const Range& range, const Loads& loads, const Target& target,
-             double first_factor) {
-    Parameters& p = fit_.parameters;
+  Outcome<double> solve(const Fitted& which, const Range& range, const Loads& loads,
+                        const Target& target, double first_factor) {
+    FitParameters& p = fit_.parameters;
     const auto volume = [&](double x) {
       p.*which.member = x;
       return model_.volume(p, loads);
     };
-    p.*which.member = find_root(volume, {which.name, p.*which.member, range, first_factor}, target,
+    const auto root = find_root(volume, {which.name, p.*which.member, range, first_factor}, target,
                                 margin * plan_.tolerance);
+    if (root)
+      p.*which.member = *root;
+    return root;
   }
 
   /// The measured points, and the Klotz curve where it is fitted to.
   void observe() {
     const double edv = plan_.edv.volume;
-    const bool curve = plan_.passive == Passive::scale_and_exponent;
+    const bool curve = plan_.passive == FittedPassive::scale_and_exponent;
     auto& list = fit_.observations;
-    if (plan_.passive != Passive::none)
+    if (plan_.passive != FittedPassive::none)
       list.push_back(
           {"EDV", ed_loads(), edv, curve && !model_.strains ? weight_of_edv : 1.0, 1.0, 1.0});
     if (curve)
@@ -177,12 +190,32 @@ class Fitter {
       list.push_back({"ESV", es_loads(), plan_.esv.volume});
   }
 
-  /// The Klotz curve starts from the model's volume without load.
-  void move_curve(const Parameters& p) {
-    for (Observation& o : fit_.observations)
-      if (o.target_by_unloaded != 0.0)
-        o.target =
-            o.target_by_unloaded * model_.unloaded_volume(p) + o.target_by_edv * plan_.edv.volume;
+  /// The Klotz curve starts from the model's volume without load; why there is none, if so.
+  [[nodiscard]] std::optional<Unsolved> move_curve(const FitParameters& p) {
+    for (ObservedVolume& o : fit_.observations) {
+      if (o.target_by_unloaded == 0.0)
+        continue;
+      const auto V_0 = model_.unloaded_volume(p);
+      if (!V_0)
+        return V_0.why();
+      o.target = o.target_by_unloaded * *V_0 + o.target_by_edv * plan_.edv.volume;
+    }
+    return {};
+  }
+
+  /// V/V_k - 1 of the first observations.
+  Outcome<std::vector<double>> misfits(const FitParameters& p, std::size_t count) {
+    if (const auto why = move_curve(p))
+      return *why;
+    std::vector<double> r;
+    for (std::size_t k = 0; k < count; ++k) {
+      const ObservedVolume& o = fit_.observations[k];
+      const auto volume = model_.volume(p, o.loads);
+      if (!volume)
+        return volume.why();
+      r.push_back(*volume / o.target - 1.0);
+    }
+    return r;
   }
 
   /// Levenberg-Marquardt in the logarithms of the parameters.
@@ -197,7 +230,7 @@ class Fitter {
       high[j] = std::log(range.high) - start[j];
     }
     const auto parameters = [&](const Eigen::VectorXd& x) {
-      Parameters p = fit_.parameters;
+      FitParameters p = fit_.parameters;
       for (Eigen::Index j = 0; j < n; ++j)
         p.*fitted[j].member = std::exp(start[j] + x[j]);
       return p;
@@ -212,32 +245,36 @@ class Fitter {
   }
 
   [[nodiscard]] const Range& range_of(const Fitted& which) const {
-    if (which.member == &Parameters::T_scale)
+    if (which.member == &FitParameters::T_scale)
       return plan_.T_scale;
-    return which.member == &Parameters::exponent ? plan_.exponent : plan_.stiffness;
+    return which.member == &FitParameters::exponent ? plan_.exponent : plan_.stiffness;
   }
 
   /// Of all volumes and strains, each by its error.
-  [[nodiscard]] Eigen::VectorXd weighted_residuals(const Parameters& p) {
-    move_curve(p);
+  Outcome<Eigen::VectorXd> weighted_residuals(const FitParameters& p) {
+    const auto of_volumes = misfits(p, fit_.observations.size());
+    if (!of_volumes)
+      return of_volumes.why();
+    const auto strains = model_.strains(p, ed_loads(), es_loads());
+    if (!strains)
+      return strains.why();
     std::vector<double> r;
-    for (const Observation& o : fit_.observations)
-      r.push_back((model_.volume(p, o.loads) / o.target - 1.0) / plan_.errors.volume);
-    const std::vector<double> strains = model_.strains(p, ed_loads(), es_loads());
-    for (std::size_t i = 0; i < strains.size(); ++i)
-      r.push_back((strains[i] - plan_.strains[i].value) / plan_.errors.strain);
-    return Eigen::Map<const Eigen::VectorXd>(r.data(), static_cast<Eigen::Index>(r.size()));
+    for (const double misfit : *of_volumes)
+      r.push_back(misfit / plan_.errors.volume);
+    for (std::size_t i = 0; i < strains->size(); ++i)
+      r.push_back(((*strains)[i] - plan_.strains[i].value) / plan_.errors.strain);
+    return as_vector(r);
   }
 
   /// Gauss-Newton steps in the exponent along the line on which the scale keeps the end-diastolic
   /// volume, halved until the Klotz curve is nearer.
   void fit_exponent(const Fitted& scale, const Fitted& exponent) {
     begin("fit to the Klotz curve");
-    Eigen::VectorXd r = residuals(fit_.parameters);
+    Eigen::VectorXd r = residuals(fit_.parameters).value();
     for (int i = 0; i < most_corrections; ++i) {
       const double along = scale_along(scale, exponent, r[0]);
       const Eigen::VectorXd slope =
-          (residuals(moved(scale, exponent, along, difference)) - r) / difference;
+          (residuals(moved(scale, exponent, along, difference)).value() - r) / difference;
       const auto tail = Eigen::seq(1, Eigen::last);  // all but the end-diastolic point
       double step = -slope(tail).dot(r(tail)) / slope(tail).squaredNorm();
       step = std::clamp(step, -longest_step, longest_step);
@@ -256,16 +293,16 @@ class Fitter {
   /// d ln scale/d ln exponent at constant end-diastolic volume, which is off by `misfit`.
   double scale_along(const Fitted& scale, const Fitted& exponent, double misfit) {
     const auto slope = [&](const Fitted& which) {
-      Parameters p = fit_.parameters;
+      FitParameters p = fit_.parameters;
       p.*which.member *= std::exp(difference);
-      return model_.volume(p, ed_loads()) / plan_.edv.volume - 1.0 - misfit;
+      return model_.volume(p, ed_loads()).value() / plan_.edv.volume - 1.0 - misfit;
     };
     return -slope(exponent) / slope(scale);
   }
 
-  [[nodiscard]] Parameters moved(const Fitted& scale, const Fitted& exponent, double along,
-                                 double step) const {
-    Parameters p = fit_.parameters;
+  [[nodiscard]] FitParameters moved(const Fitted& scale, const Fitted& exponent, double along,
+                                    double step) const {
+    FitParameters p = fit_.parameters;
     p.*exponent.member *= std::exp(step);
     p.*scale.member *= std::exp(along * step);
     return p;
@@ -274,55 +311,51 @@ class Fitter {
   /// Takes a step if it brings the model nearer to the Klotz curve.
   bool nearer(const Fitted& scale, const Fitted& exponent, double along, double step,
               Eigen::VectorXd& r) {
-    const Parameters before = fit_.parameters;
-    try {
-      fit_.parameters = moved(scale, exponent, along, step);
-      keep_edv(scale);
-      const Eigen::VectorXd r_next = residuals(fit_.parameters);
-      if (r_next.squaredNorm() < r.squaredNorm()) {
-        r = r_next;
+    const FitParameters before = fit_.parameters;
+    fit_.parameters = moved(scale, exponent, along, step);
+    if (keep_edv(scale)) {
+      const auto r_next = residuals(fit_.parameters);
+      if (r_next && r_next->squaredNorm() < r.squaredNorm()) {
+        r = *r_next;
         return true;
       }
-    } catch (const RunError&) {  // no equilibrium there
     }
     fit_.parameters = before;
     return false;
   }
 
-  /// Of the filling: V/V_k - 1.
-  [[nodiscard]] Eigen::VectorXd residuals(const Parameters& p) {
-    move_curve(p);
-    Eigen::VectorXd r(1 + static_cast<Eigen::Index>(pressure_ratios.size()));
-    for (Eigen::Index k = 0; k < r.size(); ++k) {
-      const Observation& o = fit_.observations[k];
-      r[k] = model_.volume(p, o.loads) / o.target - 1.0;
-    }
-    return r;
+  /// Of the filling.
+  Outcome<Eigen::VectorXd> residuals(const FitParameters& p) {
+    const auto r = misfits(p, 1 + pressure_ratios.size());
+    if (!r)
+      return r.why();
+    return as_vector(*r);
   }
 
   /// The model's volumes with the fitted parameters. Tension at rest makes the end-diastolic volume
   /// depend on T_scale a little.
   void measure() {
     begin("result");
-    move_curve(fit_.parameters);
-    fit_.unloaded_volume = model_.unloaded_volume(fit_.parameters);
-    fit_.edv = model_.volume(fit_.parameters, ed_loads());
-    for (const Observation& o : fit_.observations)
-      fit_.volumes.push_back(o.name == "EDV" ? fit_.edv : model_.volume(fit_.parameters, o.loads));
+    fit_.unloaded_volume = model_.unloaded_volume(fit_.parameters).value();
+    static_cast<void>(move_curve(fit_.parameters));
+    fit_.edv = model_.volume(fit_.parameters, ed_loads()).value();
+    for (const ObservedVolume& o : fit_.observations)
+      fit_.volumes.push_back(o.name == "EDV" ? fit_.edv
+                                             : model_.volume(fit_.parameters, o.loads).value());
     if (plan_.active)
       fit_.esv = fit_.volumes.back();
     if (fit_.strain_fit) {
       measure_strains(*fit_.strain_fit);
       return;  // a compromise, whose volumes are reported and need not be met
     }
-    if (plan_.passive != Passive::none)
+    if (plan_.passive != FittedPassive::none)
       check("end-diastolic", fit_.edv, plan_.edv.volume);
     if (plan_.active)
       check("end-systolic", fit_.esv, plan_.esv.volume);
   }
 
   void measure_strains(StrainFit& s) const {
-    s.strains = model_.strains(fit_.parameters, ed_loads(), es_loads());
+    s.strains = model_.strains(fit_.parameters, ed_loads(), es_loads()).value();
     double squares = 0.0;
     for (std::size_t i = 0; i < s.strains.size(); ++i) {
       const double off = s.strains[i] - plan_.strains[i].value;
@@ -349,7 +382,7 @@ class Fitter {
 
 }  // namespace
 
-Fit fit(const Model& model, const Parameters& start, const Plan& plan) {
+Fit fit(const Model& model, const FitParameters& start, const Plan& plan) {
   return Fitter(model, start, plan).run();
 }
 

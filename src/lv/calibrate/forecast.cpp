@@ -1,11 +1,14 @@
 #include "lv/calibrate/forecast.hpp"
 
+#include "lv/base/log.hpp"
+
 #include <algorithm>
 
 namespace lv::calibrate {
 namespace {
 
-constexpr std::size_t remembered = 5;    // equilibria of each muscle
+constexpr std::size_t remembered = 5;       // equilibria of each muscle
+constexpr double remembered_answer = 1e-3;  // of a fit that was stopped and goes on [s]
 constexpr double contraction_ratio = 2;  // of durations, before one of contracting muscle is known
 
 double median(std::deque<double> values) {
@@ -25,6 +28,8 @@ void FitForecast::begin() {
 void FitForecast::record(MuscleState muscle, double seconds) {
   const auto m = static_cast<std::size_t>(muscle);
   done_[m] += 1.0;
+  if (seconds < remembered_answer)
+    return;
   durations_[m].push_back(seconds);
   if (durations_[m].size() > remembered)
     durations_[m].pop_front();
@@ -48,6 +53,11 @@ double FitForecast::seconds_left() const {
   const double contracts =
       durations_[1].empty() ? contraction_ratio * rests : median(durations_[1]);
   return left(0) * rests + left(1) * contracts;
+}
+
+std::string FitForecast::words() const {
+  const double left = seconds_left();
+  return left < 0.0 ? "" : fmt::format(", about {} left", log::duration(left));
 }
 
 }  // namespace lv::calibrate

@@ -29,7 +29,11 @@ class FitForecast {
   /// An equilibrium was found in so many seconds.
   void record(MuscleState muscle, double seconds);
 
+  /// Negative if nothing can be said yet.
   [[nodiscard]] double seconds_left() const;
+
+  /// ", about 3 min 20 s left", or nothing.
+  [[nodiscard]] std::string words() const;
 
  private:
   [[nodiscard]] double left(std::size_t muscle) const;

@@ -18,7 +18,6 @@ constexpr double nowhere = 1e6;         // a residual where the model has no equ
 class Bounded {
  public:
   using Scalar = double;
-  using Residuals = std::function<Eigen::VectorXd(const Eigen::VectorXd&)>;
 
   Bounded(const Residuals& residuals, const Eigen::VectorXd& low, const Eigen::VectorXd& high,
           double difference)
@@ -30,24 +29,22 @@ class Bounded {
 
   int operator()(const Eigen::VectorXd& x, Eigen::VectorXd& r) const {
     ++evaluations;
-    try {
-      r = residuals_(inside(x));
-    } catch (const RunError&) {
-      if (evaluations == 1)
-        throw;  // there is none at the start
+    const auto found = residuals_(inside(x));
+    if (found || evaluations == 1)
+      r = found.value();
+    else
       r.setConstant(nowhere);
-    }
     return 0;
   }
 
   int df(const Eigen::VectorXd& x, Eigen::MatrixXd& J) const {
     const Eigen::VectorXd here = inside(x);
-    const Eigen::VectorXd r = residuals_(here);
+    const Eigen::VectorXd r = residuals_(here).value();
     for (Eigen::Index j = 0; j < x.size(); ++j) {
       Eigen::VectorXd moved = here;
       const double step = here[j] + difference_ <= high_[j] ? difference_ : -difference_;
       moved[j] += step;
-      J.col(j) = (residuals_(moved) - r) / step;
+      J.col(j) = (residuals_(moved).value() - r) / step;
       evaluations += 1;
     }
     return 0;
@@ -69,9 +66,9 @@ class Bounded {
 
 }  // namespace
 
-Minimum least_squares(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& residuals,
-                      const Eigen::VectorXd& start, const Eigen::VectorXd& low,
-                      const Eigen::VectorXd& high, double difference, double longest) {
+Minimum least_squares(const Residuals& residuals, const Eigen::VectorXd& start,
+                      const Eigen::VectorXd& low, const Eigen::VectorXd& high, double difference,
+                      double longest) {
   Bounded bounded(residuals, low, high, difference);
   Minimum minimum{bounded.inside(start), {}, 0};
   bounded(minimum.x, minimum.r);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "lv/base/outcome.hpp"
+
 #include <Eigen/Core>
 
 #include <functional>
@@ -12,13 +14,16 @@ struct Minimum {
   int evaluations = 0;  ///< of r
 };
 
-/// Levenberg-Marquardt within bounds, with forward differences. `residuals` may throw RunError:
-/// such a step is shortened. Throws RunError when it does not come to an end.
+/// r(x); there may be places without.
+using Residuals = std::function<Outcome<Eigen::VectorXd>(const Eigen::VectorXd&)>;
+
+/// Levenberg-Marquardt within bounds, with forward differences. A step to where there are no
+/// residuals is shortened. Throws RunError when it does not come to an end, or has none to start
+/// from.
 ///
 /// `difference` is the step of the derivatives and `longest` the first trust region, in units of x.
-[[nodiscard]] Minimum least_squares(
-    const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& residuals,
-    const Eigen::VectorXd& start, const Eigen::VectorXd& low, const Eigen::VectorXd& high,
-    double difference, double longest);
+[[nodiscard]] Minimum least_squares(const Residuals& residuals, const Eigen::VectorXd& start,
+                                    const Eigen::VectorXd& low, const Eigen::VectorXd& high,
+                                    double difference, double longest);
 
 }  // namespace lv::calibrate

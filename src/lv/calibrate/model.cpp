@@ -8,7 +8,7 @@
 namespace lv::calibrate {
 namespace {
 
-using quasi_static::Loads;
+using solid::Loads;
 
 /// How far apart loads are, in mmHg; full activation counts as much as a systolic pressure.
 double distance(const Loads& a, const Loads& b) {
@@ -18,66 +18,72 @@ double distance(const Loads& a, const Loads& b) {
 
 }  // namespace
 
-Ventricle::Ventricle(const mesh::Mesh& mesh, const mesh::FibreRule& fibres, MuscleOf muscle_of,
-                     const quasi_static::Parameters& solver,
+Ventricle::Ventricle(const mesh::Mesh& mesh, ModelOf model_of,
+                     const quasi_static::SolverParameters& solver,
                      const quasi_static::UnloadParameters& unloading)
     : given_(mesh),
-      fibres_(fibres),
-      muscle_of_(std::move(muscle_of)),
+      model_of_(std::move(model_of)),
       solver_(solver),
       unloading_(unloading),
       wall_(mesh),
-      cavity_(mesh) {}
+      endocardium_(mesh) {}
 
-double Ventricle::volume(const Parameters& parameters, const Loads& loads) {
-  go_to(parameters, loads);
-  return engine_->cavity_volume();
-}
-
-double Ventricle::unloaded_volume(const Parameters& parameters) {
-  return cavity_.volume(wall(parameters).nodes);
-}
-
-std::vector<Vec3> Ventricle::positions(const Parameters& parameters, const Loads& loads) {
-  go_to(parameters, loads);
-  return engine_->state().positions;
-}
-
-const mesh::Mesh& Ventricle::wall(const Parameters& parameters) {
+Outcome<double> Ventricle::unloaded_volume(const FitParameters& parameters) {
   if (unloading_.pressure == 0.0 || (unloaded_ && unloaded_with_ == parameters))
-    return wall_;
-  unloaded_ = quasi_static::unload(given_, fibres_, muscle_of_(parameters), unloading_, solver_,
-                                   unloaded_ ? &*unloaded_ : nullptr);
+    return endocardium_.volume(wall_.nodes);
+  const auto unloaded = quasi_static::unload(given_, model_of_(parameters), unloading_, solver_,
+                                             unloaded_ ? &*unloaded_ : nullptr);
+  if (!unloaded)
+    return unloaded.why();
+  unloaded_ = *unloaded;
   unloaded_with_ = parameters;
   engine_.reset();
   wall_.nodes = unloaded_->nodes;
   if (known_.empty())
     known_.push_back({{unloading_.pressure, 0.0}, unloaded_->loaded});
-  return wall_;
+  return endocardium_.volume(wall_.nodes);
 }
 
-void Ventricle::go_to(const Parameters& parameters, const Loads& loads) {
-  static_cast<void>(wall(parameters));
-  approach(muscle_of_(parameters), loads);
+void Ventricle::restore(Memory memory) {
+  known_ = std::move(memory.known);
+  unloaded_ = std::move(memory.unloaded);
+  unloaded_with_ = memory.unloaded_with;
+  wall_.nodes = unloaded_ ? unloaded_->nodes : given_.nodes;
+  engine_.reset();
+}
+
+Outcome<double> Ventricle::volume(const FitParameters& parameters, const Loads& loads) {
+  if (const auto unloaded = unloaded_volume(parameters); !unloaded)
+    return unloaded;
+  const auto volume = approach(model_of_(parameters), loads);
+  if (!volume)
+    return volume;
   if (known_.empty() || distance(nearest(loads).loads, loads) > 0.0)
     known_.push_back({loads, engine_->state()});
   else
     nearest(loads).state = engine_->state();
+  return volume;
+}
+
+Outcome<std::vector<Vec3>> Ventricle::positions(const FitParameters& parameters,
+                                                const Loads& loads) {
+  if (const auto found = volume(parameters, loads); !found)
+    return found.why();
+  return engine_->state().positions;
 }
 
 /// Brings the engine to equilibrium with the loads.
-void Ventricle::approach(const quasi_static::Muscle& muscle, const Loads& loads) {
+Outcome<double> Ventricle::approach(const quasi_static::StaticModel& model, const Loads& loads) {
   if (!engine_)
-    engine_.emplace(wall_, fibres_, muscle, solver_);
+    engine_.emplace(wall_, model, solver_);
   if (!known_.empty()) {
     const Equilibrium& start = nearest(loads);
     engine_->restore(start.state, start.loads);
   } else {
     engine_->relax();
   }
-  engine_->set_muscle(muscle);
-  if (distance(engine_->loads(), loads) > 0.0)
-    engine_->go_to(loads);
+  const auto volume = engine_->set_model(model);
+  return volume && distance(engine_->loads(), loads) > 0.0 ? engine_->go_to(loads) : volume;
 }
 
 Ventricle::Equilibrium& Ventricle::nearest(const Loads& loads) {

@@ -12,14 +12,14 @@ namespace lv::calibrate {
 /// A fitted parameter: its name and place.
 struct Fitted {
   std::string name;
-  double Parameters::*member;
+  double FitParameters::*member;
 };
 
 /// A volume that the model should have under loads, and how its target follows from what was
 /// measured.
-struct Observation {
+struct ObservedVolume {
   std::string name;
-  quasi_static::Loads loads;
+  solid::Loads loads;
   double target = 0.0;  ///< [mm^3]
   double weight = 1.0;
   double pressure_ratio = 1.0;      ///< to the measured pressure of its phase
@@ -55,11 +55,10 @@ struct Sensitivity {
 
 /// `ed` and `es` are the loads between which strains are measured; without `model.strains` they and
 /// `errors` mean nothing.
-[[nodiscard]] Sensitivity sensitivity(const Model& model, const Parameters& at,
+[[nodiscard]] Sensitivity sensitivity(const Model& model, const FitParameters& at,
                                       const std::vector<Fitted>& parameters,
-                                      const std::vector<Observation>& observations, double edv,
-                                      const quasi_static::Loads& ed = {},
-                                      const quasi_static::Loads& es = {},
+                                      const std::vector<ObservedVolume>& observations, double edv,
+                                      const solid::Loads& ed = {}, const solid::Loads& es = {},
                                       const Errors& errors = {});
 
 }  // namespace lv::calibrate

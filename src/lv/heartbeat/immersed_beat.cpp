@@ -6,6 +6,7 @@
 #include "lv/base/parallel.hpp"
 #include "lv/base/time_left.hpp"
 #include "lv/base/units.hpp"
+#include "lv/heartbeat/checkpoint.hpp"
 #include "lv/heartbeat/settling.hpp"
 
 #include <chrono>
@@ -47,15 +48,16 @@ class ImmersedRun {
       : setup_(setup),
         folder_(std::move(folder)),
         observers_(observers),
-        model_(setup.mesh, setup.fibres, setup.material, setup.active, setup.model),
+        model_(setup.mesh, setup.heart, setup.model),
         checkpoint_timer_(setup.output.checkpoint_interval) {}
 
   Beat run() {
-    if (!resume())
+    if (!resume()) {
       start();
+      keep();
+    }
     begun_time_ = run_.time;
     begun_steps_ = run_.beat.steps;
-    keep();
     while (!finished_) {
       if (advance()) {
         observe();
@@ -96,7 +98,7 @@ class ImmersedRun {
   void end_filling(bool steady);
   void end_contraction(bool steady);
   [[nodiscard]] double time_in_phase() const { return run_.time - run_.phase_start; }
-  [[nodiscard]] immersed::Loads loads_now() const {
+  [[nodiscard]] solid::Loads loads_now() const {
     return loads(setup_.protocol, run_.phase, time_in_phase());
   }
   void housekeeping();
@@ -110,11 +112,9 @@ class ImmersedRun {
   RunState run_;
   immersed::StepReport last_;
   bool finished_ = false;
-  int flips_ = 0;  ///< steps in a row in which the velocity changed its direction of change
   double volume_before_ = 0.0;
 
-  std::optional<immersed::ModelState> kept_model_;  ///< to go back to when a step fails
-  RunState kept_run_;
+  std::optional<Moment> kept_;  ///< to go back to when a step fails
 
   Timer checkpoint_timer_;
   Timer progress_timer_{5.0};
@@ -130,26 +130,10 @@ bool ImmersedRun::resume() {
   const std::filesystem::path file = folder_ / checkpoint_name;
   if (!parallel::any(parallel::is_root() && std::filesystem::exists(file)))
     return false;
-  const Archive archive = Archive::read(file);
-  run_ = load_run_state(archive, setup_.protocol);
-  immersed::ModelState state = model_.state();
-  const std::size_t nodes = state.positions.size();
-  const auto& positions = archive.get_rows("positions", 3, nodes);
-  const auto& velocities = archive.get_rows("node_velocities", 3, nodes);
-  for (std::size_t a = 0; a < nodes; ++a) {
-    state.positions[a] = Vec3(positions.data() + 3 * a);
-    state.node_velocities[a] = Vec3(velocities.data() + 3 * a);
-  }
-  state.contraction = archive.get_rows("contraction", 1, state.contraction.size());
-  for (int c = 0; c < 3; ++c) {
-    model_.transform().scatter(archive.get("modes." + std::to_string(c)), c, state.velocity_modes);
-    fluid::scatter(archive.get("convection." + std::to_string(c)), state.convection.component[c]);
-  }
-  const auto& steps = archive.get_rows("steps", 3, 1);
-  state.dt = steps[0];
-  state.dt_before = steps[1];
-  state.calcium = steps[2];
-  model_.restore(state);
+  Checkpoint checkpoint = read_checkpoint(file, model_, setup_.protocol);
+  model_.restore(checkpoint.now.model);
+  run_ = std::move(checkpoint.now.run);
+  kept_ = std::move(checkpoint.kept);
   log::info("resumed from the checkpoint at {:.4f} s of {}", run_.time, name(run_.phase));
   return true;
 }
@@ -162,20 +146,9 @@ void ImmersedRun::count_time() {
 
 void ImmersedRun::save() {
   count_time();
-  const immersed::ModelState& state = model_.state();
   Archive archive;
-  store(run_, archive);
-  const auto flat = [](const std::vector<Vec3>& v) {
-    return std::vector<double>(v.front().data(), v.front().data() + 3 * v.size());
-  };
-  archive.set("positions", flat(state.positions));
-  archive.set("node_velocities", flat(state.node_velocities));
-  archive.set("contraction", state.contraction);
-  for (int c = 0; c < 3; ++c) {
-    archive.set("modes." + std::to_string(c), model_.transform().gather(state.velocity_modes, c));
-    archive.set("convection." + std::to_string(c), fluid::gather(state.convection.component[c]));
-  }
-  archive.set("steps", {state.dt, state.dt_before, state.calcium});
+  archive.add("now", archived(model_.state(), run_, model_.transform()));
+  archive.add("kept", archived(kept_->model, kept_->run, model_.transform()));
   if (parallel::is_root())
     archive.write(folder_ / checkpoint_name);
   parallel::barrier();
@@ -183,8 +156,7 @@ void ImmersedRun::save() {
 
 /// Remembers the present as a place to go back to.
 void ImmersedRun::keep() {
-  kept_model_ = model_.state();
-  kept_run_ = run_;
+  kept_ = {model_.state(), run_};
 }
 
 /// The longest step divided by two as often as past failures and the Courant number ask. Powers of
@@ -208,15 +180,15 @@ std::string ImmersedRun::what_is_wrong(const immersed::StepReport& report) {
     return fmt::format("the blood moved at {:.3g} m/s", 1e-3 * run_.largest_velocity);
   constexpr double visible = 5.0;  // [mm/s]
   constexpr int patience = 20;     // steps
-  flips_ = report.smoothness < -0.5 && report.velocity_change > visible ? flips_ + 1 : 0;
-  return flips_ >= patience ? "the wall's velocity flips from step to step" : "";
+  run_.flips = report.smoothness < -0.5 && report.velocity_change > visible ? run_.flips + 1 : 0;
+  return run_.flips >= patience ? "the wall's velocity flips from step to step" : "";
 }
 
 /// One step. False when it failed and the run went back.
 bool ImmersedRun::advance() {
   const double dt = step_size();
   volume_before_ = model_.cavity_volume();
-  last_ = model_.step(loads_now(), dt);
+  last_ = model_.step(loads_now(), dt, drag(setup_.protocol, run_.phase, time_in_phase()));
   run_.time += dt;
   ++run_.beat.steps;
   if (run_.beat.steps % 10 == 0)
@@ -251,14 +223,14 @@ void ImmersedRun::take_back(const std::string& why) {
   const int retries = run_.beat.retries + 1;
   count_time();
   const double spent = run_.beat.wall_clock;
-  model_.restore(*kept_model_);
-  run_ = kept_run_;
+  model_.restore(kept_->model);
+  run_ = kept_->run;
   run_.halvings = halvings;
   run_.patience = patience;
   run_.good_steps = 0;
   run_.beat.retries = retries;
   run_.beat.wall_clock = spent;
-  flips_ = 0;
+  run_.flips = 0;
   if (halvings > setup_.control.halvings) {
     run_.halvings = 0;  // whoever resumes begins with the step of the case file
     save();
@@ -302,7 +274,7 @@ void ImmersedRun::record_curve() {
     return;
   const auto motion =
       fluid::motion(model_.velocity(), setup_.model.grid, setup_.model.blood.density);
-  const immersed::Loads now = loads_now();
+  const solid::Loads now = loads_now();
   run_.beat.curves.push_back({run_.time, run_.phase, now.pressure, model_.cavity_volume(),
                               now.calcium, model_.mean_tension(), motion.kinetic_energy,
                               motion.largest_velocity, last_.J.min_J, last_.J.max_J, step_size()});

@@ -8,9 +8,7 @@ namespace lv::heartbeat {
 
 struct BeatSetup {
   const mesh::Mesh& mesh;
-  mesh::FibreRule fibres;
-  solid::WallMaterial material;
-  material::NiedererHunterSmith active;
+  solid::CardiacModel heart;
   immersed::ModelParameters model;
   Protocol protocol;
   StepControl control;

@@ -3,8 +3,6 @@
 #include "lv/base/units.hpp"
 #include "lv/material/calcium.hpp"
 
-#include <optional>
-
 namespace lv::heartbeat {
 
 /// Pressures, calcium and the ends of the phases (section 2.4): the endocardial pressure rises from
@@ -16,9 +14,6 @@ struct Protocol {
   double filling_ramp = 0.3;                 ///< duration of the rise to ed_pressure [s]
   double contraction_ramp = 0.2;             ///< duration of the rise to es_pressure [s]
   material::Calcium calcium;
-  /// Active tension at the end of contraction, the same everywhere, instead of the law of Appendix
-  /// A [kPa]. It rises with the pressure.
-  std::optional<double> tension;
 
   /// Filling ends when the cavity volume has stayed within this fraction of itself for a window.
   double filling_tolerance = 0.002;
@@ -33,6 +28,9 @@ struct Protocol {
   double contraction_longest = 1.5;  ///< [s]
   double contraction_drag = 0.0;     ///< [1/s]
 };
+
+/// How often a case may ask for the step to be halved.
+inline constexpr int most_halvings = 12;
 
 /// Time steps and what to do when one fails.
 struct StepControl {

@@ -14,25 +14,19 @@ double smooth_step(double s) {
   return s * s * s * (10.0 - 15.0 * s + 6.0 * s * s);
 }
 
-immersed::Loads loads(const Protocol& p, Phase phase, double time) {
-  const bool holds = loads_are_final(p, phase, time);
-  immersed::Loads now;
-  if (phase == Phase::filling) {
-    now = {.pressure = p.ed_pressure * smooth_step(time / p.filling_ramp),
-           .calcium = p.calcium.Ca_0,
-           .drag = holds ? p.filling_drag : 0.0};
-    if (p.tension)
-      now.tension = 0.0;
-    return now;
-  }
+solid::Loads loads(const Protocol& p, Phase phase, double time) {
+  if (phase == Phase::filling)
+    return {p.ed_pressure * smooth_step(time / p.filling_ramp), 0.0, p.calcium.Ca_0};
   const double rise = smooth_step(time / p.contraction_ramp);
-  now = {
-      .pressure = p.ed_pressure + (p.es_pressure - p.ed_pressure) * rise,
-      .calcium = p.calcium.at(time),
-      .drag = holds && p.calcium.mode == material::Calcium::Mode::hold ? p.contraction_drag : 0.0};
-  if (p.tension)
-    now.tension = *p.tension * rise;
-  return now;
+  return {p.ed_pressure + (p.es_pressure - p.ed_pressure) * rise, rise, p.calcium.at(time)};
+}
+
+double drag(const Protocol& p, Phase phase, double time) {
+  if (!loads_are_final(p, phase, time))
+    return 0.0;
+  if (phase == Phase::filling)
+    return p.filling_drag;
+  return p.calcium.mode == material::Calcium::Mode::hold ? p.contraction_drag : 0.0;
 }
 
 bool loads_are_final(const Protocol& p, Phase phase, double time) {

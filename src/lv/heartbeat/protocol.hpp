@@ -1,7 +1,7 @@
 #pragma once
 
 #include "lv/heartbeat/parameters.hpp"
-#include "lv/immersed/model.hpp"
+#include "lv/solid/loads.hpp"
 
 #include <deque>
 #include <string>
@@ -18,7 +18,10 @@ enum class Phase { filling, contraction };
 [[nodiscard]] double smooth_step(double s);
 
 /// The loads at `time` seconds after the start of a phase.
-[[nodiscard]] immersed::Loads loads(const Protocol& protocol, Phase phase, double time);
+[[nodiscard]] solid::Loads loads(const Protocol& protocol, Phase phase, double time);
+
+/// The resistance to the velocity then [1/s].
+[[nodiscard]] double drag(const Protocol& protocol, Phase phase, double time);
 
 /// Whether the loads have reached their final values (the end of the ramps, calcium at its
 /// plateau).

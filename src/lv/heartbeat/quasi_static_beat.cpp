@@ -1,8 +1,6 @@
 #include "lv/heartbeat/quasi_static_beat.hpp"
 
-#include "lv/base/interrupt.hpp"
 #include "lv/base/log.hpp"
-#include "lv/base/parallel.hpp"
 #include "lv/base/time_left.hpp"
 #include "lv/base/units.hpp"
 
@@ -14,16 +12,14 @@ namespace lv::heartbeat {
 namespace {
 
 using quasi_static::Engine;
-using quasi_static::Loads;
 using quasi_static::Step;
+using solid::Loads;
 using units::mmHg;
 
 class QuasiStaticRun {
  public:
   QuasiStaticRun(const QuasiStaticSetup& setup, const Observers& observers)
-      : setup_(setup),
-        observers_(observers),
-        engine_(setup.mesh, setup.fibres, setup.muscle, setup.parameters) {
+      : setup_(setup), observers_(observers), engine_(setup.mesh, setup.model, setup.parameters) {
     record({engine_.loads(), 0.0, 0.0, engine_.cavity_volume(), {}});
   }
 
@@ -44,13 +40,12 @@ class QuasiStaticRun {
 
  private:
   void go_to(const Loads& loads) {
-    engine_.go_to(loads, [&](const Step& step) {
+    const auto follow = [&](const Step& step) {
       ++run_.beat.steps;
       record(step);
       report_progress(step);
-      if (parallel::any(interrupt::requested()))
-        throw Interrupted("stopped; run the same command again to start the beat anew");
-    });
+    };
+    engine_.go_to(loads, follow).value();
   }
 
   void report_progress(const Step& step) {

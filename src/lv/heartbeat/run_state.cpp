@@ -1,31 +1,21 @@
 #include "lv/heartbeat/run_state.hpp"
 
-#include <algorithm>
 #include <cstring>
 
 namespace lv::heartbeat {
 namespace {
 
-std::vector<double> flat(const std::vector<Vec3>& vectors) {
-  std::vector<double> numbers;
-  numbers.reserve(3 * vectors.size());
-  for (const Vec3& v : vectors)
-    numbers.insert(numbers.end(), v.data(), v.data() + 3);
-  return numbers;
-}
-
-std::vector<Vec3> vectors(const std::vector<double>& numbers) {
-  std::vector<Vec3> result(numbers.size() / 3);
-  for (std::size_t a = 0; a < result.size(); ++a)
-    result[a] = Vec3(numbers[3 * a], numbers[3 * a + 1], numbers[3 * a + 2]);
-  return result;
-}
-
 double number(Phase phase) {
   return phase == Phase::filling ? 0.0 : 1.0;
 }
-Phase phase_of(double number) {
-  return number == 0.0 ? Phase::filling : Phase::contraction;
+Phase phase_of(double number, const Archive& archive) {
+  return archive.whole_number(number, {0.0, 1.0}) == 0 ? Phase::filling : Phase::contraction;
+}
+
+/// How many rows an array may have: none, or one for each of the nodes where their number is known.
+std::optional<std::size_t> none_or(const Archive& archive, const std::string& name,
+                                   std::optional<std::size_t> nodes) {
+  return archive.get(name).empty() ? 0 : nodes;
 }
 
 }  // namespace
@@ -40,18 +30,21 @@ void store(const Snapshot& s, const std::string& name, Archive& archive) {
   archive.set(name + ".stress", std::move(stress));
 }
 
-Snapshot load_snapshot(const Archive& archive, const std::string& name) {
+Snapshot load_snapshot(const Archive& archive, const std::string& name,
+                       std::optional<std::size_t> nodes) {
   const auto& n = archive.get_rows(name + ".numbers", 4, 1);
+  const std::string positions = name + ".positions";
+  const std::string tension = name + ".tension";
   const auto& numbers = archive.get_rows(name + ".stress", solid::CellStress::numbers);
   std::vector<solid::CellStress> stress(numbers.size() / solid::CellStress::numbers);
   if (!stress.empty())
     std::memcpy(static_cast<void*>(stress.data()), numbers.data(), sizeof(double) * numbers.size());
   return {n[0],
-          phase_of(n[1]),
+          phase_of(n[1], archive),
           n[2],
           n[3],
-          vectors(archive.get_rows(name + ".positions", 3)),
-          archive.get(name + ".tension"),
+          vectors(archive.get_rows(positions, 3, none_or(archive, positions, nodes))),
+          archive.get_rows(tension, 1, none_or(archive, tension, nodes)),
           std::move(stress)};
 }
 
@@ -67,11 +60,12 @@ void store(const std::vector<CurveRow>& curves, Archive& archive) {
 
 std::vector<CurveRow> load_curves(const Archive& archive) {
   constexpr std::size_t width = 11;
-  const auto& numbers = archive.get_rows("curves", width);
+  const auto& numbers = archive.get_rows("curves", width, {}, {.missing = true});
   std::vector<CurveRow> curves(numbers.size() / width);
   for (std::size_t i = 0; i < curves.size(); ++i) {
     const double* n = numbers.data() + width * i;
-    curves[i] = {n[0], phase_of(n[1]), n[2], n[3], n[4], n[5], n[6], n[7], n[8], n[9], n[10]};
+    curves[i] = {n[0], phase_of(n[1], archive), n[2], n[3], n[4], n[5], n[6], n[7], n[8], n[9],
+                 n[10]};
   }
   return curves;
 }
@@ -80,9 +74,10 @@ void store(const RunState& run, Archive& archive) {
   archive.set("run", {run.time, number(run.phase), run.phase_start, run.next_frame, run.next_curve,
                       static_cast<double>(run.frames), run.largest_velocity,
                       static_cast<double>(run.halvings), static_cast<double>(run.good_steps),
-                      static_cast<double>(run.patience), run.volume_was_falling ? 1.0 : 0.0,
-                      run.beat.filling_was_steady ? 1.0 : 0.0, static_cast<double>(run.beat.steps),
-                      static_cast<double>(run.beat.retries), run.beat.wall_clock});
+                      static_cast<double>(run.patience), static_cast<double>(run.flips),
+                      run.volume_was_falling ? 1.0 : 0.0, run.beat.filling_was_steady ? 1.0 : 0.0,
+                      static_cast<double>(run.beat.steps), static_cast<double>(run.beat.retries),
+                      run.beat.wall_clock});
   archive.set("frame_times", run.frame_times);
   std::vector<double> samples;
   for (const auto& [time, volume] : run.steady.samples())
@@ -93,33 +88,38 @@ void store(const RunState& run, Archive& archive) {
   store(run.beat.end_diastole, "end_diastole", archive);
 }
 
-RunState load_run_state(const Archive& archive, const Protocol& protocol) {
-  const auto& n = archive.get_rows("run", 15, 1);
+RunState load_run_state(const Archive& archive, const Protocol& protocol,
+                        std::optional<std::size_t> nodes) {
+  const auto& n = archive.get_rows("run", 16, 1, not_negative);
+  const auto whole = [&](double number) { return archive.whole_number(number, not_negative); };
+  const auto flag = [&](double number) { return archive.whole_number(number, {0.0, 1.0}) == 1; };
   RunState run;
   run.time = n[0];
-  run.phase = phase_of(n[1]);
+  run.phase = phase_of(n[1], archive);
   run.phase_start = n[2];
   run.next_frame = n[3];
   run.next_curve = n[4];
-  run.frames = whole_number(n[5]);
+  run.frames = whole(n[5]);
   run.largest_velocity = n[6];
-  run.halvings = whole_number(n[7]);
-  run.good_steps = whole_number(n[8]);
-  run.patience = whole_number(n[9]);
-  run.volume_was_falling = n[10] != 0.0;
-  run.beat.filling_was_steady = n[11] != 0.0;
-  run.beat.steps = whole_number(n[12]);
-  run.beat.retries = whole_number(n[13]);
-  run.beat.wall_clock = n[14];
-  run.frame_times =
-      archive.get_rows("frame_times", 1, static_cast<std::size_t>(std::max(run.frames, 0)));
+  run.halvings = archive.whole_number(n[7], {0.0, most_halvings});
+  run.good_steps = whole(n[8]);
+  run.patience = whole(n[9]);
+  run.flips = whole(n[10]);
+  run.volume_was_falling = flag(n[11]);
+  run.beat.filling_was_steady = flag(n[12]);
+  run.beat.steps = whole(n[13]);
+  run.beat.retries = whole(n[14]);
+  run.beat.wall_clock = n[15];
+  run.frame_times = archive.get_rows("frame_times", 1, static_cast<std::size_t>(run.frames));
   run.steady = criterion(protocol, run.phase);
   const auto& samples = archive.get_rows("steady", 2);
   for (std::size_t i = 0; i + 1 < samples.size(); i += 2)
     run.steady.record(samples[i], samples[i + 1]);
-  run.least = load_snapshot(archive, "least");
+  run.least = load_snapshot(archive, "least", nodes);
   run.beat.curves = load_curves(archive);
-  run.beat.end_diastole = load_snapshot(archive, "end_diastole");
+  run.beat.end_diastole = load_snapshot(archive, "end_diastole", nodes);
+  if (run.phase == Phase::contraction && run.beat.end_diastole.positions.empty())
+    archive.refuse("it holds a contraction without its end-diastole");
   return run;
 }
 

@@ -7,29 +7,40 @@
 #include <cmath>
 
 namespace lv::immersed {
+namespace {
 
-Model::Model(const mesh::Mesh& mesh, const mesh::FibreRule& fibres,
-             const solid::WallMaterial& material, const material::NiedererHunterSmith& active,
+/// A law without kinetics leaves the contractile state alone.
+material::NiedererHunterSmith kinetics(const material::ActiveLaw& law) {
+  const auto* kinetics = std::get_if<material::NiedererHunterSmith>(&law);
+  return kinetics != nullptr ? *kinetics : material::NiedererHunterSmith{};
+}
+
+}  // namespace
+
+Model::Model(const mesh::Mesh& mesh, const solid::CardiacModel& heart,
              const ModelParameters& parameters)
     : parameters_(parameters),
       slab_(fluid::slab_of(parameters.grid, parallel::rank(), parallel::size())),
-      wall_(mesh, fibres, material),
-      strength_(solid::strength(mesh, material.infarct)),
-      contraction_(active, {mesh.nodes, wall_.nodal_volumes(), strength_}, parameters.blood.density,
-                   parameters.grid.spacing.minCoeff()),
-      base_(mesh, parameters.base),
-      cavity_(mesh),
-      mesh_(mesh),
+      wall_(mesh, heart.fibres, heart.myocardium),
+      active_(heart.myocardium.active),
+      strength_(solid::strength(mesh, heart.myocardium.infarct)),
+      contraction_(kinetics(active_), {mesh.nodes, wall_.nodal_volumes(), strength_},
+                   parameters.blood.density, parameters.grid.spacing.minCoeff()),
+      base_(mesh, heart.base),
+      endocardium_(mesh),
       transfer_(parameters.grid, slab_, parameters.coupling.kernel),
       coupling_(make_coupling(parameters.coupling, mesh, parameters.grid, slab_)),
       transform_(parameters.grid, slab_),
       stokes_(parameters.grid, transform_, parameters.blood),
-      state_{mesh.nodes, std::vector<Vec3>(mesh.nodes.size(), Vec3::Zero()), contraction_.state(),
-             transform_.zero_modes(), fluid::FaceField(parameters.grid, slab_)},
+      state_{mesh.nodes,
+             std::vector<Vec3>(mesh.nodes.size(), Vec3::Zero()),
+             std::vector<Vec3>(mesh.nodes.size(), Vec3::Zero()),
+             contraction_.state(),
+             transform_.zero_modes(),
+             fluid::FaceField(parameters.grid, slab_)},
       stretch_(mesh.nodes.size()),
       node_forces_(mesh.nodes.size()),
       midpoints_(mesh.nodes.size()),
-      velocity_change_(mesh.nodes.size(), Vec3::Zero()),
       velocity_(parameters.grid, slab_),
       force_(parameters.grid, slab_),
       force_modes_(transform_.zero_modes()) {
@@ -44,39 +55,45 @@ void Model::relax(double calcium) {
   state_.calcium = calcium;
 }
 
-StepReport Model::step(const Loads& loads, double dt) {
-  if (loads.tension) {
-    contraction_.prescribe(*loads.tension);
-  } else if (state_.dt > 0.0) {
-    wall_.nodal_stretch(state_.positions, stretch_);
-    contraction_.advance(stretch_, state_.calcium, loads.calcium, state_.dt);
-  }
-  nodal_forces(loads);
-  move_blood(loads, dt);
+StepReport Model::step(const solid::Loads& loads, double dt, double drag) {
+  activate(loads);
+  const solid::VolumeRange J = nodal_forces(loads.pressure);
+  move_blood(drag, dt);
   StepReport report = move_wall(dt);
-  report.J = wall_.volume_range();
+  report.J = {parallel::min(J.min_J), parallel::max(J.max_J)};
   state_.dt_before = state_.dt;
   state_.dt = dt;
   state_.calcium = loads.calcium;
   return report;
 }
 
-void Model::nodal_forces(const Loads& loads) {
-  std::fill(node_forces_.begin(), node_forces_.end(), Vec3::Zero());
-  wall_.add_elastic_forces(state_.positions, contraction_.tension(), node_forces_);
-  solid::add_pressure_forces(mesh_.endo, loads.pressure, state_.positions, node_forces_);
-  base_.add_forces(state_.positions, node_forces_);
-  parallel::sum({node_forces_.data()->data(), 3 * node_forces_.size()});
+void Model::activate(const solid::Loads& loads) {
+  if (const auto* prescribed = std::get_if<material::PrescribedTension>(&active_)) {
+    contraction_.prescribe(loads.activation * prescribed->T_max);
+  } else if (state_.dt > 0.0) {
+    wall_.nodal_stretch(state_.positions, stretch_);
+    contraction_.advance(stretch_, state_.calcium, loads.calcium, state_.dt);
+  }
 }
 
-void Model::move_blood(const Loads& loads, double dt) {
+solid::VolumeRange Model::nodal_forces(double pressure) {
+  std::fill(node_forces_.begin(), node_forces_.end(), Vec3::Zero());
+  const solid::VolumeRange J =
+      wall_.add_elastic_forces(state_.positions, contraction_.tension(), node_forces_);
+  endocardium_.add_gradient(pressure, state_.positions, node_forces_);
+  base_.add_forces(state_.positions, node_forces_);
+  parallel::sum({node_forces_.data()->data(), 3 * node_forces_.size()});
+  return J;
+}
+
+void Model::move_blood(double drag, double dt) {
   const double elapsed = state_.dt + state_.dt_before;
   const double r = elapsed > 0.0 ? state_.dt / elapsed : 0.0;
   fluid::convection_force(velocity_, parameters_.grid, parameters_.blood.density, {1.0 + r, -r},
                           state_.convection, force_);
   coupling_->spread(state_.positions, node_forces_, force_);
   transform_.to_modes(force_, force_modes_);
-  stokes_.advance(state_.velocity_modes, force_modes_, 0.5 * (state_.dt + dt), loads.drag);
+  stokes_.advance(state_.velocity_modes, force_modes_, 0.5 * (state_.dt + dt), drag);
   transform_.to_points(state_.velocity_modes, velocity_);
   fluid::fill_ghosts(velocity_, slab_);
 }
@@ -100,10 +117,10 @@ StepReport Model::move_wall(double dt) {
   for (std::size_t a = 0; a < x.size(); ++a) {
     x[a] += dt * U[a];
     const Vec3 change = U[a] - U_before[a];
-    product += change.dot(velocity_change_[a]);
+    product += change.dot(state_.velocity_change[a]);
     squares += change.squaredNorm();
-    squares_before += velocity_change_[a].squaredNorm();
-    velocity_change_[a] = change;
+    squares_before += state_.velocity_change[a].squaredNorm();
+    state_.velocity_change[a] = change;
     largest = std::max(largest, U[a].squaredNorm());
   }
   report.largest_node_speed = std::sqrt(largest);
@@ -122,7 +139,6 @@ bool Model::inside_box(std::span<const Vec3> positions) const {
 void Model::restore(const ModelState& state) {
   state_ = state;
   contraction_.set_state(state.contraction);
-  std::fill(velocity_change_.begin(), velocity_change_.end(), Vec3::Zero());
   transform_.to_points(state_.velocity_modes, velocity_);
   fluid::fill_ghosts(velocity_, slab_);
 }

@@ -3,36 +3,27 @@
 #include "lv/fluid/advect.hpp"
 #include "lv/fluid/stokes.hpp"
 #include "lv/immersed/coupling.hpp"
-#include "lv/solid/boundary.hpp"
-#include "lv/solid/cavity.hpp"
+#include "lv/solid/cardiac_model.hpp"
 #include "lv/solid/contraction.hpp"
+#include "lv/solid/endocardial_surface.hpp"
+#include "lv/solid/loads.hpp"
 #include "lv/solid/wall.hpp"
 
 #include <memory>
-#include <optional>
 #include <vector>
 
 namespace lv::immersed {
-
-/// What acts on the model from outside at one time.
-struct Loads {
-  double pressure = 0.0;  ///< on the endocardium [kPa]
-  double calcium = 0.0;   ///< [uM]
-  /// Prescribed active tension [kPa]; without, that of Appendix A.
-  std::optional<double> tension = std::nullopt;
-  double drag = 0.0;  ///< uniform resistance to the velocity [1/s]; moves no equilibrium
-};
 
 struct ModelParameters {
   fluid::Grid grid;
   fluid::Blood blood;
   CouplingParameters coupling;
-  solid::BasalSupport base;
 };
 
 /// Everything that one rank's part of a Model carries from step to step.
 struct ModelState {
   std::vector<Vec3> positions, node_velocities;
+  std::vector<Vec3> velocity_change;  ///< of the nodes in the last step [mm/s]
   std::vector<double> contraction;
   fluid::ModeField velocity_modes;
   fluid::FaceField convection;
@@ -49,7 +40,7 @@ struct StepReport {
   /// resolve, near -1 for one that flips from step to step.
   double smoothness = 1.0;
   double velocity_change = 0.0;  ///< rms of the last change of the nodes' velocities [mm/s]
-  solid::VolumeRange J;          ///< at the start of the step
+  solid::VolumeRange J;          ///< at the start of the step, over all ranks
 };
 
 /// The wall immersed in blood (2.1)-(2.4), advanced by a staggered leapfrog: positions at whole
@@ -63,13 +54,15 @@ class Model {
  public:
   /// The mesh must outlive the model. Throws InputError when the wall does not fit in the box, or
   /// an element is inverted.
-  Model(const mesh::Mesh& mesh, const mesh::FibreRule& fibres, const solid::WallMaterial& material,
-        const material::NiedererHunterSmith& active, const ModelParameters& parameters);
+  Model(const mesh::Mesh& mesh, const solid::CardiacModel& heart,
+        const ModelParameters& parameters);
 
-  /// Advances by dt [s] from the present time, at which `loads` act.
-  StepReport step(const Loads& loads, double dt);
+  /// Advances by dt [s] from the present time, at which `loads` act. `drag` [1/s] is a uniform
+  /// resistance to the velocity, which moves no equilibrium.
+  StepReport step(const solid::Loads& loads, double dt, double drag = 0.0);
 
-  /// The model as it is now, and back to an earlier state.
+  /// The model as it is now, and back to an earlier state: all steps after it come out the same to
+  /// the last bit.
   [[nodiscard]] const ModelState& state();
   void restore(const ModelState& state);
 
@@ -83,7 +76,7 @@ class Model {
   [[nodiscard]] std::span<const Vec3> positions() const { return state_.positions; }
   [[nodiscard]] std::span<const Vec3> node_velocities() const { return state_.node_velocities; }
   [[nodiscard]] double cavity_volume() const {
-    return cavity_.volume(state_.positions);
+    return endocardium_.volume(state_.positions);
   }  ///< [mm^3]
   /// Over the wall, with the infarct's factor (2.24), weighted by reference volume [kPa].
   [[nodiscard]] double mean_tension() const;
@@ -93,21 +86,24 @@ class Model {
   [[nodiscard]] const fluid::BoxTransform& transform() const { return transform_; }
   [[nodiscard]] const fluid::Grid& grid() const { return parameters_.grid; }
   [[nodiscard]] const fluid::Slab& slab() const { return slab_; }
+  /// Whether nodes at these positions would be far enough from the box's sides; none that is no
+  /// number is.
+  [[nodiscard]] bool inside_box(std::span<const Vec3> positions) const;
 
  private:
-  void nodal_forces(const Loads& loads);
-  void move_blood(const Loads& loads, double dt);
+  void activate(const solid::Loads& loads);
+  solid::VolumeRange nodal_forces(double pressure);
+  void move_blood(double drag, double dt);
   StepReport move_wall(double dt);
-  [[nodiscard]] bool inside_box(std::span<const Vec3> positions) const;
 
   ModelParameters parameters_;
   fluid::Slab slab_;
   solid::Wall wall_;
+  material::ActiveLaw active_;
   std::vector<double> strength_;  ///< of contraction, per node
   solid::Contraction contraction_;
   solid::BasalPenalty base_;
-  solid::Cavity cavity_;
-  const mesh::Mesh& mesh_;
+  solid::EndocardialSurface endocardium_;
   Transfer transfer_;
   std::unique_ptr<Coupling> coupling_;
   fluid::BoxTransform transform_;
@@ -115,7 +111,7 @@ class Model {
 
   ModelState state_;
   std::vector<double> stretch_;
-  std::vector<Vec3> node_forces_, midpoints_, velocity_change_;
+  std::vector<Vec3> node_forces_, midpoints_;
   fluid::FaceField velocity_, force_;
   fluid::ModeField force_modes_;
 };

@@ -2,10 +2,13 @@
 
 #include "lv/base/check.hpp"
 #include "lv/base/parallel.hpp"
+#include "lv/mesh/cell.hpp"
 #include "lv/solid/element.hpp"
 
 #include <Eigen/LU>
 #include <boost/math/special_functions/legendre.hpp>
+
+#include <algorithm>
 
 namespace lv::immersed {
 namespace {
@@ -25,13 +28,11 @@ std::vector<std::array<double, 2>> gauss_rule(int n) {
   return points;
 }
 
-/// Edges of the reference element along each of its three axes, as pairs of nodes.
-constexpr std::array<std::array<std::array<int, 2>, 4>, 3> hex_edges{
-    {{{{0, 1}, {3, 2}, {4, 5}, {7, 6}}},
-     {{{0, 3}, {1, 2}, {4, 7}, {5, 6}}},
-     {{{0, 4}, {1, 5}, {2, 6}, {3, 7}}}}};
-constexpr std::array<std::array<int, 2>, 6> tet_edges{
-    {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+template <class Point, class Shapes>
+void set_shapes(Point& point, const Shapes& shapes) {
+  std::copy(shapes.value.begin(), shapes.value.end(), point.phi.begin());
+  std::copy(shapes.gradient.begin(), shapes.gradient.end(), point.gradient.begin());
+}
 
 }  // namespace
 
@@ -72,23 +73,19 @@ std::array<int, 3> QuadratureCoupling::points_along(std::span<const int> cell,
     constexpr int fewest = 2;  // phi det has degree three: fewer points would lose force
     return std::max(fewest, static_cast<int>(std::ceil(points_per_cell_ * length / spacing_)));
   };
-  const auto length = [&](const std::array<int, 2>& edge) {
-    return (positions[cell[edge[1]]] - positions[cell[edge[0]]]).norm();
+  const auto for_longest = [&](std::span<const std::array<int, 2>> edges) {
+    double longest = 0.0;
+    for (const auto& [a, b] : edges)
+      longest = std::max(longest, (positions[cell[b]] - positions[cell[a]]).norm());
+    return needed(longest);
   };
-  double longest = 0.0;
+  const auto edges = mesh::cell_edges(mesh_.kind);
   if (mesh_.kind == mesh::CellKind::tetrahedron) {
-    for (const auto& edge : tet_edges)
-      longest = std::max(longest, length(edge));
-    return {needed(longest), needed(longest), needed(longest)};
+    const int n = for_longest(edges);
+    return {n, n, n};
   }
-  std::array<int, 3> points{};
-  for (int d = 0; d < 3; ++d) {
-    longest = 0.0;
-    for (const auto& edge : hex_edges[d])
-      longest = std::max(longest, length(edge));
-    points[d] = needed(longest);
-  }
-  return points;
+  return {for_longest(edges.subspan(0, 4)), for_longest(edges.subspan(4, 4)),
+          for_longest(edges.subspan(8, 4))};
 }
 
 const QuadratureCoupling::Rule& QuadratureCoupling::rule(const std::array<int, 3>& points) const {
@@ -105,19 +102,11 @@ QuadratureCoupling::Rule QuadratureCoupling::make_rule(const std::array<int, 3>&
       for (const auto& [t, wt] : gauss_rule(points[2])) {
         ReferencePoint point{};
         if (mesh_.kind == mesh::CellKind::hexahedron) {
-          const std::array<double, 3> xi{2 * r - 1, 2 * s - 1, 2 * t - 1};
-          point.weight = 8.0 * wr * ws * wt;
-          for (int a = 0; a < 8; ++a) {
-            point.phi[a] = solid::Hex8::value(a, xi);
-            point.gradient[a] = solid::Hex8::gradient(a, xi);
-          }
+          point.weight = wr * ws * wt;
+          set_shapes(point, solid::Hex8::shapes({r, s, t}));
         } else {
-          const std::array<double, 3> xi{r, s * (1 - r), t * (1 - r) * (1 - s)};
           point.weight = wr * ws * wt * (1 - r) * (1 - r) * (1 - s);
-          for (int a = 0; a < 4; ++a) {
-            point.phi[a] = solid::Tet4::value(a, xi);
-            point.gradient[a] = solid::Tet4::gradient(a, xi);
-          }
+          set_shapes(point, solid::Tet4::shapes({r, s * (1 - r), t * (1 - r) * (1 - s)}));
         }
         rule.push_back(point);
       }

@@ -2,6 +2,7 @@
 
 #include "lv/base/json_file.hpp"
 #include "lv/base/table.hpp"
+#include "lv/geometry/drawn_wall.hpp"
 #include "lv/job/case_lines.hpp"
 #include "lv/job/drawn.hpp"
 #include "lv/mesh/abaqus_blocks.hpp"
@@ -9,7 +10,7 @@
 #include "lv/mesh/refine.hpp"
 #include "lv/report/fields_vtk.hpp"
 #include "lv/report/tables_csv.hpp"
-#include "lv/solid/cavity.hpp"
+#include "lv/solid/endocardial_surface.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -59,19 +60,21 @@ Shape from_drawn(const Case& c) {
   fit.frame.base_at = base_at(c, drawn);
   if (!fit.frame.septum)
     fit.frame.septum = drawn.septum;
-  const auto wall =
-      std::make_shared<const geometry::SplineWall>(geometry::fit_spline_wall(drawn.contours, fit));
+  const bool base_may_move = c.anatomy.contours.base_at == BaseChoice::automatic;
+  geometry::DrawnWall found = geometry::fit_drawn_wall(drawn.contours, fit, base_may_move);
+  const auto wall = std::make_shared<const geometry::SplineWall>(std::move(found.wall));
   Shape shape;
   shape.wall = [wall](double u, double theta, double t) { return wall->point(u, theta, t); };
   shape.frame = wall->frame();
   shape.notes = std::move(drawn.notes);
-  shape.notes.insert(shape.notes.end(), wall->report().notes.begin(), wall->report().notes.end());
+  for (const auto& notes : {wall->report().notes, found.notes})
+    shape.notes.insert(shape.notes.end(), notes.begin(), notes.end());
   shape.warnings = std::move(drawn.warnings);
   if (!fit.frame.septum && !c.origin.contains("regions.septum_angle"))
     shape.warnings.emplace_back(assumed_septum);
   shape.notes.insert(shape.notes.end(), shape.warnings.begin(), shape.warnings.end());
   shape.quality = report::QualitySheet{
-      wall->report(),     drawn.source,       base_rule(fit.frame.base_at, fit.frame.base_plane),
+      wall->report(),     drawn.source,       base_rule(found.base_at, fit.frame.base_plane),
       drawn.label_cavity, drawn.label_muscle, shape.notes};
   return shape;
 }
@@ -124,7 +127,7 @@ double cavity_of(const Shape& shape) {
   constexpr double edge_length = 4.0;  // right to a thousandth of the volume [mm]
   const mesh::Mesh wall =
       shape.given ? *shape.given : mesh::wall_mesh(shape.wall, {.edge_length = edge_length});
-  return solid::Cavity(wall).volume(wall.nodes);
+  return solid::EndocardialSurface(wall).volume(wall.nodes);
 }
 
 void write_anatomy(const Shape& shape, const fs::path& folder) {

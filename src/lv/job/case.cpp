@@ -20,8 +20,8 @@ std::string place_of(const Case& c, const std::string& parameter) {
   return set_at == c.origin.end() ? c.file.string() : set_at->second;
 }
 
-solid::WallMaterial wall_material(const Case& c) {
-  solid::WallMaterial material;
+material::Myocardium myocardium(const Case& c) {
+  material::Myocardium material;
   switch (c.passive.law) {
     case PassiveLaw::holzapfel_ogden:
       material.passive = c.passive.holzapfel_ogden.with_anisotropy_scaled(c.passive.C_a);
@@ -37,6 +37,10 @@ solid::WallMaterial wall_material(const Case& c) {
   material.volumetric_points = c.volumetric_points;
   material.infarct = c.infarct;
   material.active_form = c.active_form;
+  if (c.active_form == material::ActiveForm::niederer)
+    material.active = c.active;
+  else
+    material.active = material::PrescribedTension{c.prescribed_tension};
   return material;
 }
 
@@ -50,23 +54,14 @@ mesh::WallMeshParameters mesh_parameters(const Case& c) {
           .endocardium = c.quasi_static.endocardium};
 }
 
-heartbeat::Protocol protocol(const Case& c) {
-  heartbeat::Protocol p = c.protocol;
-  if (c.active_form != material::ActiveForm::niederer)
-    p.tension = c.prescribed_tension;
-  return p;
+solid::CardiacModel cardiac_model(const Case& c) {
+  return {c.fibres, myocardium(c), c.engine == Engine::immersed ? c.base : quasi_static_support(c)};
 }
 
-solid::BasalSupport basal_support(const Case& c) {
-  return c.engine == Engine::immersed ? c.base : quasi_static_support(c);
-}
-
-quasi_static::Muscle muscle(const Case& c) {
-  const auto contractility = c.active_form == material::ActiveForm::niederer
-                                 ? quasi_static::Contractility(c.active, c.protocol.calcium.Ca_0,
-                                                               c.protocol.calcium.Ca_max)
-                                 : quasi_static::Contractility(c.prescribed_tension);
-  return {wall_material(c), contractility, quasi_static_support(c), c.quasi_static.stabilisation};
+quasi_static::StaticModel static_model(const Case& c) {
+  return {{c.fibres, myocardium(c), quasi_static_support(c)},
+          c.protocol.calcium,
+          c.quasi_static.stabilisation};
 }
 
 immersed::ModelParameters model_parameters(const Case& c, const mesh::Mesh& mesh) {
@@ -74,7 +69,6 @@ immersed::ModelParameters model_parameters(const Case& c, const mesh::Mesh& mesh
   p.grid = fluid::centred_grid(bounds(mesh.nodes).center(), Vec3(c.box.size.data()), c.box.cells);
   p.blood = c.blood;
   p.coupling = c.coupling;
-  p.base = c.base;
   return p;
 }
 

@@ -99,8 +99,8 @@ struct QuasiStatic {
   double edge_length = 7.0;  ///< target, of quadratic elements [mm]
   int layers = 0;            ///< quadratic elements through the wall; 0: as edge_length asks
   double apex = 0.3, endocardium = 0.5;  ///< see mesh::WallMeshParameters
-  material::Volumetric stabilisation = quasi_static::Muscle{}.stabilisation;
-  quasi_static::Parameters solver;
+  material::Volumetric stabilisation = quasi_static::StaticModel::default_stabilisation;
+  quasi_static::SolverParameters solver;
 };
 
 /// Which measure of strain a file holds: E = (lambda^2 - 1)/2 or lambda - 1.
@@ -108,7 +108,7 @@ enum class StrainMeasure { green_lagrange, engineering };
 
 /// Which parameters are fitted to which measured volumes, at the pressures of the protocol.
 struct Calibration {
-  calibrate::Passive passive = calibrate::Passive::none;
+  calibrate::FittedPassive passive = calibrate::FittedPassive::none;
   bool active = false;
   double edv = 0.0, esv = 0.0;  ///< 0: not measured [mm^3]
   double tolerance = 0.01;      ///< of the volumes, as a fraction
@@ -120,7 +120,7 @@ struct Calibration {
   calibrate::Errors errors;  ///< of what was measured, which weigh it
   bool confirm = false;      ///< with the immersed engine
 
-  [[nodiscard]] bool asked() const { return passive != calibrate::Passive::none || active; }
+  [[nodiscard]] bool asked() const { return passive != calibrate::FittedPassive::none || active; }
 };
 
 /// Strain measured from cine images, or by somebody else. File names as the case file gives them.
@@ -148,7 +148,7 @@ struct Case {
   mesh::RegionParameters regions;
   Passive passive;
   material::Volumetric volumetric;
-  solid::VolumetricPoints volumetric_points = solid::VolumetricPoints::mean;
+  material::VolumetricPoints volumetric_points = material::VolumetricPoints::mean;
   material::ActiveForm active_form = material::ActiveForm::niederer;
   double prescribed_tension = 60.0;  ///< for the other forms [kPa]
   material::NiedererHunterSmith active;
@@ -184,20 +184,17 @@ struct Case {
 [[nodiscard]] std::string place_of(const Case& c, const std::string& parameter);
 
 /// Passive and active law as the walls of both engines know them.
-[[nodiscard]] solid::WallMaterial wall_material(const Case& c);
+[[nodiscard]] material::Myocardium myocardium(const Case& c);
 
 /// How the wall is meshed for the engine of the case.
 [[nodiscard]] mesh::WallMeshParameters mesh_parameters(const Case& c);
 
-/// Pressures, calcium and, for a prescribed active stress, its tension.
-[[nodiscard]] heartbeat::Protocol protocol(const Case& c);
+/// The ventricle as the engine of the case knows it, its base held by the springs of the case or by
+/// the quasi-static engine's, so stiff that it does not move.
+[[nodiscard]] solid::CardiacModel cardiac_model(const Case& c);
 
-/// How the base is held: by the springs of the case, or by the quasi-static engine's, so stiff that
-/// it does not move.
-[[nodiscard]] solid::BasalSupport basal_support(const Case& c);
-
-/// The muscle of the quasi-static engine.
-[[nodiscard]] quasi_static::Muscle muscle(const Case& c);
+/// The same for the quasi-static engine, whichever is the engine of the case.
+[[nodiscard]] quasi_static::StaticModel static_model(const Case& c);
 
 /// The immersed engine's parameters, with the box placed around the middle of the wall.
 [[nodiscard]] immersed::ModelParameters model_parameters(const Case& c, const mesh::Mesh& mesh);

@@ -35,13 +35,13 @@ struct Estimate {
 
 Estimate of_immersed(const Case& c, const mesh::Mesh& mesh) {
   const immersed::ModelParameters p = model_parameters(c, mesh);
-  immersed::Model model(mesh, c.fibres, wall_material(c), c.active, p);
+  immersed::Model model(mesh, cardiac_model(c), p);
   model.relax(c.protocol.calcium.Ca_0);
   constexpr int steps = 3;
   const double step =
       seconds([&] {
         for (int i = 0; i < steps; ++i)
-          static_cast<void>(model.step({0.0, c.protocol.calcium.Ca_0, 0.0}, c.time.longest));
+          static_cast<void>(model.step({.calcium = c.protocol.calcium.Ca_0}, c.time.longest));
       }) /
       steps;
   const double simulated = heartbeat::usual_duration(c.protocol, heartbeat::Phase::filling) +
@@ -53,11 +53,11 @@ Estimate of_immersed(const Case& c, const mesh::Mesh& mesh) {
 }
 
 Estimate of_quasi_static(const Case& c, const mesh::Mesh& mesh) {
-  quasi_static::Parameters solver = c.quasi_static.solver;
+  quasi_static::SolverParameters solver = c.quasi_static.solver;
   const double share = solver.first_step;
   solver.first_step = 1.0;
-  quasi_static::Engine engine(mesh, c.fibres, muscle(c), solver);
-  const double step = seconds([&] { engine.go_to({share * c.protocol.ed_pressure, 0.0}); });
+  quasi_static::Engine engine(mesh, static_model(c), solver);
+  const double step = seconds([&] { engine.go_to({share * c.protocol.ed_pressure, 0.0}).value(); });
   return {fmt::format("  quasi-static: {} finite elements of order {}, {} unknowns; {:.3g} s a "
                       "load step\n",
                       mesh::elements(mesh).size(), mesh.order, engine.equations().size(), step),
@@ -79,8 +79,8 @@ Estimate tried(const Trial& trial) {
 /// What comes before the beat, on the quasi-static engine.
 std::string preparation(const Case& c, double step) {
   const Calibration& k = c.calibration;
-  const int fitted = (k.passive == calibrate::Passive::none ? 0 : 1) +
-                     (k.passive == calibrate::Passive::scale_and_exponent ? 1 : 0) +
+  const int fitted = (k.passive == calibrate::FittedPassive::none ? 0 : 1) +
+                     (k.passive == calibrate::FittedPassive::scale_and_exponent ? 1 : 0) +
                      (k.active ? 1 : 0);
   const double unloading = is_loaded(c) ? steps_of_unloading * step : 0.0;
   const double fit = fitted * (steps_of_fit * step + unloading);

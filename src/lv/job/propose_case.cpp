@@ -1,6 +1,7 @@
 #include "lv/job/propose_case.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/files.hpp"
 #include "lv/base/lines.hpp"
 #include "lv/base/units.hpp"
 #include "lv/geometry/contours.hpp"
@@ -10,6 +11,7 @@
 #include "lv/image/nifti.hpp"
 #include "lv/job/drawn.hpp"
 #include "lv/job/proposals.hpp"
+#include "lv/job/what_file.hpp"
 #include "lv/mesh/import.hpp"
 
 #include <fmt/format.h>
@@ -166,16 +168,6 @@ Proposal of_guide_points(const fs::path& source, const std::string& name) {
   return p;
 }
 
-/// The folder of contours alone: its images are elsewhere.
-Proposal of_sunnybrook(const fs::path& source, const std::string& name) {
-  return {fmt::format("{}: contours in pixels (Sunnybrook)", source.string()),
-          {source_line("sunnybrook"),
-           {"anatomy.sunnybrook.contours", quoted(name), ""},
-           {"anatomy.sunnybrook.dicom", fill_in, "the folder of the images they were drawn on"},
-           {"anatomy.sunnybrook.phase", "0", "0: `ventricle validate` lists what there is"},
-           septum_line()}};
-}
-
 /// The series with a name of late enhancement.
 const image::DicomStack* late_enhancement(const image::DicomStudy& study) {
   static const std::regex names("late|lge|psir|delayed|enhanc|viab|tfi_de|_de_", std::regex::icase);
@@ -196,9 +188,9 @@ std::vector<CaseLine> lines_without_contours(const image::DicomStudy& study) {
   return lines;
 }
 
-std::vector<CaseLine> lines_with_contours(const image::DicomStudy& study,
-                                          const fs::path& contours) {
-  std::vector<CaseLine> lines{{"anatomy.sunnybrook.contours", quoted(contours.string()), ""}};
+std::vector<CaseLine> lines_with_contours(const image::DicomStudy& study, const fs::path& contours,
+                                          const std::string& name) {
+  std::vector<CaseLine> lines{{"anatomy.sunnybrook.contours", quoted(name), ""}};
   const SunnybrookChoice chosen = sunnybrook_choice(contours, study, {});
   append(lines, chosen.lines);
   append(lines, lines_of_moment(moments_of(chosen.read.phases)));
@@ -260,10 +252,9 @@ Proposal of_mesh(const fs::path& source, const std::string& name) {
 
 SourceKind kind_of(const fs::path& source) {
   std::error_code failed;
-  if (!fs::exists(source, failed))
-    throw InputError(source.string(), "there is no such file or folder", "Check the name");
   if (fs::is_directory(source, failed))
     return image::has_sunnybrook_names(source) ? SourceKind::sunnybrook : SourceKind::dicom;
+  require_readable(source, "Name a folder or a file");
   if (image::is_nifti_name(source))
     return SourceKind::nifti;
   if (has_ending(source, {".inp", ".msh", ".vtk", ".vtu"}))
@@ -273,27 +264,24 @@ SourceKind kind_of(const fs::path& source) {
   if (has_ending(source, {".toml"}))
     return SourceKind::case_file;
   const std::string line = first_line(source);
-  if (line.find('\t') != std::string::npos && line.find("type") != std::string::npos)
+  if (line.find("type") != std::string::npos && line.find('x') != std::string::npos)
     return SourceKind::guide_points;
   if (line.find("x_mm") != std::string::npos && line.find("contour") != std::string::npos)
     return SourceKind::contours;
-  const image::DicomFile read = image::read_dicom_headers(source);
-  if (!read.images.empty())
+  if (image::looks_like_dicom(source))
     return SourceKind::dicom;
-  throw InputError(source.string(),
-                   fmt::format("is nothing that is read here (as DICOM: {})", read.reason),
-                   all_kinds);
+  throw InputError(source.string(), fmt::format("is {}", what_is(source)), all_kinds);
 }
 
-Proposal propose(const image::DicomStudy& study, const std::string& name,
-                 const fs::path& contours) {
+Proposal propose(const image::DicomStudy& study, const std::string& name, const fs::path& contours,
+                 const std::string& contours_name) {
   Proposal p{image::describe(study),
              {source_line("sunnybrook",
                           "contours in pixels; or labels, contours, guide_points, mesh: what was "
                           "drawn on the images"),
               {"anatomy.sunnybrook.dicom", quoted(name), ""}}};
-  append(p.lines,
-         contours.empty() ? lines_without_contours(study) : lines_with_contours(study, contours));
+  append(p.lines, contours.empty() ? lines_without_contours(study)
+                                   : lines_with_contours(study, contours, contours_name));
   p.lines.push_back(septum_line());
   if (const image::DicomStack* cine = short_axis_cine(study); cine != nullptr)
     append(p.lines, {{"strain.cine", quoted(name), "strain from these images", false},
@@ -307,6 +295,19 @@ Proposal propose(const image::DicomStudy& study, const std::string& name,
   return p;
 }
 
+/// A folder of contours, with the images they were drawn on if those are below it too.
+static Proposal propose_contours(const fs::path& source, const std::string& name) {
+  const image::DicomStudy study = image::read_dicom_study(std::array{source});
+  if (!study.stacks.empty())
+    return propose(study, name, source, name);
+  return {fmt::format("{}: contours in pixels (Sunnybrook)", source.string()),
+          {source_line("sunnybrook"),
+           {"anatomy.sunnybrook.contours", quoted(name), ""},
+           {"anatomy.sunnybrook.dicom", fill_in, "the folder of the images they were drawn on"},
+           {"anatomy.sunnybrook.phase", "0", "0: `ventricle validate` lists what there is"},
+           septum_line()}};
+}
+
 Proposal propose(const fs::path& source, const std::string& name) {
   switch (kind_of(source)) {
     case SourceKind::nifti:
@@ -317,7 +318,7 @@ Proposal propose(const fs::path& source, const std::string& name) {
       return propose(study, name);
     }
     case SourceKind::sunnybrook:
-      return of_sunnybrook(source, name);
+      return propose_contours(source, name);
     case SourceKind::contours:
       return of_contours(source, name);
     case SourceKind::guide_points:

@@ -37,9 +37,10 @@ struct Proposal {
 [[nodiscard]] Proposal propose(const std::filesystem::path& source, const std::string& name);
 
 /// The same of a folder of DICOM files that has been read, with the folder of Sunnybrook contours
-/// drawn on them if there is one.
+/// drawn on them if there is one, and what the case calls that.
 [[nodiscard]] Proposal propose(const image::DicomStudy& study, const std::string& name,
-                               const std::filesystem::path& contours = {});
+                               const std::filesystem::path& contours = {},
+                               const std::string& contours_name = "");
 
 /// A case file with what a source shows filled in, with the engine and what each costs on its first
 /// lines. Names are relative to `file`, which need not exist.

@@ -11,7 +11,7 @@
 #include "lv/job/strain.hpp"
 #include "lv/job/strain_targets.hpp"
 #include "lv/mesh/quality.hpp"
-#include "lv/solid/cavity.hpp"
+#include "lv/solid/endocardial_surface.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -41,7 +41,7 @@ std::vector<Warning> warnings_of(const Case& c, const Shape& shape, double cavit
     warnings.push_back(
         {text.starts_with("the septum") ? "septum assumed" : "end-diastolic shape", text});
   const double edv = c.calibration.edv;
-  if (c.calibration.passive != calibrate::Passive::none && !is_loaded(c) &&
+  if (c.calibration.passive != calibrate::FittedPassive::none && !is_loaded(c) &&
       edv < little_filling * cavity)
     warnings.push_back(
         {"little filling",
@@ -102,7 +102,8 @@ std::string describe_shape(const Case& c, const Shape& shape, double cavity, con
 
 void check_measured_volumes(const Case& c, double cavity) {
   const Calibration& k = c.calibration;
-  if (k.passive == calibrate::Passive::none || is_loaded(c) || k.edv > (1.0 + k.tolerance) * cavity)
+  if (k.passive == calibrate::FittedPassive::none || is_loaded(c) ||
+      k.edv > (1.0 + k.tolerance) * cavity)
     return;
   throw InputError(
       place_of(c, "calibrate.edv"),
@@ -149,7 +150,7 @@ std::string validate(const Case& c) {
   mistakes.raise();
   check_measured_volumes(c, cavity_of(*shape));
   const MeshResult result = make_mesh(c, *shape);
-  const double cavity = solid::Cavity(result.mesh).volume(result.mesh.nodes);
+  const double cavity = solid::EndocardialSurface(result.mesh).volume(result.mesh.nodes);
   std::string text = describe_shape(c, *shape, cavity, result.mesh);
   if (const auto targets = strain_targets(c, result.regions); !targets.empty())
     text += fmt::format("  strains of {} segments to fit to\n", targets.size());

@@ -1,6 +1,7 @@
 #include "lv/mesh/cell.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/mesh/shapes.hpp"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -18,8 +19,6 @@ constexpr std::array<LocalFace, 6> hexahedron_faces{
 constexpr std::array<LocalFace, 4> tetrahedron_faces{
     {{0, 2, 1, -1}, {0, 1, 3, -1}, {1, 2, 3, -1}, {0, 3, 2, -1}}};
 
-/// Four edges along each direction of the reference cube, in the order (0,0), (1,0), (0,1), (1,1)
-/// of the other two coordinates.
 constexpr std::array<std::array<int, 2>, 12> hexahedron_edges{{{0, 1},
                                                                {3, 2},
                                                                {4, 5},
@@ -40,35 +39,22 @@ Vec3 edge_vector(const Mesh& mesh, int cell, const std::array<int, 2>& edge) {
   return mesh.nodes[nodes[edge[1]]] - mesh.nodes[nodes[edge[0]]];
 }
 
-/// Along direction d the derivative of the trilinear map from the unit cube is the bilinear mean of
-/// the differences along four edges, with these weights.
-std::array<double, 4> edge_weights(int d, const Vec3& xi) {
-  const double a = xi[d == 0 ? 1 : 0];
-  const double b = xi[d == 2 ? 1 : 2];
-  return {(1 - a) * (1 - b), a * (1 - b), (1 - a) * b, a * b};
-}
-
 /// dX/dxi
 Mat3 hexahedron_gradient(const Mesh& mesh, int cell, const Vec3& xi) {
+  const auto shapes = hexahedron_shapes({xi.x(), xi.y(), xi.z()});
   Mat3 gradient = Mat3::Zero();
-  for (int d = 0; d < 3; ++d)
-    for (int i = 0; i < 4; ++i)
-      gradient.col(d) +=
-          edge_weights(d, xi)[i] * edge_vector(mesh, cell, hexahedron_edges[4 * d + i]);
+  for (int a = 0; a < 8; ++a)
+    gradient += mesh.nodes[mesh.cell(cell)[a]] * Vec3(shapes.gradient[a].data()).transpose();
   return gradient;
 }
 
 /// df/dxi
 Vec3 hexahedron_derivative(const Mesh& mesh, int cell, std::span<const double> field,
                            const Vec3& xi) {
-  const auto nodes = mesh.cell(cell);
+  const auto shapes = hexahedron_shapes({xi.x(), xi.y(), xi.z()});
   Vec3 derivative = Vec3::Zero();
-  for (int d = 0; d < 3; ++d) {
-    for (int i = 0; i < 4; ++i) {
-      const auto& [from, to] = hexahedron_edges[4 * d + i];
-      derivative[d] += edge_weights(d, xi)[i] * (field[nodes[to]] - field[nodes[from]]);
-    }
-  }
+  for (int a = 0; a < 8; ++a)
+    derivative += field[mesh.cell(cell)[a]] * Vec3(shapes.gradient[a].data());
   return derivative;
 }
 

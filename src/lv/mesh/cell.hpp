@@ -13,7 +13,8 @@ namespace lv::mesh {
 using LocalFace = std::array<int, 4>;
 [[nodiscard]] std::span<const LocalFace> cell_faces(CellKind kind);
 
-/// The edges of a cell as pairs of local node numbers.
+/// The edges of a cell as pairs of local node numbers; a hexahedron's first four along the first
+/// direction of the reference cube, the next along the second.
 [[nodiscard]] std::span<const std::array<int, 2>> cell_edges(CellKind kind);
 
 /// Mean of the cell's nodes [mm].

@@ -1,5 +1,7 @@
 #include "lv/mesh/quadratic.hpp"
 
+#include "lv/mesh/shapes.hpp"
+
 #include <array>
 
 namespace lv::mesh {
@@ -9,9 +11,6 @@ namespace {
 struct Place {
   int part, node;
 };
-
-/// VTK's order of a hexahedron's and a quadrilateral's corners, by lattice place.
-constexpr std::array<int, 8> hexahedron_corner{0, 1, 3, 2, 4, 5, 7, 6};
 
 std::vector<Place> hexahedron_places(int order) {
   std::vector<Place> places;
@@ -67,9 +66,9 @@ ElementNodes elements(const Mesh& mesh) {
                 places(mesh.kind, mesh.order));
 }
 
-ElementNodes sides(const Mesh& mesh, const Surface& surface) {
-  return gather(surface.nodes, surface.nodes_per_face, mesh.order == 2 ? 4 : 1,
-                side_places(mesh.kind, mesh.order));
+ElementNodes sides(CellKind kind, int order, const Surface& surface) {
+  return gather(surface.nodes, surface.nodes_per_face, order == 2 ? 4 : 1,
+                side_places(kind, order));
 }
 
 }  // namespace lv::mesh

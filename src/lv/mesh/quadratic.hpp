@@ -26,10 +26,10 @@ struct ElementNodes {
 ///   tetrahedra: the four corners, then the middles of the edges 01 12 20 03 13 23 (order 2).
 [[nodiscard]] ElementNodes elements(const Mesh& mesh);
 
-/// The sides of those elements on a surface of the mesh, normals out of the wall.
+/// The sides of elements of a kind and order on a surface of their mesh, normals out of the wall.
 ///
 ///   quadrilaterals: the (order + 1)^2 lattice, the first direction running fastest;
 ///   triangles:      the three corners, then the middles of the edges 01 12 20 (order 2).
-[[nodiscard]] ElementNodes sides(const Mesh& mesh, const Surface& surface);
+[[nodiscard]] ElementNodes sides(CellKind kind, int order, const Surface& surface);
 
 }  // namespace lv::mesh

@@ -79,7 +79,7 @@ Runs runs_of(const Corners& corners, const Runs& of_nodes) {
   std::vector<int> owners;
   for (const int node : corners.nodes)
     owners.push_back(of_nodes.owner(node));
-  return Runs(std::move(owners));
+  return {std::move(owners), parallel::size()};
 }
 
 }  // namespace

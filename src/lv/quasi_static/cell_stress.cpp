@@ -44,7 +44,7 @@ struct PartShapes {
 class PartTables {
  public:
   explicit PartTables(const mesh::Mesh& mesh)
-      : mesh_(mesh), places_(solid::node_places(mesh.kind, mesh.order)) {}
+      : mesh_(mesh), places_(mesh::node_places(mesh.kind, mesh.order)) {}
 
   const PartShapes& of(int cell, std::span<const int> element) {
     std::vector<int> where;
@@ -73,37 +73,11 @@ class PartTables {
   std::map<std::vector<int>, PartShapes> tables_;
 };
 
-/// The stresses at one point. P has its second index in the fibre frame as F has, so that sigma =
-/// P F^T / J, and the first column of F is F f0.
-CellStress point_stress(const Mat3& F, double p, double M, const Constitution& law) {
-  const double J = determinant(F);
-  const Vec3 f = F.col(0).normalized();
-  const Mat3 stabilisation = law.muscle.stabilisation.stress(F) * F.transpose() / J;
-  CellStress s;
-  s.tension = law.tension(F, M).value;
-  s.pressure = -(p + stabilisation.trace() / 3.0);
-  s.cauchy_passive = law.passive(F, M) * F.transpose() / J;
-  s.cauchy_active = law.active_column(F, s.tension) * F.col(0).transpose() / J;
-  s.fibre_stress_passive = f.dot(s.cauchy_passive * f);
-  s.fibre_stress_active = f.dot(s.cauchy_active * f);
-  return s;
-}
-
-/// sum += weight * s
-void add(double weight, const CellStress& s, CellStress& sum) {
-  sum.tension += weight * s.tension;
-  sum.pressure += weight * s.pressure;
-  sum.cauchy_passive += weight * s.cauchy_passive;
-  sum.cauchy_active += weight * s.cauchy_active;
-  sum.fibre_stress_passive += weight * s.fibre_stress_passive;
-  sum.fibre_stress_active += weight * s.fibre_stress_active;
-}
-
 }  // namespace
 
 std::vector<CellStress> Equations::cell_stress(const State& state, double activation) const {
-  const Constitution law{muscle_, activation};
-  const PointMaker maker(mesh_, fibres_);
+  const Constitution law{model_, activation};
+  const PointMaker maker(mesh_, model_.heart.fibres);
   PartTables tables(mesh_);
   const int parts = mesh_.order == 2 ? 8 : 1;
   std::vector<CellStress> result(mesh_.cell_count());
@@ -119,8 +93,9 @@ std::vector<CellStress> Equations::cell_stress(const State& state, double activa
                           [](double sum, const Point& point) { return sum + point.volume; });
       for (std::size_t q = 0; q < points.size(); ++q) {
         const Mat3 F = s.x * points[q].gradient.transpose();
-        const double p = shapes.pressure.value.row(static_cast<Eigen::Index>(q)).dot(s.p);
-        add(points[q].volume / volume, point_stress(F, p, points[q].infarct, law), result[cell]);
+        CellStress here = law.cauchy(F, points[q].infarct);
+        here.pressure -= shapes.pressure.value.row(static_cast<Eigen::Index>(q)).dot(s.p);
+        result[cell].add(points[q].volume / volume, here);
       }
     }
   }

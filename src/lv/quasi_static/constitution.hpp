@@ -4,43 +4,38 @@
 
 namespace lv::quasi_static {
 
-/// Stress and, where asked for, tangent at one point, with the second index of F and P in the fibre
-/// frame, and without the pressure's part.
+/// The sum of stresses at one point under an activation, without the pressure's part.
 struct Constitution {
-  const Muscle& muscle;
+  const StaticModel& model;
   double activation;
 
+  /// Calls f with the point's material::PointLaw.
+  template <class F>
+  [[nodiscard]] auto with_law(const F& f) const {
+    return material::with_point_law(model.heart.myocardium, model.stabilisation, f);
+  }
+
+  /// With the infarct's factor.
   [[nodiscard]] Tension tension(const Mat3& F, double M) const {
-    Tension T = muscle.contractility.at(F.col(0).norm(), activation);
-    T.value *= muscle.material.infarct.active(M);
-    T.derivative *= muscle.material.infarct.active(M);
+    Tension T = model.contractility.at(F.col(0).norm(), activation);
+    T.value *= model.heart.myocardium.infarct.active(M);
+    T.derivative *= model.heart.myocardium.infarct.active(M);
     return T;
   }
 
-  /// Of (2.18), with the infarct's stiffening (2.23).
-  [[nodiscard]] Mat3 passive(const Mat3& F, double M) const {
-    return muscle.material.infarct.passive(M) *
-           std::visit([&](const auto& law) { return law.stress(F); }, muscle.material.passive);
-  }
-
-  /// Of (2.21), along F's first column.
-  [[nodiscard]] Vec3 active_column(const Mat3& F, double tension) const {
-    return material::active_stress_column(F, determinant(F), tension, muscle.material.active_form);
-  }
-
-  [[nodiscard]] Mat3 stress(const Mat3& F, double M) const {
-    Mat3 P = passive(F, M);
-    P.col(0) += active_column(F, tension(F, M).value);
-    return P + muscle.stabilisation.stress(F);
+  [[nodiscard]] Mat3 stress(const Mat3& F, double J, double M) const {
+    const double T = tension(F, M).value;
+    return with_law([&](const auto& law) { return law.stress(F, J, T, M); });
   }
 
   [[nodiscard]] material::Tangent<double> tangent(const Mat3& F, double M) const {
     const Tension T = tension(F, M);
-    return muscle.stabilisation.tangent(F) +
-           muscle.material.infarct.passive(M) *
-               std::visit([&](const auto& law) { return law.tangent(F); },
-                          muscle.material.passive) +
-           material::active_tangent(F, T.value, T.derivative, muscle.material.active_form);
+    return with_law([&](const auto& law) { return law.tangent(F, T.value, T.derivative, M); });
+  }
+
+  [[nodiscard]] solid::CellStress cauchy(const Mat3& F, double M) const {
+    const double T = tension(F, M).value;
+    return with_law([&](const auto& law) { return solid::point_stress(law, F, T, M); });
   }
 };
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "lv/material/active_law.hpp"
+#include "lv/material/calcium.hpp"
 #include "lv/material/steady_tension.hpp"
 
 #include <optional>
@@ -18,12 +20,16 @@ struct Tension {
 ///   T = s T_max                                                      whatever the stretch
 class Contractility {
  public:
-  /// The steady states of the law at resting and at held calcium [uM].
-  Contractility(const material::NiedererHunterSmith& law, double Ca_0, double Ca_max)
-      : rest_(std::in_place, law, Ca_0), peak_(std::in_place, law, Ca_max) {}
-
-  /// A prescribed tension [kPa].
-  explicit Contractility(double T_max) : T_max_(T_max) {}
+  /// The steady states of the law at resting calcium and at its peak, or the prescribed tension.
+  Contractility(const material::ActiveLaw& law, const material::Calcium& calcium) {
+    if (const auto* prescribed = std::get_if<material::PrescribedTension>(&law)) {
+      T_max_ = prescribed->T_max;
+      return;
+    }
+    const auto& kinetics = std::get<material::NiedererHunterSmith>(law);
+    rest_.emplace(kinetics, calcium.Ca_0);
+    peak_.emplace(kinetics, calcium.Ca_max);
+  }
 
   [[nodiscard]] Tension at(double stretch, double activation) const {
     const double s = activation;

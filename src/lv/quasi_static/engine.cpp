@@ -12,7 +12,8 @@ namespace lv::quasi_static {
 namespace {
 
 Loads between(const Loads& a, const Loads& b, double s) {
-  return {(1.0 - s) * a.pressure + s * b.pressure, (1.0 - s) * a.activation + s * b.activation};
+  return {(1.0 - s) * a.pressure + s * b.pressure, (1.0 - s) * a.activation + s * b.activation,
+          (1.0 - s) * a.calcium + s * b.calcium};
 }
 
 /// The straight line through two states, `by` times their distance beyond the second.
@@ -32,15 +33,14 @@ constexpr double growth = 1.7;
 
 }  // namespace
 
-Engine::Engine(const mesh::Mesh& mesh, const mesh::FibreRule& fibres, const Muscle& muscle,
-               const Parameters& parameters)
+Engine::Engine(const mesh::Mesh& mesh, const StaticModel& model, const SolverParameters& parameters)
     : parameters_(parameters),
-      equations_(mesh, fibres, muscle),
+      equations_(mesh, model),
       newton_(equations_, parameters.newton),
-      cavity_(mesh),
       state_(equations_.rest()) {}
 
-void Engine::go_to(const Loads& target, const std::function<void(const Step&)>& observe) {
+Outcome<double> Engine::go_to(const Loads& target,
+                              const std::function<void(const Step&)>& observe) {
   const Loads start = loads_;
   std::optional<State> before;
   double last_length = 0.0;
@@ -52,11 +52,9 @@ void Engine::go_to(const Loads& target, const std::function<void(const Step&)>& 
       length = 1.0 - progress;  // no crumbs
     const Loads loads = between(start, target, progress + length);
     State next = before ? extrapolate(*before, state_, length / last_length) : state_;
-    NewtonReport report;
-    try {
-      report = newton_.solve(next, loads);
-    } catch (const NoConvergence& failure) {
-      log::info("a step of {:.3g} of the way failed: {}", length, failure.what());
+    const NewtonReport report = newton_.solve(next, loads);
+    if (!report.converged) {
+      log::info("a step of {:.3g} of the way failed: {}", length, report.why);
       if (before) {
         before.reset();  // once more without extrapolation
         length *= 0.5;
@@ -64,13 +62,12 @@ void Engine::go_to(const Loads& target, const std::function<void(const Step&)>& 
         length *= 0.25;
       }
       if (length < parameters_.smallest_step)
-        throw RunError(
+        return Unsolved{
             fmt::format("No equilibrium was found beyond {:.2f} mmHg and {:.0f}% of the active "
                         "tension: {}",
-                        loads_.pressure / units::mmHg, 100.0 * loads_.activation, failure.what()),
+                        loads_.pressure / units::mmHg, 100.0 * loads_.activation, report.why),
             "Look at the mesh's worst element and at the stiffness (a wall too soft for its "
-            "pressure "
-            "has no equilibrium); try a finer mesh, or a smaller quasi_static.first_step");
+            "pressure has no equilibrium); try a finer mesh, or a smaller quasi_static.first_step"};
       continue;
     }
     before = std::move(state_);
@@ -86,22 +83,21 @@ void Engine::go_to(const Loads& target, const std::function<void(const Step&)>& 
       length /= growth;
   }
   loads_ = target;
+  return cavity_volume();
 }
 
-void Engine::set_muscle(const Muscle& muscle) {
-  equations_.set_muscle(muscle);
+Outcome<double> Engine::set_model(const StaticModel& model) {
+  equations_.set_model(model);
   newton_.forget_tangent();
-  if (loads_ == Loads{}) {
+  if (loads_.pressure == 0.0 && loads_.activation == 0.0) {
     relax();
-    return;
+    return cavity_volume();
   }
-  try {
-    newton_.solve(state_, loads_);
-  } catch (const NoConvergence&) {
-    const Loads loads = loads_;
-    relax();
-    go_to(loads);
-  }
+  if (newton_.solve(state_, loads_).converged)
+    return cavity_volume();
+  const Loads loads = loads_;
+  relax();
+  return go_to(loads);
 }
 
 void Engine::relax() {
@@ -109,6 +105,10 @@ void Engine::relax() {
 }
 
 void Engine::restore(const State& state, const Loads& loads) {
+  if (state.positions.size() != state_.positions.size() ||
+      state.pressures.size() != state_.pressures.size())
+    throw InputError("an equilibrium that was kept", "is one of another wall",
+                     "Delete the unfinished folder of this stage to start it again");
   state_ = state;
   loads_ = loads;
   newton_.forget_tangent();

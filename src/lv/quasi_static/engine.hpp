@@ -1,7 +1,6 @@
 #pragma once
 
 #include "lv/quasi_static/newton.hpp"
-#include "lv/solid/cavity.hpp"
 
 #include <functional>
 #include <optional>
@@ -10,7 +9,7 @@
 namespace lv::quasi_static {
 
 /// Parameters of the quasi-static engine.
-struct Parameters {
+struct SolverParameters {
   NewtonParameters newton;
   double first_step = 0.1;      ///< of the way from one load to the next [-]
   double smallest_step = 1e-4;  ///< before the engine gives up [-]
@@ -30,19 +29,18 @@ struct Step {
 class Engine {
  public:
   /// The mesh must outlive the engine. Throws InputError as reference_wall.
-  Engine(const mesh::Mesh& mesh, const mesh::FibreRule& fibres, const Muscle& muscle,
-         const Parameters& parameters);
+  Engine(const mesh::Mesh& mesh, const StaticModel& model, const SolverParameters& parameters);
 
-  /// Goes straight from the present loads to others, in steps as long as Newton's method manages;
-  /// `observe` (may be empty) is told each equilibrium. Throws RunError, with the last equilibrium
-  /// and what to try, when the smallest step fails; the engine stays at that equilibrium.
-  void go_to(const Loads& loads, const std::function<void(const Step&)>& observe = {});
+  /// Goes straight from the present loads to others, in steps as long as Newton's method manages,
+  /// and returns the cavity's volume there [mm^3]; `observe` (may be empty) is told each
+  /// equilibrium. Where the smallest step fails the engine stays at the last equilibrium.
+  Outcome<double> go_to(const Loads& loads, const std::function<void(const Step&)>& observe = {});
 
   /// Replaces the muscle and finds the equilibrium under the same loads, at once if Newton's method
-  /// manages, else all the way from rest. Without loads the wall is undeformed, as at first:
-  /// balanced by the tension of resting muscle alone it would lie on the switches I4 = 1 of (2.16),
-  /// where Newton's method finds no way on.
-  void set_muscle(const Muscle& muscle);
+  /// manages, else all the way from rest; returns the cavity's volume [mm^3]. Without loads the
+  /// wall is undeformed, as at first: balanced by the tension of resting muscle alone it would lie
+  /// on the switches I4 = 1 of (2.16), where Newton's method finds no way on.
+  Outcome<double> set_model(const StaticModel& model);
 
   /// Back to the undeformed wall without loads.
   void relax();
@@ -51,21 +49,21 @@ class Engine {
   [[nodiscard]] const Loads& loads() const { return loads_; }
   [[nodiscard]] const Equations& equations() const { return equations_; }
   [[nodiscard]] double cavity_volume() const {
-    return cavity_.volume(state_.positions);
+    return equations_.endocardium().volume(state_.positions);
   }  ///< [mm^3]
   /// Volume-weighted mean over the wall of the active tension, with the infarct's factor [kPa].
   [[nodiscard]] double mean_tension() const {
     return equations_.mean_tension(state_, loads_.activation);
   }
 
-  /// Takes over an equilibrium that was reached before, with the loads that held it.
+  /// Takes over an equilibrium that was reached before, with the loads that held it. Throws
+  /// InputError when it is one of another wall.
   void restore(const State& state, const Loads& loads);
 
  private:
-  Parameters parameters_;
+  SolverParameters parameters_;
   Equations equations_;
   Newton newton_;
-  solid::Cavity cavity_;
   State state_;
   Loads loads_;
 };

@@ -2,9 +2,8 @@
 
 #include "lv/base/check.hpp"
 #include "lv/base/parallel.hpp"
+#include "lv/mesh/shapes.hpp"
 #include "lv/quasi_static/constitution.hpp"
-
-#include <Eigen/Geometry>
 
 #include <algorithm>
 
@@ -105,8 +104,8 @@ std::vector<int> unknowns(const ReferenceWall& wall, int e, int node_count) {
 /// Each node of quadratic elements as a mean of the corners of one of them.
 std::vector<std::vector<Pattern::Share>> shares_of_corners(const ReferenceWall& wall,
                                                            mesh::CellKind kind, int node_count) {
-  const std::vector<Vec3> places = solid::node_places(kind, 2);
-  const std::vector<Vec3> corners = solid::node_places(kind, 1);
+  const std::vector<Vec3> places = mesh::node_places(kind, 2);
+  const std::vector<Vec3> corners = mesh::node_places(kind, 1);
   const Eigen::MatrixXd weights =
       solid::element_shapes(kind, 1, {places, std::vector<double>(places.size(), 1.0)}).value;
   std::vector<int> at;  // the corners among the nodes of an element
@@ -132,10 +131,10 @@ std::vector<std::vector<Pattern::Share>> shares_of_corners(const ReferenceWall& 
 }
 
 /// Linear elements would lock with the stabilisation of quadratic ones.
-Muscle for_order(Muscle muscle, int order) {
+StaticModel for_order(StaticModel model, int order) {
   if (order == 1)
-    muscle.stabilisation.beta_s = 0.0;
-  return muscle;
+    model.stabilisation.beta_s = 0.0;
+  return model;
 }
 
 }  // namespace
@@ -151,18 +150,16 @@ ElementState element_state(const ReferenceWall& wall, int e, const State& state)
   return s;
 }
 
-Equations::Equations(const mesh::Mesh& mesh, const mesh::FibreRule& fibres, const Muscle& muscle)
+Equations::Equations(const mesh::Mesh& mesh, const StaticModel& model)
     : mesh_(mesh),
-      wall_(reference_wall(mesh, fibres)),
-      sides_(mesh::sides(mesh, mesh.endo)),
-      side_shapes_(solid::side_shapes(mesh.kind, mesh.order)),
-      fibres_(fibres),
-      muscle_(for_order(muscle, mesh.order)),
-      base_(mesh, muscle.base) {}
+      wall_(reference_wall(mesh, model.heart.fibres)),
+      endocardium_(mesh),
+      model_(for_order(model, mesh.order)),
+      base_(mesh, model.heart.base) {}
 
-void Equations::set_muscle(const Muscle& muscle) {
-  muscle_ = for_order(muscle, mesh_.order);
-  base_ = solid::BasalPenalty(mesh_, muscle.base);
+void Equations::set_model(const StaticModel& model) {
+  model_ = for_order(model, mesh_.order);
+  base_ = solid::BasalPenalty(mesh_, model.heart.base);
 }
 
 State Equations::rest() const {
@@ -178,22 +175,9 @@ Pattern Equations::pattern() const {
   return pattern;
 }
 
-/// Calls visit(nodes, their positions) for this rank's sides of the endocardium.
-template <class Visit>
-void Equations::for_sides(const State& state, const Visit& visit) const {
-  const auto share = parallel::share(sides_.size(), parallel::rank(), parallel::size());
-  for (int f = share.begin; f < share.end; ++f) {
-    const auto nodes = sides_.element(f);
-    Eigen::Matrix3Xd x(3, nodes.size());
-    for (std::size_t a = 0; a < nodes.size(); ++a)
-      x.col(static_cast<Eigen::Index>(a)) = state.positions[nodes[a]];
-    visit(nodes, x);
-  }
-}
-
 std::vector<double> Equations::residual(const State& state, const Loads& loads) const {
   std::vector<double> R(size(), 0.0);
-  const Constitution law{muscle_, loads.activation};
+  const Constitution law{model_, loads.activation};
   bool inverted = false;
   for (std::size_t i = 0; i < wall_.points.size(); ++i) {
     const int e = wall_.own[i];
@@ -206,7 +190,7 @@ std::vector<double> Equations::residual(const State& state, const Loads& loads) 
       const double J = determinant(F);
       inverted = inverted || !(J > 0.0);
       const Eigen::VectorXd N = wall_.pressure_shapes.value.row(static_cast<Eigen::Index>(q));
-      const Mat3 P = law.stress(F, point.infarct) + N.dot(s.p) * cofactor(F);
+      const Mat3 P = law.stress(F, J, point.infarct) + N.dot(s.p) * cofactor(F);
       force.noalias() += point.volume * P * point.gradient;
       swelling += point.volume * (J - 1.0) * N;
     }
@@ -218,27 +202,19 @@ std::vector<double> Equations::residual(const State& state, const Loads& loads) 
   }
   if (parallel::any(inverted))
     return {};
-  for_sides(state, [&](std::span<const int> nodes, const Eigen::Matrix3Xd& x) {
-    for (int q = 0; q < side_shapes_.points(); ++q) {
-      const Eigen::Matrix<double, 3, 2> x_xi = x * side_shapes_.gradient[q].transpose();
-      const Vec3 n_da = side_shapes_.weight[q] * x_xi.col(0).cross(x_xi.col(1));
-      for (std::size_t a = 0; a < nodes.size(); ++a)
-        for (int i = 0; i < 3; ++i)
-          R[3 * nodes[a] + i] += loads.pressure * side_shapes_.value(q, a) * n_da[i];
-    }
-  });
-  std::vector<Vec3> springs(state.positions.size(), Vec3::Zero());
-  base_.add_forces(state.positions, springs);
-  for (std::size_t a = 0; a < springs.size(); ++a)
+  std::vector<Vec3> forces(state.positions.size(), Vec3::Zero());
+  endocardium_.add_gradient(loads.pressure, state.positions, forces);
+  base_.add_forces(state.positions, forces);
+  for (std::size_t a = 0; a < forces.size(); ++a)
     for (int i = 0; i < 3; ++i)
-      R[3 * a + i] -= springs[a][i];
+      R[3 * a + i] -= forces[a][i];
   parallel::sum(R);
   return R;
 }
 
 void Equations::tangent(const State& state, const Loads& loads, SparseMatrix& K) const {
   K.set_zero();
-  const Constitution law{muscle_, loads.activation};
+  const Constitution law{model_, loads.activation};
   ElementTangent element(wall_.elements.nodes_per_element, wall_.pressures.nodes_per_element,
                          wall_.points.empty() ? 0 : wall_.points.front().size());
   for (std::size_t i = 0; i < wall_.points.size(); ++i) {
@@ -249,26 +225,13 @@ void Equations::tangent(const State& state, const Loads& loads, SparseMatrix& K)
     K.add_pressure_mass(std::span(at).last(wall_.pressures.nodes_per_element),
                         element.pressure_mass());
   }
-  for_sides(state, [&](std::span<const int> nodes, const Eigen::Matrix3Xd& x) {
-    const auto n = static_cast<Eigen::Index>(nodes.size());
-    Eigen::MatrixXd block = Eigen::MatrixXd::Zero(3 * n, 3 * n);
-    for (int q = 0; q < side_shapes_.points(); ++q) {
-      const Eigen::MatrixXd& gradient = side_shapes_.gradient[q];
-      const Eigen::Matrix<double, 3, 2> x_xi = x * gradient.transpose();
-      const Mat3 along_s = cross_matrix(x_xi.col(0));
-      const Mat3 along_t = cross_matrix(x_xi.col(1));
-      for (Eigen::Index b = 0; b < n; ++b) {
-        const Mat3 d_normal = loads.pressure * side_shapes_.weight[q] *
-                              (gradient(1, b) * along_s - gradient(0, b) * along_t);
-        for (Eigen::Index a = 0; a < n; ++a)
-          block.block<3, 3>(3 * a, 3 * b) += side_shapes_.value(q, a) * d_normal;
-      }
-    }
-    std::vector<int> at;
-    for (const int node : nodes)
-      at.insert(at.end(), {3 * node, 3 * node + 1, 3 * node + 2});
-    K.add(at, block);
-  });
+  endocardium_.add_hessian(-loads.pressure, state.positions,
+                           [&](std::span<const int> nodes, const Eigen::MatrixXd& block) {
+                             std::vector<int> at;
+                             for (const int node : nodes)
+                               at.insert(at.end(), {3 * node, 3 * node + 1, 3 * node + 2});
+                             K.add(at, block);
+                           });
   if (parallel::is_root())
     for (const auto& spring : base_.springs())
       K.add(std::array{3 * spring.node, 3 * spring.node + 1, 3 * spring.node + 2},
@@ -277,7 +240,7 @@ void Equations::tangent(const State& state, const Loads& loads, SparseMatrix& K)
 }
 
 double Equations::mean_tension(const State& state, double activation) const {
-  const Constitution law{muscle_, activation};
+  const Constitution law{model_, activation};
   std::array<double, 2> sums{};
   for (std::size_t i = 0; i < wall_.points.size(); ++i) {
     const ElementState s = element_state(wall_, wall_.own[i], state);

@@ -3,35 +3,38 @@
 #include "lv/quasi_static/contractility.hpp"
 #include "lv/quasi_static/reference_wall.hpp"
 #include "lv/quasi_static/sparse.hpp"
-#include "lv/solid/boundary.hpp"
+#include "lv/solid/cardiac_model.hpp"
 #include "lv/solid/cell_stress.hpp"
-#include "lv/solid/wall.hpp"
+#include "lv/solid/endocardial_surface.hpp"
+#include "lv/solid/loads.hpp"
 
 #include <vector>
 
 namespace lv::quasi_static {
 
-/// What acts on the wall.
-struct Loads {
-  double pressure = 0.0;    ///< on the endocardium, a follower load [kPa]
-  double activation = 0.0;  ///< see Contractility [-]
-
-  [[nodiscard]] bool operator==(const Loads&) const = default;
-};
+using solid::Loads;
 
 /// Springs that yield by micrometres under the pressures of a ventricle [kPa/mm].
 inline constexpr double rigid_base = 1e6;
 
-/// What the wall is made of, and how its base is held.
-struct Muscle {
-  solid::WallMaterial material;  ///< its volumetric penalty is not used: the wall is incompressible
-  Contractility contractility{0.0};
-  solid::BasalSupport base;
+/// A cardiac model as equilibria without time see it.
+struct StaticModel {
   /// Volumetric stiffness at every quadrature point, beside the pressures' weaker constraint. Zero
   /// at J = 1, so no solution sees it, but it holds the deformations inside an element that change
   /// volume here and there and not in the mean: under p they would buckle in so soft a muscle. Of
   /// quadratic elements only: linear ones would lock.
-  material::Volumetric stabilisation{.beta_s = 10.0};
+  static constexpr material::Volumetric default_stabilisation{.beta_s = 10.0};
+
+  // NOLINTNEXTLINE(google-explicit-constructor): it is the same model
+  StaticModel(solid::CardiacModel model, const material::Calcium& calcium = {},
+              const material::Volumetric& at_points = default_stabilisation)
+      : heart(std::move(model)),
+        contractility(heart.myocardium.active, calcium),
+        stabilisation(at_points) {}
+
+  solid::CardiacModel heart;  ///< its volumetric penalty is not used: the wall is incompressible
+  Contractility contractility;
+  material::Volumetric stabilisation;
 };
 
 /// Positions of the nodes [mm] and pressures of the elements [kPa]: all unknowns, on every rank.
@@ -52,20 +55,19 @@ struct ElementState {
 /// Equilibrium of the incompressible wall in weak form, for all test functions phi_a and q_m:
 ///
 ///   R_a = int [P_passive(F) + P_active(F) + P_stabilisation(F) + p cof F] grad phi_a dX
-///         + p_endo int phi_a n da + K_base (x_a - X_a)  = 0                                [mN]
+///         - p_endo dV/dx_a + K_base (x_a - X_a)         = 0                                [mN]
 ///   R_m = int q_m (J - 1) dX                            = 0                                [mm^3]
 ///
-/// with P_passive from (2.18) and (2.23), P_active from (2.21) and (2.24), n out of the wall. p is
+/// with P_passive from (2.18) and (2.23), P_active from (2.21) and (2.24), V of the cavity. p is
 /// the tension that holds J = 1: the Cauchy stress is sigma^p + sigma^a + p 1, so -p is the p of
 /// (2.6). Unknowns are numbered 3 a + i for the positions, then the pressures.
 class Equations {
  public:
   /// The mesh must outlive the equations.
-  Equations(const mesh::Mesh& mesh, const mesh::FibreRule& fibres, const Muscle& muscle);
+  Equations(const mesh::Mesh& mesh, const StaticModel& model);
 
-  /// Other muscle on the same mesh.
-  void set_muscle(const Muscle& muscle);
-  [[nodiscard]] const Muscle& muscle() const { return muscle_; }
+  /// Other muscle on the same mesh, with the same fibres.
+  void set_model(const StaticModel& model);
 
   /// Undeformed, without pressures.
   [[nodiscard]] State rest() const;
@@ -75,6 +77,8 @@ class Equations {
 
   /// The nodes' places before any load [mm].
   [[nodiscard]] std::span<const Vec3> undeformed() const { return mesh_.nodes; }
+
+  [[nodiscard]] const solid::EndocardialSurface& endocardium() const { return endocardium_; }
 
   /// Which unknowns the tangent joins.
   [[nodiscard]] Pattern pattern() const;
@@ -95,15 +99,10 @@ class Equations {
                                                            double activation) const;
 
  private:
-  template <class Visit>
-  void for_sides(const State& state, const Visit& visit) const;
-
   const mesh::Mesh& mesh_;
   ReferenceWall wall_;
-  mesh::ElementNodes sides_;  ///< of the endocardium
-  solid::ShapeTable side_shapes_;
-  mesh::FibreRule fibres_;
-  Muscle muscle_;
+  solid::EndocardialSurface endocardium_;
+  StaticModel model_;
   solid::BasalPenalty base_;
 };
 

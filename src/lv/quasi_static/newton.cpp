@@ -1,8 +1,11 @@
 #include "lv/quasi_static/newton.hpp"
 
+#include "lv/base/interrupt.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
+#include <optional>
 
 namespace lv::quasi_static {
 namespace {
@@ -38,35 +41,44 @@ class Newton::Attempt {
       : newton_(newton),
         loads_(loads),
         state_(start),
-        residual_(newton.equations_.residual(start, loads)) {
-    if (residual_.empty())
-      throw NoConvergence("an element is turned inside out at the start");
-  }
+        residual_(newton.equations_.residual(start, loads)) {}
 
-  void run() {
-    if (newton_.has_tangent_)
+  NewtonReport run() {
+    if (residual_.empty())
+      give_up("an element is turned inside out at the start");
+    else if (newton_.has_tangent_)
       correct();
     else
       renew_tangent();
-    while (correction_size_ > newton_.parameters_.tolerance)
+    while (!gave_up() && correction_size_ > newton_.parameters_.tolerance)
       iterate();
-    state_ = moved(state_, correction_, 1.0);
+    report_.converged = !gave_up();
+    if (report_.converged)
+      state_ = moved(state_, correction_, 1.0);
+    return report_;
   }
 
   [[nodiscard]] const State& state() const { return state_; }
-  [[nodiscard]] const NewtonReport& report() const { return report_; }
 
  private:
-  std::vector<double> solve_linear(const std::vector<double>& b) {
-    std::vector<double> x = newton_.tangent_.solve(b);
+  void give_up(const std::string& why) { report_.why = why; }
+  [[nodiscard]] bool gave_up() const { return !report_.why.empty(); }
+
+  /// Nothing when there is no solution, which ends the attempt.
+  std::optional<std::vector<double>> solve_linear(const std::vector<double>& b) {
+    const auto x = newton_.tangent_.solve(b);
     ++report_.linear_solves;
     report_.linear_iterations += newton_.tangent_.iterations();
-    return x;
+    if (x)
+      return *x;
+    give_up(x.why().what);
+    return {};
   }
 
   /// The correction that the tangent at hand asks for.
   void correct() {
-    set_correction(solve_linear(residual_));
+    if (auto against = solve_linear(residual_))
+      set_correction(std::move(*against));
     fresh_ = false;
   }
 
@@ -86,18 +98,24 @@ class Newton::Attempt {
   }
 
   void iterate() {
-    if (++report_.iterations > newton_.parameters_.iterations)
-      throw NoConvergence(fmt::format(
-          "no equilibrium after {} corrections (the last moved the wall by {:.2g} mm rms)",
-          newton_.parameters_.iterations, correction_size_));
+    interrupt::check_together();
+    if (++report_.iterations > newton_.parameters_.iterations) {
+      give_up(
+          fmt::format("no equilibrium after {} corrections (the last moved the wall by {:.2g} mm "
+                      "rms)",
+                      newton_.parameters_.iterations, correction_size_));
+      return;
+    }
     const State trial = moved(state_, correction_, damping_);
     std::vector<double> residual = newton_.equations_.residual(trial, loads_);
     if (residual.empty()) {
       reject("elements turn inside out");
       return;
     }
-    const std::vector<double> next = solve_linear(residual);
-    const double contraction = size(next, state_.positions.size()) / correction_size_;
+    const auto next = solve_linear(residual);
+    if (!next)
+      return;
+    const double contraction = size(*next, state_.positions.size()) / correction_size_;
     if (!(contraction <= 1.0 - 0.25 * damping_)) {
       reject(fmt::format("corrections do not become smaller (ratio {:.2g})", contraction));
       return;
@@ -105,7 +123,7 @@ class Newton::Attempt {
     state_ = trial;
     residual_ = std::move(residual);
     if (damping_ == 1.0 && contraction < good_contraction) {
-      set_correction(next);
+      set_correction(*next);
       fresh_ = false;
       return;
     }
@@ -121,7 +139,7 @@ class Newton::Attempt {
     }
     damping_ *= 0.5;
     if (damping_ < newton_.parameters_.smallest_damping)
-      throw NoConvergence(why);
+      give_up(why);
   }
 
   Newton& newton_;
@@ -140,15 +158,13 @@ Newton::Newton(const Equations& equations, const NewtonParameters& parameters)
       tangent_(equations.pattern(), parameters.linear, equations.undeformed()) {}
 
 NewtonReport Newton::solve(State& state, const Loads& loads) {
-  try {
-    Attempt attempt(*this, state, loads);
-    attempt.run();
+  Attempt attempt(*this, state, loads);
+  NewtonReport report = attempt.run();
+  if (report.converged)
     state = attempt.state();
-    return attempt.report();
-  } catch (const NoConvergence&) {
+  else
     has_tangent_ = false;  // it may belong to a place far off
-    throw;
-  }
+  return report;
 }
 
 }  // namespace lv::quasi_static

@@ -2,6 +2,8 @@
 
 #include "lv/quasi_static/equations.hpp"
 
+#include <string>
+
 namespace lv::quasi_static {
 
 struct NewtonParameters {
@@ -11,8 +13,10 @@ struct NewtonParameters {
   LinearParameters linear;
 };
 
-/// How one equilibrium was found.
-struct NewtonReport {
+/// How one equilibrium was found, or why it was not.
+struct [[nodiscard]] NewtonReport {
+  bool converged = false;
+  std::string why;  ///< it did not
   int iterations = 0;
   int factorisations = 0;
   int linear_solves = 0;
@@ -28,8 +32,7 @@ class Newton {
   /// The equations must outlive this object.
   Newton(const Equations& equations, const NewtonParameters& parameters);
 
-  /// Brings `state` to equilibrium under `loads`. Throws NoConvergence, with `state` as it was.
-  /// Collective.
+  /// Brings `state` to equilibrium under `loads`, or leaves it as it was. Collective.
   NewtonReport solve(State& state, const Loads& loads);
 
   /// The muscle has changed: the tangent is of no use any more.

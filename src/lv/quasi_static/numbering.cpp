@@ -1,15 +1,14 @@
 #include "lv/quasi_static/numbering.hpp"
 
-#include "lv/base/parallel.hpp"
-
 #include <algorithm>
 
 namespace lv::quasi_static {
 namespace {
 
 /// The lowest rank whose elements have each of the unknowns first, first + stride, ...
-std::vector<int> lowest_owners(const Pattern& pattern, int first, int stride, int count) {
-  std::vector<int> result(count, parallel::size() - 1);
+std::vector<int> lowest_owners(const Pattern& pattern, int first, int stride, int count,
+                               int ranks) {
+  std::vector<int> result(count, ranks - 1);
   for (std::size_t g = 0; g < pattern.groups.size(); ++g) {
     for (const int unknown : pattern.groups[g]) {
       const int thing = (unknown - first) / stride;
@@ -22,8 +21,8 @@ std::vector<int> lowest_owners(const Pattern& pattern, int first, int stride, in
 
 }  // namespace
 
-Runs::Runs(std::vector<int> owners)
-    : owners_(std::move(owners)), numbers_(owners_.size()), first_(parallel::size() + 1, 0) {
+Runs::Runs(std::vector<int> owners, int ranks)
+    : owners_(std::move(owners)), numbers_(owners_.size()), first_(ranks + 1, 0) {
   for (const int rank : owners_)
     ++first_[rank + 1];
   for (std::size_t r = 1; r < first_.size(); ++r)
@@ -41,9 +40,10 @@ int Runs::end() const {
   return end(parallel::rank());
 }
 
-Numbering::Numbering(const Pattern& pattern)
-    : nodes_(lowest_owners(pattern, 0, 3, pattern.nodes)),
-      pressures_(lowest_owners(pattern, pattern.displacements(), 1, pattern.pressures)),
+Numbering::Numbering(const Pattern& pattern, int ranks)
+    : nodes_(lowest_owners(pattern, 0, 3, pattern.nodes, ranks), ranks),
+      pressures_(lowest_owners(pattern, pattern.displacements(), 1, pattern.pressures, ranks),
+                 ranks),
       numbers_(pattern.size()) {
   for (int a = 0; a < pattern.nodes; ++a)
     for (int i = 0; i < 3; ++i)

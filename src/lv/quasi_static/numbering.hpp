@@ -1,5 +1,7 @@
 #pragma once
 
+#include "lv/base/parallel.hpp"
+
 #include <span>
 #include <vector>
 
@@ -27,7 +29,7 @@ struct Pattern {
 /// Things numbered anew so that those of each rank are in one run.
 class Runs {
  public:
-  explicit Runs(std::vector<int> owners);
+  Runs(std::vector<int> owners, int ranks);
 
   [[nodiscard]] int owner(int thing) const { return owners_[thing]; }
   [[nodiscard]] int operator[](int thing) const { return numbers_[thing]; }
@@ -50,7 +52,7 @@ class Runs {
 /// pressures. What several elements share belongs to the lowest of their ranks.
 class Numbering {
  public:
-  explicit Numbering(const Pattern& pattern);
+  explicit Numbering(const Pattern& pattern, int ranks = parallel::size());
 
   [[nodiscard]] int operator[](int unknown) const { return numbers_[unknown]; }
   [[nodiscard]] int begin() const { return 3 * nodes_.begin() + pressures_.begin(); }

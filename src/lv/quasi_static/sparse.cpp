@@ -110,20 +110,13 @@ class SparseMatrix::Implementation {
     return blocks_ ? count : 0;
   }
 
-  std::vector<double> solve(std::span<const double> b) {
+  Outcome<std::vector<double>> solve(std::span<const double> b) {
     set_right_hand_side(b);
     check(KSPSolve(ksp_, b_, x_));
     KSPConvergedReason reason{};
     check(KSPGetConvergedReason(ksp_, &reason));
-    if (reason < 0 && parameters_.method == LinearMethod::iterative)
-      throw NoConvergence(
-          fmt::format("GMRES does not solve the linear equations ({}); "
-                      "quasi_static.linear_solver = \"direct\" would",
-                      KSPConvergedReasons[reason]));
     if (reason < 0)
-      throw RunError(
-          fmt::format("The linear equations could not be solved ({})", KSPConvergedReasons[reason]),
-          "A wall that nothing holds is the usual reason: look at the base");
+      return why_unsolved(reason);
     check(VecScatterBegin(to_all_, x_, everything_, INSERT_VALUES, SCATTER_FORWARD));
     check(VecScatterEnd(to_all_, x_, everything_, INSERT_VALUES, SCATTER_FORWARD));
     const PetscScalar* values = nullptr;
@@ -136,6 +129,25 @@ class SparseMatrix::Implementation {
   }
 
  private:
+  [[nodiscard]] Unsolved why_unsolved(KSPConvergedReason reason) const {
+    if (parameters_.method == LinearMethod::iterative)
+      return {fmt::format("GMRES does not solve the linear equations ({})",
+                          KSPConvergedReasons[reason]),
+              "Set quasi_static.linear_solver = \"direct\""};
+    PC pc = nullptr;
+    check(KSPGetPC(ksp_, &pc));
+    PCFailedReason failure{};
+    check(PCGetFailedReason(pc, &failure));
+    if (failure == PC_FACTOR_OUTMEMORY)
+      throw RunError("Memory does not suffice to factorise the linear equations",
+                     "Take a coarser mesh, more machines, or quasi_static.linear_solver = "
+                     "\"iterative\"");
+    return {fmt::format("the linear equations are singular ({}), as those of a wall that nothing "
+                        "holds",
+                        KSPConvergedReasons[reason]),
+            "Look at the base"};
+  }
+
   void insert(const Eigen::MatrixXd& block, Mat to) {
     const auto n = static_cast<PetscInt>(at_.size());
     row_major_ = block;
@@ -222,7 +234,7 @@ int SparseMatrix::iterations() const {
   return implementation_->iterations();
 }
 
-std::vector<double> SparseMatrix::solve(std::span<const double> b) {
+Outcome<std::vector<double>> SparseMatrix::solve(std::span<const double> b) {
   return implementation_->solve(b);
 }
 

@@ -1,21 +1,14 @@
 #pragma once
 
+#include "lv/base/outcome.hpp"
 #include "lv/base/tensor.hpp"
 #include "lv/quasi_static/numbering.hpp"
 
 #include <memory>
 #include <span>
-#include <stdexcept>
 #include <vector>
 
 namespace lv::quasi_static {
-
-/// Iterations did not find what they look for, an equilibrium or the solution of a linear system;
-/// says why. Shorter steps may help.
-class NoConvergence : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 /// How systems are solved.
 enum class LinearMethod {
@@ -53,10 +46,10 @@ class SparseMatrix {
   /// All ranks have added all. Collective.
   void finish();
 
-  /// Solves K x = b; b and x complete on every rank. The factorisation is kept until the matrix
-  /// changes. Throws RunError when the matrix is singular, NoConvergence when iterations fail.
-  /// Collective.
-  [[nodiscard]] std::vector<double> solve(std::span<const double> b);
+  /// Solves K x = b, unless the matrix is singular or iterations fail; b and x complete on every
+  /// rank. The factorisation is kept until the matrix changes. Throws RunError when memory runs
+  /// out. Collective.
+  Outcome<std::vector<double>> solve(std::span<const double> b);
 
   /// Of the iterative method, in the last solve; 0 of the direct one.
   [[nodiscard]] int iterations() const;

@@ -21,14 +21,14 @@ constexpr double smallest_share = 1.0 / 64;  // of the pressure, before it gives
 constexpr double far_below = 0.02;
 constexpr double loose = 0.5;  // tolerance on the way to the whole pressure [mm]
 
-using Shape = std::vector<Vec3>;
+using Nodes = std::vector<Vec3>;
 
-Eigen::Map<const Eigen::VectorXd> as_vector(const Shape& shape) {
+Eigen::Map<const Eigen::VectorXd> as_vector(const Nodes& shape) {
   return {shape.front().data(), static_cast<Eigen::Index>(3 * shape.size())};
 }
 
-Shape as_shape(const Eigen::VectorXd& numbers) {
-  Shape shape(static_cast<std::size_t>(numbers.size() / 3));
+Nodes as_nodes(const Eigen::VectorXd& numbers) {
+  Nodes shape(static_cast<std::size_t>(numbers.size() / 3));
   for (std::size_t a = 0; a < shape.size(); ++a)
     shape[a] = numbers.segment<3>(static_cast<Eigen::Index>(3 * a));
   return shape;
@@ -60,28 +60,28 @@ struct Trial {
 
 class Unloader {
  public:
-  Unloader(const mesh::Mesh& given, const mesh::FibreRule& fibres, const Muscle& muscle,
-           const UnloadParameters& parameters, const Parameters& solver)
+  Unloader(const mesh::Mesh& given, const StaticModel& model, const UnloadParameters& parameters,
+           const SolverParameters& solver, UnloadRecord record)
       : given_(given),
-        fibres_(fibres),
-        muscle_(muscle),
+        model_(model),
         parameters_(parameters),
         solver_(solver),
-        cavity_(given),
+        record_(std::move(record)),
+        endocardium_(given),
         target_(as_vector(given.nodes)) {}
 
-  Unloaded run(const Unloaded* start) {
+  Outcome<Unloaded> run(const Unloaded* start) {
     if (start == nullptr || !try_from(as_vector(start->nodes), &start->loaded))
       approach();
     if (now_.step.largest > parameters_.tolerance)
-      throw RunError(
+      return Unsolved{
           fmt::format("The shape without load was not found at {:.2f} mmHg: loaded again it is off "
                       "by {:.3g} mm (rms {:.3g} mm) after {} equilibria",
                       parameters_.pressure / units::mmHg, now_.step.largest, now_.step.rms,
                       equilibria_),
           "Check unloaded.pressure (a soft wall may never have had so much), or raise "
-          "unloaded.tolerance or unloaded.iterations");
-    return {as_shape(now_.X), std::move(now_.loaded), std::move(steps_)};
+          "unloaded.tolerance or unloaded.iterations"};
+    return Unloaded{as_nodes(now_.X), std::move(now_.loaded), std::move(steps_)};
   }
 
  private:
@@ -179,31 +179,42 @@ class Unloader {
   /// The equilibrium of X; nothing where the wall is turned inside out or has none.
   std::optional<Trial> load(const Eigen::VectorXd& X, const State* near) {
     mesh::Mesh wall = given_;
-    wall.nodes = as_shape(X);
+    wall.nodes = as_nodes(X);
     if (!is_sound(wall))
       return {};
-    ++equilibria_;
-    Trial trial{X, {}, {}, {}};
-    try {
-      Engine engine(wall, fibres_, muscle_, solver_);
-      if (near != nullptr) {
-        engine.restore({given_.nodes, near->pressures}, {pressure_, 0.0});
-        engine.set_muscle(muscle_);
-      } else {
-        engine.go_to({pressure_, 0.0});
-      }
-      trial.loaded = engine.state();
-      trial.step.volume = engine.cavity_volume();
-    } catch (const RunError& failure) {
-      log::info("a wall that was tried without load has no equilibrium: {}", failure.what());
+    std::optional<State> loaded = next_equilibrium(wall, near);
+    if (!loaded)
       return {};
-    }
+    Trial trial{X, {}, std::move(*loaded), {}};
+    trial.step.volume = endocardium_.volume(trial.loaded.positions);
     trial.R = target_ - as_vector(trial.loaded.positions);
-    trial.step.unloaded_volume = cavity_.volume(wall.nodes);
+    trial.step.unloaded_volume = endocardium_.volume(wall.nodes);
     const Eigen::Map<const Eigen::Matrix3Xd> R(trial.R.data(), 3, trial.R.size() / 3);
     trial.step.largest = R.colwise().norm().maxCoeff();
     trial.step.rms = std::sqrt(R.colwise().squaredNorm().mean());
     return trial;
+  }
+
+  /// From the record, or found and put there.
+  std::optional<State> next_equilibrium(const mesh::Mesh& wall, const State* near) {
+    const auto n = static_cast<std::size_t>(equilibria_++);
+    if (n >= record_.known.size()) {
+      record_.known.push_back(equilibrium(wall, near));
+      if (record_.keep)
+        record_.keep(record_.known);
+    }
+    return record_.known[n];
+  }
+
+  std::optional<State> equilibrium(const mesh::Mesh& wall, const State* near) {
+    Engine engine(wall, model_, solver_);
+    if (near != nullptr)
+      engine.restore({given_.nodes, near->pressures}, {pressure_, 0.0});
+    const auto volume = near != nullptr ? engine.set_model(model_) : engine.go_to({pressure_, 0.0});
+    if (volume)
+      return engine.state();
+    log::info("a wall that was tried without load has no equilibrium: {}", volume.why().what);
+    return {};
   }
 
   void accept(Trial&& trial) {
@@ -236,11 +247,11 @@ class Unloader {
   };
 
   const mesh::Mesh& given_;
-  const mesh::FibreRule& fibres_;
-  const Muscle& muscle_;
+  const StaticModel& model_;
   const UnloadParameters& parameters_;
-  const Parameters& solver_;
-  solid::Cavity cavity_;
+  const SolverParameters& solver_;
+  UnloadRecord record_;
+  solid::EndocardialSurface endocardium_;
   Eigen::VectorXd target_;
   double pressure_ = 0.0;  ///< in force [kPa]
   int equilibria_ = 0;
@@ -252,10 +263,10 @@ class Unloader {
 
 }  // namespace
 
-Unloaded unload(const mesh::Mesh& given, const mesh::FibreRule& fibres, const Muscle& muscle,
-                const UnloadParameters& parameters, const Parameters& solver,
-                const Unloaded* start) {
-  return Unloader(given, fibres, muscle, parameters, solver).run(start);
+Outcome<Unloaded> unload(const mesh::Mesh& given, const StaticModel& model,
+                         const UnloadParameters& parameters, const SolverParameters& solver,
+                         const Unloaded* start, UnloadRecord record) {
+  return Unloader(given, model, parameters, solver, std::move(record)).run(start);
 }
 
 }  // namespace lv::quasi_static

@@ -7,11 +7,6 @@
 
 namespace lv::solid {
 
-/// Adds the nodal forces of a pressure [kPa] on this rank's share of a surface, as a follower load:
-/// F_a = -p int phi_a n da over the deformed faces, n out of the wall [mN].
-void add_pressure_forces(const mesh::Surface& surface, double pressure,
-                         std::span<const Vec3> positions, std::span<Vec3> forces);
-
 /// How the basal plane is held (section 2.4).
 struct BasalSupport {
   enum class Kind {

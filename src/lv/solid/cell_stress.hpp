@@ -2,9 +2,11 @@
 
 #include "lv/base/tensor.hpp"
 
+#include <span>
+
 namespace lv::solid {
 
-/// Means over one linear cell of a mesh, weighted by reference volume.
+/// Stresses at a point, or means over one linear cell of a mesh, weighted by reference volume.
 struct CellStress {
   double tension = 0.0;                ///< T, with the infarct's factor [kPa]
   double pressure = 0.0;               ///< p of (2.6) [kPa]
@@ -14,7 +16,31 @@ struct CellStress {
   double fibre_stress_passive = 0.0, fibre_stress_active = 0.0;
 
   static constexpr int numbers = 22;  ///< doubles in it, one after the other
+  [[nodiscard]] std::span<double> as_numbers() { return {&tension, numbers}; }
+
+  /// Adds `weight` times another one.
+  void add(double weight, CellStress other) {
+    for (int i = 0; i < numbers; ++i)
+      as_numbers()[i] += weight * other.as_numbers()[i];
+  }
 };
 static_assert(sizeof(CellStress) == CellStress::numbers * sizeof(double));
+
+/// The stresses that a material::PointLaw makes of F with its second index in the fibre frame, so
+/// that sigma = P F^T / J and f = F f0 is its first column. Its volumetric part, which is
+/// spherical, is given as a pressure.
+template <class PointLaw>
+CellStress point_stress(const PointLaw& law, const Mat3& F, double tension, double M) {
+  const double J = determinant(F);
+  const Vec3 f = F.col(0).normalized();
+  CellStress s;
+  s.tension = tension;
+  s.pressure = -(law.volumetric.stress(F) * F.transpose()).trace() / (3.0 * J);
+  s.cauchy_passive = law.passive(F, M) * F.transpose() / J;
+  s.cauchy_active = law.active(F, J, tension) * F.col(0).transpose() / J;
+  s.fibre_stress_passive = f.dot(s.cauchy_passive * f);
+  s.fibre_stress_active = f.dot(s.cauchy_active * f);
+  return s;
+}
 
 }  // namespace lv::solid

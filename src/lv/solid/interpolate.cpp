@@ -2,6 +2,7 @@
 
 #include "lv/base/check.hpp"
 #include "lv/mesh/quadratic.hpp"
+#include "lv/mesh/shapes.hpp"
 
 #include <Eigen/LU>
 #include <boost/geometry.hpp>
@@ -22,59 +23,6 @@ constexpr unsigned candidates = 16;  // elements with the nearest centres
 constexpr int corrections = 30;
 constexpr double converged = 1e-10;  // of xi
 constexpr double farthest = 0.25;    // outside an element, in units of xi
-
-/// phi_a(xi) and d phi_a/d xi, in the order of mesh::elements.
-struct Shapes {
-  Eigen::VectorXd value;
-  Eigen::Matrix3Xd gradient;
-};
-
-/// The Lagrange polynomials on the nodes 0, (1/2), 1 and their derivatives.
-struct Line {
-  std::array<double, 3> value{}, slope{};
-};
-
-Line line(double x, int order) {
-  if (order == 1)
-    return {{1.0 - x, x, 0.0}, {-1.0, 1.0, 0.0}};
-  return {{(1.0 - x) * (1.0 - 2.0 * x), 4.0 * x * (1.0 - x), x * (2.0 * x - 1.0)},
-          {4.0 * x - 3.0, 4.0 - 8.0 * x, 4.0 * x - 1.0}};
-}
-
-Shapes hexahedron(const Vec3& xi, int order) {
-  const int n = order + 1;
-  const std::array<Line, 3> l{line(xi[0], order), line(xi[1], order), line(xi[2], order)};
-  Shapes s{Eigen::VectorXd(n * n * n), Eigen::Matrix3Xd(3, n * n * n)};
-  int a = 0;
-  for (int k = 0; k < n; ++k)
-    for (int j = 0; j < n; ++j)
-      for (int i = 0; i < n; ++i, ++a) {
-        s.value[a] = l[0].value[i] * l[1].value[j] * l[2].value[k];
-        s.gradient.col(a) << l[0].slope[i] * l[1].value[j] * l[2].value[k],
-            l[0].value[i] * l[1].slope[j] * l[2].value[k],
-            l[0].value[i] * l[1].value[j] * l[2].slope[k];
-      }
-  return s;
-}
-
-Shapes tetrahedron(const Vec3& xi, int order) {
-  const std::array<double, 4> L{1.0 - xi.sum(), xi[0], xi[1], xi[2]};
-  const std::array<Vec3, 4> dL{-Vec3::Ones(), Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
-  constexpr std::array<std::array<int, 2>, 6> edges{
-      {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
-  const int n = order == 1 ? 4 : 10;
-  Shapes s{Eigen::VectorXd(n), Eigen::Matrix3Xd(3, n)};
-  for (int a = 0; a < 4; ++a) {
-    s.value[a] = order == 1 ? L[a] : L[a] * (2.0 * L[a] - 1.0);
-    s.gradient.col(a) = order == 1 ? dL[a] : Vec3((4.0 * L[a] - 1.0) * dL[a]);
-  }
-  for (int e = 0; order == 2 && e < 6; ++e) {
-    const auto [a, b] = edges[e];
-    s.value[4 + e] = 4.0 * L[a] * L[b];
-    s.gradient.col(4 + e) = 4.0 * (L[a] * dL[b] + L[b] * dL[a]);
-  }
-  return s;
-}
 
 /// How far xi lies outside the reference element; at most zero inside.
 double outside(const Vec3& xi, CellKind kind) {
@@ -127,9 +75,8 @@ class Interpolation {
     return Tree(entries);
   }
 
-  [[nodiscard]] Shapes shapes(const Vec3& xi) const {
-    return mesh_.kind == CellKind::hexahedron ? hexahedron(xi, mesh_.order)
-                                              : tetrahedron(xi, mesh_.order);
+  [[nodiscard]] mesh::Shapes shapes(const Vec3& xi) const {
+    return mesh::shapes<3>(mesh_.kind, mesh_.order, {xi.x(), xi.y(), xi.z()});
   }
 
   [[nodiscard]] Eigen::Matrix3Xd gather(int e, std::span<const Vec3> values) const {
@@ -144,7 +91,7 @@ class Interpolation {
     const Eigen::Matrix3Xd X = gather(e, mesh_.nodes);
     Vec3 xi = Vec3::Constant(mesh_.kind == CellKind::hexahedron ? 0.5 : 0.25);
     for (int i = 0; i < corrections; ++i) {
-      const Shapes s = shapes(xi);
+      const mesh::Shapes s = shapes(xi);
       const Mat3 dX = X * s.gradient.transpose();
       const Vec3 step = dX.partialPivLu().solve(x - X * s.value);
       if (!step.allFinite())

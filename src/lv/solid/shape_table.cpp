@@ -1,133 +1,110 @@
 #include "lv/solid/shape_table.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/mesh/shapes.hpp"
 
 #include <deal.II/base/quadrature_lib.h>
-#include <deal.II/fe/fe_dgp.h>
-#include <deal.II/fe/fe_q.h>
-#include <deal.II/fe/fe_simplex_p.h>
 
 #include <cmath>
-#include <numeric>
 
 namespace lv::solid {
 namespace {
 
 using mesh::CellKind;
 
-template <int dim>
-dealii::Quadrature<dim> quadrature(CellKind kind, int order) {
-  if (kind == CellKind::hexahedron)
-    return dealii::QGauss<dim>(order + 1);
-  return dealii::QGaussSimplex<dim>(order + 1);
-}
+template <int Dim>
+using Place = std::array<double, Dim>;
 
-/// For each of our nodes, the number of deal.II's shape function: its lattices begin with the
-/// corners, ours run along rows.
-template <int dim>
-std::vector<unsigned> numbering(const dealii::FiniteElement<dim>& fe, CellKind kind, int order) {
-  std::vector<unsigned> numbers(fe.dofs_per_cell);
-  std::iota(numbers.begin(), numbers.end(), 0U);
-  if (kind == CellKind::tetrahedron)
-    return numbers;
-  const auto& points = fe.get_unit_support_points();
-  for (unsigned a = 0; a < points.size(); ++a) {
-    long place = 0;
-    for (int d = dim - 1; d >= 0; --d)
-      place = place * (order + 1) + std::lround(points[a][d] * order);
-    numbers.at(place) = a;
+/// Calls visit(place, weight) for the points of the displacement's own rule.
+template <int Dim, class Visit>
+void for_points(CellKind kind, int order, const Visit& visit) {
+  const dealii::Quadrature<Dim> rule = kind == CellKind::hexahedron
+                                           ? dealii::Quadrature<Dim>(dealii::QGauss<Dim>(order + 1))
+                                           : dealii::QGaussSimplex<Dim>(order + 1);
+  for (unsigned q = 0; q < rule.size(); ++q) {
+    Place<Dim> xi;
+    for (int d = 0; d < Dim; ++d)
+      xi[d] = rule.point(q)[d];
+    visit(xi, rule.weight(q));
   }
-  return numbers;
 }
 
-template <int dim>
-ShapeTable tabulate(const dealii::FiniteElement<dim>& fe, const std::vector<unsigned>& numbers,
-                    const dealii::Quadrature<dim>& rule) {
+/// The table of functions that `at` gives at each of the points.
+template <class Points, class At>
+ShapeTable tabulate(const Points& points, const At& at) {
+  std::vector<double> weights;
+  std::vector<Eigen::VectorXd> values;
   ShapeTable table;
-  const auto points = static_cast<Eigen::Index>(rule.size());
-  const auto nodes = static_cast<Eigen::Index>(numbers.size());
-  table.weight.resize(points);
-  table.value.resize(points, nodes);
-  for (Eigen::Index q = 0; q < points; ++q) {
-    table.weight[q] = rule.weight(q);
-    Eigen::MatrixXd gradient(dim, nodes);
-    for (Eigen::Index a = 0; a < nodes; ++a) {
-      table.value(q, a) = fe.shape_value(numbers[a], rule.point(q));
-      const auto derivative = fe.shape_grad(numbers[a], rule.point(q));
-      for (int d = 0; d < dim; ++d)
-        gradient(d, a) = derivative[d];
-    }
-    table.gradient.push_back(gradient);
-  }
+  points([&](const auto& xi, double weight) {
+    mesh::Shapes shapes = at(xi);
+    weights.push_back(weight);
+    values.push_back(std::move(shapes.value));
+    table.gradient.push_back(std::move(shapes.gradient));
+  });
+  const auto count = static_cast<Eigen::Index>(weights.size());
+  table.weight = Eigen::Map<const Eigen::VectorXd>(weights.data(), count);
+  table.value.resize(count, values.front().size());
+  for (Eigen::Index q = 0; q < count; ++q)
+    table.value.row(q) = values[q];
   return table;
 }
 
-dealii::Quadrature<3> quadrature(const ReferencePoints& at) {
-  std::vector<dealii::Point<3>> points;
-  for (const Vec3& xi : at.places)
-    points.emplace_back(xi.x(), xi.y(), xi.z());
-  return {points, at.weights};
+auto own_points(CellKind kind, int order) {
+  return [=](const auto& visit) { for_points<3>(kind, order, visit); };
 }
 
-/// Calls f with the finite element of the displacement.
-template <int dim, class F>
-auto with_displacement(CellKind kind, int order, const F& f) {
-  LV_CHECK(order == 1 || order == 2);
-  if (kind == CellKind::hexahedron)
-    return f(dealii::FE_Q<dim>(order));
-  return f(dealii::FE_SimplexP<dim>(order));
-}
-
-template <int dim>
-ShapeTable displacement(CellKind kind, int order, const dealii::Quadrature<dim>& rule) {
-  return with_displacement<dim>(kind, order, [&](const auto& fe) {
-    return tabulate<dim>(fe, numbering<dim>(fe, kind, order), rule);
-  });
-}
-
-ShapeTable pressure(CellKind kind, int order, const dealii::Quadrature<3>& rule) {
-  const auto make = [&](const dealii::FiniteElement<3>& fe) {
-    std::vector<unsigned> all(fe.dofs_per_cell);
-    std::iota(all.begin(), all.end(), 0U);
-    return tabulate(fe, all, rule);
+auto points_of(const ReferencePoints& at) {
+  return [&](const auto& visit) {
+    for (std::size_t q = 0; q < at.places.size(); ++q)
+      visit(Place<3>{at.places[q].x(), at.places[q].y(), at.places[q].z()}, at.weights[q]);
   };
-  if (kind == CellKind::hexahedron)
-    return make(dealii::FE_DGP<3>(order - 1));
-  LV_CHECK(order == 2);
-  return make(dealii::FE_SimplexP<3>(1));
+}
+
+template <int Dim>
+auto displacement(CellKind kind, int order) {
+  return [=](const Place<Dim>& xi) { return mesh::shapes<Dim>(kind, order, xi); };
+}
+
+/// Legendre polynomials of a hexahedron, scaled to be orthonormal; the corners' functions of a
+/// tetrahedron.
+mesh::Shapes pressure_at(CellKind kind, int order, const Place<3>& xi) {
+  if (kind == CellKind::tetrahedron) {
+    LV_CHECK(order == 2);
+    return mesh::shapes<3>(kind, 1, xi);
+  }
+  if (order == 1)
+    return {Eigen::VectorXd::Ones(1), {}};
+  const double root = std::sqrt(3.0);
+  return {Eigen::Vector4d(1.0, root * (2.0 * xi[0] - 1.0), root * (2.0 * xi[1] - 1.0),
+                          root * (2.0 * xi[2] - 1.0)),
+          {}};
+}
+
+auto pressure(CellKind kind, int order) {
+  return [=](const Place<3>& xi) { return pressure_at(kind, order, xi); };
 }
 
 }  // namespace
 
 ShapeTable element_shapes(CellKind kind, int order) {
-  return displacement<3>(kind, order, quadrature<3>(kind, order));
+  return tabulate(own_points(kind, order), displacement<3>(kind, order));
 }
 
 ShapeTable side_shapes(CellKind kind, int order) {
-  return displacement<2>(kind, order, quadrature<2>(kind, order));
+  return tabulate([=](const auto& visit) { for_points<2>(kind, order, visit); },
+                  displacement<2>(kind, order));
 }
 
 ShapeTable pressure_shapes(CellKind kind, int order) {
-  return pressure(kind, order, quadrature<3>(kind, order));
+  return tabulate(own_points(kind, order), pressure(kind, order));
 }
 
 ShapeTable element_shapes(CellKind kind, int order, const ReferencePoints& points) {
-  return displacement<3>(kind, order, quadrature(points));
+  return tabulate(points_of(points), displacement<3>(kind, order));
 }
 
 ShapeTable pressure_shapes(CellKind kind, int order, const ReferencePoints& points) {
-  return pressure(kind, order, quadrature(points));
-}
-
-std::vector<Vec3> node_places(CellKind kind, int order) {
-  return with_displacement<3>(kind, order, [&](const auto& fe) {
-    std::vector<Vec3> places;
-    for (const unsigned number : numbering<3>(fe, kind, order)) {
-      const auto& p = fe.get_unit_support_points()[number];
-      places.emplace_back(p[0], p[1], p[2]);
-    }
-    return places;
-  });
+  return tabulate(points_of(points), pressure(kind, order));
 }
 
 }  // namespace lv::solid

@@ -44,7 +44,4 @@ struct ReferencePoints {
 [[nodiscard]] ShapeTable pressure_shapes(mesh::CellKind kind, int order,
                                          const ReferencePoints& points);
 
-/// Where an element's nodes lie in the reference element, in the order of mesh::elements.
-[[nodiscard]] std::vector<Vec3> node_places(mesh::CellKind kind, int order);
-
 }  // namespace lv::solid

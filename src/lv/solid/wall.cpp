@@ -57,6 +57,23 @@ Tensor<double> lane(const From& tensor, int i) {
   return result;
 }
 
+/// Smallest and largest of what it was shown, lane by lane.
+struct PackRange {
+  Pack lowest = Pack(std::numeric_limits<double>::max());
+  Pack highest = Pack(std::numeric_limits<double>::lowest());
+
+  void include(const Pack& value) {
+    lowest = xsimd::min(lowest, value);
+    highest = xsimd::max(highest, value);
+  }
+  [[nodiscard]] VolumeRange over_lanes() const {
+    VolumeRange range{lane(lowest, 0), lane(highest, 0)};
+    for (int i = 1; i < pack_size; ++i)
+      range = {std::min(range.min_J, lane(lowest, i)), std::max(range.max_J, lane(highest, i))};
+    return range;
+  }
+};
+
 void set_lane(Pack& pack, int i, double value) {
   alignas(Pack) std::array<double, pack_size> values;
   pack.store_aligned(values.data());
@@ -72,9 +89,9 @@ class Wall::Elements {
   virtual ~Elements() = default;
   [[nodiscard]] virtual std::span<const double> nodal_volumes() const = 0;
   virtual void add_stretch(std::span<const Vec3> positions, std::span<double> integrals) const = 0;
-  virtual void add_elastic_forces(std::span<const Vec3> positions, std::span<const double> tension,
-                                  std::span<Vec3> forces) const = 0;
-  [[nodiscard]] virtual VolumeRange volume_range() const = 0;
+  virtual VolumeRange add_elastic_forces(std::span<const Vec3> positions,
+                                         std::span<const double> tension,
+                                         std::span<Vec3> forces) const = 0;
   [[nodiscard]] virtual std::vector<PointSample> sample(std::span<const Vec3> positions,
                                                         std::span<const double> tension) const = 0;
 };
@@ -87,13 +104,12 @@ template <class E>
 class PackedElements final : public Wall::Elements {
  public:
   PackedElements(const mesh::Mesh& mesh, const mesh::FibreRule& fibres,
-                 const WallMaterial& material);
+                 const material::Myocardium& material);
 
   [[nodiscard]] std::span<const double> nodal_volumes() const override { return nodal_volumes_; }
   void add_stretch(std::span<const Vec3> positions, std::span<double> integrals) const override;
-  void add_elastic_forces(std::span<const Vec3> positions, std::span<const double> tension,
-                          std::span<Vec3> forces) const override;
-  [[nodiscard]] VolumeRange volume_range() const override;
+  VolumeRange add_elastic_forces(std::span<const Vec3> positions, std::span<const double> tension,
+                                 std::span<Vec3> forces) const override;
   [[nodiscard]] std::vector<PointSample> sample(std::span<const Vec3> positions,
                                                 std::span<const double> tension) const override;
 
@@ -136,11 +152,11 @@ class PackedElements final : public Wall::Elements {
   static void subtract_force(const Tensor<Pack>& P, const Point& point, const Gradients& gradient,
                              Nodal& force);
   template <class Law>
-  void add_forces(const Law& law, std::span<const Vec3> positions, std::span<const double> tension,
-                  std::span<Vec3> forces) const;
+  PackRange add_forces(const Law& law, std::span<const Vec3> positions,
+                       std::span<const double> tension, std::span<Vec3> forces) const;
   template <class Law>
   void point_forces(const Law& law, const Group& group, const Nodal& x, const NodalScalar& tension,
-                    Nodal& force) const;
+                    Nodal& force, PackRange& J_range) const;
   void add_volumes();
   [[nodiscard]] std::vector<double> nodal_pressure(std::span<const Vec3> positions) const;
   void volumetric_forces(const Group& group, const Nodal& x, const NodalScalar& pressure,
@@ -152,18 +168,16 @@ class PackedElements final : public Wall::Elements {
 
   const mesh::Mesh& mesh_;
   mesh::FibreRule fibres_;
-  WallMaterial material_;
+  material::Myocardium material_;
   parallel::Range cells_;
   std::vector<Vec3> radial_;  ///< per node of tetrahedra, else empty
   std::vector<Group> groups_;
   std::vector<double> nodal_volumes_;
-  mutable Pack min_J_ = Pack(1.0);
-  mutable Pack max_J_ = Pack(1.0);
 };
 
 template <class E>
 PackedElements<E>::PackedElements(const mesh::Mesh& mesh, const mesh::FibreRule& fibres,
-                                  const WallMaterial& material)
+                                  const material::Myocardium& material)
     : mesh_(mesh),
       fibres_(fibres),
       material_(material),
@@ -327,32 +341,35 @@ void PackedElements<E>::add_stretch(std::span<const Vec3> positions,
 }
 
 template <class E>
-void PackedElements<E>::add_elastic_forces(std::span<const Vec3> positions,
-                                           std::span<const double> tension,
-                                           std::span<Vec3> forces) const {
-  min_J_ = Pack(std::numeric_limits<double>::max());
-  max_J_ = Pack(std::numeric_limits<double>::lowest());
-  std::visit([&](const auto& law) { add_forces(law, positions, tension, forces); },
-             material_.passive);
+VolumeRange PackedElements<E>::add_elastic_forces(std::span<const Vec3> positions,
+                                                  std::span<const double> tension,
+                                                  std::span<Vec3> forces) const {
+  const bool at_points = material_.volumetric_points == material::VolumetricPoints::full;
+  return material::with_point_law(
+      material_, at_points ? material_.volumetric : material::Volumetric{0.0},
+      [&](const auto& law) { return add_forces(law, positions, tension, forces).over_lanes(); });
 }
 
 template <class E>
 template <class Law>
-void PackedElements<E>::add_forces(const Law& law, std::span<const Vec3> positions,
-                                   std::span<const double> tension, std::span<Vec3> forces) const {
-  const bool mean_dilatation = material_.volumetric_points == VolumetricPoints::mean;
+PackRange PackedElements<E>::add_forces(const Law& law, std::span<const Vec3> positions,
+                                        std::span<const double> tension,
+                                        std::span<Vec3> forces) const {
+  PackRange J;
+  const bool mean_dilatation = material_.volumetric_points == material::VolumetricPoints::mean;
   const std::vector<double> pressure =
       mean_dilatation && E::nodes == 4 ? nodal_pressure(positions) : std::vector<double>{};
   for (const Group& group : groups_) {
     const Nodal x = gather(group, positions);
     Nodal force;
     force.fill(Vector<Pack>(Pack(0.0), Pack(0.0), Pack(0.0)));
-    point_forces(law, group, x, gather(group, tension), force);
+    point_forces(law, group, x, gather(group, tension), force, J);
     if (mean_dilatation)
       volumetric_forces(group, x, pressure.empty() ? NodalScalar{} : gather(group, pressure),
                         force);
     scatter(group, force, forces);
   }
+  return J;
 }
 
 template <class E>
@@ -363,24 +380,19 @@ Pack PackedElements<E>::at_point(const NodalScalar& nodal, int q) {
   return sum;
 }
 
-/// Passive and active stress at the quadrature points, scaled by the infarct (2.13), (2.23)-(2.24).
+/// Of the stresses at the quadrature points.
 template <class E>
 template <class Law>
 void PackedElements<E>::point_forces(const Law& law, const Group& group, const Nodal& x,
-                                     const NodalScalar& tension, Nodal& force) const {
-  const bool volumetric_here = material_.volumetric_points == VolumetricPoints::full;
+                                     const NodalScalar& tension, Nodal& force,
+                                     PackRange& J_range) const {
   for (int q = 0; q < E::points; ++q) {
     const Point& point = group.points[q];
     const Tensor<Pack> F = deformation_gradient(x, rule.gradient[q], point.K);
     const Pack J = determinant(F);
-    min_J_ = xsimd::min(min_J_, J);
-    max_J_ = xsimd::max(max_J_, J);
-    Tensor<Pack> P = law.stress(F) * material_.infarct.passive(point.infarct);
-    const Pack T = at_point(tension, q) * material_.infarct.active(point.infarct);
-    P.col(0) += material::active_stress_column(F, J, T, material_.active_form);
-    if (volumetric_here)
-      P += material_.volumetric.stress(F);
-    subtract_force(P, point, rule.gradient[q], force);
+    J_range.include(J);
+    const Pack T = at_point(tension, q) * law.infarct.active(point.infarct);
+    subtract_force(law.stress(F, J, T, point.infarct), point, rule.gradient[q], force);
   }
 }
 
@@ -433,17 +445,6 @@ void PackedElements<E>::volumetric_forces(const Group& group, const Nodal& x,
 }
 
 template <class E>
-VolumeRange PackedElements<E>::volume_range() const {
-  double lowest = lane(min_J_, 0);
-  double highest = lane(max_J_, 0);
-  for (int i = 1; i < pack_size; ++i) {
-    lowest = std::min(lowest, lane(min_J_, i));
-    highest = std::max(highest, lane(max_J_, i));
-  }
-  return {parallel::min(lowest), parallel::max(highest)};
-}
-
-template <class E>
 PointSample PackedElements<E>::sample_point(int group, int q, int i, const Tensor<Pack>& F,
                                             double tension) const {
   const Point& point = groups_[group].points[q];
@@ -458,15 +459,9 @@ PointSample PackedElements<E>::sample_point(int group, int q, int i, const Tenso
   s.axes = X.axes;
   s.fibre_frame = mesh::fibre_frame(fibres_, X.axes, X.t);
   s.F = F_fibre * s.fibre_frame.transpose();
-  s.tension = tension * material_.infarct.active(X.M);
-  const double J = determinant(F_fibre);
-  const Mat3 P =
-      std::visit([&](const auto& law) { return law.stress(F_fibre); }, material_.passive) *
-          material_.infarct.passive(X.M) +
-      material_.volumetric.stress(F_fibre);
-  s.cauchy_passive = P * F_fibre.transpose() / J;
-  s.cauchy_active = material::active_stress_column(F_fibre, J, s.tension, material_.active_form) *
-                    F_fibre.col(0).transpose() / J;
+  s.stress = material::with_point_law(material_, material_.volumetric, [&](const auto& law) {
+    return point_stress(law, F_fibre, tension * law.infarct.active(X.M), X.M);
+  });
   return s;
 }
 
@@ -492,7 +487,7 @@ std::vector<PointSample> PackedElements<E>::sample(std::span<const Vec3> positio
 }
 
 std::unique_ptr<Wall::Elements> make_elements(const mesh::Mesh& mesh, const mesh::FibreRule& fibres,
-                                              const WallMaterial& material) {
+                                              const material::Myocardium& material) {
   if (mesh.kind == mesh::CellKind::hexahedron)
     return std::make_unique<PackedElements<Hex8>>(mesh, fibres, material);
   return std::make_unique<PackedElements<Tet4>>(mesh, fibres, material);
@@ -500,7 +495,8 @@ std::unique_ptr<Wall::Elements> make_elements(const mesh::Mesh& mesh, const mesh
 
 }  // namespace
 
-Wall::Wall(const mesh::Mesh& mesh, const mesh::FibreRule& fibres, const WallMaterial& material)
+Wall::Wall(const mesh::Mesh& mesh, const mesh::FibreRule& fibres,
+           const material::Myocardium& material)
     : elements_(make_elements(mesh, fibres, material)) {}
 Wall::~Wall() = default;
 Wall::Wall(Wall&&) noexcept = default;
@@ -519,13 +515,10 @@ std::span<const double> Wall::nodal_volumes() const {
   return elements_->nodal_volumes();
 }
 
-void Wall::add_elastic_forces(std::span<const Vec3> positions, std::span<const double> tension,
-                              std::span<Vec3> forces) const {
-  elements_->add_elastic_forces(positions, tension, forces);
-}
-
-VolumeRange Wall::volume_range() const {
-  return elements_->volume_range();
+VolumeRange Wall::add_elastic_forces(std::span<const Vec3> positions,
+                                     std::span<const double> tension,
+                                     std::span<Vec3> forces) const {
+  return elements_->add_elastic_forces(positions, tension, forces);
 }
 
 std::vector<PointSample> Wall::sample(std::span<const Vec3> positions,

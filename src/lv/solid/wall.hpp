@@ -1,10 +1,9 @@
 #pragma once
 
-#include "lv/material/active_stress.hpp"
-#include "lv/material/law.hpp"
-#include "lv/material/volumetric.hpp"
+#include "lv/material/myocardium.hpp"
 #include "lv/mesh/fibres.hpp"
 #include "lv/mesh/mesh.hpp"
+#include "lv/solid/cell_stress.hpp"
 
 #include <memory>
 #include <span>
@@ -12,21 +11,7 @@
 
 namespace lv::solid {
 
-/// Where the volumetric penalty (2.20) is integrated: at the points of the rest of the energy, or
-/// from mean dilatations, which do not lock: a hexahedron's own, from its mean deformation
-/// gradient; of tetrahedra, which are too stiff one by one, that of all around a node.
-enum class VolumetricPoints { full, mean };
-
-/// What the wall is made of.
-struct WallMaterial {
-  material::Passive passive = material::HolzapfelOgden{};
-  material::Volumetric volumetric;
-  VolumetricPoints volumetric_points = VolumetricPoints::mean;
-  material::InfarctScaling infarct;
-  material::ActiveForm active_form = material::ActiveForm::niederer;  ///< what the tension means
-};
-
-/// Smallest and largest J over the quadrature points of all ranks.
+/// Smallest and largest J over quadrature points.
 struct VolumeRange {
   double min_J = 1.0;
   double max_J = 1.0;
@@ -41,11 +26,9 @@ struct PointSample {
   double infarct = 0.0;  ///< M
   Mat3 F = Mat3::Identity();
   Mat3 fibre_frame = Mat3::Identity();  ///< columns f0, s0, n0
-  mesh::WallAxes axes;   ///< circumferential, longitudinal, radial directions of the reference wall
-  double tension = 0.0;  ///< T_MI [kPa]
-  Mat3 cauchy_passive = Mat3::Zero();  ///< of (2.18) and the volumetric penalty (2.20), without the
-                                       ///< fluid's pressure [kPa]
-  Mat3 cauchy_active = Mat3::Zero();   ///< [kPa]
+  mesh::WallAxes axes;  ///< circumferential, longitudinal, radial directions of the reference wall
+  CellStress
+      stress;  ///< its pressure is that of the volumetric penalty (2.20), without the fluid's
 };
 
 /// The wall as finite elements: the total-Lagrangian weak form (2.10) of all stresses. Every rank
@@ -55,7 +38,7 @@ class Wall {
  public:
   /// The mesh must outlive the wall. Throws InputError for an element that is inverted or
   /// collapsed, naming it.
-  Wall(const mesh::Mesh& mesh, const mesh::FibreRule& fibres, const WallMaterial& material);
+  Wall(const mesh::Mesh& mesh, const mesh::FibreRule& fibres, const material::Myocardium& material);
   ~Wall();
   Wall(Wall&&) noexcept;
   Wall& operator=(Wall&&) noexcept;
@@ -64,12 +47,10 @@ class Wall {
   void nodal_stretch(std::span<const Vec3> positions, std::span<double> stretch) const;
 
   /// Adds the nodal forces of this rank's elements, F_a = -int P : grad phi_a dX [mN], to `forces`.
-  /// `tension` is the active tension per node [kPa], before the infarct's factor.
-  void add_elastic_forces(std::span<const Vec3> positions, std::span<const double> tension,
-                          std::span<Vec3> forces) const;
-
-  /// Smallest and largest J of the last add_elastic_forces, over all ranks.
-  [[nodiscard]] VolumeRange volume_range() const;
+  /// `tension` is the active tension per node [kPa], before the infarct's factor. Returns the range
+  /// of J in these elements.
+  VolumeRange add_elastic_forces(std::span<const Vec3> positions, std::span<const double> tension,
+                                 std::span<Vec3> forces) const;
 
   /// Reference volume that belongs to each node, int phi_a dX [mm^3]; complete on every rank.
   [[nodiscard]] std::span<const double> nodal_volumes() const;

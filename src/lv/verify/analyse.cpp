@@ -5,8 +5,8 @@
 namespace lv::verify {
 
 Analysis analyse(const mesh::Mesh& mesh, const heartbeat::Beat& beat,
-                 const solid::BasalSupport& support) {
-  const analysis::FieldAnalysis analysis(mesh, {}, {}, support);
+                 const solid::CardiacModel& heart) {
+  const analysis::FieldAnalysis analysis(mesh, heart);
   Analysis a{
       {analysis.at_rest(), analysis.fields(beat.end_diastole), analysis.fields(beat.end_systole)},
       {}};

@@ -10,8 +10,8 @@ struct Analysis {
   analysis::Results results;
 };
 
-/// Of a beat with the program's default muscle and fibres. Collective.
+/// Of a beat of this heart. Collective.
 [[nodiscard]] Analysis analyse(const mesh::Mesh& mesh, const heartbeat::Beat& beat,
-                               const solid::BasalSupport& support);
+                               const solid::CardiacModel& heart);
 
 }  // namespace lv::verify

@@ -2,7 +2,6 @@
 #include "lv/base/parallel.hpp"
 #include "lv/base/units.hpp"
 #include "lv/calibrate/fit.hpp"
-#include "lv/material/calcium.hpp"
 #include "lv/verify/problems.hpp"
 #include "lv/verify/small_ventricle.hpp"
 
@@ -10,18 +9,15 @@
 namespace lv::verify {
 namespace {
 
-using calibrate::Parameters;
+using calibrate::FitParameters;
 using units::mmHg;
 
-quasi_static::Muscle muscle(const Parameters& p) {
-  solid::WallMaterial wall;
-  wall.passive = material::HolzapfelOgden{}.scaled(p.scale).with_anisotropy_scaled(p.C_a);
-  material::NiedererHunterSmith active;
-  active.T_scale = p.T_scale;
-  const material::Calcium calcium;
-  return {wall,
-          quasi_static::Contractility(active, calcium.Ca_0, calcium.Ca_max),
-          {solid::BasalSupport::Kind::sliding, quasi_static::rigid_base}};
+quasi_static::StaticModel static_model(const FitParameters& p) {
+  solid::CardiacModel heart{.base = {.stiffness = quasi_static::rigid_base}};
+  heart.myocardium.passive =
+      material::HolzapfelOgden{}.scaled(p.scale).with_anisotropy_scaled(p.C_a);
+  heart.myocardium.active = material::NiedererHunterSmith{.T_scale = p.T_scale};
+  return heart;
 }
 
 /// The idealised ventricle on a coarse mesh; the mesh's own error cancels.
@@ -29,12 +25,12 @@ mesh::Mesh coarse_ventricle() {
   return ideal_mesh({.edge_length = 6.0, .layers = 2, .order = 2});
 }
 
-constexpr Parameters truth{.C_a = 1.4, .T_scale = 3.6};
+constexpr FitParameters truth{.C_a = 1.4, .T_scale = 3.6};
 
 /// C_a and T_scale at the paper's healthy pressures; the measurements are left out.
 calibrate::Plan both_parameters() {
   calibrate::Plan plan;
-  plan.passive = calibrate::Passive::C_a;
+  plan.passive = calibrate::FittedPassive::C_a;
   plan.active = true;
   plan.ed_pressure = 8.0 * mmHg;
   plan.es_pressure = 150.0 * mmHg;
@@ -65,15 +61,14 @@ std::vector<double> segment_strains(const mesh::Mesh& mesh, const mesh::Regions&
 
 void calibration_twin(Findings& found) {
   const mesh::Mesh mesh = coarse_ventricle();
-  calibrate::Ventricle ventricle(mesh, {}, muscle, {});
-  const calibrate::Model model{[&](const Parameters& p, const quasi_static::Loads& loads) {
-                                 return ventricle.volume(p, loads);
-                               },
-                               [&](const Parameters& p) { return ventricle.unloaded_volume(p); },
-                               {}};
+  calibrate::Ventricle ventricle(mesh, static_model, {});
+  const calibrate::Model model{
+      [&](const FitParameters& p, const solid::Loads& loads) { return ventricle.volume(p, loads); },
+      [&](const FitParameters& p) { return ventricle.unloaded_volume(p); },
+      {}};
   calibrate::Plan plan = both_parameters();
-  plan.edv.volume = model.volume(truth, {plan.ed_pressure, 0.0});
-  plan.esv.volume = model.volume(truth, {plan.es_pressure, 1.0});
+  plan.edv.volume = model.volume(truth, {plan.ed_pressure, 0.0}).value();
+  plan.esv.volume = model.volume(truth, {plan.es_pressure, 1.0}).value();
   const calibrate::Fit fit = calibrate::fit(model, {.C_a = 0.7, .T_scale = 2.5}, plan);
   found.add_within("C_a", fit.parameters.C_a, truth.C_a, 0.005);
   found.add_within("T_scale", fit.parameters.T_scale, truth.T_scale, 0.005);
@@ -86,22 +81,24 @@ void calibration_twin(Findings& found) {
 void strain_twin(Findings& found) {
   const mesh::Mesh mesh = coarse_ventricle();
   const mesh::Regions regions = mesh::divide(mesh, {});
-  calibrate::Ventricle ventricle(mesh, {}, muscle, {});
-  using quasi_static::Loads;
+  calibrate::Ventricle ventricle(mesh, static_model, {});
+  using solid::Loads;
   const calibrate::Model model{
-      [&](const Parameters& p, const Loads& loads) { return ventricle.volume(p, loads); },
-      [&](const Parameters& p) { return ventricle.unloaded_volume(p); },
-      [&](const Parameters& p, const Loads& ed, const Loads& es) {
-        const auto end_diastole = ventricle.positions(p, ed);
-        const auto end_systole = ventricle.positions(p, es);
+      [&](const FitParameters& p, const Loads& loads) { return ventricle.volume(p, loads); },
+      [&](const FitParameters& p) { return ventricle.unloaded_volume(p); },
+      [&](const FitParameters& p, const Loads& ed,
+          const Loads& es) -> Outcome<std::vector<double>> {
+        const auto end_diastole = ventricle.positions(p, ed).value();
+        const auto end_systole = ventricle.positions(p, es).value();
         return segment_strains(mesh, regions, end_diastole, end_systole);
       }};
   calibrate::Plan plan = both_parameters();
   const Loads ed{plan.ed_pressure, 0.0};
   const Loads es{plan.es_pressure, 1.0};
-  plan.edv.volume = 0.95 * model.volume(truth, ed);
-  plan.esv.volume = 1.05 * model.volume(truth, es);
-  for (const double strain : model.strains(truth, ed, es))
+  plan.edv.volume = 0.95 * model.volume(truth, ed).value();
+  plan.esv.volume = 1.05 * model.volume(truth, es).value();
+  const std::vector<double> strains = model.strains(truth, ed, es).value();
+  for (const double strain : strains)
     plan.strains.push_back({"", strain});
   plan.errors = {.volume = 10.0, .strain = 1e-3};
   const calibrate::Fit fit = calibrate::fit(model, {.C_a = 1.0, .T_scale = 3.0}, plan);

@@ -54,10 +54,12 @@ mesh::Mesh LandBeam::mesh() const {
   return mesh::refine(coarse);
 }
 
-solid::WallMaterial LandBeam::material() const {
-  solid::WallMaterial m;
-  m.passive = material::Guccione{.C = 2.0, .b_f = 8.0, .b_t = 2.0, .b_fs = 4.0};
-  return m;
+solid::CardiacModel LandBeam::heart() const {
+  solid::CardiacModel heart;
+  heart.fibres = {0.0, 0.0, 0.0, 0.0};
+  heart.myocardium.passive = material::Guccione{.C = 2.0, .b_f = 8.0, .b_t = 2.0, .b_fs = 4.0};
+  heart.myocardium.active = material::PrescribedTension{0.0};
+  return heart;
 }
 
 int LandBeam::watched_node(const mesh::Mesh& mesh) const {
@@ -94,20 +96,21 @@ LandApex land_apex(const mesh::Mesh& mesh, std::span<const Vec3> positions) {
 
 LandProblem land_inflation() {
   LandProblem p;
-  p.material.passive = material::Guccione{.C = 10.0, .b_f = 1.0, .b_t = 1.0, .b_fs = 1.0};
+  p.heart.myocardium.passive = material::Guccione{.C = 10.0, .b_f = 1.0, .b_t = 1.0, .b_fs = 1.0};
+  p.heart.myocardium.active = material::PrescribedTension{0.0};
   p.pressure = 10.0;
   return p;
 }
 
 LandProblem land_contraction() {
   LandProblem p;
-  p.material.passive = material::Guccione{.C = 2.0, .b_f = 8.0, .b_t = 2.0, .b_fs = 4.0};
-  p.material.active_form = material::ActiveForm::second_piola;
+  p.heart.myocardium.passive = material::Guccione{.C = 2.0, .b_f = 8.0, .b_t = 2.0, .b_fs = 4.0};
+  p.heart.myocardium.active = material::PrescribedTension{60.0};
+  p.heart.myocardium.active_form = material::ActiveForm::second_piola;
   // the benchmark's angle has the opposite sign of the paper's
-  p.fibres.helix_endo = -0.5 * std::numbers::pi;
-  p.fibres.helix_epi = 0.5 * std::numbers::pi;
+  p.heart.fibres.helix_endo = -0.5 * std::numbers::pi;
+  p.heart.fibres.helix_epi = 0.5 * std::numbers::pi;
   p.pressure = 15.0;
-  p.tension = 60.0;
   return p;
 }
 

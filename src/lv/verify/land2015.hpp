@@ -1,8 +1,7 @@
 #pragma once
 
-#include "lv/mesh/fibres.hpp"
 #include "lv/mesh/parameters.hpp"
-#include "lv/solid/wall.hpp"
+#include "lv/solid/cardiac_model.hpp"
 
 #include <span>
 
@@ -16,8 +15,7 @@ struct LandBeam {
 
   /// 40 x 4 x 4 quadratic elements.
   [[nodiscard]] mesh::Mesh mesh() const;
-  [[nodiscard]] mesh::FibreRule fibres() const { return {0.0, 0.0, 0.0, 0.0}; }
-  [[nodiscard]] solid::WallMaterial material() const;
+  [[nodiscard]] solid::CardiacModel heart() const;
 
   /// The node that begins at (10, 0.5, 1) mm.
   [[nodiscard]] int watched_node(const mesh::Mesh& mesh) const;
@@ -38,10 +36,8 @@ struct LandEllipsoid {
 
 /// What problems 2 and 3 ask of that ventricle.
 struct LandProblem {
-  solid::WallMaterial material;
-  mesh::FibreRule fibres;
-  double pressure = 0.0;  ///< [kPa]
-  double tension = 0.0;   ///< S = T f0 (x) f0 [kPa]
+  solid::CardiacModel heart;  ///< its tension is S = T f0 (x) f0
+  double pressure = 0.0;      ///< [kPa]
 };
 
 /// Problem 2: isotropic, 10 kPa.

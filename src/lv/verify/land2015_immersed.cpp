@@ -26,7 +26,6 @@ Protocol inflation(const LandProblem& problem) {
   p.filling_drag = 100.0;
   p.filling_window = 0.02;
   p.filling_tolerance = 5e-4;
-  p.tension = 0.0;
   p.contraction_longest = 1e-4;  // filling is all that is asked for
   return p;
 }
@@ -37,7 +36,6 @@ Protocol contraction(const LandProblem& problem) {
   p.ed_pressure = 0.0;
   p.filling_longest = 1e-4;
   p.es_pressure = problem.pressure;
-  p.tension = problem.tension;
   p.contraction_ramp = ramp;
   p.contraction_drag = 100.0;
   p.contraction_window = 0.02;
@@ -53,8 +51,8 @@ heartbeat::BeatSetup setup(const LandProblem& problem, const Protocol& protocol,
   const auto cells = [&](int d) { return static_cast<int>(std::lround(box[d] / mesh_width)); };
   immersed::ModelParameters model;
   model.grid = fluid::centred_grid({0.0, 0.0, -13.0}, box, {cells(0), cells(1), cells(2)});
-  model.base = {solid::BasalSupport::Kind::fixed, 1000.0};
-  heartbeat::BeatSetup s{mesh, problem.fibres, problem.material, {}, model, protocol, {}, {}};
+  heartbeat::BeatSetup s{mesh, problem.heart, model, protocol, {}, {}};
+  s.heart.base = {solid::BasalSupport::Kind::fixed, 1000.0};
   s.control.longest = 4e-5 * mesh_width;
   s.output.frame_interval = never;
   s.output.checkpoint_interval = never;

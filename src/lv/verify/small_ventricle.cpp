@@ -20,7 +20,7 @@ immersed::ModelParameters in_default_box(const mesh::Mesh& mesh, const std::arra
 heartbeat::BeatSetup default_beat(const mesh::Mesh& mesh, const std::array<int, 3>& cells,
                                   double time_step) {
   constexpr double never = 1e9;
-  heartbeat::BeatSetup setup{mesh, {}, {}, {}, in_default_box(mesh, cells), {}, {}, {}};
+  heartbeat::BeatSetup setup{mesh, {}, in_default_box(mesh, cells), {}, {}, {}};
   setup.control.longest = time_step;
   setup.output.frame_interval = never;
   setup.output.checkpoint_interval = never;

@@ -80,10 +80,10 @@ Outcome settle(int n, immersed::CouplingKind kind) {
   immersed::ModelParameters parameters;
   parameters.grid = {{n, n, n}, Vec3::Constant(-0.5 * box), Vec3::Constant(h)};
   parameters.coupling.kind = kind;
-  solid::WallMaterial material;
+  material::Myocardium material;
   material.passive = lv::material::NeoHookean{shell.mu};
   parameters.blood.viscosity = viscosity;
-  immersed::Model model(mesh, {}, material, {}, parameters);
+  immersed::Model model(mesh, {{}, material, {}}, parameters);
   immersed::ModelState state = model.state();
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
     const Vec3& X = mesh.nodes[i];

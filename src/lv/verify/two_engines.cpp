@@ -15,7 +15,6 @@ namespace {
 
 using analysis::CellFields;
 using heartbeat::Beat;
-using quasi_static::Contractility;
 
 constexpr double ml = 1e3;  ///< [mm^3]
 
@@ -35,12 +34,9 @@ Answer immersed_answer(const Findings& found) {
 Answer quasi_static_answer() {
   const mesh::Mesh mesh =
       ideal_mesh({.edge_length = 2.5, .order = 2, .apex = 0.3, .endocardium = 0.5});
-  const heartbeat::Protocol protocol;
-  const solid::BasalSupport base;  // the immersed engine's springs
-  const quasi_static::Muscle muscle{
-      {}, Contractility({}, protocol.calcium.Ca_0, protocol.calcium.Ca_max), base};
-  const Beat beat = heartbeat::run_quasi_static_beat({mesh, {}, muscle, {}, protocol}, {});
-  return {mesh::divide(mesh, {}), analyse(mesh, beat, base)};
+  const solid::CardiacModel heart;  // with the immersed engine's springs
+  const Beat beat = heartbeat::run_quasi_static_beat({mesh, heart, {}, {}}, {});
+  return {mesh::divide(mesh, {}), analyse(mesh, beat, heart)};
 }
 
 Vec3 mean_displacement(const std::vector<CellFields>& cells, const std::vector<int>& members) {
@@ -79,7 +75,8 @@ void engines_agree(Findings& found) {
   const Answer quasi_static = quasi_static_answer();
   if (!parallel::is_root())
     return;
-  const auto compare = [&](const char* state, const analysis::Shape analysis::Results::*shape,
+  const auto compare = [&](const char* state,
+                           const analysis::VentricleShape analysis::Results::*shape,
                            std::vector<CellFields> analysis::BeatFields::*fields) {
     const analysis::Results& a = immersed.analysis.results;
     const analysis::Results& b = quasi_static.analysis.results;

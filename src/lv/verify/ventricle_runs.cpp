@@ -155,7 +155,7 @@ void other_ventricles(Findings& found) {
     const mesh::Mesh mesh = ideal_mesh({.edge_length = 2.2}, other.shape);
     heartbeat::BeatSetup setup = default_beat(mesh, {64, 64, 86}, 2e-4);
     setup.protocol.es_pressure = other.es_pressure * units::mmHg;
-    setup.material.passive = material::HolzapfelOgden{}.scaled(other.stiffness);
+    setup.heart.myocardium.passive = material::HolzapfelOgden{}.scaled(other.stiffness);
     const Beat beat = heartbeat::run_immersed_beat(setup, found.scratch(), {});
     found.add_within(fmt::format("end-diastolic volume, {}", other.name),
                      beat.end_diastole.volume / ml, other.edv, 0.025, "ml");

@@ -12,7 +12,7 @@ using namespace lv;
 /// A beat that fills by `filling` and then contracts by `contraction`.
 struct PrescribedBeat {
   PrescribedBeat(const Mat3& filling, const Mat3& contraction) {
-    const analysis::FieldAnalysis analysis(mesh, {}, {}, {.stiffness = 0.0});
+    const analysis::FieldAnalysis analysis(mesh, {.base = {.stiffness = 0.0}});
     beat.end_diastole = snapshot(0.6, 1.07, filling);
     beat.end_systole = snapshot(0.9, 20.0, contraction * filling);
     results = analysis::results(mesh, mesh::divide(mesh, {}), beat,

@@ -33,7 +33,7 @@ struct InflatedShell {
 double error(int around, int layers) {
   const InflatedShell shell;
   const mesh::Mesh mesh = verify::spherical_shell(shell.A, shell.B, around, layers);
-  solid::WallMaterial material;
+  material::Myocardium material;
   material.passive = material::NeoHookean{shell.mu};
   material.volumetric.beta_s = 0.0;
   const solid::Wall wall(mesh, {}, material);

@@ -92,10 +92,10 @@ TEST_CASE("the loads are final when the slower of pressure and calcium has arriv
 TEST_CASE("drag acts only when the loads are final", "[unit][heartbeat]") {
   Protocol p;
   p.contraction_drag = 7.0;
-  CHECK(heartbeat::loads(p, Phase::filling, 0.29).drag == 0.0);
-  CHECK(heartbeat::loads(p, Phase::filling, 0.3).drag == 40.0);
-  CHECK(heartbeat::loads(p, Phase::contraction, 0.19).drag == 0.0);
-  CHECK(heartbeat::loads(p, Phase::contraction, 0.2).drag == 7.0);
+  CHECK(heartbeat::drag(p, Phase::filling, 0.29) == 0.0);
+  CHECK(heartbeat::drag(p, Phase::filling, 0.3) == 40.0);
+  CHECK(heartbeat::drag(p, Phase::contraction, 0.19) == 0.0);
+  CHECK(heartbeat::drag(p, Phase::contraction, 0.2) == 7.0);
 }
 
 TEST_CASE("a constant volume is steady after one window, not before", "[unit][heartbeat]") {

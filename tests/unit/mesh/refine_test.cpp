@@ -4,7 +4,7 @@
 #include "lv/mesh/quality.hpp"
 #include "lv/mesh/split.hpp"
 #include "lv/mesh/surface.hpp"
-#include "lv/solid/cavity.hpp"
+#include "lv/solid/endocardial_surface.hpp"
 
 #include "mesh/mesh_files.hpp"
 #include <catch2/catch.hpp>
@@ -44,8 +44,8 @@ TEST_CASE("refining keeps the wall and multiplies its cells by eight", "[unit][m
     // straight edges and bilinear faces stay what they are, so volumes agree to rounding
     CHECK(mesh::quality(fine).wall_volume ==
           Approx(mesh::quality(coarse).wall_volume).epsilon(1e-12));
-    CHECK(solid::Cavity(fine).volume(fine.nodes) ==
-          Approx(solid::Cavity(coarse).volume(coarse.nodes)).epsilon(1e-12));
+    CHECK(solid::EndocardialSurface(fine).volume(fine.nodes) ==
+          Approx(solid::EndocardialSurface(coarse).volume(coarse.nodes)).epsilon(1e-12));
   }
 }
 

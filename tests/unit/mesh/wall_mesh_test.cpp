@@ -4,7 +4,7 @@
 #include "lv/mesh/cell.hpp"
 #include "lv/mesh/quality.hpp"
 #include "lv/mesh/surface.hpp"
-#include "lv/solid/cavity.hpp"
+#include "lv/solid/endocardial_surface.hpp"
 
 #include "mesh/mesh_files.hpp"
 #include <catch2/catch.hpp>
@@ -115,7 +115,8 @@ TEST_CASE("wall meshes have the ellipsoids' volumes", "[unit][mesh]") {
     const auto share = [&](double radius) { return 0.5 * edge * edge / (radius * radius); };
     const double cavity = v.enclosed_volume(0.0);
     const double whole = v.enclosed_volume(1.0);
-    CHECK(solid::Cavity(mesh).volume(mesh.nodes) == Approx(cavity).epsilon(share(v.endo_radius)));
+    CHECK(solid::EndocardialSurface(mesh).volume(mesh.nodes) ==
+          Approx(cavity).epsilon(share(v.endo_radius)));
     const double margin = share(v.endo_radius) * cavity + share(v.epi_radius) * whole;
     CHECK(mesh::quality(mesh).wall_volume == Approx(whole - cavity).margin(margin));
   });
@@ -127,7 +128,7 @@ TEST_CASE("wall volumes converge to the ellipsoids' with the square of the edge 
   const double exact = v.enclosed_volume(0.0);
   const auto error = [&](double edge) {
     const mesh::Mesh mesh = test::ellipsoid_mesh(v, edge, 1);
-    return std::abs(solid::Cavity(mesh).volume(mesh.nodes) - exact);
+    return std::abs(solid::EndocardialSurface(mesh).volume(mesh.nodes) - exact);
   };
   const double ratio = error(6.0) / error(2.0);
   CHECK(ratio > 6.0);  // 9 if the counts of elements followed the edge length exactly

@@ -1,0 +1,45 @@
+#include "lv/mesh/shapes.hpp"
+
+#include "lv/base/check.hpp"
+
+namespace lv::mesh {
+namespace {
+
+template <int N, int Dim>
+Shapes as_matrices(const ShapesAt<N, Dim>& at) {
+  return {Eigen::Map<const Eigen::VectorXd>(at.value.data(), N),
+          Eigen::Map<const Eigen::MatrixXd>(at.gradient.front().data(), Dim, N)};
+}
+
+}  // namespace
+
+template <int Dim>
+Shapes shapes(CellKind kind, int order, const std::array<double, Dim>& xi) {
+  LV_CHECK(order == 1 || order == 2);
+  if (kind == CellKind::hexahedron)
+    return order == 1 ? as_matrices(lattice_shapes<1, Dim>(xi))
+                      : as_matrices(lattice_shapes<2, Dim>(xi));
+  return order == 1 ? as_matrices(simplex_shapes<1, Dim>(xi))
+                    : as_matrices(simplex_shapes<2, Dim>(xi));
+}
+
+template Shapes shapes<2>(CellKind, int, const std::array<double, 2>&);
+template Shapes shapes<3>(CellKind, int, const std::array<double, 3>&);
+
+std::vector<Vec3> node_places(CellKind kind, int order) {
+  std::vector<Vec3> places;
+  if (kind == CellKind::hexahedron) {
+    for (int k = 0; k <= order; ++k)
+      for (int j = 0; j <= order; ++j)
+        for (int i = 0; i <= order; ++i)
+          places.push_back(Vec3(i, j, k) / order);
+    return places;
+  }
+  places = {Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
+  if (order == 2)
+    for (const auto& [a, b] : simplex_edges)
+      places.push_back(0.5 * (places[a] + places[b]));
+  return places;
+}
+
+}  // namespace lv::mesh

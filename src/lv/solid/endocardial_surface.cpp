@@ -1,0 +1,68 @@
+#include "lv/solid/endocardial_surface.hpp"
+
+#include "lv/base/parallel.hpp"
+#include "lv/solid/side_points.hpp"
+
+namespace lv::solid {
+
+EndocardialSurface::EndocardialSurface(const mesh::Mesh& mesh)
+    : sides_(mesh::sides(mesh.kind, mesh.order, mesh.endo)),
+      shapes_(side_shapes(mesh.kind, mesh.order)) {
+  for (const auto& side : mesh::boundary_edges(mesh.endo))
+    edge_.push_back(side[0]);
+}
+
+/// The quadrature is exact for the sides' polynomials.
+double EndocardialSurface::volume(std::span<const Vec3> positions) const {
+  Vec3 c = Vec3::Zero();
+  for (const int node : edge_)
+    c += positions[node] / static_cast<double>(edge_.size());
+  double three_V = 0.0;
+  for (int f = 0; f < sides_.size(); ++f)
+    for_side_points(shapes_, sides_.element(f), positions, [&](const SidePoint& point) {
+      three_V -= shapes_.weight[point.q] * (point.x - c).dot(point.normal());
+    });
+  return three_V / 3.0;
+}
+
+/// Calls visit(nodes) for this rank's sides.
+template <class Visit>
+void EndocardialSurface::for_share(const Visit& visit) const {
+  const auto share = parallel::share(sides_.size(), parallel::rank(), parallel::size());
+  for (int f = share.begin; f < share.end; ++f)
+    visit(sides_.element(f));
+}
+
+void EndocardialSurface::add_gradient(double factor, std::span<const Vec3> positions,
+                                      std::span<Vec3> to) const {
+  for_share([&](std::span<const int> nodes) {
+    for_side_points(shapes_, nodes, positions, [&](const SidePoint& point) {
+      const Vec3 n_da = factor * shapes_.weight[point.q] * point.normal();
+      for (int a = 0; a < shapes_.nodes(); ++a)
+        to[nodes[a]] -= shapes_.value(point.q, a) * n_da;
+    });
+  });
+}
+
+/// d(x_s cross x_t)/dx_b = [x_s x] d phi_b/dt - [x_t x] d phi_b/ds.
+void EndocardialSurface::add_hessian(double factor, std::span<const Vec3> positions,
+                                     const Block& add) const {
+  const int n = shapes_.nodes();
+  for_share([&](std::span<const int> nodes) {
+    Eigen::MatrixXd block = Eigen::MatrixXd::Zero(3 * n, 3 * n);
+    for_side_points(shapes_, nodes, positions, [&](const SidePoint& point) {
+      const Eigen::MatrixXd& gradient = shapes_.gradient[point.q];
+      const Mat3 along_s = cross_matrix(point.x_s);
+      const Mat3 along_t = cross_matrix(point.x_t);
+      for (int b = 0; b < n; ++b) {
+        const Mat3 d_normal = factor * shapes_.weight[point.q] *
+                              (gradient(1, b) * along_s - gradient(0, b) * along_t);
+        for (int a = 0; a < n; ++a)
+          block.block<3, 3>(3 * a, 3 * b) -= shapes_.value(point.q, a) * d_normal;
+      }
+    });
+    add(nodes, block);
+  });
+}
+
+}  // namespace lv::solid

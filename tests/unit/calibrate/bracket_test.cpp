@@ -1,0 +1,95 @@
+#include "lv/calibrate/bracket.hpp"
+
+#include "lv/base/check.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+namespace {
+
+using namespace lv::calibrate;
+using Catch::Matchers::Contains;
+using lv::InputError;
+using lv::Outcome;
+using lv::Unsolved;
+
+constexpr double accuracy = 1e-4;
+const Target target{80e3, "case.toml:7"};
+
+/// 100 ml at 1, falling.
+double falling(double x) {
+  return 100e3 / std::sqrt(x);
+}
+
+constexpr double root = 1.5625;  // of falling
+
+Unknown from(double start) {
+  return {"scale", start, {0.01, 100.0}};
+}
+
+/// Whether x makes the target's volume.
+void check_root(const Outcome<double>& x) {
+  REQUIRE(x);
+  CHECK(*x == Approx(root).epsilon(3.0 * accuracy));
+}
+
+}  // namespace
+
+TEST_CASE("the root is found from below, from above and from itself", "[calibrate]") {
+  for (const double start : {0.01, 0.3, root, 8.0, 100.0})
+    check_root(find_root(falling, from(start), target, accuracy));
+}
+
+TEST_CASE("the search asks for few volumes, and none beyond the range", "[calibrate]") {
+  int asked = 0;
+  const auto counted = [&](double x) {
+    ++asked;
+    CHECK(x > 0.0099);
+    CHECK(x < 100.1);
+    return falling(x);
+  };
+  check_root(find_root(counted, from(0.05), target, accuracy));
+  CHECK(asked < 15);
+}
+
+TEST_CASE("steps to where there is no equilibrium are shortened", "[calibrate]") {
+  const auto none_below_root = [](double x) -> Outcome<double> {
+    if (x < 0.99 * root)
+      return Unsolved{"too soft", "stiffen it"};
+    return falling(x);
+  };
+  check_root(find_root(none_below_root, from(50.0), target, accuracy));
+}
+
+TEST_CASE("a start without an equilibrium has no root, and says why", "[calibrate]") {
+  const auto none = [](double) -> Outcome<double> { return Unsolved{"too soft", "stiffen it"}; };
+  const auto x = find_root(none, from(1.0), target, accuracy);
+  REQUIRE_FALSE(x);
+  CHECK(x.why().what == "too soft");
+}
+
+TEST_CASE("a hole in the bracket ends the search", "[calibrate]") {
+  const auto with_hole = [](double x) -> Outcome<double> {
+    if (x > 1.0 && x < 2.0)
+      return Unsolved{"folds", "take a finer mesh"};
+    return falling(x);
+  };
+  const auto x = find_root(with_hole, {"scale", 0.9, {0.01, 100.0}, 4.0}, target, accuracy);
+  REQUIRE_FALSE(x);
+  CHECK(x.why().what == "folds");
+}
+
+TEST_CASE("a volume that jumps over the target has no root", "[calibrate]") {
+  const auto jump = [](double x) { return x < root ? 90e3 : 70e3; };
+  const auto x = find_root(jump, from(1.0), target, accuracy);
+  REQUIRE_FALSE(x);
+  CHECK_THAT(x.why().what, Contains("The volume jumps between scale = 1.5"));
+}
+
+TEST_CASE("a target beyond the range is refused with the volumes at its ends", "[calibrate]") {
+  CHECK_THROWS_AS(find_root(falling, {"scale", 1.0, {0.5, 1.2}}, target, accuracy), InputError);
+  CHECK_THROWS_WITH(find_root(falling, {"scale", 1.0, {0.5, 1.2}}, target, accuracy),
+                    Contains("case.toml:7: 80.00 ml cannot be reached") &&
+                        Contains("141.42 ml at scale = 0.5") && Contains("91.29 ml at 1.2"));
+}

@@ -1,0 +1,66 @@
+#include "lv/heartbeat/immersed_beat.hpp"
+
+#include "lv/verify/small_ventricle.hpp"
+
+#include "support/temporary_folder.hpp"
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+
+namespace {
+
+using namespace lv;
+using heartbeat::Beat;
+using heartbeat::BeatSetup;
+using heartbeat::CurveRow;
+
+/// A coarse ventricle that is filled a little and twitches: calcium rises and falls again.
+BeatSetup twitch(const mesh::Mesh& mesh) {
+  BeatSetup setup = verify::default_beat(mesh, {20, 20, 27}, 4e-4);
+  setup.protocol.filling_ramp = 0.04;
+  setup.protocol.filling_longest = 0.05;
+  setup.protocol.contraction_ramp = 0.04;
+  setup.protocol.es_pressure = 60.0 * units::mmHg;
+  setup.protocol.calcium = {.mode = material::Calcium::Mode::transient, .tau = 0.03};
+  return setup;
+}
+
+mesh::Mesh coarse_mesh() {
+  return verify::ideal_mesh({.edge_length = 9.0});
+}
+
+/// The row of the contraction with the smallest volume.
+const CurveRow& least(const Beat& beat) {
+  return *std::min_element(
+      beat.curves.begin(), beat.curves.end(), [](const CurveRow& a, const CurveRow& b) {
+        if ((a.phase == heartbeat::Phase::filling) != (b.phase == heartbeat::Phase::filling))
+          return b.phase == heartbeat::Phase::filling;
+        return a.volume < b.volume;
+      });
+}
+
+}  // namespace
+
+TEST_CASE("end-systole of a calcium transient is where the cavity is smallest", "[heartbeat]") {
+  const mesh::Mesh mesh = coarse_mesh();
+  const BeatSetup setup = twitch(mesh);
+  const test::TemporaryFolder folder;
+  const Beat beat = heartbeat::run_immersed_beat(setup, folder / "", {});
+  CHECK(beat.contraction_was_steady);  // it ended because the ventricle filled again
+  CHECK(beat.end_systole.volume < beat.end_diastole.volume);
+  CHECK(beat.end_systole.volume == Approx(least(beat).volume).epsilon(1e-3));
+  CHECK(beat.end_systole.time == Approx(least(beat).time).margin(2e-3));
+  CHECK(beat.curves.back().time > beat.end_systole.time);
+  CHECK(beat.curves.back().volume > 1.02 * beat.end_systole.volume);
+  CHECK(beat.curves.back().calcium < beat.curves[beat.curves.size() / 2].calcium);
+}
+
+TEST_CASE("a transient that is cut short ends with what it has, and says so", "[heartbeat]") {
+  const mesh::Mesh mesh = coarse_mesh();
+  BeatSetup setup = twitch(mesh);
+  setup.protocol.contraction_longest = 0.02;
+  const test::TemporaryFolder folder;
+  const Beat beat = heartbeat::run_immersed_beat(setup, folder / "", {});
+  CHECK_FALSE(beat.contraction_was_steady);
+  CHECK(beat.end_systole.time == Approx(0.07).margin(1e-3));
+}
