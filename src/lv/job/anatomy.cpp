@@ -6,6 +6,7 @@
 #include "lv/job/case_lines.hpp"
 #include "lv/job/drawn.hpp"
 #include "lv/mesh/abaqus_blocks.hpp"
+#include "lv/mesh/foreign_mesh.hpp"
 #include "lv/mesh/import.hpp"
 #include "lv/mesh/refine.hpp"
 #include "lv/report/fields_vtk.hpp"
@@ -13,9 +14,10 @@
 #include "lv/solid/endocardial_surface.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
+#include <array>
 #include <memory>
+#include <utility>
 
 namespace lv::job {
 namespace {
@@ -79,6 +81,15 @@ Shape from_drawn(const Case& c) {
   return shape;
 }
 
+/// Sides and directions of fibres may be files beside the mesh's.
+using ImportName = std::pair<const char*, std::string mesh::ImportParameters::*>;
+constexpr std::array<ImportName, 5> perhaps_files{
+    {{"anatomy.mesh.endo", &mesh::ImportParameters::endo},
+     {"anatomy.mesh.epi", &mesh::ImportParameters::epi},
+     {"anatomy.mesh.base", &mesh::ImportParameters::base},
+     {"anatomy.mesh.fibres", &mesh::ImportParameters::fibres},
+     {"anatomy.mesh.sheets", &mesh::ImportParameters::sheets}}};
+
 Shape from_mesh(const Case& c) {
   mesh::ImportParameters import = c.anatomy.mesh.import;
   if (import.file.empty()) {
@@ -87,6 +98,9 @@ Shape from_mesh(const Case& c) {
     missing.raise(c, place_of(c, "anatomy.source"));
   }
   import.file = beside(c, import.file).string();
+  for (const auto& [parameter, name] : perhaps_files)
+    if (mesh::names_file(import.*name))
+      import.*name = beside(c, import.*name).string();
   if (c.scar.source == mesh::InfarctSource::elements)
     import.infarct_set = c.scar.set;
   mesh::ImportedMesh imported = mesh::import_mesh(import);
@@ -142,7 +156,7 @@ void write_anatomy(const Shape& shape, const fs::path& folder) {
                                      {"z_axis_in_image_space", numbers(axes.col(2))},
                                      {"notes", shape.notes},
                                      {"warnings", shape.warnings}};
-  write_file(folder / frame_name, frame.dump(2) + "\n");
+  write_file(folder / frame_name, json_text(frame) + "\n");
   if (!shape.quality)
     return;
   report::fit_table(shape.quality->fit).write_csv(folder / "fit.csv");
@@ -165,6 +179,9 @@ Ingredients anatomy_files(const Case& c) {
   };
   if (c.anatomy.source == AnatomySource::mesh) {
     add("anatomy.mesh.file", c.anatomy.mesh.import.file);
+    for (const auto& [parameter, name] : perhaps_files)
+      if (const std::string& file = c.anatomy.mesh.import.*name; mesh::names_file(file))
+        add(parameter, file);
     const fs::path file = beside(c, c.anatomy.mesh.import.file);
     if (file.extension() == ".inp" && fs::exists(file))
       for (const std::string& included : mesh::read_abaqus_blocks(file.string()).files)
