@@ -38,7 +38,7 @@ constexpr double longest_step = 0.25;
 constexpr double converged = 1e-3;
 constexpr int most_corrections = 20;
 
-/// The parts of Fitter::run, with the equilibria that they took on ordinary ventricles.
+/// The parts of Fitter::run, with the equilibria that each takes, roughly (docs/progress.md).
 std::vector<FitPart> parts_of(const Plan& plan) {
   const bool passive = plan.passive != FittedPassive::none;
   const bool curve = plan.passive == FittedPassive::scale_and_exponent;
