@@ -146,6 +146,7 @@ constexpr int cannot_start = 127;
 /// Starts a child that `prepare`s itself and then becomes a command.
 template <class Prepare>
 pid_t start(const std::vector<std::string>& command, const Prepare& prepare) {
+  std::signal(SIGCHLD, SIG_DFL);  // whoever started this process may have ignored it
   const pid_t child = fork();
   if (child < 0)
     throw RunError(fmt::format("a process cannot be started: {}", std::strerror(errno)),

@@ -3,7 +3,6 @@
 #include "lv/geometry/frame.hpp"
 #include "lv/geometry/spline_wall.hpp"
 #include "lv/job/case.hpp"
-#include "lv/job/workspace.hpp"
 #include "lv/mesh/wall_mesh.hpp"
 #include "lv/report/quality_sheet.hpp"
 
@@ -36,8 +35,5 @@ void write_anatomy(const Shape& shape, const std::filesystem::path& folder);
 
 /// The warnings that write_anatomy left in a folder.
 [[nodiscard]] std::vector<std::string> anatomy_warnings(const std::filesystem::path& folder);
-
-/// The files that a case's anatomy is read from, by parameter, with what stands for their contents.
-[[nodiscard]] Ingredients anatomy_files(const Case& c);
 
 }  // namespace lv::job

@@ -1,5 +1,6 @@
 #include "lv/job/calibration.hpp"
 
+#include "lv/base/dense.hpp"
 #include "lv/base/json_file.hpp"
 #include "lv/base/log.hpp"
 #include "lv/base/parallel.hpp"
@@ -12,7 +13,6 @@
 #include "lv/job/strain_targets.hpp"
 #include "lv/job/unloading.hpp"
 
-#include <Eigen/LU>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -120,7 +120,7 @@ Json corrected(const Json& calibration, Json parameters, const Json& rows) {
                 calibration.at("parameters").at(names[j]).get<double>();
     ++k;
   }
-  const Eigen::VectorXd change = J.partialPivLu().solve(missing);
+  const Eigen::VectorXd change = dense::solve(J, missing);
   for (Eigen::Index j = 0; j < n; ++j)
     parameters[names[j]] = parameters.at(names[j]).get<double>() * std::exp(change[j]);
   return parameters;
@@ -143,8 +143,8 @@ void make_calibration(const Case& c, const MeshResult& mesh, const std::filesyst
   AnswerRecord record(ventricle, mesh.mesh.nodes.size(), folder / answers_name);
   const auto number = [&](const std::function<Outcome<double>()>& ask) -> Outcome<double> {
     const auto answer = record.answer([&]() -> Outcome<Numbers> {
-      const auto number = ask();
-      return number ? Outcome<Numbers>(Numbers{*number}) : number.why();
+      const auto asked = ask();
+      return asked ? Outcome<Numbers>(Numbers{*asked}) : asked.why();
     });
     return answer ? Outcome<double>(answer->front()) : answer.why();
   };

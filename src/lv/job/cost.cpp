@@ -100,7 +100,12 @@ Case with_engine(Case c, Engine engine) {
 
 Cost cost_of(const Case& c, const Shape& shape, const MeshResult& mesh) {
   const auto mesh_of = [&](Engine engine) {
-    return c.engine == engine ? mesh : make_mesh(with_engine(c, engine), shape);
+    if (c.engine == engine)
+      return mesh;
+    const Case other = with_engine(c, engine);
+    MeshResult made = make_mesh(other, shape);
+    check_room(other, made.mesh);
+    return made;
   };
   const auto immersed = [&] {
     return of_immersed(with_engine(c, Engine::immersed), mesh_of(Engine::immersed).mesh);

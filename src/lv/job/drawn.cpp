@@ -1,7 +1,6 @@
 #include "lv/job/drawn.hpp"
 
 #include "lv/base/check.hpp"
-#include "lv/base/files.hpp"
 #include "lv/geometry/contour_checks.hpp"
 #include "lv/geometry/contour_measures.hpp"
 #include "lv/geometry/fit_report.hpp"
@@ -55,7 +54,7 @@ geometry::ContourFiles contour_files(const Case& c) {
 Drawn from_csv(const Case& c) {
   Drawn drawn;
   drawn.contours = geometry::read_contours(contour_files(c));
-  drawn.source = fmt::format("contours of {}", c.anatomy.contours.short_axis);
+  drawn.source = "contours";
   return drawn;
 }
 
@@ -120,7 +119,7 @@ Drawn from_labels(const Case& c) {
       image::trace_labels(volume, {a.cavity, a.muscle, a.right_ventricle}, frame);
   Drawn drawn;
   drawn.contours = std::move(traced.contours);
-  drawn.source = fmt::format("labels of {}, frame {}", a.file, frame + 1);
+  drawn.source = fmt::format("labels, frame {}", frame + 1);
   drawn.label_cavity = traced.cavity;
   drawn.label_muscle = traced.muscle;
   drawn.septum = traced.septum;
@@ -151,7 +150,7 @@ Drawn from_sunnybrook(const Case& c) {
                                  describe_phases(chosen.read.phases)),
                      "Choose a phase, counted from 1 in order of time");
   Drawn drawn;
-  drawn.source = fmt::format("contours of {}, phase {}", a.contours, a.phase);
+  drawn.source = fmt::format("contours in pixels, phase {}", a.phase);
   drawn.usual_base = geometry::BaseAt::slab;
   drawn.notes = image::remarks(chosen.stack);
   drawn.notes.insert(drawn.notes.end(), chosen.read.notes.begin(), chosen.read.notes.end());
@@ -178,7 +177,7 @@ Drawn from_guide_points(const Case& c) {
   image::GuidePoints read = image::read_guide_points(
       file, a.frame < 0 ? std::nullopt : std::optional(a.frame), a.apex_point);
   drawn.contours = std::move(read.contours);
-  drawn.source = fmt::format("guide points of {}", a.file);
+  drawn.source = "guide points";
   drawn.septum = read.septum;
   drawn.usual_base =
       drawn.contours.annulus.empty() ? geometry::BaseAt::slab : geometry::BaseAt::annulus;
@@ -207,11 +206,6 @@ double volume_of(const geometry::Contours& contours) {
   return endo < 2 ? 0.0 : geometry::slab_volumes(contours).cavity;
 }
 
-void add_folder(const fs::path& folder, Ingredients& files) {
-  for (const fs::path& file : files_in(folder, true).files)
-    files["contents of " + file.string()] = fingerprint_of_file(file);
-}
-
 bool is_drawn(const Case& c) {
   return c.anatomy.source != AnatomySource::ellipsoid && c.anatomy.source != AnatomySource::mesh;
 }
@@ -227,35 +221,6 @@ Drawn read_drawn(const Case& c) {
     image::close_walls(drawn.contours, thinnest, drawn.notes);
   geometry::check_contours(drawn.contours);
   return drawn;
-}
-
-Ingredients drawn_files(const Case& c) {
-  Ingredients files;
-  const auto add = [&](const std::string& parameter, const std::string& name) {
-    if (!name.empty())
-      files["contents of " + parameter] = fingerprint_of_file(beside(c, name));
-  };
-  switch (c.anatomy.source) {
-    case AnatomySource::contours:
-      add("anatomy.contours.short_axis", c.anatomy.contours.short_axis);
-      add("anatomy.contours.long_axis", c.anatomy.contours.long_axis);
-      add("anatomy.contours.apex_endo", c.anatomy.contours.apex_endo);
-      add("anatomy.contours.apex_epi", c.anatomy.contours.apex_epi);
-      break;
-    case AnatomySource::labels:
-      add("anatomy.labels.file", c.anatomy.labels.file);
-      break;
-    case AnatomySource::guide_points:
-      add("anatomy.guide_points.file", c.anatomy.guide_points.file);
-      break;
-    case AnatomySource::sunnybrook:
-      add_folder(beside(c, c.anatomy.sunnybrook.contours), files);
-      add_folder(beside(c, c.anatomy.sunnybrook.dicom), files);
-      break;
-    default:
-      break;
-  }
-  return files;
 }
 
 std::string describe_phases(const std::map<int, geometry::Contours>& phases,

@@ -2,7 +2,6 @@
 
 #include "lv/geometry/contours.hpp"
 #include "lv/job/case.hpp"
-#include "lv/job/workspace.hpp"
 
 #include <array>
 #include <map>
@@ -30,12 +29,6 @@ struct Drawn {
 /// Reads what the case names. Throws InputError naming file, slice and remedy; where a choice is
 /// missing (labels, frame, phase), with what there is to choose from.
 [[nodiscard]] Drawn read_drawn(const Case& c);
-
-/// The files that this reads, with what stands for their contents.
-[[nodiscard]] Ingredients drawn_files(const Case& c);
-
-/// All files of a folder, with what stands for their contents.
-void add_folder(const std::filesystem::path& folder, Ingredients& files);
 
 /// Volume of the endocardial loops of one phase [mm^3]; 0 where it cannot be told.
 [[nodiscard]] double volume_of(const geometry::Contours& contours);

@@ -8,10 +8,10 @@ namespace lv::job {
 
 /// What to look at besides the images.
 struct ListOptions {
-  std::filesystem::path where;      ///< a folder or a file
-  std::filesystem::path contours;   ///< folder of Sunnybrook contours; may be empty
-  std::vector<std::string> series;  ///< that the contours were drawn on
-  std::vector<int> cavity;          ///< labels whose volume curve is asked for; may be empty
+  std::filesystem::path where;           ///< a folder or a file
+  std::filesystem::path contours = {};   ///< folder of Sunnybrook contours; may be empty
+  std::vector<std::string> series = {};  ///< that the contours were drawn on
+  std::vector<int> cavity = {};          ///< labels whose volume curve is asked for; may be empty
 };
 
 /// Says what images there are, so that a case file can name them: series of DICOM files with

@@ -85,9 +85,9 @@ std::string end_diastole_note(const Case& c, const Moments& m, int chosen) {
   return fmt::format(
       "{} seems to be end-diastole ({:.1f} ml, the largest of {}), and its shape is taken as free "
       "of stress: a wall that is filled already will be filled once more. Set unloaded.pressure "
-      "to the pressure that it bears (such as protocol.ed_pressure, {:g} mmHg), or choose early "
+      "to the pressure that it bears (such as that of protocol.ed_pressure), or choose early "
       "diastole",
-      chosen, 1e-3 * m.volume(chosen), m.numbers.size(), c.protocol.ed_pressure / units::mmHg);
+      chosen, 1e-3 * m.volume(chosen), m.numbers.size());
 }
 
 }  // namespace lv::job

@@ -10,11 +10,13 @@
 #include "lv/bench/bench.hpp"
 #include "lv/job/calibration.hpp"
 #include "lv/job/infarct.hpp"
+#include "lv/job/ingredients.hpp"
 #include "lv/job/parameters.hpp"
 #include "lv/job/stages.hpp"
 #include "lv/job/strain.hpp"
 #include "lv/job/unloading.hpp"
 #include "lv/job/validate.hpp"
+#include "lv/job/version.hpp"
 #include "lv/job/workspace.hpp"
 #include "lv/report/page.hpp"
 #include "lv/report/table_figures.hpp"
@@ -30,20 +32,6 @@ namespace {
 using parallel::on_root;
 using parallel::root_says;
 
-/// Parameters of one stage, with the program's version. The results name all, used or not.
-Ingredients own_ingredients(const Case& c, Stage stage) {
-  Ingredients ingredients{{"program version", version()}};
-  for (const Parameter& p : parameters()) {
-    const bool used = is_used(c, p.name);
-    if (p.stage == stage ? used || stage > Stage::beat : stage == Stage::results && !used)
-      ingredients[p.name] = p.get(c);
-  }
-  if (stage == Stage::calibrate && !c.calibration.strains.empty())
-    ingredients["contents of calibrate.strains"] =
-        fingerprint_of_file(beside(c, c.calibration.strains));
-  return ingredients;
-}
-
 /// The stages in their order, each with what it depends on.
 class Pipeline {
  public:
@@ -52,12 +40,13 @@ class Pipeline {
         options_(options),
         work_(options.work.empty() ? c.file.parent_path() / (c.file.stem().string() + ".work")
                                    : options.work),
-        last_(last_stage()) {}
+        last_(last_stage()),
+        files_({work_, c.file}) {}
 
   void run() {
     std::optional<WorkLock> lock;
     on_root([&] { lock.emplace(work_); });
-    on_root([&] { log::to_file(work_ / "log.txt"); });
+    on_root([&] { log::to_file(work_ / "log.txt", names_alone(case_, work_)); });
     log::info("{}: ventricle {} on {} rank{}, results in {}", case_.name, version(),
               parallel::size(), parallel::size() == 1 ? "" : "s", work_.string());
     if (case_.origin.empty())
@@ -67,82 +56,66 @@ class Pipeline {
     const std::vector<Planned> stages = plan();
     check_before(stages);
     for (const Planned& p : stages)
-      run_stage(p.stage, p.ingredients);
+      run_stage(p);
   }
 
-  /// What would run and why, a line a stage.
-  [[nodiscard]] std::string describe() const {
+  /// What would run and why, a line a stage; known to the root.
+  [[nodiscard]] std::string describe() {
     std::string text;
     for (const Planned& p : plan()) {
-      const StageFolder stage(work_, stage_folder(p.stage), p.ingredients);
-      text += stage.up_to_date() ? fmt::format("{:<10} is up to date\n", stage_names[p.stage])
-                                 : fmt::format("{:<10} would run, because {}\n",
-                                               stage_names[p.stage], stage.reason());
+      const StageFolder stage = folder_of(p);
+      text += stage.up_to_date()
+                  ? fmt::format("{:<10} is up to date\n", name_of(p.stage))
+                  : fmt::format("{:<10} would run, because {}\n", name_of(p.stage), stage.reason());
     }
     return text;
   }
 
  private:
-  /// A stage that the case asks for, with what its result depends on.
+  /// A stage of the case with what its result depends on, which the root knows.
   struct Planned {
-    std::size_t stage;
+    Stage stage;
     Ingredients ingredients;
   };
 
-  [[nodiscard]] bool asks_for(Stage stage) const {
-    if (stage == Stage::strain)
-      return case_.strain.asked();
-    if (stage == Stage::calibrate)
-      return case_.calibration.asked();
-    return stage != Stage::unload || is_loaded(case_);
-  }
-
-  [[nodiscard]] std::vector<Planned> plan() const {
+  /// The stages in their order. Each takes the results of all before it but strain's, which the
+  /// results alone look at; what stands for a result is known before it is there.
+  [[nodiscard]] std::vector<Planned> plan() {
     std::vector<Planned> stages;
-    Ingredients carried = anatomy_files(case_);  // to the next stage that runs
-    Ingredients measured;                        // which the results are compared with
-    if (asks_for(Stage::strain)) {
-      Ingredients ingredients = own_ingredients(case_, Stage::strain);
-      ingredients.merge(strain_files(case_));
-      measured["result of strain"] = fingerprint(ingredients);
-      stages.push_back({static_cast<std::size_t>(Stage::strain), std::move(ingredients)});
-    }
-    for (auto s = static_cast<std::size_t>(Stage::anatomy); s <= last_; ++s) {
-      const auto stage = static_cast<Stage>(s);
-      Ingredients ingredients = own_ingredients(case_, stage);
-      if (stage == Stage::results)
-        ingredients.insert(measured.begin(), measured.end());
-      if (stage == Stage::results && !case_.strain.measured.empty())
-        ingredients["contents of strain.measured"] =
-            fingerprint_of_file(beside(case_, case_.strain.measured));
-      ingredients.merge(carried);
-      if (stage == Stage::mesh)
-        ingredients.merge(infarct_files(case_));
-      if (!asks_for(stage)) {
-        const std::string own = stage == Stage::calibrate ? "calibrate." : "unloaded.";
-        std::erase_if(ingredients, [&](const auto& i) { return i.first.starts_with(own); });
-        carried = std::move(ingredients);
+    Ingredients before;  // the last result that leads to the next stage
+    Ingredients strain;
+    for (const Stage stage : all_stages) {
+      if (stage > last_ || !has_stage(case_, stage))
         continue;
-      }
-      carried = {{"result of " + stage_names[s], fingerprint(ingredients)}};
-      stages.push_back({s, std::move(ingredients)});
+      Ingredients all;
+      on_root([&] { all = ingredients(case_, stage, files_); });
+      all.insert(before.begin(), before.end());
+      if (stage == Stage::results)
+        all.insert(strain.begin(), strain.end());
+      Ingredients result;
+      result["result of " + name_of(stage)] = fingerprint(all);
+      (stage == Stage::strain ? strain : before) = std::move(result);
+      stages.push_back({stage, std::move(all)});
     }
     return stages;
+  }
+
+  [[nodiscard]] StageFolder folder_of(const Planned& p) const {
+    return {work_, folder(p.stage).filename().string(), p.ingredients};
   }
 
   /// A fit that cannot succeed must not be found out after the stages before it.
   void check_before(const std::vector<Planned>& stages) {
     on_root([&] {
       for (const Planned& p : stages)
-        if (static_cast<Stage>(p.stage) == Stage::calibrate &&
-            !StageFolder(work_, stage_folder(p.stage), p.ingredients).up_to_date())
+        if (p.stage == Stage::calibrate && !folder_of(p).up_to_date())
           check_measured_volumes(case_, cavity_of(shape()));
     });
   }
 
-  [[nodiscard]] std::size_t last_stage() const {
+  [[nodiscard]] Stage last_stage() const {
     if (!options_.until)
-      return stage_names.size() - 1;
+      return all_stages.back();
     if (*options_.until == "strain" && !case_.strain.asked())
       throw InputError(case_.file.string(), "has no cine images",
                        "Name them with strain.cine, and the contours with strain.contours");
@@ -159,36 +132,42 @@ class Pipeline {
                        fmt::format("The stages are {}{}", fmt::join(stage_names, ", "),
                                    nearest.empty() ? "" : "; did you mean " + nearest + "?"));
     }
-    return static_cast<std::size_t>(found - stage_names.begin());
+    return static_cast<Stage>(found - stage_names.begin());
   }
 
   [[nodiscard]] std::filesystem::path folder(Stage stage) const {
     return work_ / stage_folder(static_cast<std::size_t>(stage));
   }
 
-  void run_stage(std::size_t s, Ingredients ingredients) {
+  static const std::string& name_of(Stage stage) {
+    return stage_names.at(static_cast<std::size_t>(stage));
+  }
+
+  void run_stage(const Planned& planned) {
     interrupt::check_together();
-    const StageFolder stage(work_, stage_folder(s), std::move(ingredients));
+    const Stage s = planned.stage;
+    const StageFolder stage = folder_of(planned);
     if (root_says(stage.up_to_date())) {
       if (options_.explain)
-        log::info("{} is up to date: nothing it depends on has changed", stage_names[s]);
+        log::info("{} is up to date: nothing it depends on has changed", name_of(s));
       show(s);
       return;
     }
     if (options_.explain)
-      log::info("{} runs, because {}", stage_names[s], stage.reason());
+      log::info("{} runs, because {}", name_of(s), stage.reason());
     else
-      log::info("{} ...", stage_names[s]);
+      log::info("{} ...", name_of(s));
     on_root([&] { static_cast<void>(stage.begin()); });
-    make(s, stage.unfinished());
+    make(s, stage_view(case_, s), stage.unfinished());
     on_root([&] { stage.finish(); });
     show(s);
   }
 
-  void make(std::size_t s, const std::filesystem::path& part) {
-    switch (static_cast<Stage>(s)) {
+  /// `c` is the case as the stage sees it.
+  void make(Stage s, const Case& c, const std::filesystem::path& part) {
+    switch (s) {
       case Stage::strain:
-        on_root([&] { make_strain(case_, part); });
+        on_root([&] { make_strain(c, part); });
         break;
       case Stage::anatomy:
         on_root([&] {
@@ -198,11 +177,15 @@ class Pipeline {
         });
         break;
       case Stage::mesh:
-        on_root([&] { write_mesh_result(make_mesh(case_, shape()), part); });
-        show_mesh(read_mesh_result(part), case_, part);
+        on_root([&] {
+          const MeshResult mesh = make_mesh(c, shape());
+          check_room(case_, mesh.mesh);  // before a fit takes its time
+          write_mesh_result(mesh, part);
+        });
+        show_mesh(read_mesh_result(part), c, part);
         break;
       case Stage::calibrate: {
-        const Case fitting = for_calibration(case_);
+        const Case fitting = for_calibration(c);
         on_root([&] { write_mesh_result(make_mesh(fitting, shape()), part); });
         make_calibration(fitting, read_mesh_result(part), part);
         break;
@@ -211,20 +194,20 @@ class Pipeline {
         const auto elements = part / elements_name;
         on_root([&] {
           std::filesystem::create_directories(elements);
-          write_mesh_result(make_mesh(for_calibration(case_), shape()), elements);
+          write_mesh_result(make_mesh(for_calibration(c), shape()), elements);
         });
         unload(part, elements);
         break;
       }
       case Stage::beat:
-        run_beat(part);
+        run_beat(c, part);
         break;
       case Stage::results: {
         const auto beat = folder(Stage::beat);
         const auto wall = wall_of(beat);
         const MeshResult mesh = read_mesh_result(wall);
-        text_ = make_results(fitted_case(beat), mesh, read_beat(beat, mesh.mesh),
-                             fitted_volumes(case_, beat), unloaded_shape(wall), part);
+        text_ = make_results(fitted(c, beat), mesh, read_beat(beat, mesh.mesh),
+                             fitted_volumes(c, beat), unloaded_shape(wall), part);
         on_root([&] { write_file(part / "summary.txt", text_); });
         break;
       }
@@ -239,22 +222,24 @@ class Pipeline {
     }
   }
 
-  void run_beat(const std::filesystem::path& part) {
+  void run_beat(const Case& c, const std::filesystem::path& part) {
     if (root_says(std::filesystem::exists(part / beat_name))) {
       // finished, but the folder had not got its name yet
       on_root([&] { std::filesystem::remove(part / heartbeat::checkpoint_name); });
       return;
     }
+    on_root(
+        [&] { check_room(case_, read_mesh_result(wall_of(part)).mesh); });  // the box may be new
     heartbeat::Beat beat;
     bool again = false;
     do {
       if (is_loaded(case_) && root_says(std::filesystem::exists(part / confirmation_name)))
         unload(part, folder(Stage::unload) / elements_name);  // with corrected parameters
       const MeshResult mesh = read_mesh_result(wall_of(part));
-      beat = make_beat(fitted_case(part), mesh, part);
+      beat = make_beat(fitted(c, part), mesh, part);
       log::info("beat: {} steps in {}", beat.steps, log::duration(beat.wall_clock));
       on_root([&] {
-        again = case_.calibration.asked() && correct(case_, calibration(), beat, part);
+        again = c.calibration.asked() && correct(c, calibration(), beat, part);
         if (again)
           std::filesystem::remove_all(part / "fields");  // the next beat may have fewer
       });
@@ -267,8 +252,10 @@ class Pipeline {
 
   /// The wall without load for the parameters in use, into a folder.
   void unload(const std::filesystem::path& part, const std::filesystem::path& elements) const {
-    make_unloading(fitted_case(part), read_mesh_result(folder(Stage::mesh)),
-                   read_mesh_result(elements).mesh, part, calibration() / unloaded_shape_name);
+    make_unloading(
+        fitted(stage_view(case_, Stage::unload), part), read_mesh_result(folder(Stage::mesh)),
+        read_mesh_result(elements).mesh, part,
+        case_.calibration.asked() ? calibration() / unloaded_shape_name : std::filesystem::path());
   }
 
   /// Where the stress-free wall of a beat is.
@@ -281,27 +268,26 @@ class Pipeline {
   /// Made once, by the first stage that needs it; of the root alone.
   const Shape& shape() {
     if (!shape_)
-      shape_ = make_anatomy(case_);
+      shape_ = make_anatomy(stage_view(case_, Stage::anatomy));
     return *shape_;
   }
 
   [[nodiscard]] std::filesystem::path calibration() const { return folder(Stage::calibrate); }
 
-  /// The case with the parameters in use: its own, a calibration's, or those of a beat that
-  /// corrects it.
-  [[nodiscard]] Case fitted_case(const std::filesystem::path& beat) const {
-    if (!case_.calibration.asked())
-      return case_;
+  /// A case with the parameters in use: its own, a calibration's, or those of a beat that corrects
+  /// it.
+  [[nodiscard]] Case fitted(const Case& c, const std::filesystem::path& beat) const {
+    if (!c.calibration.asked())
+      return c;
     const auto corrected = beat / confirmation_name;
     return calibrated(
-        case_, std::filesystem::exists(corrected) ? corrected : calibration() / calibration_name);
+        c, std::filesystem::exists(corrected) ? corrected : calibration() / calibration_name);
   }
 
   /// What a user looks at first.
-  void show(std::size_t s) const {
+  void show(Stage stage) const {
     if (!parallel::is_root())
       return;
-    const auto stage = static_cast<Stage>(s);
     if (stage == Stage::anatomy && std::filesystem::exists(folder(stage) / "quality.txt"))
       print(fmt::format("\n{}\n", read_file(folder(stage) / "quality.txt")));
     if (stage == Stage::calibrate)
@@ -320,7 +306,8 @@ class Pipeline {
   const Case& case_;
   RunOptions options_;
   std::filesystem::path work_;
-  std::size_t last_;
+  Stage last_;
+  FileContents files_;
   std::string text_;
   std::optional<Shape> shape_;
   static constexpr const char* elements_name = "quasi_static";  ///< folder of the mesh for fits
@@ -330,7 +317,9 @@ class Pipeline {
 
 void run(const Case& c, const RunOptions& options) {
   if (options.dry_run) {
-    print(Pipeline(c, options).describe());
+    const std::string text = Pipeline(c, options).describe();
+    if (parallel::is_root())
+      print(text);
     return;
   }
   interrupt::install();
@@ -364,13 +353,10 @@ std::string bench(const BenchOptions& options) {
   if (options.quadrature)
     c.coupling.kind = immersed::CouplingKind::quadrature;
   const MeshResult result = make_mesh(c, make_anatomy(c));
+  check_room(c, result.mesh);
   const lv::bench::Bench measured =
       lv::bench::measure(result.mesh, model_parameters(c, result.mesh), myocardium(c));
   return options.json ? lv::bench::json(measured) : lv::bench::text(measured);
-}
-
-std::string version() {
-  return LV_VERSION;
 }
 
 }  // namespace lv::job

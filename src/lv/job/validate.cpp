@@ -18,7 +18,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <string_view>
 
 namespace lv::job {
 namespace {
@@ -48,9 +47,6 @@ std::vector<Warning> warnings_of(const Case& c, const Shape& shape, double cavit
          fmt::format("calibrate.edv is {:.1f} ml and the shape that is taken as free of stress "
                      "has {:.1f} ml: if it is that of end-diastole, set unloaded.pressure",
                      1e-3 * edv, 1e-3 * cavity)});
-  if (const auto names = without_effect(c); !names.empty())
-    warnings.push_back(
-        {"no effect", fmt::format("without effect in this case: {}", fmt::join(names, ", "))});
   return warnings;
 }
 
@@ -119,27 +115,6 @@ void check_measured_volumes(const Case& c, double cavity) {
           c.protocol.ed_pressure / mmHg));
 }
 
-bool is_used(const Case& c, const std::string& name) {
-  const auto in = [&](std::initializer_list<std::string_view> tables) {
-    return std::any_of(tables.begin(), tables.end(),
-                       [&](const auto& table) { return name.starts_with(table); });
-  };
-  const bool given = c.anatomy.source == AnatomySource::mesh;
-  if (in({"mesh."}))
-    return !given && (c.engine == Engine::immersed || c.quasi_static.order == 1);
-  if (c.engine == Engine::quasi_static)
-    return !in({"volumetric.", "box.", "coupling.", "time.", "base.stiffness", "blood.viscosity"});
-  return c.calibration.asked() || is_loaded(c) || !in({"quasi_static."});
-}
-
-std::vector<std::string> without_effect(const Case& c) {
-  std::vector<std::string> names;
-  for (const auto& [name, place] : c.origin)
-    if (!is_used(c, name))
-      names.push_back(name);
-  return names;
-}
-
 std::string validate(const Case& c) {
   Mistakes mistakes;
   std::string strain;
@@ -150,6 +125,7 @@ std::string validate(const Case& c) {
   mistakes.raise();
   check_measured_volumes(c, cavity_of(*shape));
   const MeshResult result = make_mesh(c, *shape);
+  check_room(c, result.mesh);
   const double cavity = solid::EndocardialSurface(result.mesh).volume(result.mesh.nodes);
   std::string text = describe_shape(c, *shape, cavity, result.mesh);
   if (const auto targets = strain_targets(c, result.regions); !targets.empty())

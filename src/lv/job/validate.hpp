@@ -3,7 +3,6 @@
 #include "lv/job/case.hpp"
 
 #include <string>
-#include <vector>
 
 namespace lv::job {
 
@@ -19,11 +18,5 @@ inline constexpr const char* no_parameters =
 /// Throws InputError where no stiffness can fill the wall to calibrate.edv, since the shape that
 /// is taken as free of stress holds as much already. `cavity`: of that shape [mm^3].
 void check_measured_volumes(const Case& c, double cavity);
-
-/// The parameters that the case file sets and nothing reads.
-[[nodiscard]] std::vector<std::string> without_effect(const Case& c);
-
-/// Whether a parameter changes what the engines of the case compute.
-[[nodiscard]] bool is_used(const Case& c, const std::string& parameter);
 
 }  // namespace lv::job
