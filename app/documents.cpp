@@ -43,12 +43,18 @@ std::string item(const CLI::Option& option) {
   return text + "\n";
 }
 
+/// What --help says below the options, its lines as they are.
+std::string footer(const CLI::App& app) {
+  const std::string text = app.get_footer();
+  return text.empty() ? "" : fmt::format(".PP\n.nf\n{}\n.fi\n", roff(text));
+}
+
 std::string section(const CLI::App& command) {
   std::string text = fmt::format(".SS ventricle {}\n{}.\n", roff(command.get_name()),
                                  roff(command.get_description()));
   for (const CLI::Option* option : options(command))
     text += item(*option);
-  return text;
+  return text + footer(command);
 }
 
 /// Names that start with a hyphen, as bash's compgen wants them.
@@ -75,12 +81,8 @@ std::string man_page(const CLI::App& app, const std::string& version,
   text += ".SH COMMANDS\n";
   for (const CLI::App* command : commands(app))
     text += section(*command);
-  return text +
-         ".SH EXIT STATUS\n0: done; 1: wrong input or a failed verification; 2: a run that could "
-         "not go on;\n"
-         "3: a defect of the program; 130: interrupted, with a checkpoint.\n"
-         ".SH PARAMETERS OF A CASE FILE\n.nf\n" +
-         roff(parameters) + ".fi\n";
+  return text + ".SH A FIRST RUN AND EXIT STATUS\n" + footer(app) +
+         ".SH PARAMETERS OF A CASE FILE\n.nf\n" + roff(parameters) + ".fi\n";
 }
 
 std::string bash_completion(const CLI::App& app) {

@@ -7,13 +7,16 @@
 #include "lv/base/table.hpp"
 #include "lv/base/units.hpp"
 #include "lv/job/list_images.hpp"
+#include "lv/job/propose_case.hpp"
 #include "lv/job/read_case.hpp"
 #include "lv/job/run.hpp"
+#include "lv/job/validate.hpp"
 #include "lv/job/version.hpp"
 #include "lv/phantom/study.hpp"
 #include "lv/verify/run.hpp"
 
 #include "documents.hpp"
+#include "help.hpp"
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <mpi.h>
@@ -44,6 +47,8 @@ constexpr int most_ranks = 1024;  // that may be asked for
 struct Command {
   std::string case_file;
   std::string new_file = "case.toml";
+  std::string source;  ///< that a new case is made from
+  std::string filter;  ///< of the parameters to list
   std::string until;
   std::vector<std::filesystem::path> works;
   std::string page;
@@ -74,10 +79,11 @@ int until_stopped(const Work& work) {
   }
 }
 
-void write_new_case(const std::string& file) {
+void write_new_case(const std::string& file, const std::string& source) {
   if (std::filesystem::exists(std::filesystem::symlink_status(file)))
     throw lv::InputError(file, "exists already", "Choose another name");
-  lv::write_file(file, lv::job::starter_case(std::filesystem::path(file).stem()));
+  lv::write_file(file, source.empty() ? lv::job::starter_case(std::filesystem::path(file).stem())
+                                      : lv::job::proposed_case(source, file));
   lv::print(fmt::format("wrote {}; next: ventricle validate {}\n", file, file));
 }
 
@@ -126,8 +132,9 @@ int run_parallel(Command& command, int argc, char** argv) {
   const lv::job::Case c = lv::job::read_case(command.case_file);
   const int most =
       c.engine == lv::job::Engine::immersed ? lv::job::most_ranks(c.box.cells) : most_ranks;
-  if (const auto code = run_on_ranks(command, most, argc, argv))
-    return *code;
+  if (!command.run.dry_run)  // which is done at once
+    if (const auto code = run_on_ranks(command, most, argc, argv))
+      return *code;
   const lv::parallel::Session session(&argc, &argv);
   if (!command.until.empty())
     command.run.until = command.until;
@@ -196,6 +203,7 @@ void add_run_options(CLI::App& app, Command& command) {
   app.add_option("--work", command.run.work,
                  "work folder (default: the case file's name with .work)");
   app.add_flag("--explain", command.run.explain, "say why each stage runs or does not");
+  app.add_flag("--dry-run", command.run.dry_run, "say what would run and why, and run nothing");
   add_ranks(app, command);
 }
 
@@ -283,7 +291,7 @@ void add_phantom(CLI::App& app, Command& command) {
 void add_images(CLI::App& app, Command& command) {
   auto* images = app.add_subcommand(
       "images", "list series, slices, phases, labels and volumes of images, to fill in a case");
-  images->add_option("WHERE", command.images.where, "a folder of DICOM files, or a NIfTI file")
+  images->add_option("WHERE", command.images.where, "a folder of DICOM files, or any file")
       ->required();
   images->add_option("--contours", command.images.contours,
                      "folder of Sunnybrook contours: volumes per phase");
@@ -302,8 +310,12 @@ int refuse_ranks(const std::string& command) {
 
 /// Commands that take a case file.
 void add_cases(CLI::App& app, Command& command) {
-  auto* start = app.add_subcommand("new", "write a commented starter case");
+  auto* start =
+      app.add_subcommand("new", "write a case: a commented starter, or one that images fill in");
   start->add_option("FILE", command.new_file, "the case file to write")->capture_default_str();
+  start->add_option("--from", command.source,
+                    "a label map (.nii, .nii.gz), a folder of DICOM files or of Sunnybrook "
+                    "contours, contours (.csv), guide points, or a mesh (.inp, .msh, .vtk, .vtu)");
 
   auto* check =
       app.add_subcommand("validate", "check a case, its anatomy and its mesh without running it");
@@ -325,6 +337,15 @@ void add_cases(CLI::App& app, Command& command) {
   strain->add_option("--work", command.run.work,
                      "work folder (default: the case file's name with .work)");
   strain->add_flag("--explain", command.run.explain, "say why the stage runs or does not");
+  strain->add_flag("--dry-run", command.run.dry_run, "say what would run and why, and run nothing");
+}
+
+void add_parameters(CLI::App& app, Command& command) {
+  auto* list = app.add_subcommand("parameters",
+                                  "list every parameter: default, range, meaning, paper equation");
+  list->add_option("FILTER", command.filter,
+                   "only those whose name or meaning contains this, such as calcium or mesh.");
+  list->add_flag("--markdown", command.markdown, "as the manual page");
 }
 
 void add_bench(CLI::App& app, Command& command) {
@@ -344,7 +365,7 @@ void add_bench(CLI::App& app, Command& command) {
 /// Every command and option, once: read from the command line, printed by --help, man and
 /// completion.
 void declare(CLI::App& app, Command& command) {
-  app.require_subcommand(1);
+  app.require_subcommand(0, 1);
   app.set_version_flag("--version", "ventricle " + lv::job::version());
   add_cases(app, command);
   add_phantom(app, command);
@@ -352,11 +373,12 @@ void declare(CLI::App& app, Command& command) {
   add_images(app, command);
   add_page(app, command, "report", "write one page that shows a run, finished or not", 1);
   add_page(app, command, "compare", "write one page that shows two runs side by side", 2);
-  auto* list = app.add_subcommand("parameters",
-                                  "list every parameter: default, range, meaning, paper equation");
-  list->add_flag("--markdown", command.markdown, "as the manual page");
+  add_parameters(app, command);
   add_bench(app, command);
   add_documents(app);
+  app.footer(help::program);
+  for (const auto& [name, text] : help::commands)
+    app.get_subcommand(name)->footer(text);
 }
 
 /// What a command only prints.
@@ -364,7 +386,7 @@ std::string printed(const CLI::App& app, const Command& command, const std::stri
   if (name == "images")
     return lv::job::list_images(command.images);
   if (name == "parameters")
-    return lv::job::manual(command.markdown);
+    return lv::job::manual(command.markdown, command.filter);
   if (name == "man")
     return man_page(app, lv::job::version(), lv::job::manual(false));
   return bash_completion(app);
@@ -393,7 +415,7 @@ int perform(const CLI::App& app, Command& command, int argc, char** argv) {
   if (name == "verify")
     return verify(command, argc, argv);
   if (name == "new")
-    write_new_case(command.new_file);
+    write_new_case(command.new_file, command.source);
   else
     lv::print(printed(app, command, name));
   return 0;
@@ -410,7 +432,11 @@ int dispatch(int argc, char** argv) {
       return 0;  // help and version are told once
     return app.exit(error) == 0 ? 0 : wrong_input;
   }
-  return perform(app, command, argc, argv);
+  if (!app.get_subcommands().empty())
+    return perform(app, command, argc, argv);
+  if (lv::launch::world_rank() == 0)
+    lv::print(app.help());
+  return 0;
 }
 
 constexpr const char* no_memory =

@@ -25,7 +25,7 @@ def check(claim, holds):
 
 page, script = output(program, "man"), output(program, "completion")
 readable = page.replace("\\-", "-")
-commands = re.findall(r"^  (\w+)\s", output(program, "--help").split("Subcommands:")[1], re.MULTILINE)
+commands = re.findall(r"^  (\w+)\s", output(program, "--help").split("Subcommands:")[1].split("\n\n")[0], re.MULTILINE)
 check("--help lists commands", "run" in commands)
 check("bash completes commands", set(commands) <= set(completed(script, "ventricle", "")))
 for command in commands:

@@ -7,21 +7,31 @@
 #include "lv/base/table.hpp"
 
 #include <spdlog/sinks/basic_file_sink.h>
-#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
 #include <cmath>
+#include <cstdlib>
+#include <memory>
 
 namespace lv::log {
 namespace {
+
+/// Levels in colours where a person reads, unless NO_COLOR asks for none (no-color.org).
+std::shared_ptr<spdlog::sinks::sink> terminal() {
+  const char* plain = std::getenv("NO_COLOR");
+  return std::make_shared<spdlog::sinks::stdout_color_sink_mt>(plain != nullptr && *plain != '\0'
+                                                                   ? spdlog::color_mode::never
+                                                                   : spdlog::color_mode::automatic);
+}
 
 /// Made at the first line; ranks other than the root have no sinks.
 spdlog::logger& logger() {
   static spdlog::logger instance = [] {
     spdlog::logger made("ventricle");
     if (parallel::is_root())
-      made.sinks().push_back(std::make_shared<spdlog::sinks::stdout_sink_mt>());
-    made.set_pattern("[%H:%M:%S] %l %v");
+      made.sinks().push_back(terminal());
+    made.set_pattern("[%H:%M:%S] %^%l%$ %v");
     made.flush_on(spdlog::level::info);
     return made;
   }();

@@ -52,7 +52,10 @@ Session::~Session() {
 
 int rank() {
   int value = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &value);
+  int running = 0;
+  MPI_Initialized(&running);
+  if (running != 0)
+    MPI_Comm_rank(MPI_COMM_WORLD, &value);
   return value;
 }
 

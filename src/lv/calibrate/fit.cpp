@@ -3,6 +3,7 @@
 #include "lv/base/check.hpp"
 #include "lv/base/log.hpp"
 #include "lv/base/units.hpp"
+#include "lv/calibrate/forecast.hpp"
 #include "lv/calibrate/klotz.hpp"
 #include "lv/calibrate/least_squares.hpp"
 
@@ -10,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <chrono>
 #include <cmath>
 
 namespace lv::calibrate {
@@ -36,6 +38,36 @@ constexpr double longest_step = 0.25;
 constexpr double converged = 1e-3;
 constexpr int most_corrections = 20;
 
+/// The parts of Fitter::run, with the equilibria that each takes, roughly (docs/progress.md).
+std::vector<FitPart> parts_of(const Plan& plan) {
+  const bool passive = plan.passive != FittedPassive::none;
+  const bool curve = plan.passive == FittedPassive::scale_and_exponent;
+  std::vector<FitPart> parts;
+  const auto fit_passive = [&](double trials) {
+    if (passive)
+      parts.push_back({"bracket", {trials, 0.0}});
+    if (curve)
+      parts.push_back({"curve", {5.0 * trials, 0.0}});
+  };
+  fit_passive(6.0);
+  if (plan.active) {
+    parts.push_back({"bracket", {0.0, 6.0}});
+    fit_passive(3.0);
+    parts.push_back({"bracket", {0.0, 3.0}});
+  }
+  const double fitted = (passive ? 1.0 : 0.0) + (curve ? 1.0 : 0.0) + (plan.active ? 1.0 : 0.0);
+  const double at_rest = (passive ? 1.0 : 0.0) + (curve ? 3.0 : 0.0);
+  const double at_work = plan.active ? 1.0 : 0.0;
+  if (!plan.strains.empty())
+    parts.push_back(
+        {"least squares",
+         {8.0 * (fitted + 1.0) * (at_rest + 1.0), 8.0 * (fitted + 1.0) * (at_work + 1.0)}});
+  parts.push_back({"result", {std::max(1.0, at_rest), at_work}});
+  parts.push_back(
+      {"sensitivity", {2.0 * (fitted + 1.0) * at_rest, 2.0 * (fitted + 1.0) * at_work}});
+  return parts;
+}
+
 Eigen::VectorXd as_vector(const std::vector<double>& numbers) {
   return Eigen::Map<const Eigen::VectorXd>(numbers.data(),
                                            static_cast<Eigen::Index>(numbers.size()));
@@ -44,20 +76,24 @@ Eigen::VectorXd as_vector(const std::vector<double>& numbers) {
 class Fitter {
  public:
   Fitter(const Model& model, const FitParameters& start, const Plan& plan)
-      : plan_(plan), model_(model) {
+      : plan_(plan), model_(model), forecast_(parts_of(plan)) {
     fit_.parameters = start;
     if (plan.strains.empty())
       model_.strains = {};
     model_.volume = [this, &model](const FitParameters& p, const Loads& loads) {
+      const auto began = std::chrono::steady_clock::now();
       const auto volume = model.volume(p, loads);
+      const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - began;
+      forecast_.record(loads.activation > 0.0 ? MuscleState::contracts : MuscleState::rests,
+                       elapsed.count());
       if (!volume)
         return volume;
       fit_.history.push_back({purpose_, p, loads, *volume});
       log::info(
           "{:<22} C_a {:.4g}  scale {:.4g}  exponent {:.4g}  T_scale {:.4g}  {:.2f} mmHg  "
-          "{:.3f} ml",
+          "{:.3f} ml{}",
           purpose_, p.C_a, p.scale, p.exponent, p.T_scale, loads.pressure / units::mmHg,
-          1e-3 * *volume);
+          1e-3 * *volume, forecast_.words());
       return volume;
     };
   }
@@ -82,7 +118,7 @@ class Fitter {
     if (model_.strains)
       fit_strains(fitted);
     measure();
-    purpose_ = "sensitivity";
+    begin("sensitivity");
     fit_.sensitivity = sensitivity(model_, fit_.parameters, fitted, fit_.observations,
                                    {plan_.edv.volume, ed_loads(), es_loads(), plan_.errors});
     return std::move(fit_);
@@ -91,6 +127,11 @@ class Fitter {
  private:
   [[nodiscard]] Loads ed_loads() const { return {plan_.ed_pressure, 0.0}; }
   [[nodiscard]] Loads es_loads() const { return {plan_.es_pressure, 1.0}; }
+
+  void begin(const std::string& purpose) {
+    purpose_ = purpose;
+    forecast_.begin();
+  }
 
   /// Of `fitted`, the passive parameters.
   void fit_passive(const std::vector<Fitted>& fitted, double first_factor) {
@@ -103,7 +144,7 @@ class Fitter {
 
   void bracket(const Fitted& which, const Range& range, const Loads& loads, const Target& target,
                double first_factor) {
-    purpose_ = fmt::format("bracket of {}", which.name);
+    begin(fmt::format("bracket of {}", which.name));
     solve(which, range, loads, target, first_factor).value();
   }
 
@@ -179,7 +220,7 @@ class Fitter {
 
   /// Levenberg-Marquardt in the logarithms of the parameters.
   void fit_strains(const std::vector<Fitted>& fitted) {
-    purpose_ = "least squares";
+    begin("least squares");
     const auto n = static_cast<Eigen::Index>(fitted.size());
     Eigen::VectorXd start(n), low(n), high(n);
     for (Eigen::Index j = 0; j < n; ++j) {
@@ -228,7 +269,7 @@ class Fitter {
   /// Gauss-Newton steps in the exponent along the line on which the scale keeps the end-diastolic
   /// volume, halved until the Klotz curve is nearer.
   void fit_exponent(const Fitted& scale, const Fitted& exponent) {
-    purpose_ = "fit to the Klotz curve";
+    begin("fit to the Klotz curve");
     Eigen::VectorXd r = residuals(fit_.parameters).value();
     for (int i = 0; i < most_corrections; ++i) {
       const double along = scale_along(scale, exponent, r[0]);
@@ -294,7 +335,7 @@ class Fitter {
   /// The model's volumes with the fitted parameters. Tension at rest makes the end-diastolic volume
   /// depend on T_scale a little.
   void measure() {
-    purpose_ = "result";
+    begin("result");
     fit_.unloaded_volume = model_.unloaded_volume(fit_.parameters).value();
     static_cast<void>(move_curve(fit_.parameters));
     fit_.edv = model_.volume(fit_.parameters, ed_loads()).value();
@@ -334,6 +375,7 @@ class Fitter {
 
   const Plan& plan_;
   Model model_;
+  FitForecast forecast_;
   std::string purpose_;
   Fit fit_;
 };

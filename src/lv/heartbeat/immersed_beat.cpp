@@ -4,8 +4,10 @@
 #include "lv/base/interrupt.hpp"
 #include "lv/base/log.hpp"
 #include "lv/base/parallel.hpp"
+#include "lv/base/time_left.hpp"
 #include "lv/base/units.hpp"
 #include "lv/heartbeat/checkpoint.hpp"
+#include "lv/heartbeat/settling.hpp"
 
 #include <chrono>
 #include <cmath>
@@ -101,7 +103,7 @@ class ImmersedRun {
   }
   void housekeeping();
   void report_progress(double now);
-  [[nodiscard]] double time_left() const;
+  [[nodiscard]] double time_left();
 
   const BeatSetup& setup_;
   std::filesystem::path folder_;
@@ -116,6 +118,8 @@ class ImmersedRun {
 
   Timer checkpoint_timer_;
   Timer progress_timer_{5.0};
+  TimeLeft left_;
+  Settling settling_;
   double counted_until_ = wall_clock();
   double begun_time_ = 0.0;  ///< simulated and wall-clock time at which this process took over
   double begun_clock_ = wall_clock();
@@ -374,26 +378,22 @@ void ImmersedRun::housekeeping() {
   }
 }
 
-/// Simulated time that the run will probably still take: the ramps and about two windows of
-/// settling.
-double ImmersedRun::time_left() const {
-  const Protocol& p = setup_.protocol;
-  const double filling = p.filling_ramp + 2.0 * p.filling_window;
-  const double contraction = p.contraction_ramp + 3.0 * p.contraction_window;
-  const double here = run_.phase == Phase::filling ? filling : contraction;
-  const double now = std::max(here - time_in_phase(), 0.02);
-  return run_.phase == Phase::filling ? now + contraction : now;
+/// Simulated time that the run will probably still take.
+double ImmersedRun::time_left() {
+  const double here =
+      settling_.time_left(setup_.protocol, run_.phase, time_in_phase(), run_.steady.variation());
+  return run_.phase == Phase::filling ? here + usual_duration(setup_.protocol, Phase::contraction)
+                                      : here;
 }
 
 void ImmersedRun::report_progress(double now) {
-  const double speed = std::max(run_.time - begun_time_, 1e-9) / (now - begun_clock_);
+  left_.record(run_.time - begun_time_);
   const double rate = (run_.beat.steps - begun_steps_) / (now - begun_clock_);
   log::info(
-      "{} {:.3f} s  {:.1f} mmHg  {:.1f} ml  T {:.1f} kPa  J {:.2f}-{:.2f}  {:.1f} steps/s, about "
-      "{} left",
+      "{} {:.3f} s  {:.1f} mmHg  {:.1f} ml  tension {:.1f} kPa  local volume {:.2f} to {:.2f}  "
+      "{:.1f} steps/s{}",
       name(run_.phase), run_.time, loads_now().pressure / mmHg, 1e-3 * model_.cavity_volume(),
-      model_.mean_tension(), last_.J.min_J, last_.J.max_J, rate,
-      log::duration(time_left() / speed));
+      model_.mean_tension(), last_.J.min_J, last_.J.max_J, rate, left_.words(time_left()));
 }
 
 }  // namespace

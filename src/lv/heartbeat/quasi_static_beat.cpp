@@ -1,9 +1,11 @@
 #include "lv/heartbeat/quasi_static_beat.hpp"
 
 #include "lv/base/log.hpp"
+#include "lv/base/time_left.hpp"
 #include "lv/base/units.hpp"
 
 #include <chrono>
+#include <cmath>
 #include <limits>
 
 namespace lv::heartbeat {
@@ -41,16 +43,29 @@ class QuasiStaticRun {
     const auto follow = [&](const Step& step) {
       ++run_.beat.steps;
       record(step);
-      log::info("{} {:3.0f}%  {:.2f} mmHg  {:.2f} ml  T {:.1f} kPa  {} corrections, {} {}{}",
-                name(run_.phase), 100.0 * step.progress, step.loads.pressure / mmHg,
-                1e-3 * step.volume, run_.beat.curves.back().mean_tension, step.newton.iterations,
-                step.newton.factorisations,
-                step.newton.factorisations == 1 ? "tangent" : "tangents",
-                step.newton.linear_iterations == 0
-                    ? ""
-                    : fmt::format(", {} iterations of GMRES", step.newton.linear_iterations));
+      report_progress(step);
     };
     engine_.go_to(loads, follow).value();
+  }
+
+  void report_progress(const Step& step) {
+    const quasi_static::NewtonReport& n = step.newton;
+    left_.record(run_.beat.steps);
+    log::info("{} {:3.0f}%  {:.2f} mmHg  {:.2f} ml  tension {:.1f} kPa  {} corrections, {} {}{}{}",
+              name(run_.phase), 100.0 * step.progress, step.loads.pressure / mmHg,
+              1e-3 * step.volume, run_.beat.curves.back().mean_tension, n.iterations,
+              n.factorisations, n.factorisations == 1 ? "tangent" : "tangents",
+              n.linear_iterations == 0
+                  ? ""
+                  : fmt::format(", {} iterations of GMRES", n.linear_iterations),
+              left_.words(steps_left(step)));
+  }
+
+  /// Load steps that the beat will probably still take: those of this phase at the length of the
+  /// last one, and those that contraction usually takes.
+  [[nodiscard]] double steps_left(const Step& step) const {
+    const double here = std::ceil((1.0 - step.progress) / step.length - 1e-9);
+    return run_.phase == Phase::filling ? here + usual_contraction : here;
   }
 
   void record(const Step& step) {
@@ -99,10 +114,13 @@ class QuasiStaticRun {
     return s;
   }
 
+  static constexpr double usual_contraction = 12.0;  ///< load steps
+
   const QuasiStaticSetup& setup_;
   const Observers& observers_;
   Engine engine_;
   RunState run_;
+  TimeLeft left_;
 };
 
 }  // namespace

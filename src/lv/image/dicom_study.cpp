@@ -2,6 +2,7 @@
 
 #include "lv/base/check.hpp"
 #include "lv/base/formats.hpp"
+#include "lv/base/time_left.hpp"
 
 #include <fmt/format.h>
 
@@ -272,17 +273,11 @@ std::string clash_in(const DicomSlice& slice) {
   return "";
 }
 
-std::string indented(const std::string& text) {
-  return "\n  " + text;
-}
-
 [[noreturn]] void fail_choice(const DicomStudy& study, const std::string& where,
                               const std::string& what, const std::string& parameter) {
-  std::string list;
-  for (const DicomStack& stack : study.stacks)
-    list += indented(fmt::format("\"{}\" {}", stack.key, stack.description));
-  throw InputError(where, what,
-                   fmt::format("Name the series to use with {}. There are:{}", parameter, list));
+  throw InputError(
+      where, what,
+      fmt::format("Name the series to use with {}. There are:{}", parameter, choices(study)));
 }
 
 /// Tells copies of an image from others that bear its SOPInstanceUID too.
@@ -339,8 +334,11 @@ class Collector {
     }
     FolderFiles folder = files_in(place, true);
     std::move(folder.left_out.begin(), folder.left_out.end(), std::back_inserter(study_.skipped));
-    for (const fs::path& file : folder.files)
+    Progress progress("reading DICOM files", folder.files.size());
+    for (const fs::path& file : folder.files) {
       read_file(file);
+      progress.add();
+    }
   }
 
   [[nodiscard]] DicomStudy study() {
@@ -432,6 +430,13 @@ std::string describe(const DicomStudy& study) {
       text += fmt::format("  note: {}\n", remark);
   }
   return text;
+}
+
+std::string choices(const DicomStudy& study) {
+  std::string list;
+  for (const DicomStack& stack : study.stacks)
+    list += fmt::format("\n  \"{}\" {}", stack.key, stack.description);
+  return list;
 }
 
 void require_images(const DicomStudy& study, const std::string& where) {

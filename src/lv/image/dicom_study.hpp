@@ -46,6 +46,9 @@ struct DicomStudy {
 /// A line per stack: key, description, slices, images per slice, size, spacing, orientation, RR.
 [[nodiscard]] std::string describe(const DicomStudy& study);
 
+/// A line per stack, with its key in quotation marks and its description: to choose from.
+[[nodiscard]] std::string choices(const DicomStudy& study);
+
 /// Throws InputError with the reasons why files were skipped unless there is a stack; `where` names
 /// the files.
 void require_images(const DicomStudy& study, const std::string& where);

@@ -349,4 +349,12 @@ GuidePoints read_guide_points(const fs::path& file, std::optional<int> frame, Si
   return found;
 }
 
+std::vector<int> guide_point_frames(const fs::path& file) {
+  std::vector<std::string> notes;
+  std::set<int> frames;
+  for (const GuidePoint& point : read_guide_point_list(file, notes))
+    frames.insert(point.frame);
+  return {frames.begin(), frames.end()};
+}
+
 }  // namespace lv::image

@@ -35,4 +35,7 @@ struct GuidePoints {
 [[nodiscard]] GuidePoints read_guide_points(const std::filesystem::path& file,
                                             std::optional<int> frame, geometry::Side apex_of);
 
+/// The time frames that such a list has points of.
+[[nodiscard]] std::vector<int> guide_point_frames(const std::filesystem::path& file);
+
 }  // namespace lv::image

@@ -151,6 +151,13 @@ void check_phases(const DicomStack& stack, const std::map<int, fs::path>& drawn)
 
 }  // namespace
 
+bool has_sunnybrook_names(const fs::path& folder) {
+  const FolderFiles files = files_in(folder, true);
+  return std::any_of(files.files.begin(), files.files.end(), [](const fs::path& file) {
+    return parse_name(file.filename().string()).has_value();
+  });
+}
+
 DrawnPhases read_sunnybrook(const fs::path& folder, const DicomStack& stack, PixelOrigin origin,
                             DrawnBy drawn_by) {
   const FolderFiles files = files_in(folder, true);

@@ -25,6 +25,10 @@ struct DrawnPhases {
   std::vector<std::string> notes;
 };
 
+/// Whether a folder, or one below it, holds files that are named as such contours are. Throws
+/// InputError if it may not be read.
+[[nodiscard]] bool has_sunnybrook_names(const std::filesystem::path& folder);
+
 /// Reads text contours IM-SSSS-NNNN-icontour-manual.txt (endocardium) and ocontour (epicardium):
 /// one point "x y" a line in pixels, x along the row from the left, y down from the top, from the
 /// folder and its subfolders (i-contours, o-contours). NNNN is the InstanceNumber of the DICOM

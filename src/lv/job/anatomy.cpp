@@ -1,9 +1,9 @@
 #include "lv/job/anatomy.hpp"
 
-#include "lv/base/check.hpp"
 #include "lv/base/json_file.hpp"
 #include "lv/base/table.hpp"
 #include "lv/geometry/drawn_wall.hpp"
+#include "lv/job/case_lines.hpp"
 #include "lv/job/drawn.hpp"
 #include "lv/job/parameters.hpp"
 #include "lv/mesh/foreign_mesh.hpp"
@@ -11,6 +11,7 @@
 #include "lv/mesh/refine.hpp"
 #include "lv/report/fields_vtk.hpp"
 #include "lv/report/tables_csv.hpp"
+#include "lv/solid/endocardial_surface.hpp"
 
 #include <fmt/format.h>
 
@@ -22,9 +23,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* frame_name = "frame.json";
+
 constexpr const char* assumed_septum =
     "the septum is assumed at the first point of the basal endocardial loop: regions bear the "
     "wrong names if it is elsewhere (set anatomy.contours.septum_point)";
+constexpr const char* assumed_septum_of_mesh =
+    "the septum is assumed on the mesh's x axis: regions bear the wrong names if it is elsewhere "
+    "(set regions.septum_angle)";
 
 geometry::BaseAt base_at(const Case& c, const Drawn& drawn) {
   switch (c.anatomy.contours.base_at) {
@@ -64,8 +70,10 @@ Shape from_drawn(const Case& c) {
   shape.notes = std::move(drawn.notes);
   for (const auto& notes : {wall->report().notes, found.notes})
     shape.notes.insert(shape.notes.end(), notes.begin(), notes.end());
+  shape.warnings = std::move(drawn.warnings);
   if (!fit.frame.septum && !c.origin.contains("regions.septum_angle"))
-    shape.notes.emplace_back(assumed_septum);
+    shape.warnings.emplace_back(assumed_septum);
+  shape.notes.insert(shape.notes.end(), shape.warnings.begin(), shape.warnings.end());
   shape.quality = report::QualitySheet{
       wall->report(),     drawn.source,       base_rule(found.base_at, fit.frame.base_plane),
       drawn.label_cavity, drawn.label_muscle, shape.notes};
@@ -79,8 +87,11 @@ constexpr std::array perhaps_files{&mesh::ImportParameters::endo, &mesh::ImportP
 
 Shape from_mesh(const Case& c) {
   mesh::ImportParameters import = c.anatomy.mesh.import;
-  if (import.file.empty())
-    throw InputError(c.file.string(), "anatomy.mesh.file is not set", "Name the mesh's file");
+  if (import.file.empty()) {
+    Missing missing;
+    missing.add({"anatomy.mesh.file", fill_in, "the mesh: .inp, .msh, .vtk or .vtu"});
+    missing.raise(c, place_of(c, "anatomy.source"));
+  }
   import.file = beside(c, import.file).string();
   for (const auto name : perhaps_files)
     if (mesh::names_file(import.*name))
@@ -97,18 +108,17 @@ Shape from_mesh(const Case& c) {
   shape.given = std::move(imported.mesh);
   shape.frame = imported.frame;
   shape.notes = imported.notes;
+  if (!c.origin.contains("regions.septum_angle"))
+    shape.warnings.emplace_back(assumed_septum_of_mesh);
+  shape.notes.insert(shape.notes.end(), shape.warnings.begin(), shape.warnings.end());
   return shape;
 }
 
 Shape read_shape(const Case& c) {
   if (is_drawn(c))
     return from_drawn(c);
-  if (c.anatomy.source == AnatomySource::mesh) {
-    Shape shape = from_mesh(c);
-    if (const std::string note = septum_note(c); !note.empty())
-      shape.notes.push_back(note);
-    return shape;
-  }
+  if (c.anatomy.source == AnatomySource::mesh)
+    return from_mesh(c);
   Shape shape;
   shape.wall = [e = c.anatomy.ellipsoid](double u, double theta, double t) {
     return e.point(u, theta, t);
@@ -122,28 +132,22 @@ std::vector<double> numbers(const Vec3& v) {
 
 }  // namespace
 
-std::string septum_note(const Case& c) {
-  const bool said = c.origin.contains("regions.septum_angle") ||
-                    c.anatomy.contours.fit.frame.septum ||
-                    !c.anatomy.labels.right_ventricle.empty();
-  if (said || c.anatomy.source == AnatomySource::ellipsoid)
-    return "";
-  if (c.anatomy.source == AnatomySource::guide_points)
-    return "";  // the list may show it: see the notes of the anatomy
-  return is_drawn(c)
-             ? assumed_septum
-             : "the septum is assumed on the mesh's x axis: regions bear the wrong names if it is "
-               "elsewhere (set regions.septum_angle)";
-}
-
 Shape make_anatomy(const Case& c) {
   Shape shape = read_shape(c);
   const NamesAlone names = names_alone(c);  // notes may name files: they are kept and shown
-  for (std::string& note : shape.notes)
-    note = names(note);
+  for (auto* texts : {&shape.notes, &shape.warnings})
+    for (std::string& text : *texts)
+      text = names(text);
   if (shape.quality)
     shape.quality->notes = shape.notes;
   return shape;
+}
+
+double cavity_of(const Shape& shape) {
+  constexpr double edge_length = 4.0;  // right to a thousandth of the volume [mm]
+  const mesh::Mesh wall =
+      shape.given ? *shape.given : mesh::wall_mesh(shape.wall, {.edge_length = edge_length});
+  return solid::EndocardialSurface(wall).volume(wall.nodes);
 }
 
 void write_anatomy(const Shape& shape, const fs::path& folder) {
@@ -156,14 +160,21 @@ void write_anatomy(const Shape& shape, const fs::path& folder) {
                                      {"x_axis_in_image_space", numbers(axes.col(0))},
                                      {"y_axis_in_image_space", numbers(axes.col(1))},
                                      {"z_axis_in_image_space", numbers(axes.col(2))},
-                                     {"notes", shape.notes}};
-  write_file(folder / "frame.json", json_text(frame) + "\n");
+                                     {"notes", shape.notes},
+                                     {"warnings", shape.warnings}};
+  write_file(folder / frame_name, json_text(frame) + "\n");
   if (!shape.quality)
     return;
   report::fit_table(shape.quality->fit).write_csv(folder / "fit.csv");
   report::quality_table(*shape.quality).write_csv(folder / "quality.csv");
   write_file(folder / "quality.json", report::quality_json(*shape.quality));
   write_file(folder / "quality.txt", report::quality_text(*shape.quality));
+}
+
+std::vector<std::string> anatomy_warnings(const fs::path& folder) {
+  return from_json_file(folder / frame_name, [](const nlohmann::ordered_json& json) {
+    return json.at("warnings").get<std::vector<std::string>>();
+  });
 }
 
 }  // namespace lv::job

@@ -19,17 +19,21 @@ struct Shape {
   geometry::Frame frame;
   std::optional<report::QualitySheet> quality;  ///< for a drawn wall
   std::vector<std::string> notes;               ///< what was assumed or changed
+  std::vector<std::string> warnings;  ///< of these, what results may be wrong for: a septum that
+                                      ///< nothing shows, a filled wall taken as free of stress
 };
 
 /// The shape that a case asks for. Throws InputError naming the file and what is wrong in it.
 [[nodiscard]] Shape make_anatomy(const Case& c);
 
-/// What the names of regions rest on when the case says nowhere where the septum is; empty when it
-/// does.
-[[nodiscard]] std::string septum_note(const Case& c);
+/// The volume that the endocardium encloses below the base plane [mm^3].
+[[nodiscard]] double cavity_of(const Shape& shape);
 
 /// Writes surfaces.vtu (in the model frame), frame.json and, for a drawn wall, fit.csv with the
 /// residual distances per image and the quality sheet as quality.csv, .json and .txt.
 void write_anatomy(const Shape& shape, const std::filesystem::path& folder);
+
+/// The warnings that write_anatomy left in a folder.
+[[nodiscard]] std::vector<std::string> anatomy_warnings(const std::filesystem::path& folder);
 
 }  // namespace lv::job

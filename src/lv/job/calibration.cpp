@@ -8,6 +8,7 @@
 #include "lv/calibrate/summary.hpp"
 #include "lv/heartbeat/immersed_beat.hpp"
 #include "lv/job/answer_record.hpp"
+#include "lv/job/case_lines.hpp"
 #include "lv/job/parameters.hpp"
 #include "lv/job/strain_targets.hpp"
 #include "lv/job/unloading.hpp"
@@ -72,21 +73,13 @@ std::vector<std::string> changed(const Calibration& k) {
 
 /// Lines for a case file, in place of its [calibrate].
 std::string fragment(const Case& fitted) {
-  std::string text = "# Fitted parameters, to be set in a case file instead of [calibrate]\n";
-  std::string table;
+  std::vector<CaseLine> lines;
   const auto names = changed(fitted.calibration);
-  for (const Parameter& p : parameters()) {
-    if (std::find(names.begin(), names.end(), p.name) == names.end())
-      continue;
-    const std::string name = p.name;
-    const auto dot = name.rfind('.');
-    if (name.substr(0, dot) != table) {
-      table = name.substr(0, dot);
-      text += fmt::format("\n[{}]\n", table);
-    }
-    text += fmt::format("{} = {}\n", name.substr(dot + 1), p.get(fitted));
-  }
-  return text;
+  for (const Parameter& p : parameters())
+    if (std::find(names.begin(), names.end(), p.name) != names.end())
+      lines.push_back({p.name, p.get(fitted), ""});
+  return "# Fitted parameters, to be set in a case file instead of [calibrate]\n\n" +
+         case_lines(lines);
 }
 
 Json volumes_json(const Json& calibration, const heartbeat::Beat& beat) {

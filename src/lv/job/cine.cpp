@@ -11,6 +11,7 @@
 #include "lv/image/nifti.hpp"
 #include "lv/image/sunnybrook.hpp"
 #include "lv/job/parameters.hpp"
+#include "lv/job/proposals.hpp"
 
 #include <fmt/format.h>
 
@@ -59,13 +60,30 @@ void read_sunnybrook(const Case& c, const image::DicomStack& stack, CineStudy& s
 
 geometry::Contours read_drawn(const Case& c, const std::string& parameter,
                               const std::string& file) {
-  if (file.empty())
-    throw InputError(c.file.string(), parameter + " is not set",
-                     "Name the CSV file of the short-axis loops drawn at end-diastole");
   geometry::ContourFiles files{.short_axis = beside(c, file), .long_axis = {}, .apex = {}};
   if (!c.strain.long_axis.empty() && parameter == "strain.contours")
     files.long_axis = beside(c, c.strain.long_axis);
   return geometry::read_contours(files);
+}
+
+/// Throws InputError for all that [strain] does not name and must.
+void require_said(const Case& c, const std::optional<image::DicomStudy>& dicom) {
+  const StrainStudy& s = c.strain;
+  Missing missing;
+  std::string found;
+  if (dicom && s.series.empty() && dicom->stacks.size() > 1) {
+    const image::DicomStack* cine = short_axis_cine(*dicom);
+    missing.add({"strain.series", cine == nullptr ? fill_in : quoted(cine->key),
+                 cine == nullptr ? "the short-axis cine" : "seems the short-axis cine"});
+    found = fmt::format("{} holds{}", beside(c, s.cine).string(), image::choices(*dicom));
+  }
+  if (s.contours.empty())
+    missing.add({"strain.contours", fill_in,
+                 "the CSV file of the short-axis loops drawn at end-diastole, or their folder"});
+  if (!s.long_axis_cine.empty() && s.long_axis.empty())
+    missing.add({"strain.long_axis", fill_in,
+                 "the CSV file of the curves drawn on long_axis_cine at end-diastole"});
+  missing.raise(c, place_of(c, "strain.cine"), found);
 }
 
 void check_inside(const Contour& line, const image::CineSlice& slice) {
@@ -229,19 +247,20 @@ CineStudy read_cine_study(const Case& c) {
   if (!image::is_nifti_name(c.strain.cine)) {
     const std::array<std::filesystem::path, 1> where{beside(c, c.strain.cine)};
     dicom = image::read_dicom_study(where);
+    require_said(c, dicom);
     stack = choose(c, *dicom, c.strain.series, "strain.series");
   } else if (!c.strain.series.empty()) {
     throw InputError(place_of(c, "strain.series"),
                      fmt::format("a NIfTI file has no series \"{}\"", c.strain.series),
                      "Leave strain.series out, or name a folder of DICOM files");
   }
+  require_said(c, {});
   study.cine =
       stack ? image::read_pixels(*stack) : image::read_nifti_cine(beside(c, c.strain.cine));
   study.notes = study.cine.notes;
   study.spacing = spacing_of(study.cine);
   std::error_code failed;
-  if (stack && !c.strain.contours.empty() &&
-      std::filesystem::is_directory(beside(c, c.strain.contours), failed))
+  if (stack && std::filesystem::is_directory(beside(c, c.strain.contours), failed))
     read_sunnybrook(c, *stack, study);
   else
     study.drawn = read_drawn(c, "strain.contours", c.strain.contours);

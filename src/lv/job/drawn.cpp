@@ -8,7 +8,9 @@
 #include "lv/image/dicom_study.hpp"
 #include "lv/image/guide_points.hpp"
 #include "lv/image/label_contours.hpp"
+#include "lv/image/label_meaning.hpp"
 #include "lv/image/nifti.hpp"
+#include "lv/job/proposals.hpp"
 
 #include <fmt/format.h>
 
@@ -21,19 +23,25 @@ namespace {
 namespace fs = std::filesystem;
 
 /// A file or folder that must be named.
-fs::path named(const Case& c, const std::string& parameter, const std::string& name,
-               const char* what) {
-  if (name.empty())
-    throw InputError(place_of(c, "anatomy.source"), fmt::format("{} is not set", parameter),
-                     fmt::format("Name {}", what));
-  return beside(c, name);
+struct Name {
+  const char* parameter;
+  const std::string& said;
+  const char* what;
+};
+
+/// Throws InputError unless all are.
+void require_names(const Case& c, const std::vector<Name>& names) {
+  Missing missing;
+  for (const Name& name : names)
+    if (name.said.empty())
+      missing.add({name.parameter, fill_in, name.what});
+  missing.raise(c, place_of(c, "anatomy.source"));
 }
 
 geometry::ContourFiles contour_files(const Case& c) {
   const ContourAnatomy& a = c.anatomy.contours;
-  if (a.short_axis.empty())
-    throw InputError(c.file.string(), "anatomy.contours.short_axis is not set",
-                     "Name the CSV file of the short-axis loops");
+  require_names(
+      c, {{"anatomy.contours.short_axis", a.short_axis, "the CSV file of the short-axis loops"}});
   geometry::ContourFiles files{.short_axis = beside(c, a.short_axis), .long_axis = {}, .apex = {}};
   if (!a.long_axis.empty())
     files.long_axis = beside(c, a.long_axis);
@@ -50,15 +58,24 @@ Drawn from_csv(const Case& c) {
   return drawn;
 }
 
-int chosen_frame(const Case& c, const image::Volume& volume) {
+/// Throws InputError unless the case says what the labels mean and, of several frames, which.
+void require_choices(const Case& c, const image::Volume& map) {
   const LabelAnatomy& a = c.anatomy.labels;
-  if (a.frame > 0 || volume.frames == 1)
-    return std::max(a.frame, 1) - 1;
-  throw InputError(
-      place_of(c, "anatomy.labels.file"),
-      fmt::format("{} has {} frames and anatomy.labels.frame is not set.\n{}", volume.file,
-                  volume.frames, describe_volume_curve(image::volume_curve(volume, a.cavity))),
-      "Choose a frame");
+  const bool frame_open = map.frames > 1 && a.frame == 0;
+  if (!a.cavity.empty() && !a.muscle.empty() && !frame_open)
+    return;
+  Missing missing;
+  for (CaseLine& line : label_lines(map, a))
+    if (line.parameter != "anatomy.labels.right_ventricle")
+      missing.add(std::move(line));
+  std::string found =
+      fmt::format("{} has the labels {}", map.file, image::describe(image::label_volumes(map)));
+  if (frame_open)
+    found +=
+        fmt::format(" and {} frames\n{}", map.frames,
+                    describe_volume_curve(image::volume_curve(
+                        map, a.cavity.empty() ? image::propose_meaning(map).cavity : a.cavity)));
+  missing.raise(c, place_of(c, "anatomy.labels.file"), found);
 }
 
 /// A label cannot mean two things.
@@ -80,19 +97,18 @@ void check_meaning(const Case& c) {
   add("anatomy.labels.right_ventricle", a.right_ventricle);
 }
 
+void warn(const std::string& warning, Drawn& drawn) {
+  if (!warning.empty())
+    drawn.warnings.push_back(warning);
+}
+
 Drawn from_labels(const Case& c) {
   const LabelAnatomy& a = c.anatomy.labels;
-  const fs::path file = named(c, "anatomy.labels.file", a.file, "the NIfTI label map");
-  const image::Volume volume = image::read_nifti(file);
-  for (const auto& [parameter, labels] :
-       {std::pair("anatomy.labels.cavity", a.cavity), {"anatomy.labels.muscle", a.muscle}})
-    if (labels.empty())
-      throw InputError(place_of(c, "anatomy.labels.file"),
-                       fmt::format("{} is not set; {} has the labels {}", parameter, volume.file,
-                                   image::describe(image::label_volumes(volume))),
-                       "Say which labels mean it");
+  require_names(c, {{"anatomy.labels.file", a.file, "the NIfTI label map"}});
+  const image::Volume volume = image::read_nifti(beside(c, a.file));
   check_meaning(c);
-  const int frame = chosen_frame(c, volume);
+  require_choices(c, volume);
+  const int frame = std::max(a.frame, 1) - 1;
   const auto require = [&](const char* parameter, const std::vector<int>& labels) {
     image::require_labels(volume, frame, labels, place_of(c, parameter), parameter);
   };
@@ -109,46 +125,63 @@ Drawn from_labels(const Case& c) {
   drawn.septum = traced.septum;
   drawn.usual_base = geometry::BaseAt::slab;
   drawn.notes = std::move(traced.notes);
+  warn(end_diastole_note(c, moments_of(volume, a.cavity), frame + 1), drawn);
   return drawn;
 }
 
 Drawn from_sunnybrook(const Case& c) {
   const SunnybrookAnatomy& a = c.anatomy.sunnybrook;
-  const fs::path folder =
-      named(c, "anatomy.sunnybrook.contours", a.contours, "the folder of contour files");
-  const fs::path dicom = named(c, "anatomy.sunnybrook.dicom", a.dicom, "the folder of DICOM files");
-  const image::DicomStack stack =
-      image::choose_stack(image::read_dicom_study(std::array{dicom}), a.series, dicom.string(),
-                          "anatomy.sunnybrook.series");
-  image::DrawnPhases read = image::read_sunnybrook(folder, stack, a.pixel_origin, a.drawn_by);
-  if (!read.phases.contains(a.phase))
+  require_names(c, {{"anatomy.sunnybrook.contours", a.contours, "the folder of contour files"},
+                    {"anatomy.sunnybrook.dicom", a.dicom, "the folder of their DICOM files"}});
+  const fs::path dicom = beside(c, a.dicom);
+  const image::DicomStudy study = image::read_dicom_study(std::array{dicom});
+  image::require_images(study, dicom.string());
+  SunnybrookChoice chosen = sunnybrook_choice(beside(c, a.contours), study, a);
+  Missing missing;
+  for (CaseLine& line : chosen.lines)
+    missing.add(std::move(line));
+  std::string found = fmt::format("{} holds{}", dicom.string(), image::choices(study));
+  if (!chosen.read.phases.empty())
+    found += fmt::format("\nthere are contours of\n{}", describe_phases(chosen.read.phases));
+  missing.raise(c, place_of(c, "anatomy.sunnybrook.dicom"), found);
+  if (!chosen.read.phases.contains(a.phase))
     throw InputError(place_of(c, "anatomy.sunnybrook.phase"),
-                     fmt::format("{}; there are contours of\n{}",
-                                 a.phase == 0 ? "anatomy.sunnybrook.phase is not set"
-                                              : fmt::format("there are none of phase {}", a.phase),
-                                 describe_phases(read.phases)),
+                     fmt::format("there are none of phase {}; there are contours of\n{}", a.phase,
+                                 describe_phases(chosen.read.phases)),
                      "Choose a phase, counted from 1 in order of time");
   Drawn drawn;
-  drawn.contours = std::move(read.phases.at(a.phase));
   drawn.source = fmt::format("contours in pixels, phase {}", a.phase);
   drawn.usual_base = geometry::BaseAt::slab;
-  drawn.notes = image::remarks(stack);
-  drawn.notes.insert(drawn.notes.end(), read.notes.begin(), read.notes.end());
+  drawn.notes = image::remarks(chosen.stack);
+  drawn.notes.insert(drawn.notes.end(), chosen.read.notes.begin(), chosen.read.notes.end());
+  warn(end_diastole_note(c, moments_of(chosen.read.phases), a.phase), drawn);
+  drawn.contours = std::move(chosen.read.phases.at(a.phase));
   return drawn;
 }
 
 Drawn from_guide_points(const Case& c) {
   const GuidePointAnatomy& a = c.anatomy.guide_points;
-  image::GuidePoints read =
-      image::read_guide_points(named(c, "anatomy.guide_points.file", a.file, "the list of points"),
-                               a.frame < 0 ? std::nullopt : std::optional(a.frame), a.apex_point);
+  require_names(c, {{"anatomy.guide_points.file", a.file, "the list of points"}});
+  const fs::path file = beside(c, a.file);
   Drawn drawn;
+  if (image::guide_point_frames(file).size() > 1) {
+    const auto frames = guide_point_contours(file, a.apex_point);
+    if (a.frame < 0) {
+      Missing missing;
+      missing.add(choice("anatomy.guide_points.frame", moments_of(frames)));
+      missing.raise(c, place_of(c, "anatomy.guide_points.file"),
+                    fmt::format("{} has\n{}", file.string(), describe_phases(frames, "frame")));
+    }
+    warn(end_diastole_note(c, moments_of(frames), a.frame), drawn);
+  }
+  image::GuidePoints read = image::read_guide_points(
+      file, a.frame < 0 ? std::nullopt : std::optional(a.frame), a.apex_point);
   drawn.contours = std::move(read.contours);
   drawn.source = "guide points";
   drawn.septum = read.septum;
   drawn.usual_base =
       drawn.contours.annulus.empty() ? geometry::BaseAt::slab : geometry::BaseAt::annulus;
-  drawn.notes = std::move(read.notes);
+  drawn.notes.insert(drawn.notes.end(), read.notes.begin(), read.notes.end());
   return drawn;
 }
 
@@ -165,14 +198,13 @@ Drawn read_source(const Case& c) {
   }
 }
 
-/// Volume of the loops of one phase [mm^3]; 0 where it cannot be told.
+}  // namespace
+
 double volume_of(const geometry::Contours& contours) {
   const auto endo = std::count_if(contours.short_axis.begin(), contours.short_axis.end(),
                                   [](const auto& c) { return c.side == geometry::Side::endo; });
   return endo < 2 ? 0.0 : geometry::slab_volumes(contours).cavity;
 }
-
-}  // namespace
 
 bool is_drawn(const Case& c) {
   return c.anatomy.source != AnatomySource::ellipsoid && c.anatomy.source != AnatomySource::mesh;
@@ -191,7 +223,8 @@ Drawn read_drawn(const Case& c) {
   return drawn;
 }
 
-std::string describe_phases(const std::map<int, geometry::Contours>& phases) {
+std::string describe_phases(const std::map<int, geometry::Contours>& phases,
+                            const std::string& called) {
   std::string text;
   std::vector<int> numbers;
   std::vector<double> volumes;
@@ -200,12 +233,12 @@ std::string describe_phases(const std::map<int, geometry::Contours>& phases) {
                                     [](const auto& c) { return c.side == geometry::Side::endo; });
     numbers.push_back(phase);
     volumes.push_back(volume_of(contours));
-    text += fmt::format("  phase {}: {} endocardial and {} epicardial loops, cavity {:.2f} ml\n",
-                        phase, endo, static_cast<std::ptrdiff_t>(contours.short_axis.size()) - endo,
-                        1e-3 * volumes.back());
+    text += fmt::format(
+        "  {} {}: {} endocardial and {} epicardial loops, cavity {:.2f} ml\n", called, phase, endo,
+        static_cast<std::ptrdiff_t>(contours.short_axis.size()) - endo, 1e-3 * volumes.back());
   }
   if (std::none_of(volumes.begin(), volumes.end(), [](double v) { return v > 0.0; }))
-    return text + "  proposed: none, for no phase shows the cavity on two slices";
+    return text + "  proposed: none, for none shows the cavity on two slices";
   const image::Phases p = image::propose_phases(volumes);
   return text + fmt::format("  proposed: end-diastole {}, end-systole {}", numbers[p.end_diastole],
                             numbers[p.end_systole]);

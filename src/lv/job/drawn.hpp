@@ -20,6 +20,7 @@ struct Drawn {
   std::optional<std::array<double, 3>> septum;            ///< if the source shows where it is [mm]
   geometry::BaseAt usual_base = geometry::BaseAt::slice;  ///< unless the case says otherwise
   std::vector<std::string> notes;
+  std::vector<std::string> warnings;  ///< what may be wrong about the case itself
 };
 
 /// Whether the anatomy of a case is drawn, not given as an ellipsoid or a mesh.
@@ -29,8 +30,13 @@ struct Drawn {
 /// missing (labels, frame, phase), with what there is to choose from.
 [[nodiscard]] Drawn read_drawn(const Case& c);
 
-/// "phase 1: 9 endo, 0 epi, 141.30 ml" and so on, a line each, with a proposal of phases.
-[[nodiscard]] std::string describe_phases(const std::map<int, geometry::Contours>& phases);
+/// Volume of the endocardial loops of one phase [mm^3]; 0 where it cannot be told.
+[[nodiscard]] double volume_of(const geometry::Contours& contours);
+
+/// "phase 1: 9 endo, 0 epi, 141.30 ml" and so on, a line each, with a proposal of phases; they may
+/// be called something else.
+[[nodiscard]] std::string describe_phases(const std::map<int, geometry::Contours>& phases,
+                                          const std::string& called = "phase");
 
 /// The volume at each frame and the phases proposed from it.
 [[nodiscard]] std::string describe_volume_curve(const std::vector<double>& volumes);

@@ -5,6 +5,7 @@
 #include "lv/image/dicom_study.hpp"
 #include "lv/image/lookup.hpp"
 #include "lv/image/nifti.hpp"
+#include "lv/job/case_lines.hpp"
 #include "lv/job/scar_threshold.hpp"
 #include "lv/job/slice_moves.hpp"
 #include "lv/mesh/cell.hpp"
@@ -42,14 +43,6 @@ std::string place_of_wall(const Shape& shape, const Mesh& mesh) {
   return format_box(box);
 }
 
-/// A file that must be named.
-std::string file_of(const Case& c, const std::string& parameter, const std::string& name) {
-  if (name.empty())
-    throw InputError(place_of(c, "infarct.source"), fmt::format("{} is not set", parameter),
-                     "Name the file that holds the infarct");
-  return beside(c, name).string();
-}
-
 /// What is infarcted of the wall, per element.
 struct Infarct {
   Infarcted elements;        ///< whose centre is
@@ -83,7 +76,7 @@ Infarct described(const Case& c, const Shape& shape, const Mesh& mesh) {
 }
 
 Infarct within_surface(const Case& c, const Shape& shape, const Mesh& mesh) {
-  const std::string file = file_of(c, "infarct.surface.file", c.scar.surface);
+  const std::string file = beside(c, c.scar.surface).string();
   const mesh::ClosedSurface surface = mesh::read_closed_surface(file, c.scar.length_unit);
   return within(
       c, shape, mesh,
@@ -108,11 +101,6 @@ Vec3 in_images(const Case& c, const Shape& shape, const Vec3& X) {
 /// How the slices of a map move until the middle of its muscle lies on that of the wall.
 std::vector<Vec3> moves_onto_wall(const Case& c, const Shape& shape, const Mesh& mesh,
                                   const image::Volume& volume, std::vector<int> muscle) {
-  if (c.scar.muscle.empty())
-    throw InputError(place_of(c, "infarct.labels.in_plane"),
-                     "infarct.labels.muscle is not set: the slices are moved by the middle of all "
-                     "muscle",
-                     "Name the labels of healthy muscle too");
   image::require_labels(volume, 0, c.scar.muscle, place_of(c, "infarct.labels.muscle"),
                         "infarct.labels.muscle");
   muscle.insert(muscle.end(), c.scar.muscle.begin(), c.scar.muscle.end());
@@ -186,7 +174,7 @@ std::vector<double> brightness(const Case& c, const Shape& shape, const Mesh& me
 
 image::Cine read_lge(const Case& c) {
   const mesh::LateEnhancement& lge = c.scar.lge;
-  const std::string file = file_of(c, "infarct.lge.image", lge.image);
+  const std::string file = beside(c, lge.image).string();
   image::Cine image = image::is_nifti_name(file)
                           ? image::read_nifti_cine(file)
                           : image::read_dicom_cine(std::array{std::filesystem::path(file)},
@@ -297,7 +285,7 @@ Infarct by_brightness(const Case& c, const Shape& shape, const Mesh& mesh) {
 }
 
 Infarct within_labels(const Case& c, const Shape& shape, const Mesh& mesh) {
-  const std::string file = file_of(c, "infarct.labels.file", c.scar.labels);
+  const std::string file = beside(c, c.scar.labels).string();
   if (image::is_nifti_name(file))
     return within_nifti(c, shape, mesh, file);
   const mesh::LabelVolume volume(file, c.scar.array, c.scar.length_unit);
@@ -339,7 +327,54 @@ Infarct infarcted(const Case& c, const Shape& shape, const Mesh& mesh) {
   }
 }
 
+/// What the source needs of a late-enhancement image. Which segments are remote is asked with the
+/// scar of each choice where the image can be read (see scar_threshold).
+Missing missing_of_lge(const Case& c, std::string& found) {
+  const mesh::LateEnhancement& lge = c.scar.lge;
+  Missing missing;
+  if (lge.image.empty())
+    missing.add({"infarct.lge.image", fill_in,
+                 "the late-enhancement image: a NIfTI file or a folder of DICOM files"});
+  std::error_code failed;
+  if (!lge.image.empty() && lge.series.empty() &&
+      std::filesystem::is_directory(beside(c, lge.image), failed)) {
+    const image::DicomStudy study = image::read_dicom_study(std::array{beside(c, lge.image)});
+    if (study.stacks.size() > 1) {
+      missing.add({"infarct.lge.series", fill_in, "the late-enhancement images"});
+      found = fmt::format("{} holds{}", lge.image, image::choices(study));
+    }
+  }
+  if (!missing.empty() && lge.remote.empty() && lge.threshold == mesh::ScarThreshold::sd)
+    missing.add({"infarct.lge.remote", fill_in,
+                 "AHA segments (1 to 17) of remote, healthy muscle, such as [4, 5]; not needed "
+                 "with threshold = \"fwhm\""});
+  return missing;
+}
+
+Missing missing_of_labels(const Case& c) {
+  Missing missing;
+  if (c.scar.labels.empty())
+    missing.add({"infarct.labels.file", fill_in, "the labelled volume that holds the infarct"});
+  if (c.scar.in_plane && c.scar.muscle.empty())
+    missing.add({"infarct.labels.muscle", fill_in,
+                 "the labels of the other muscle: in_plane moves slices by the middle of all "
+                 "muscle"});
+  return missing;
+}
+
 }  // namespace
+
+void require_infarct(const Case& c) {
+  std::string found;
+  Missing missing;
+  if (c.scar.source == InfarctSource::labels)
+    missing = missing_of_labels(c);
+  if (c.scar.source == InfarctSource::lge)
+    missing = missing_of_lge(c, found);
+  if (c.scar.source == InfarctSource::surface && c.scar.surface.empty())
+    missing.add({"infarct.surface.file", fill_in, "the closed surface that holds the infarct"});
+  missing.raise(c, place_of(c, "infarct.source"), found);
+}
 
 InfarctExtent infarct_extent(const Case& c, const Shape& shape, const Mesh& mesh) {
   if (c.scar.source == InfarctSource::mesh)
@@ -348,6 +383,7 @@ InfarctExtent infarct_extent(const Case& c, const Shape& shape, const Mesh& mesh
     return {std::vector<double>(mesh.nodes.size(), 0.0),
             std::vector<double>(mesh.cell_count(), 0.0),
             {}};
+  require_infarct(c);
   Infarct infarct = infarcted(c, shape, mesh);
   ask_if_large(c, mesh, infarct);
   return {mesh::infarct_field(mesh, infarct.elements, c.scar.border), std::move(infarct.part),

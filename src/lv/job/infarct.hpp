@@ -19,6 +19,9 @@ struct InfarctExtent {
   std::optional<Table> slice_moves;
 };
 
+/// Throws InputError for all that the case does not name of its infarct and must.
+void require_infarct(const Case& c);
+
 /// The infarct as the case asks for it. Throws InputError where a file cannot be used or the
 /// infarct holds the centre of no element of the wall.
 [[nodiscard]] InfarctExtent infarct_extent(const Case& c, const Shape& shape,

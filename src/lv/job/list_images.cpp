@@ -2,20 +2,19 @@
 
 #include "lv/base/check.hpp"
 #include "lv/base/files.hpp"
-#include "lv/base/formats.hpp"
 #include "lv/image/dicom_study.hpp"
 #include "lv/image/label_contours.hpp"
+#include "lv/image/label_meaning.hpp"
 #include "lv/image/nifti.hpp"
 #include "lv/image/sunnybrook.hpp"
 #include "lv/job/drawn.hpp"
-#include "lv/job/what_file.hpp"
+#include "lv/job/propose_case.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <system_error>
 
 namespace lv::job {
 namespace {
@@ -24,11 +23,6 @@ namespace fs = std::filesystem;
 
 std::string direction_text(const Vec3& d) {
   return fmt::format("({:.3f}, {:.3f}, {:.3f})", d.x(), d.y(), d.z());
-}
-
-bool seems_labels(const image::Volume& v) {
-  return std::all_of(v.values.begin(), v.values.end(),
-                     [](float x) { return x == std::round(x) && x >= 0.0F && x < 256.0F; });
 }
 
 /// The range of the values of an image, and how many are none.
@@ -73,7 +67,7 @@ std::string list_nifti(const fs::path& file, const ListOptions& options) {
       direction_text(v.directions.col(2)), "ijk"[image::slice_axis(v)]);
   for (const std::string& note : v.notes)
     text += fmt::format("  note: {}\n", note);
-  if (!seems_labels(v)) {
+  if (!image::seems_labels(v)) {
     if (!options.cavity.empty())
       throw InputError(v.file, "holds values that are no labels (whole numbers from 0 to 255)",
                        "Leave --cavity out, or give a label map");
@@ -115,11 +109,7 @@ std::string list_nifti_among(const image::DicomStudy& study, const ListOptions& 
   return text;
 }
 
-std::string list_dicom(const ListOptions& options) {
-  const image::DicomStudy study = image::read_dicom_study(std::array{options.where});
-  if (study.stacks.empty())
-    if (std::string text = list_nifti_among(study, options); !text.empty())
-      return text;
+std::string list_study(const image::DicomStudy& study, const ListOptions& options) {
   std::string text = image::describe(study);
   image::require_images(study, options.where.string());
   text += list_skipped(study);
@@ -136,19 +126,34 @@ std::string list_dicom(const ListOptions& options) {
   return text;
 }
 
+/// What ends every list.
+std::string for_a_case(const ListOptions& options, const Proposal& proposal) {
+  if (proposal.lines.empty())
+    return "";
+  return fmt::format("\nFor a case file (`ventricle new --from {}` writes it):\n\n{}",
+                     options.where.string(), case_lines(proposal.lines));
+}
+
+std::string list_dicom(const ListOptions& options) {
+  const image::DicomStudy study = image::read_dicom_study(std::array{options.where});
+  if (study.stacks.empty())
+    if (std::string text = list_nifti_among(study, options); !text.empty())
+      return text;
+  return list_study(study, options) +
+         for_a_case(options, propose(study, options.where.string(), options.contours,
+                                     options.contours.string()));
+}
+
 }  // namespace
 
 std::string list_images(const ListOptions& options) {
-  std::error_code failed;
-  if (fs::is_directory(options.where, failed))
+  const SourceKind kind = kind_of(options.where);
+  if (kind == SourceKind::dicom)
     return list_dicom(options);
-  require_readable(options.where, "Name a folder or a file");
-  if (image::is_nifti_name(options.where))
-    return list_nifti(options.where, options);
-  if (!image::looks_like_dicom(options.where))
-    throw InputError(options.where.string(), fmt::format("is {}", what_is(options.where)),
-                     fmt::format("Images are read from {}", formats::images));
-  return list_dicom(options);
+  const Proposal proposal = propose(options.where, options.where.string());
+  const std::string text =
+      kind == SourceKind::nifti ? list_nifti(options.where, options) : proposal.what + "\n";
+  return text + for_a_case(options, proposal);
 }
 
 }  // namespace lv::job

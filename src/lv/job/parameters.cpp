@@ -780,7 +780,7 @@ constexpr Group of_measurements[]{
                "if the immersed engine's volumes are off by more than the tolerance, correct "
                "the parameters and run the beat again, at most twice"),
      }},
-    {mechanics,
+    {Stages(Stage::anatomy, Stage::calibrate, Stage::unload, Stage::beat),  // the first warns
      {},
      {
          number("unloaded.pressure", LV_AT(unloaded.pressure), "mmHg", between(0.0, 100.0),

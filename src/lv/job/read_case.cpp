@@ -4,12 +4,15 @@
 #include "lv/base/lines.hpp"
 #include "lv/base/nearest.hpp"
 #include "lv/base/printable.hpp"
+#include "lv/base/table.hpp"
+#include "lv/job/case_lines.hpp"
 #include "lv/job/parameter_values.hpp"
+#include "lv/job/propose_case.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cctype>
 
 namespace lv::job {
 namespace {
@@ -63,6 +66,11 @@ class CaseReader {
   }
 
   void set(const Parameter& parameter, const toml::node& node, const std::string& line) {
+    if (node.is_string() && fmt::format("\"{}\"", *node.value<std::string>()) == fill_in) {
+      mistakes_.emplace_back(line, fmt::format("{} is to be filled in: {}; {}", parameter.name,
+                                               parameter.help, parameter.rule()));
+      return;
+    }
     try {
       job::set(parameter, case_, node);
       case_.origin[parameter.name] = line;
@@ -121,8 +129,10 @@ class CaseReader {
   void check_calibration() {
     const Calibration& k = case_.calibration;
     const bool passive = k.passive != calibrate::FittedPassive::none;
-    rule(!passive || k.edv > 0.0, "calibrate.passive", "needs the measured volume calibrate.edv");
-    rule(!k.active || k.esv > 0.0, "calibrate.active", "needs the measured volume calibrate.esv");
+    rule(!passive || k.edv > 0.0, "calibrate.passive",
+         "needs the measured volume calibrate.edv: add edv = \"... ml\" under [calibrate]");
+    rule(!k.active || k.esv > 0.0, "calibrate.active",
+         "needs the measured volume calibrate.esv: add esv = \"... ml\" under [calibrate]");
     rule(k.edv == 0.0 || k.esv < k.edv, "calibrate.esv", "must be less than edv");
     rule(!passive || case_.passive.law == PassiveLaw::holzapfel_ogden, "calibrate.passive",
          "fits the Holzapfel-Ogden law alone; passive.law is another");
@@ -163,14 +173,29 @@ class CaseReader {
   std::vector<std::pair<std::string, std::string>> mistakes_;  ///< place and what is wrong there
 };
 
-std::string table_of(const std::string& name) {
-  const auto dot = name.rfind('.');
-  return dot == std::string::npos ? "" : name.substr(0, dot);
+/// Whether a text contains another, in capitals or not.
+bool contains(const std::string& text, const std::string& part) {
+  if (part.empty())
+    return true;
+  const auto same = [](unsigned char a, unsigned char b) {
+    return std::tolower(a) == std::tolower(b);
+  };
+  return std::search(text.begin(), text.end(), part.begin(), part.end(), same) != text.end();
 }
 
-std::string key_of(const std::string& name) {
-  const auto dot = name.rfind('.');
-  return dot == std::string::npos ? name : name.substr(dot + 1);
+/// Throws InputError unless some parameter contains the filter.
+void require_match(const std::string& filter) {
+  std::vector<std::string> names;
+  for (const Parameter& p : parameters()) {
+    if (contains(p.name, filter) || contains(p.help, filter))
+      return;
+    names.push_back(p.name);
+    names.push_back(key_of(p.name));
+  }
+  const std::string nearest = nearest_name(filter, names);
+  throw InputError(
+      "parameters " + filter, "no parameter has this in its name or meaning",
+      nearest.empty() ? "Try a shorter word" : fmt::format("Did you mean {}?", nearest));
 }
 
 std::string where_in_paper(const Parameter& p) {
@@ -229,31 +254,32 @@ std::string starter_case(const std::string& name) {
                                               "protocol.es_pressure",
                                               "time.longest_step",
                                               "output.frame_interval"};
-  Case defaults;
-  defaults.name = name;
+  const Case defaults;
   std::string text =
       "# A case of ventricle. Every quantity carries its unit. What is not set here has its "
       "default;\n"
-      "# `ventricle parameters` lists all parameters with unit, range, default and meaning.\n\n";
-  text += fmt::format("name = {}\n", nlohmann::json(name).dump());  // JSON's escapes are TOML's
-  std::string table;
-  for (const Parameter& p : parameters()) {
-    if (std::find(shown.begin(), shown.end(), p.name) == shown.end())
-      continue;
-    if (table_of(p.name) != table) {
-      table = table_of(p.name);
-      for (const Section& s : sections())
-        if (s.name == table)
-          text += fmt::format("\n# {}\n[{}]\n", s.help, table);
-    }
-    text +=
-        fmt::format("{} = {}  # {}; {}\n", key_of(p.name), p.get(defaults), meaning(p), p.rule());
+      "# `ventricle parameters` lists all parameters with unit, range, default and meaning.\n"
+      "# `ventricle new --from SOURCE` fills in what a label map, contours or a mesh show.\n\n" +
+      first_lines(name);
+  for (const Section& section : sections()) {
+    std::vector<CaseLine> lines;
+    for (const Parameter& p : parameters())
+      if (table_of(p.name) == section.name &&
+          std::find(shown.begin(), shown.end(), p.name) != shown.end())
+        lines.push_back({p.name, p.get(defaults), fmt::format("{}; {}", meaning(p), p.rule())});
+    if (!lines.empty())
+      text += fmt::format("\n# {}\n{}", section.help, case_lines(lines));
   }
   return text;
 }
 
-std::string manual(bool markdown) {
+std::string manual(bool markdown, const std::string& filter) {
+  require_match(filter);
   const Case defaults;
+  const auto wanted = [&](const Section& section, const Parameter& p) {
+    return table_of(p.name) == section.name &&
+           (contains(p.name, filter) || contains(p.help, filter));
+  };
   std::string text =
       markdown
           ? "# Parameters\n\nPrinted by `ventricle parameters --markdown`. Any unit of the same "
@@ -262,6 +288,9 @@ std::string manual(bool markdown) {
             "last column names the paper's equation or section.\n"
           : "";
   for (const Section& s : sections()) {
+    if (std::none_of(parameters().begin(), parameters().end(),
+                     [&](const Parameter& p) { return wanted(s, p); }))
+      continue;
     const std::string title = s.name.empty() ? "top level" : fmt::format("[{}]", s.name);
     text += markdown ? fmt::format(
                            "\n## {}\n\n{}.\n\n| parameter | default | allowed | meaning | paper "
@@ -269,7 +298,7 @@ std::string manual(bool markdown) {
                            title, s.help)
                      : fmt::format("\n{}  {}\n", title, s.help);
     for (const Parameter& p : parameters()) {
-      if (table_of(p.name) != s.name)
+      if (!wanted(s, p))
         continue;
       text += markdown ? fmt::format("| `{}` | `{}` | {} | {} | {} |\n", key_of(p.name),
                                      p.get(defaults), p.rule(), meaning(p), p.equation)

@@ -17,7 +17,8 @@ namespace lv::job {
 /// A commented case file with the parameters a new user is likely to change.
 [[nodiscard]] std::string starter_case(const std::string& name);
 
-/// The manual of all parameters as text for a terminal, or as Markdown.
-[[nodiscard]] std::string manual(bool markdown);
+/// The manual of all parameters as text for a terminal, or as Markdown; with a filter, of those
+/// whose name or meaning contains it. Throws InputError, with the name most like it, if none does.
+[[nodiscard]] std::string manual(bool markdown, const std::string& filter = "");
 
 }  // namespace lv::job

@@ -7,7 +7,6 @@
 #include "lv/base/parallel.hpp"
 #include "lv/base/printable.hpp"
 #include "lv/base/table.hpp"
-#include "lv/base/units.hpp"
 #include "lv/bench/bench.hpp"
 #include "lv/job/calibration.hpp"
 #include "lv/job/infarct.hpp"
@@ -15,30 +14,23 @@
 #include "lv/job/parameters.hpp"
 #include "lv/job/stages.hpp"
 #include "lv/job/strain.hpp"
-#include "lv/job/strain_targets.hpp"
 #include "lv/job/unloading.hpp"
+#include "lv/job/validate.hpp"
 #include "lv/job/version.hpp"
 #include "lv/job/workspace.hpp"
-#include "lv/mesh/quality.hpp"
 #include "lv/report/page.hpp"
 #include "lv/report/table_figures.hpp"
-#include "lv/solid/endocardial_surface.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <chrono>
-#include <string_view>
 
 namespace lv::job {
 namespace {
 
 using parallel::on_root;
 using parallel::root_says;
-
-constexpr const char* no_parameters =
-    "the case file sets no parameter: this is the default case, the idealised healthy ventricle";
 
 /// The stages in their order, each with what it depends on.
 class Pipeline {
@@ -61,12 +53,66 @@ class Pipeline {
       log::warn("{}: {}", case_.file.string(), no_parameters);
     if (!case_.strain.measured.empty())  // a mistake there must not come up after the beat
       on_root([&] { static_cast<void>(measured_strains(case_)); });
-    for (const Stage stage : all_stages)
-      if (stage <= last_ && has_stage(case_, stage))
-        run_stage(stage);
+    const std::vector<Planned> stages = plan();
+    check_before(stages);
+    for (const Planned& p : stages)
+      run_stage(p);
+  }
+
+  /// What would run and why, a line a stage; known to the root.
+  [[nodiscard]] std::string describe() {
+    std::string text;
+    for (const Planned& p : plan()) {
+      const StageFolder stage = folder_of(p);
+      text += stage.up_to_date()
+                  ? fmt::format("{:<10} is up to date\n", name_of(p.stage))
+                  : fmt::format("{:<10} would run, because {}\n", name_of(p.stage), stage.reason());
+    }
+    return text;
   }
 
  private:
+  /// A stage of the case with what its result depends on, which the root knows.
+  struct Planned {
+    Stage stage;
+    Ingredients ingredients;
+  };
+
+  /// The stages in their order. Each takes the results of all before it but strain's, which the
+  /// results alone look at; what stands for a result is known before it is there.
+  [[nodiscard]] std::vector<Planned> plan() {
+    std::vector<Planned> stages;
+    Ingredients before;  // the last result that leads to the next stage
+    Ingredients strain;
+    for (const Stage stage : all_stages) {
+      if (stage > last_ || !has_stage(case_, stage))
+        continue;
+      Ingredients all;
+      on_root([&] { all = ingredients(case_, stage, files_); });
+      all.insert(before.begin(), before.end());
+      if (stage == Stage::results)
+        all.insert(strain.begin(), strain.end());
+      Ingredients result;
+      result["result of " + name_of(stage)] = fingerprint(all);
+      (stage == Stage::strain ? strain : before) = std::move(result);
+      stages.push_back({stage, std::move(all)});
+    }
+    return stages;
+  }
+
+  [[nodiscard]] StageFolder folder_of(const Planned& p) const {
+    return {work_, folder(p.stage).filename().string(), p.ingredients};
+  }
+
+  /// A fit that cannot succeed must not be found out after the stages before it.
+  void check_before(const std::vector<Planned>& stages) {
+    on_root([&] {
+      for (const Planned& p : stages)
+        if (p.stage == Stage::calibrate && !folder_of(p).up_to_date())
+          check_measured_volumes(case_, cavity_of(shape()));
+    });
+  }
+
   [[nodiscard]] Stage last_stage() const {
     if (!options_.until)
       return all_stages.back();
@@ -93,28 +139,14 @@ class Pipeline {
     return work_ / stage_folder(static_cast<std::size_t>(stage));
   }
 
-  /// With those of the stages whose results it takes: all before it but strain, which the results
-  /// alone look at. Known to the root.
-  Ingredients ingredients_of(Stage stage) {
-    Ingredients all;
-    on_root([&] { all = ingredients(case_, stage, files_); });
-    if (stage != Stage::strain && !before_.empty())
-      all["result of " + name_of(last_made_)] = before_;
-    if (stage == Stage::results && !strain_.empty())
-      all["result of " + name_of(Stage::strain)] = strain_;
-    (stage == Stage::strain ? strain_ : before_) = fingerprint(all);
-    if (stage != Stage::strain)
-      last_made_ = stage;
-    return all;
-  }
-
   static const std::string& name_of(Stage stage) {
     return stage_names.at(static_cast<std::size_t>(stage));
   }
 
-  void run_stage(Stage s) {
+  void run_stage(const Planned& planned) {
     interrupt::check_together();
-    const StageFolder stage(work_, folder(s).filename().string(), ingredients_of(s));
+    const Stage s = planned.stage;
+    const StageFolder stage = folder_of(planned);
     if (root_says(stage.up_to_date())) {
       if (options_.explain)
         log::info("{} is up to date: nothing it depends on has changed", name_of(s));
@@ -138,7 +170,11 @@ class Pipeline {
         on_root([&] { make_strain(c, part); });
         break;
       case Stage::anatomy:
-        on_root([&] { write_anatomy(shape(), part); });
+        on_root([&] {
+          for (const std::string& warning : shape().warnings)
+            log::warn("{}", warning);
+          write_anatomy(shape(), part);
+        });
         break;
       case Stage::mesh:
         on_root([&] {
@@ -272,50 +308,20 @@ class Pipeline {
   std::filesystem::path work_;
   Stage last_;
   FileContents files_;
-  Stage last_made_ = Stage::strain;  ///< of those that lead to the results
-  std::string before_, strain_;      ///< what stands for its result, and for that of strain
   std::string text_;
   std::optional<Shape> shape_;
   static constexpr const char* elements_name = "quasi_static";  ///< folder of the mesh for fits
 };
 
-/// Seconds that a step takes, from a few steps of the model at rest.
-double trial_step(const Case& c, const mesh::Mesh& mesh, const immersed::ModelParameters& p) {
-  immersed::Model model(mesh, cardiac_model(c), p);
-  model.relax(c.protocol.calcium.Ca_0);
-  constexpr int steps = 3;
-  const auto start = std::chrono::steady_clock::now();
-  for (int i = 0; i < steps; ++i)
-    static_cast<void>(model.step({.calcium = c.protocol.calcium.Ca_0}, c.time.longest));
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  return elapsed.count() / steps;
-}
-
-/// What the immersed engine would take, in words.
-std::string immersed_cost(const Case& c, const mesh::Mesh& mesh) {
-  const immersed::ModelParameters p = model_parameters(c, mesh);
-  const double seconds = trial_step(c, mesh, p);
-  const double shortest = c.protocol.filling_ramp + c.protocol.filling_window +
-                          c.protocol.contraction_ramp + c.protocol.contraction_window;
-  const double longest = c.protocol.filling_longest + c.protocol.contraction_longest;
-  return fmt::format(
-      "  grid: {} x {} x {}, mesh width {:.3f} mm\n"
-      "  cost: {:.3g} s a step on one rank; between {} and {} for the beat, less on more ranks\n",
-      p.grid.cells[0], p.grid.cells[1], p.grid.cells[2], p.grid.spacing.minCoeff(), seconds,
-      log::duration(shortest / c.time.longest * seconds),
-      log::duration(longest / c.time.longest * seconds));
-}
-
-/// What the quasi-static engine would solve, in words. Making its equations checks the elements.
-std::string static_size(const Case& c, const mesh::Mesh& mesh) {
-  const quasi_static::Equations equations(mesh, static_model(c));
-  return fmt::format("  quasi-static: {} finite elements of order {}, {} unknowns\n",
-                     mesh::elements(mesh).size(), mesh.order, equations.size());
-}
-
 }  // namespace
 
 void run(const Case& c, const RunOptions& options) {
+  if (options.dry_run) {
+    const std::string text = Pipeline(c, options).describe();
+    if (parallel::is_root())
+      print(text);
+    return;
+  }
   interrupt::install();
   try {
     Pipeline(c, options).run();
@@ -333,41 +339,6 @@ void write_page(const std::vector<std::filesystem::path>& works,
     cases.push_back({work, state.empty(), state});
   }
   write_file(file, report::page(cases, version()));
-}
-
-std::string validate(const Case& c) {
-  const std::string strain = check_strain(c);
-  const Shape shape = make_anatomy(c);
-  const MeshResult result = make_mesh(c, shape);
-  const mesh::Mesh& m = result.mesh;
-  check_room(c, m);
-  const mesh::Quality q = mesh::quality(m);
-  std::string text = fmt::format(
-      "{}: valid\n"
-      "  early diastole: cavity {:.2f} ml, wall {:.2f} ml\n",
-      c.file.string(), 1e-3 * solid::EndocardialSurface(m).volume(m.nodes), 1e-3 * q.wall_volume);
-  if (c.origin.empty())
-    text += fmt::format("  warning: {}\n", no_parameters);
-  if (is_loaded(c))
-    text +=
-        fmt::format("  this shape bears {:.2f} mmHg; the wall without load will be found from it\n",
-                    c.unloaded.pressure / units::mmHg);
-  if (const auto targets = strain_targets(c, result.regions); !targets.empty())
-    text += fmt::format("  strains of {} segments to fit to\n", targets.size());
-  text += strain;
-  if (shape.quality)
-    text += report::quality_text(*shape.quality);
-  else
-    for (const std::string& note : shape.notes)
-      text += fmt::format("  note: {}\n", note);
-  text += fmt::format(
-      "  mesh: {} elements, {} nodes, edges {:.2f} mm in the mean; worst element {} at ({:.1f}, "
-      "{:.1f}, {:.1f}) mm with scaled Jacobian {:.2f}\n",
-      q.cells, q.nodes, q.edge_length.mean, q.worst_cell, q.worst_place.x(), q.worst_place.y(),
-      q.worst_place.z(), q.scaled_jacobian.min);
-  if (const std::string infarct = describe_infarct(c, result); !infarct.empty())
-    text += fmt::format("  {}\n", infarct);
-  return text + (c.engine == Engine::immersed ? immersed_cost(c, m) : static_size(c, m));
 }
 
 int most_ranks(const std::array<int, 3>& cells) {

@@ -13,6 +13,7 @@ struct RunOptions {
   std::filesystem::path work;        ///< work folder; empty: the case file's name with .work
   std::optional<std::string> until;  ///< last stage to run, by its name
   bool explain = false;              ///< say why each stage runs or does not
+  bool dry_run = false;              ///< say what would run, and run nothing
 };
 
 /// Runs all stages of a case, skipping those whose inputs, parameters and program version are
@@ -33,10 +34,6 @@ void run(const Case& c, const RunOptions& options);
 /// Writes one self-contained page about what one work folder holds, or two side by side; a run that
 /// is unfinished may be among them. Throws InputError when a folder holds no results of a run.
 void write_page(const std::vector<std::filesystem::path>& works, const std::filesystem::path& file);
-
-/// Builds anatomy and mesh in memory and says what a run would compute. Throws InputError for a
-/// case that cannot run.
-[[nodiscard]] std::string validate(const Case& c);
 
 /// The most ranks that a box of these cells can be shared by.
 [[nodiscard]] int most_ranks(const std::array<int, 3>& cells);

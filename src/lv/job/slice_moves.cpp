@@ -1,6 +1,7 @@
 #include "lv/job/slice_moves.hpp"
 
 #include "lv/base/log.hpp"
+#include "lv/base/time_left.hpp"
 #include "lv/geometry/polygon.hpp"
 #include "lv/image/slice_registration.hpp"
 #include "lv/strain/measures.hpp"
@@ -150,11 +151,13 @@ const char* name(Evidence evidence) {
 std::vector<SliceMove> register_slices(const image::Cine& stack, const Triangles& endo,
                                        const Triangles& epi, double largest) {
   std::vector<SliceMove> moves;
+  Progress progress("moving slices onto the wall", stack.slices.size());
   for (std::size_t s = 0; s < stack.slices.size(); ++s) {
     const image::Picture& picture = stack.slices[s].frames.front();
     const Slab slab = slab_of(stack, s);
     moves.push_back(move_of(
         picture, outlines_in_slab(endo, epi, picture.plane, slab.below, slab.above), largest));
+    progress.add();
   }
   return moves;
 }

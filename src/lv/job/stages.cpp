@@ -189,8 +189,6 @@ report::RunFacts run_facts(const Case& c, const MeshResult& mesh, const BeatResu
     facts.parameters.emplace_back(p.name, p.shown(c));
   for (const auto& [name, place] : c.origin)
     facts.origins.emplace_back(name, std::filesystem::path(place).filename().string());
-  if (const std::string note = septum_note(c); !note.empty())
-    facts.warnings.push_back(note);
   if (!beat.beat.filling_was_steady)
     facts.warnings.push_back(
         "filling ended at protocol.filling_longest before the volume was steady");
@@ -436,6 +434,9 @@ std::string make_results(const Case& c, const MeshResult& mesh, const BeatResult
   std::string text;
   parallel::on_root([&] {
     report::RunFacts facts = run_facts(c, mesh, beat);
+    const auto stage = stage_folder(static_cast<std::size_t>(Stage::anatomy));
+    const auto assumed = anatomy_warnings(folder.parent_path() / stage);
+    facts.warnings.insert(facts.warnings.begin(), assumed.begin(), assumed.end());
     facts.fitted = fitted;
     facts.unloaded = unloaded;
     facts.scar = scar_facts(c, mesh);

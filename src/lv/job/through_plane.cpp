@@ -1,5 +1,6 @@
 #include "lv/job/through_plane.hpp"
 
+#include "lv/base/time_left.hpp"
 #include "lv/geometry/contour_measures.hpp"
 #include "lv/strain/reslice.hpp"
 
@@ -60,6 +61,7 @@ std::optional<ThroughPlane> follow_through_planes(const Case& c, const CineStudy
   const std::vector<image::CineSlice> stack = aligned(tasks, study.shift_of);
   const Vec3 normal = stack.front().frames.front().plane.normal();
   const double sense = normal.dot(study.orientation.up) > 0.0 ? 1.0 : -1.0;
+  Progress progress("taking images of the muscle", tasks.size());
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     strain::MuscleSlice muscle = strain::follow_muscle(
         stack, i, tasks[i].drawn,
@@ -68,6 +70,7 @@ std::optional<ThroughPlane> follow_through_planes(const Case& c, const CineStudy
     through.slices.push_back(
         {tasks[i].endo.slice, centre, frame.to_model(centre).z(), muscle.beyond});
     through.images.push_back(std::move(muscle.images));
+    progress.add();
   }
   through.tasks = std::move(tasks);
   for (std::size_t i = 0; i < through.tasks.size(); ++i)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "lv/base/mistakes.hpp"
 #include "lv/mesh/mesh.hpp"
 #include "lv/mesh/parameters.hpp"
 #include "lv/mesh/surface.hpp"
@@ -64,6 +65,18 @@ struct ForeignMesh {
 
 /// The tags of endocardium, epicardium and base, in this order.
 [[nodiscard]] std::array<std::string, 3> side_tags(const ImportParameters& parameters);
+
+/// The sides of those tags, each as `find` finds it. What is wrong with several is told at once.
+template <class Find>
+[[nodiscard]] std::vector<ForeignSide> find_sides(const ImportParameters& parameters,
+                                                  const Find& find) {
+  std::vector<ForeignSide> sides;
+  Mistakes mistakes;
+  for (const std::string& tag : side_tags(parameters))
+    mistakes.attempt([&] { sides.push_back(find(tag)); });
+  mistakes.raise();
+  return sides;
+}
 
 /// The kind of all volume cells, from the counts of each shape. Throws InputError if there are
 /// none, several, or others than hexahedra and tetrahedra, which count under these names.

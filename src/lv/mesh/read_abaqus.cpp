@@ -161,8 +161,8 @@ ForeignMesh read_abaqus(const ImportParameters& parameters) {
   const AbaqusModel model = read_abaqus_model(parameters.file);
   ForeignMesh foreign = to_mesh(model);
   if (parameters.sides == SideSource::tags)
-    for (const std::string& tag : side_tags(parameters))
-      foreign.sides.push_back(find_side(model, tag));
+    foreign.sides =
+        find_sides(parameters, [&](const std::string& tag) { return find_side(model, tag); });
   if (!parameters.infarct_set.empty())
     foreign.infarcted = find_infarcted(model, parameters.infarct_set);
   return foreign;

@@ -212,8 +212,8 @@ ForeignMesh read(const ImportParameters& parameters) {
   const NodeIndex index(foreign);
   add_cells(foreign, index);
   if (parameters.sides == SideSource::tags)
-    for (const std::string& tag : side_tags(parameters))
-      foreign.sides.push_back(find_side(parameters.file, tag, index));
+    foreign.sides = find_sides(
+        parameters, [&](const std::string& tag) { return find_side(parameters.file, tag, index); });
   if (!parameters.infarct_set.empty())
     foreign.infarcted = find_infarcted(foreign, parameters.infarct_set);
   std::vector<int> fields;

@@ -50,8 +50,8 @@ class Reader {
     add_nodes();
     add_cells();
     if (parameters_.sides == SideSource::tags)
-      for (const std::string& tag : side_tags(parameters_))
-        foreign_.sides.push_back(find_side(tag));
+      foreign_.sides =
+          find_sides(parameters_, [this](const std::string& tag) { return find_side(tag); });
     if (!parameters_.infarct_set.empty())
       foreign_.infarcted = find_infarcted(parameters_.infarct_set);
     foreign_.note_fields(file_.has_fields);

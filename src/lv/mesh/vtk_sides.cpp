@@ -175,12 +175,11 @@ std::vector<ForeignSide> read_vtk_sides(const ImportParameters& parameters,
         sides_by_value(parameters.file, grid,
                        find_array(parameters.file, *grid.GetCellData(), grid.GetNumberOfCells(), 1,
                                   "cell array", parameters.side_array));
-  std::vector<ForeignSide> sides;
-  for (const std::string& tag : side_tags(parameters))
-    sides.push_back(names_file(tag)                 ? side_of_surface(tag, grid)
-                    : parameters.side_array.empty() ? side_of_points(parameters.file, grid, tag)
-                                                    : side_of_value(parameters, tag, by_value));
-  return sides;
+  return find_sides(parameters, [&](const std::string& tag) {
+    return names_file(tag)                 ? side_of_surface(tag, grid)
+           : parameters.side_array.empty() ? side_of_points(parameters.file, grid, tag)
+                                           : side_of_value(parameters, tag, by_value);
+  });
 }
 
 }  // namespace lv::mesh

@@ -3,6 +3,7 @@
 #include "lv/base/check.hpp"
 #include "lv/base/processors.hpp"
 #include "lv/base/table.hpp"
+#include "lv/base/time_left.hpp"
 #include "lv/phantom/files.hpp"
 
 #include <fmt/format.h>
@@ -27,11 +28,13 @@ image::Cine cine_of(const Scanner& scanner, const Scan& scan, const std::vector<
       slice.times.push_back(time * scan.rr);
     cine.slices.push_back(std::move(slice));
   }
+  Progress progress("making images", planes.size() * times.size());
   in_threads(planes.size() * times.size(), [&](std::size_t n) {
     const std::size_t s = n / times.size();
     const std::size_t k = n % times.size();
     cine.slices[s].frames[k] = scanner.picture(planes[s], times[k], Contrast::cine,
                                                first_number + static_cast<std::uint32_t>(n));
+    progress.add();
   });
   return cine;
 }
@@ -222,8 +225,12 @@ void write_images(const Scanner& scanner, const Scan& scan, const ScanPlanes& pl
     write_nifti(one(la.slices[k]), nifti / fmt::format("cine_long_axis_{}.nii.gz", k + 1));
   write_nifti(lge, nifti / "late_enhancement.nii.gz");
   std::vector<std::vector<LabelPicture>> labels;
-  for (const double time : phase_times(scan))
+  const std::vector<double> times = phase_times(scan);
+  Progress progress("making labels", times.size());
+  for (const double time : times) {
     labels.push_back(without_scar(label_stack(scanner, planes, time)));
+    progress.add();
+  }
   write_nifti(labels, scan.rr / scan.phases, nifti / "cine_short_axis_labels.nii.gz");
   write_nifti({label_stack(scanner, planes, early)}, 1.0, nifti / "late_enhancement_labels.nii.gz");
 }

@@ -2,6 +2,7 @@
 
 #include "lv/base/check.hpp"
 #include "lv/base/log.hpp"
+#include "lv/base/time_left.hpp"
 #include "lv/base/units.hpp"
 
 #include <Eigen/QR>
@@ -218,11 +219,26 @@ class Unloader {
   void accept(Trial&& trial) {
     now_ = std::move(trial);
     steps_.push_back(now_.step);
+    left_.record(equilibria_);
+    const std::string left = left_.words(equilibria_left());
     log::info(
         "unloading {:2d}: off by {:.4f} mm (rms {:.4f}), {:.2f} ml fill to {:.2f} ml at {:.2f} "
-        "mmHg",
+        "mmHg{}",
         equilibria_, now_.step.largest, now_.step.rms, 1e-3 * now_.step.unloaded_volume,
-        1e-3 * now_.step.volume, pressure_ / units::mmHg);
+        1e-3 * now_.step.volume, pressure_ / units::mmHg,
+        left.empty() ? "" : left + " of unloading");
+  }
+
+  /// At the rate at which the distance has fallen in the last steps; before that is known, at a
+  /// usual one.
+  [[nodiscard]] double equilibria_left() const {
+    constexpr double usual = 0.3;  // of the distance that a step leaves
+    constexpr std::size_t last = 3;
+    const std::size_t n = std::min(last, steps_.size() - 1);
+    const double fall = steps_[steps_.size() - 1 - n].largest / now_.step.largest;
+    const double rate =
+        n == 0 ? -std::log(usual) : std::max(0.1, std::log(fall) / static_cast<double>(n));
+    return std::log(now_.step.largest / (far_below * parameters_.tolerance)) / rate;
   }
 
   struct Difference {
@@ -238,6 +254,7 @@ class Unloader {
   Eigen::VectorXd target_;
   double pressure_ = 0.0;  ///< in force [kPa]
   int equilibria_ = 0;
+  TimeLeft left_;
   Trial now_;
   std::deque<Difference> history_;
   std::vector<UnloadStep> steps_;

@@ -1,6 +1,7 @@
 #include "lv/strain/axial_motion.hpp"
 
 #include "lv/base/dense.hpp"
+#include "lv/base/time_left.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -55,7 +56,9 @@ struct Seen {
   Eigen::MatrixXd u;
 };
 
-Seen follow(const LongAxisTask& view, const Vec3& up, const RegistrationParameters& parameters) {
+/// `progress` is told of every image but the first.
+Seen follow(const LongAxisTask& view, const Vec3& up, const RegistrationParameters& parameters,
+            Progress& progress) {
   const auto& frames = view.cine->frames;
   const image::Plane& plane = frames.at(view.drawn).plane;
   const auto flat = [&](const Vec3& x) {
@@ -72,6 +75,7 @@ Seen follow(const LongAxisTask& view, const Vec3& up, const RegistrationParamete
                                  static_cast<Eigen::Index>(frames.size()));
   for (std::size_t k = 1; k < frames.size(); ++k) {
     tracker.follow(frames[(view.drawn + k) % frames.size()]);
+    progress.add();
     for (std::size_t i = 0; i < seen.X.size(); ++i) {
       const Vec2 X = flat(seen.X[i]);
       seen.u(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) =
@@ -79,6 +83,13 @@ Seen follow(const LongAxisTask& view, const Vec3& up, const RegistrationParamete
     }
   }
   return seen;
+}
+
+std::size_t images_after_first(const std::vector<LongAxisTask>& views) {
+  std::size_t images = 0;
+  for (const LongAxisTask& view : views)
+    images += view.cine->frames.size() - 1;
+  return images;
 }
 
 /// Columns of one cycle interpolated linearly to another number of steps.
@@ -100,8 +111,9 @@ AxialMotion::AxialMotion(const std::vector<LongAxisTask>& views, const geometry:
     : frame_(frame) {
   std::vector<Seen> seen;
   Eigen::Index rows = 0;
+  Progress progress("following the long axes", images_after_first(views));
   for (const LongAxisTask& view : views) {
-    seen.push_back(follow(view, frame.axes.col(2), parameters));
+    seen.push_back(follow(view, frame.axes.col(2), parameters, progress));
     rows += seen.back().u.rows();
   }
   Eigen::MatrixXd A(rows, terms);

@@ -2,6 +2,7 @@
 
 #include "lv/base/check.hpp"
 #include "lv/base/processors.hpp"
+#include "lv/base/time_left.hpp"
 #include "lv/geometry/contour_measures.hpp"
 
 #include <Eigen/Geometry>
@@ -183,8 +184,11 @@ double loop_area(const std::vector<Vec3>& loop) {
   return 0.5 * sum.norm();
 }
 
+namespace {
+
+/// `progress` is told of every image.
 TrackedSlice track(const SliceTask& task, const Orientation& orientation,
-                   const RegistrationParameters& parameters) {
+                   const RegistrationParameters& parameters, Progress& progress) {
   const auto& frames = task.cine->frames;
   const image::Plane& plane = frames.at(task.drawn).plane;
   const InPlane in_plane(plane);
@@ -211,15 +215,33 @@ TrackedSlice track(const SliceTask& task, const Orientation& orientation,
     result.epi.push_back(carried(task.epi, epi, tracker, in_plane));
     result.cavity_areas.push_back(loop_area(result.endo.back().points));
     result.smallest_J = std::min(result.smallest_J, smallest_determinant(wall, motion));
+    progress.add();
   }
   return result;
+}
+
+Progress progress_of(const std::vector<SliceTask>& tasks) {
+  std::size_t images = 0;
+  for (const SliceTask& task : tasks)
+    images += task.cine->frames.size();
+  return {"following the muscle", images};
+}
+
+}  // namespace
+
+TrackedSlice track(const SliceTask& task, const Orientation& orientation,
+                   const RegistrationParameters& parameters) {
+  Progress progress = progress_of({task});
+  return track(task, orientation, parameters, progress);
 }
 
 std::vector<TrackedSlice> track(const std::vector<SliceTask>& tasks, const Orientation& orientation,
                                 const RegistrationParameters& parameters) {
   std::vector<TrackedSlice> results(tasks.size());
-  in_threads(tasks.size(),
-             [&](std::size_t i) { results[i] = track(tasks[i], orientation, parameters); });
+  Progress progress = progress_of(tasks);
+  in_threads(tasks.size(), [&](std::size_t i) {
+    results[i] = track(tasks[i], orientation, parameters, progress);
+  });
   return results;
 }
 

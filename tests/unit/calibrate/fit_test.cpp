@@ -77,14 +77,14 @@ TEST_CASE("a fit says how it moves with the measurements", "[calibrate]") {
   Plan moved = p;  // by fitting again
   moved.tolerance = 1e-6;
   moved.edv.volume *= 1.001;
-  const Parameters by_edv = fit(model, truth, moved).parameters;
+  const FitParameters by_edv = fit(model, truth, moved).parameters;
   CHECK(s.by_data(0, 0) == Approx(std::log(by_edv.C_a / truth.C_a) / 1e-3).epsilon(0.01));
   CHECK(s.by_data(1, 0) == Approx(std::log(by_edv.T_scale / truth.T_scale) / 1e-3).epsilon(0.01));
 
   moved.edv.volume = p.edv.volume;
   moved.ed_pressure *= 1.001;
   const double dp = 1e-3 * p.ed_pressure;
-  const Parameters by_p = fit(model, truth, moved).parameters;
+  const FitParameters by_p = fit(model, truth, moved).parameters;
   CHECK(s.by_data(0, 2) == Approx(std::log(by_p.C_a / truth.C_a) / dp).epsilon(0.01));
   CHECK(s.by_data(1, 2) == Approx(std::log(by_p.T_scale / truth.T_scale) / dp).epsilon(0.01));
   CHECK(s.by_data(0, 1) == Approx(0.0).margin(1e-9));  // ESV says nothing about C_a
@@ -210,7 +210,7 @@ TEST_CASE("what is no lack of an equilibrium ends a fit", "[calibrate]") {
       return volume(q, loads);
     };
   };
-  fit({disk_full_after(1'000'000), unloaded_volume, {}}, {}, p);
+  static_cast<void>(fit({disk_full_after(1'000'000), unloaded_volume, {}}, {}, p));
   const int all = std::exchange(calls, 0);
   for (int count = 0; count < all; ++count, calls = 0)
     CHECK_THROWS_WITH(fit({disk_full_after(count), unloaded_volume, {}}, {}, p),

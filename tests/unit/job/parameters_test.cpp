@@ -211,8 +211,7 @@ TEST_CASE("a parameter that is set and that no stage of the case reads is refuse
         continue;
       const Case c = parsed(base);
       const std::string words = job::counts_only(p, c);
-      INFO(p.name << " in
-" << text_of(base));
+      INFO(p.name << " in\n" << text_of(base));
       CHECK(words.empty() == counts_somewhere(p, c));
       const std::string message = refusal(base, p.name, other_value(p, c));
       const std::string expected =
@@ -297,6 +296,12 @@ TEST_CASE("that a parameter is set is in the record where that counts", "[unit][
   const Case silent = parsed({});
   const Case said = parsed({{"regions.septum_angle", "\"0 deg\""}});
   CHECK(record(silent, Stage::anatomy) != record(said, Stage::anatomy));
+}
+
+TEST_CASE("the anatomy sees whether its shape bears a pressure, of which it warns", "[unit][job]") {
+  CHECK_FALSE(is_loaded(job::stage_view(parsed({}), Stage::anatomy)));
+  const Case loaded = parsed({{"unloaded.pressure", "\"8 mmHg\""}});
+  CHECK(is_loaded(job::stage_view(loaded, Stage::anatomy)));
 }
 
 TEST_CASE("a number that a stage does not read is no number there", "[unit][job]") {

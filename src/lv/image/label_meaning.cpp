@@ -1,0 +1,128 @@
+#include "lv/image/label_meaning.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+namespace lv::image {
+namespace {
+
+constexpr int label_count = 256;
+
+/// How long the border of each label with each other one is, in edges of pixels, and how many
+/// pixels it has.
+struct Borders {
+  std::vector<std::array<double, label_count>> with{label_count};
+  std::array<double, label_count> pixels{};
+
+  [[nodiscard]] double length(int label) const {
+    return std::accumulate(with[label].begin(), with[label].end(), 0.0);
+  }
+  /// The part of a label's border that is with others.
+  [[nodiscard]] double share(int label, const std::vector<int>& others) const {
+    double sum = 0.0;
+    for (const int other : others)
+      sum += with[label][other];
+    return sum == 0.0 ? 0.0 : sum / length(label);
+  }
+  /// The label, background apart, that has most of a label's border.
+  [[nodiscard]] int neighbour(int label) const {
+    const auto& row = with[label];
+    return static_cast<int>(std::max_element(row.begin() + 1, row.end()) - row.begin());
+  }
+};
+
+void count_plane(const Picture& picture, Borders& borders) {
+  const int columns = picture.plane.columns;
+  const int rows = picture.plane.rows;
+  const auto label = [&](int i, int j) {
+    return static_cast<int>(picture.values[static_cast<std::size_t>(j) * columns + i]);
+  };
+  const auto meet = [&](int a, int b) {
+    if (a == b)
+      return;
+    borders.with[a][b] += 1.0;
+    borders.with[b][a] += 1.0;
+  };
+  for (int j = 0; j < rows; ++j)
+    for (int i = 0; i < columns; ++i) {
+      borders.pixels[label(i, j)] += 1.0;
+      if (i + 1 < columns)
+        meet(label(i, j), label(i + 1, j));
+      if (j + 1 < rows)
+        meet(label(i, j), label(i, j + 1));
+    }
+}
+
+Borders borders_of(const Volume& volume) {
+  Borders borders;
+  for (int f = 0; f < volume.frames; ++f)
+    for (const Picture& picture : slices(volume, slice_axis(volume), f))
+      count_plane(picture, borders);
+  return borders;
+}
+
+/// The largest label for which something holds; 0 if there is none.
+template <class Holds>
+int largest(const Borders& borders, const Holds& holds) {
+  int best = 0;
+  for (int label = 1; label < label_count; ++label)
+    if (borders.pixels[label] > 0.0 && holds(label) &&
+        (best == 0 || borders.pixels[label] > borders.pixels[best]))
+      best = label;
+  return best;
+}
+
+bool is_in(const std::vector<int>& labels, int label) {
+  return std::find(labels.begin(), labels.end(), label) != labels.end();
+}
+
+/// Adds scar and its core to the muscle.
+void add_scar(const Borders& borders, int cavity, std::vector<int>& muscle) {
+  constexpr double some = 0.1;
+  constexpr double most = 0.7;
+  const int healthy = muscle.front();
+  for (int label = 1; label < label_count; ++label)
+    if (borders.pixels[label] > 0.0 && label != cavity && label != healthy &&
+        borders.share(label, {0}) < 0.5 && borders.share(label, {cavity}) > some &&
+        borders.share(label, {healthy}) > some)
+      muscle.push_back(label);
+  const std::vector<int> wall = muscle;
+  for (int label = 1; label < label_count; ++label)
+    if (borders.pixels[label] > 0.0 && label != cavity && !is_in(wall, label) &&
+        borders.share(label, wall) > most)
+      muscle.push_back(label);
+}
+
+}  // namespace
+
+bool seems_labels(const Volume& v) {
+  return std::all_of(v.values.begin(), v.values.end(), [](float x) {
+    return x == std::round(x) && x >= 0.0F && x < static_cast<float>(label_count);
+  });
+}
+
+LabelMeaning propose_meaning(const Volume& volume) {
+  if (!seems_labels(volume))
+    return {};
+  const Borders borders = borders_of(volume);
+  const int cavity = largest(borders, [&](int label) {
+    return borders.share(label, {0}) < 1.0 / 3.0 &&
+           borders.share(label, {borders.neighbour(label)}) >= 0.5;
+  });
+  if (cavity == 0)
+    return {};
+  LabelMeaning meaning{{cavity}, {borders.neighbour(cavity)}, {}};
+  add_scar(borders, cavity, meaning.muscle);
+  constexpr double touching = 0.05;
+  const int right = largest(borders, [&](int label) {
+    return label != cavity && !is_in(meaning.muscle, label) &&
+           borders.share(label, meaning.muscle) > touching;
+  });
+  if (right != 0)
+    meaning.right_ventricle = {right};
+  return meaning;
+}
+
+}  // namespace lv::image

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "lv/image/label_contours.hpp"
+#include "lv/image/volume.hpp"
+
+#include <vector>
+
+namespace lv::image {
+
+/// Whether all values are whole numbers from 0 to 255, as labels are.
+[[nodiscard]] bool seems_labels(const Volume& volume);
+
+/// What the labels of a map seem to mean, from what lies beside what on the slices of all frames:
+///
+/// - the cavity is the largest label of whose border at least half is that of one other label and
+///   less than a third is background;
+/// - the muscle is that other label, with what lies on the cavity too and less than half on
+///   background (scar), and what such labels enclose (its core);
+/// - the right ventricle is the largest other label that lies on the muscle.
+///
+/// A proposal for a user to confirm. Lists are empty where nothing fits.
+[[nodiscard]] LabelMeaning propose_meaning(const Volume& volume);
+
+}  // namespace lv::image

@@ -1,0 +1,71 @@
+#!/usr/bin/env python3
+"""The command line as a new user meets it: help, exit codes, and the way from a label map to a case that validates.
+Usage: check.py VENTRICLE"""
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+program = pathlib.Path(sys.argv[1]).resolve()
+failures = []
+commands = ["new", "validate", "run", "calibrate", "strain", "phantom", "verify", "images", "report", "compare",
+            "parameters", "bench"]
+
+
+def check(claim, holds, detail=""):
+    print(f"{'pass' if holds else 'FAIL'}  {claim}{f': {detail}' if detail and not holds else ''}", flush=True)
+    if not holds:
+        failures.append(claim)
+
+
+def ventricle(*arguments, cwd=None):
+    return subprocess.run([program, *map(str, arguments)], capture_output=True, text=True, check=False, cwd=cwd)
+
+
+def check_help():
+    bare = ventricle()
+    check("without a command it prints its help", bare.returncode == 0 and "Exit codes" in bare.stdout)
+    check("help names every command", all(f"  {name}" in bare.stdout for name in commands))
+    for name in commands:
+        text = ventricle(name, "--help").stdout
+        check(f"{name} --help says more than its options", len(text.strip().splitlines()[-1]) > 10 and
+              not text.strip().splitlines()[-1].lstrip().startswith("--"), text)
+    check("an unknown command is wrong input", ventricle("rum").returncode == 1)
+
+
+def check_parameters():
+    found = ventricle("parameters", "calcium")
+    check("parameters are filtered", "Ca_max" in found.stdout and "edge_length" not in found.stdout)
+    check("a filter that fits nothing is wrong input", ventricle("parameters", "edge_lenth").returncode == 1)
+
+
+def check_way(folder):
+    """From the label map of a phantom to a case that validates, with nothing typed but the commands."""
+    made = ventricle("phantom", folder / "study", "--phases", 8, "--pixel", 2.5, "--dicom", "false")
+    check("the phantom is made", made.returncode == 0, made.stderr)
+    labels = folder / "study" / "nifti" / "cine_short_axis_labels.nii.gz"
+    case = folder / "mine.toml"
+    new = ventricle("new", case, "--from", labels)
+    check("a case is made from its label map", new.returncode == 0, new.stderr)
+    check("the engine stands on its first lines", "engine = " in "".join(case.read_text().splitlines(True)[:12]))
+    valid = ventricle("validate", case)
+    last = valid.stdout.splitlines()[-1] if valid.stdout else ""
+    check("it validates", valid.returncode == 0, valid.stderr)
+    check("the last line says costs, warnings and the next command",
+          "immersed about" in last and "quasi_static about" in last and "septum assumed" in last
+          and last.endswith(f"next: ventricle run {case}"), last)
+    check("nothing is coloured in a pipe", "\033" not in valid.stdout + valid.stderr)
+    dry = ventricle("run", case, "--dry-run")
+    check("a dry run says what would run, and runs nothing",
+          dry.returncode == 0 and "would run, because" in dry.stdout and not (folder / "mine.work").exists(), dry.stdout)
+    listed = ventricle("images", labels)
+    check("images end with the lines of a case", "[anatomy.labels]" in listed.stdout, listed.stdout)
+    again = ventricle("new", case, "--from", labels)
+    check("a case that exists is not overwritten", again.returncode == 1 and "exists already" in again.stderr)
+
+
+with tempfile.TemporaryDirectory() as temporary:
+    check_help()
+    check_parameters()
+    check_way(pathlib.Path(temporary))
+sys.exit(1 if failures else 0)

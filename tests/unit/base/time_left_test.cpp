@@ -1,0 +1,39 @@
+#include "lv/base/time_left.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <chrono>
+
+namespace {
+
+double now() {
+  const auto time = std::chrono::steady_clock::now().time_since_epoch();
+  return std::chrono::duration<double>(time).count();
+}
+
+}  // namespace
+
+TEST_CASE("the time left of steady work is right at 25, 50 and 75%", "[unit][base]") {
+  lv::TimeLeft left;
+  CHECK(left.seconds(1.0) < 0.0);
+  CHECK(left.words(1.0).empty());
+  const double start = now();
+  for (int second = 1; second < 400; ++second) {
+    left.record(second, start + second);
+    if (second % 100 == 0)
+      CHECK(left.seconds(400.0 - second) == Approx(400.0 - second).epsilon(0.01));
+  }
+}
+
+TEST_CASE("the time left follows work that becomes slower", "[unit][base]") {
+  lv::TimeLeft left;
+  const double start = now();
+  double at = start;
+  for (int step = 1; step <= 100; ++step) {
+    at += step <= 50 ? 1.0 : 4.0;
+    left.record(step, at);
+    if (step == 75)
+      CHECK(left.seconds(25.0) == Approx(100.0).epsilon(0.3));
+  }
+  CHECK(left.seconds(0.0) == 0.0);
+}
