@@ -10,7 +10,7 @@ struct NewtonParameters {
   double tolerance = 1e-6;         ///< rms of the last correction of the positions [mm]
   int iterations = 40;             ///< corrections after which it gives up
   double smallest_damping = 0.01;  ///< of a correction, before it gives up
-  LinearParameters linear;
+  LinearParameters linear = {};
 };
 
 /// How one equilibrium was found, or why it was not.

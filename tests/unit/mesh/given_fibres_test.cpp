@@ -98,8 +98,8 @@ Mesh with_rule_at_nodes(CellKind kind) {
   const std::vector<Vec3> radial = mesh::radial_directions(mesh);
   for (std::size_t a = 0; a < mesh.nodes.size(); ++a) {
     const Mat3 frame = mesh::fibre_frame({}, mesh::wall_axes(radial[a]), mesh.transmural[a]);
-    mesh.fibres.f0.emplace_back(a % 3 == 0 ? -frame.col(0) : frame.col(0));
-    mesh.fibres.s0.emplace_back(a % 5 == 0 ? -frame.col(1) : frame.col(1));
+    mesh.fibres.f0.emplace_back((a % 3 == 0 ? -1.0 : 1.0) * frame.col(0));
+    mesh.fibres.s0.emplace_back((a % 5 == 0 ? -1.0 : 1.0) * frame.col(1));
   }
   return mesh;
 }
