@@ -77,7 +77,8 @@ std::string listed(const std::vector<int>& numbers) {
 std::string case_lines(const std::vector<CaseLine>& lines) {
   std::string text;
   for (const auto& [table, of_table] : by_table(lines))
-    text += (text.empty() ? "" : "\n") + heading(table, of_table) + text_of(of_table);
+    text += fmt::format("{}{}{}", text.empty() ? "" : "\n", heading(table, of_table),
+                        text_of(of_table));
   return text;
 }
 
