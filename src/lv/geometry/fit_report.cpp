@@ -101,9 +101,38 @@ int nearest_slice(const Contours& contours, const Frame& frame, double z) {
   return slice;
 }
 
+/// Points of a surface up to its base, about 2 mm apart.
+std::vector<Vec3> spread_over(const StarSurface& surface) {
+  constexpr int rows = 60;
+  constexpr int angles = 120;
+  std::vector<Vec3> points;
+  for (int j = 0; j < angles; ++j) {
+    const double theta = 2.0 * pi * j / angles;
+    const double base = surface.base_angle(theta);
+    for (int i = 0; i <= rows; ++i)
+      points.push_back(surface.point(base * i / rows, theta));
+  }
+  return points;
+}
+
+/// How far x lies inside a surface. The search for the nearest point can go astray where x is as
+/// far away as the surface is curved, in a thick wall: then the nearest of `points` on it tells.
+double depth_below(const StarSurface& surface, const std::vector<Vec3>& points, const Vec3& x) {
+  constexpr double between_points = 3.0;  // [mm]
+  const double depth = -surface.distance(x);
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Vec3& p : points)
+    nearest = std::min(nearest, (p - x).squaredNorm());
+  nearest = std::sqrt(nearest);
+  return std::abs(depth) < nearest - between_points || std::abs(depth) > nearest + between_points
+             ? std::copysign(nearest, -surface.level(x).value)
+             : depth;
+}
+
 void measure_thickness(const Contours& contours, const Fitted& fitted, FitReport& report) {
   constexpr int rows = 40;
   constexpr int angles = 72;
+  const std::vector<Vec3> outside = spread_over(fitted.epi);
   report.thinnest.value = std::numeric_limits<double>::infinity();
   report.thickest.value = -std::numeric_limits<double>::infinity();
   for (int j = 0; j < angles; ++j) {
@@ -111,7 +140,7 @@ void measure_thickness(const Contours& contours, const Fitted& fitted, FitReport
     const double base = fitted.endo.base_angle(theta);
     for (int i = 0; i <= rows; ++i) {
       const Vec3 x = fitted.endo.point(base * i / rows, theta);
-      const double thickness = -fitted.epi.distance(x);
+      const double thickness = depth_below(fitted.epi, outside, x);
       if (thickness < report.thinnest.value)
         report.thinnest = {thickness, x, 0};
       if (thickness > report.thickest.value)

@@ -105,3 +105,21 @@ TEST_CASE("the long axis of a ventricle with a bent apex passes within every loo
     CHECK_NOTHROW(fit_drawn_wall(contours, {}, true));
   }
 }
+
+TEST_CASE("a wall thicker than its cavity is wide is not called thin", "[unit][geometry]") {
+  Drawing drawing;
+  drawing.frame = oblique_frame();
+  drawing.shape.base_height *= 50.0 / drawing.shape.endo_length;
+  drawing.shape.endo_radius = 9.0;
+  drawing.shape.endo_length = 50.0;
+  drawing.shape.epi_radius = 31.0;
+  drawing.shape.epi_length = 67.6;
+  drawing.spacing = 8.0;
+  drawing.slices = static_cast<int>((drawing.shape.base_height + 45.0) / drawing.spacing);
+  drawing.noise = 0.4;
+  Contours contours = draw(drawing);
+  shift_slices(contours, drawing.frame, 3.0, 3);
+  const FitReport report = fit_drawn_wall(contours, {}, true).wall.report();
+  CHECK(report.thinnest.value > 12.0);
+  CHECK(report.thickest.value < 25.0);
+}
