@@ -213,7 +213,7 @@ void drop_strays(Contours& contours, std::vector<std::string>& notes) {
     notes.push_back(stray + ": not used");
 }
 
-void drop_open_base(Contours& contours, double thinnest, std::vector<std::string>& notes) {
+void drop_open_base(Contours& contours, std::vector<std::string>& notes) {
   constexpr std::ptrdiff_t least_left = 3;
   constexpr double thin = 1.0 / 3.0;  // of the usual thickness
   const auto slices_left = [&] {
@@ -222,7 +222,7 @@ void drop_open_base(Contours& contours, double thinnest, std::vector<std::string
   };
   while (slices_left() > least_left) {
     const int slice = geometry::slices_from_base(contours).front();
-    const double least = std::max(thinnest, thin * usual_thickness(contours, slice));
+    const double least = thin * usual_thickness(contours, slice);
     const double part = part_with_muscle(contours, slice, least);
     if (part >= 0.5)
       return;

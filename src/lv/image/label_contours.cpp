@@ -277,9 +277,21 @@ Moments moments_on_line(const std::vector<Slice>& slices) {
   return all;
 }
 
+/// The angle [degrees] between a direction and that in which points spread most, where they are
+/// clearly longer than wide and nearly round across: of a stack of a few slices nothing can be
+/// said.
+std::optional<double> angle_to_spread(const Moments& points, const Vec3& direction) {
+  const Eigen::SelfAdjointEigenSolver<Mat3> axes(points.covariance());
+  const Vec3 spread = axes.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+  if (spread[2] < distinct * spread[1] || spread[2] * spread[0] < spread[1] * spread[1])
+    return {};
+  const double cosine = std::abs(axes.eigenvectors().col(2).dot(direction));
+  return std::acos(std::min(1.0, cosine)) * 180.0 / std::numbers::pi;
+}
+
 /// Notes or refuses slices that do not lie across the long axis, which is taken as the direction in
-/// which the cavity spreads most. It shows only in a cavity that is clearly longer than wide and
-/// is nearly round across: for a stack of a few slices nothing can be said.
+/// which the cavity spreads most: as it is, or with its slices on one line if that is less oblique,
+/// since a jump of the breath turns the former and a slice cut by the base's edge the latter.
 void check_across(const std::vector<Slice>& slices, const Run& run, const std::string& file,
                   std::vector<std::string>& notes) {
   std::vector<Slice> shown;
@@ -288,13 +300,15 @@ void check_across(const std::vector<Slice>& slices, const Run& run, const std::s
       shown.push_back(slices[s]);
   if (shown.size() < 2)
     return;
-  const Moments all = moments_on_line(shown);
-  const Eigen::SelfAdjointEigenSolver<Mat3> axes(all.covariance());
-  const Vec3 spread = axes.eigenvalues().cwiseMax(0.0).cwiseSqrt();
-  if (spread[2] < distinct * spread[1] || spread[2] * spread[0] < spread[1] * spread[1])
+  const Vec3 normal = shown.front().plane.normal();
+  Moments as_it_is;
+  for (const Slice& slice : shown)
+    as_it_is.add(slice.cavity);
+  const auto seen = angle_to_spread(as_it_is, normal);
+  if (!seen)
     return;
-  const double cosine = std::abs(axes.eigenvectors().col(2).dot(slices.front().plane.normal()));
-  const double angle = std::acos(std::min(1.0, cosine)) * 180.0 / std::numbers::pi;
+  const double angle =
+      std::min(*seen, angle_to_spread(moments_on_line(shown), normal).value_or(*seen));
   const std::string what = fmt::format(
       "the normal of the slices lies {:.0f} degrees from the long axis of the cavity", angle);
   if (angle > largest_angle)

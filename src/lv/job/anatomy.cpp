@@ -144,9 +144,10 @@ Shape make_anatomy(const Case& c) {
 }
 
 double cavity_of(const Shape& shape) {
-  constexpr double edge_length = 4.0;  // right to a thousandth of the volume [mm]
+  constexpr double edge_length = 3.0;  // of quadratic elements: right to a thousandth [mm]
   const mesh::Mesh wall =
-      shape.given ? *shape.given : mesh::wall_mesh(shape.wall, {.edge_length = edge_length});
+      shape.given ? *shape.given
+                  : mesh::wall_mesh(shape.wall, {.edge_length = edge_length, .order = 2});
   return solid::EndocardialSurface(wall).volume(wall.nodes);
 }
 

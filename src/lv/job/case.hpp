@@ -170,6 +170,8 @@ struct Case {
   std::filesystem::path file;  ///< the case file
   std::map<std::string, std::string>
       origin;  ///< parameter -> "file:line" where the case file sets it
+  std::vector<std::string>
+      without_effect;  ///< what is set in [mesh] and does nothing, as sentences
 };
 
 /// Whether the wall that was seen is a loaded one.

@@ -106,7 +106,7 @@ LV_CONDITION(infarct_without_unit,
              c.scar.source == Scar::surface ||
                  (c.scar.source == Scar::labels && !image::is_nifti_name(c.scar.labels)),
              "with infarct.source = \"surface\", or \"labels\" whose file is no NIfTI")
-LV_CONDITION(labels_in_nifti, image::is_nifti_name(c.scar.labels),
+LV_CONDITION(labels_in_nifti, c.scar.labels.empty() || image::is_nifti_name(c.scar.labels),
              "where infarct.labels.file is NIfTI")
 LV_CONDITION(labels_in_vtk, !image::is_nifti_name(c.scar.labels),
              "where infarct.labels.file is no NIfTI")

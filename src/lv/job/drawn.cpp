@@ -216,7 +216,7 @@ Drawn read_drawn(const Case& c) {
   const bool mended = c.anatomy.source != AnatomySource::contours;
   if (mended)
     image::drop_strays(drawn.contours, drawn.notes);
-  image::drop_open_base(drawn.contours, thinnest, drawn.notes);
+  image::drop_open_base(drawn.contours, drawn.notes);
   if (mended)
     image::close_walls(drawn.contours, thinnest, drawn.notes);
   geometry::check_contours(drawn.contours);

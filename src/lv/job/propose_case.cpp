@@ -263,13 +263,13 @@ SourceKind kind_of(const fs::path& source) {
     return SourceKind::surface;
   if (has_ending(source, {".toml"}))
     return SourceKind::case_file;
-  const std::string line = first_line(source);
+  if (image::looks_like_dicom(source))
+    return SourceKind::dicom;
+  const std::string line = begins_as_text(source) ? first_line(source) : "";
   if (line.find("type") != std::string::npos && line.find('x') != std::string::npos)
     return SourceKind::guide_points;
   if (line.find("x_mm") != std::string::npos && line.find("contour") != std::string::npos)
     return SourceKind::contours;
-  if (image::looks_like_dicom(source))
-    return SourceKind::dicom;
   throw InputError(source.string(), fmt::format("is {}", what_is(source)), all_kinds);
 }
 

@@ -116,14 +116,22 @@ class CaseReader {
          "needs strain.measured_column, the name of the column that holds end-systole");
   }
 
-  /// What is set and does nothing would be taken for something that it is not.
+  /// What is set and does nothing would be taken for something that it is not. The mesh is told
+  /// apart: its edge length stays in a case that is given to either engine, and is warned of.
   void check_that_all_count() {
-    for (const auto& [name, place] : case_.origin)
-      if (const std::string where = counts_only(*find_parameter(name), case_); !where.empty())
+    for (const auto& [name, place] : case_.origin) {
+      const std::string where = counts_only(*find_parameter(name), case_);
+      if (where.empty())
+        continue;
+      const std::string what = fmt::format("{} does nothing here: it counts only {}", name, where);
+      if (name.starts_with("mesh."))
+        case_.without_effect.push_back(what);
+      else
         mistakes_.emplace_back(
-            place, fmt::format("{} does nothing here: it counts only {}. Remove this line, or make "
-                               "it a comment, if the case is meant to be another",
-                               name, where));
+            place, what +
+                       ". Remove this line, or make it a comment, if the case is meant to be "
+                       "another");
+    }
   }
 
   void check_calibration() {
@@ -283,7 +291,9 @@ std::string manual(bool markdown, const std::string& filter) {
   std::string text =
       markdown
           ? "# Parameters\n\nPrinted by `ventricle parameters --markdown`. Any unit of the same "
-            "dimension may be written. A parameter that is set where it does not count is refused. "
+            "dimension may be written. A parameter that is set where it does not count is refused, "
+            "of "
+            "[mesh] named in a warning. "
             "The "
             "last column names the paper's equation or section.\n"
           : "";

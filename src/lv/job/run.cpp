@@ -51,6 +51,8 @@ class Pipeline {
               parallel::size(), parallel::size() == 1 ? "" : "s", work_.string());
     if (case_.origin.empty())
       log::warn("{}: {}", case_.file.string(), no_parameters);
+    for (const std::string& what : case_.without_effect)
+      log::warn("{}", what);
     if (!case_.strain.measured.empty())  // a mistake there must not come up after the beat
       on_root([&] { static_cast<void>(measured_strains(case_)); });
     const std::vector<Planned> stages = plan();

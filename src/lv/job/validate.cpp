@@ -36,6 +36,8 @@ std::vector<Warning> warnings_of(const Case& c, const Shape& shape, double cavit
   std::vector<Warning> warnings;
   if (c.origin.empty())
     warnings.push_back({"default case", no_parameters});
+  for (const std::string& text : c.without_effect)
+    warnings.push_back({"no effect", text});
   for (const std::string& text : shape.warnings)
     warnings.push_back(
         {text.starts_with("the septum") ? "septum assumed" : "end-diastolic shape", text});

@@ -105,4 +105,8 @@ std::string what_is(const std::filesystem::path& file) {
   return is_text(begin) ? "text of an unknown kind" : "of an unknown kind";
 }
 
+bool begins_as_text(const std::filesystem::path& file) {
+  return is_text(beginning_of(file));
+}
+
 }  // namespace lv::job

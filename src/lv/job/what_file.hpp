@@ -9,4 +9,7 @@ namespace lv::job {
 /// case names such a file: "an STL surface (infarct.surface.file)".
 [[nodiscard]] std::string what_is(const std::filesystem::path& file);
 
+/// Whether a file begins as text does: without control characters.
+[[nodiscard]] bool begins_as_text(const std::filesystem::path& file);
+
 }  // namespace lv::job

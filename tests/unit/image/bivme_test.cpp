@@ -25,7 +25,7 @@ geometry::FitReport fitted(const std::string& file) {
   fit.frame.base_at = geometry::BaseAt::annulus;
   fit.frame.septum = read.septum;
   image::drop_strays(read.contours, read.notes);
-  image::drop_open_base(read.contours, fit.thinnest_wall, read.notes);
+  image::drop_open_base(read.contours, read.notes);
   image::close_walls(read.contours, fit.thinnest_wall, read.notes);
   geometry::check_contours(read.contours);
   return geometry::fit_drawn_wall(read.contours, fit, true).wall.report();

@@ -43,7 +43,7 @@ TEST_CASE("a most basal slice that muscle surrounds over less than half is left 
           "[unit][image]") {
   std::vector<std::string> notes;
   Contours thin = thick_heart(3.0, 1.0);
-  drop_open_base(thin, 1.0, notes);
+  drop_open_base(thin, notes);
   CHECK(lv::geometry::find(thin.short_axis, 1, Side::endo) == nullptr);
   CHECK(lv::geometry::find(thin.short_axis, 1, Side::epi) == nullptr);
   CHECK(lv::geometry::find(thin.short_axis, 2, Side::endo) != nullptr);
@@ -52,12 +52,12 @@ TEST_CASE("a most basal slice that muscle surrounds over less than half is left 
                                      "0% of the cavity"));
   for (const double part : {0.6, 0.4}) {  // open over that part of the way round
     Contours open = thick_heart(0.0, part);
-    drop_open_base(open, 1.0, notes);
+    drop_open_base(open, notes);
     CHECK((lv::geometry::find(open.short_axis, 1, Side::endo) == nullptr) == (part > 0.5));
   }
   Contours without = thick_heart(3.0, 1.0);
   without.short_axis.erase(without.short_axis.begin() + 1);
-  drop_open_base(without, 1.0, notes);
+  drop_open_base(without, notes);
   CHECK(lv::geometry::find(without.short_axis, 1, Side::endo) != nullptr);
 }
 

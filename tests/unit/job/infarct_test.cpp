@@ -192,9 +192,10 @@ TEST_CASE("half of the brightest is taken from the grey value of no signal", "[u
   const mesh::Mesh wall = test::ellipsoid_mesh({}, 5.0);
   const test::TemporaryFolder folder;
   const auto write = [&](const std::string& name, const std::function<int(const Vec3&)>& value) {
-    test::write_bytes(folder / name, test::nifti_bytes(test::label_map(
-                                         {60, 60, 60}, Mat3::Identity(), Vec3(2.0, 2.0, 2.0),
-                                         Vec3(-59.0, -59.0, -100.0), value)));
+    test::NiftiSpec image = test::label_map({60, 60, 60}, Mat3::Identity(), Vec3(2.0, 2.0, 2.0),
+                                            Vec3(-59.0, -59.0, -100.0), value);
+    image.floating = true;  // grey values beyond a byte's
+    test::write_bytes(folder / name, test::nifti_bytes(image));
   };
   const auto scar = [](const Vec3& X) { return X.y() > 5.0 && X.z() > -40.0; };
   write("magnitude.nii", [&](const Vec3& X) { return scar(X) ? 800 : X.norm() < 80.0 ? 60 : 5; });

@@ -40,16 +40,16 @@ TEST_CASE("any file is answered with what it is and with what is read", "[unit][
     test::write_bytes(folder / name, bytes);
     return listed(folder / name);
   };
-  CHECK_THAT(answer("a.stl", std::string(84, '\0')), Contains("is an STL surface"));
+  CHECK_THAT(answer("a.stl", std::string(84, '\0')), Contains("a surface or labelled volume"));
   CHECK_THAT(answer("a.seg.nrrd", "NRRD0004\n"), Contains("is NRRD, which is not read"));
   CHECK_THAT(answer("a.png", "\x89PNG\r\n"), Contains("is a PNG picture"));
-  CHECK_THAT(answer("a.toml", "name = \"x\"\n"), Contains("is a case file"));
-  CHECK_THAT(answer("a.inp", "*NODE\n"), Contains("is an ABAQUS mesh"));
+  CHECK_THAT(answer("a.toml", "name = \"x\"\n"), Contains("a case file; see `ventricle validate`"));
+  CHECK_THAT(answer("a.inp", "*NODE\n"), Contains("holds no volume cells"));
   CHECK_THAT(answer("empty", ""), Contains("is an empty file"));
   CHECK_THAT(answer("noise", std::string("\1\2\3\0\5", 5)), Contains("is of an unknown kind"));
   CHECK_THAT(answer("note", "words\n"), Contains("is text of an unknown kind") &&
-                                            Contains("DICOM (files of any name, or a folder) and "
-                                                     "NIfTI (.nii, .nii.gz, or .hdr with .img)"));
+                                            Contains("NIfTI") && Contains("DICOM") &&
+                                            Contains("(ABAQUS .inp"));
   CHECK_THAT(answer("nameless", test::nifti_bytes(map_of_frames(1, {1}))),
              Contains("is NIfTI whose name does not say so"));
   REQUIRE(mkfifo((folder / "pipe.nii").c_str(), 0600) == 0);

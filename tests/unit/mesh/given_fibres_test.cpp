@@ -238,7 +238,8 @@ TEST_CASE("the given fibres hold at every point of an element, whatever their si
       const Mat3 rule = mesh::fibre_frame({}, s.axes, s.transmural);
       mean += angle(s.fibre_frame.col(0), rule.col(0)) / static_cast<double>(all.size());
     }
-    CHECK(mean < 0.1);  // elements of 8 mm; at the apex the rule itself turns within one
+    // one element of 8 mm or two take the wall's 120 degrees; at the apex the rule turns within one
+    CHECK(mean < 0.15);
     Mesh in_cells = given;
     in_cells.fibres = {At::cells, std::vector<Vec3>(given.cell_count(), Vec3(0.6, 0.0, 0.8)), {}};
     for (const solid::PointSample& s : samples(in_cells)) {
