@@ -67,7 +67,7 @@ Nothing is computed, nothing changed in the work folders.)"},
     {"parameters",
      R"(Each with its default, what is allowed, its meaning and the paper's equation. A case
 file sets what differs from the defaults: calcium.Ca_max is Ca_max = "1 uM" under
-[calcium].)"},
+the heading [calcium].)"},
     {"bench",
      R"(Seconds per kernel of a step of the immersed engine, beside what this machine's
 memory and processors allow.)"},

@@ -80,8 +80,10 @@ def check_files(folder):
     (folder / "device.toml").symlink_to("/dev/zero")
     (folder / "round.toml").symlink_to("round.toml")
     (folder / "folder.toml").mkdir()
-    for name in ("pipe", "device", "round", "folder", "absent"):
-        says(f"a {name} as a case", run(program, "validate", folder / f"{name}.toml", seconds=20), 1, "cannot be read")
+    reasons = {"pipe": "it is a pipe", "device": "it is a device", "round": "the link leads to itself",
+               "folder": "it is a folder", "absent": "there is no such file"}
+    for name, reason in reasons.items():
+        says(f"a {name} as a case", run(program, "validate", folder / f"{name}.toml", seconds=20), 1, reason)
     (folder / "work" / "log.txt").mkdir(parents=True)
     until_mesh = ["run", coarse, "--ranks", 1, "--until", "mesh", "--work"]
     says("a folder as the log", run(program, *until_mesh, folder / "work", seconds=60), 2, "log.txt")

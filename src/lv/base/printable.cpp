@@ -1,10 +1,14 @@
 #include "lv/base/printable.hpp"
 
+#include "lv/base/check.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 
 namespace lv {
 namespace {
@@ -97,7 +101,9 @@ std::string printable_lines(std::string_view text) {
 
 void print(std::string_view text) {
   const std::string safe = printable_lines(text);
-  std::fwrite(safe.data(), 1, safe.size(), stdout);
+  if (std::fwrite(safe.data(), 1, safe.size(), stdout) != safe.size() || std::fflush(stdout) != 0)
+    throw RunError(fmt::format("what is printed cannot be written: {}", std::strerror(errno)),
+                   "Check the space left on the disk, or the program that reads it");
 }
 
 }  // namespace lv

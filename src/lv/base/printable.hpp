@@ -15,7 +15,7 @@ namespace lv {
 /// The same of several lines: their ends and tabs stay.
 [[nodiscard]] std::string printable_lines(std::string_view text);
 
-/// Writes lines to the terminal, made safe.
+/// Writes lines to the terminal, made safe. Throws RunError when they cannot be written.
 void print(std::string_view text);
 
 }  // namespace lv

@@ -115,8 +115,12 @@ class SparseMatrix::Implementation {
     check(KSPSolve(ksp_, b_, x_));
     KSPConvergedReason reason{};
     check(KSPGetConvergedReason(ksp_, &reason));
-    if (reason < 0)
-      return why_unsolved(reason);
+    if (reason < 0) {
+      const Unsolved why = why_unsolved(reason);
+      if (!blocks_)
+        forget_factors();
+      return why;
+    }
     check(VecScatterBegin(to_all_, x_, everything_, INSERT_VALUES, SCATTER_FORWARD));
     check(VecScatterEnd(to_all_, x_, everything_, INSERT_VALUES, SCATTER_FORWARD));
     const PetscScalar* values = nullptr;
@@ -146,6 +150,13 @@ class SparseMatrix::Implementation {
                         "holds",
                         KSPConvergedReasons[reason]),
             "Look at the base"};
+  }
+
+  /// MUMPS cannot go on with the factors of a singular matrix: the next one begins anew.
+  void forget_factors() {
+    check(KSPReset(ksp_));
+    check(KSPSetOperators(ksp_, K_, K_));
+    configure_direct();
   }
 
   void insert(const Eigen::MatrixXd& block, Mat to) {

@@ -20,7 +20,7 @@ BeatSetup twitch(const mesh::Mesh& mesh) {
   setup.protocol.filling_ramp = 0.04;
   setup.protocol.filling_longest = 0.05;
   setup.protocol.contraction_ramp = 0.04;
-  setup.protocol.es_pressure = 60.0 * units::mmHg;
+  setup.protocol.es_pressure = 10.0 * units::mmHg;
   setup.protocol.calcium = {.mode = material::Calcium::Mode::transient, .tau = 0.03};
   return setup;
 }
