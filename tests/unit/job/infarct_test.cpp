@@ -198,9 +198,11 @@ TEST_CASE("half of the brightest is taken from the grey value of no signal", "[u
     test::write_bytes(folder / name, test::nifti_bytes(image));
   };
   const auto scar = [](const Vec3& X) { return X.y() > 5.0 && X.z() > -40.0; };
-  write("magnitude.nii", [&](const Vec3& X) { return scar(X) ? 800 : X.norm() < 80.0 ? 60 : 5; });
+  write("magnitude.nii", [&](const Vec3& X) {
+    return scar(X) ? 800 : X.head<2>().norm() < 45.0 ? 60 : 5;
+  });
   write("offset.nii", [&](const Vec3& X) {
-    return 2048 + (scar(X) ? 800 : X.norm() < 80.0 ? 60 : 5);
+    return 2048 + (scar(X) ? 800 : X.head<2>().norm() < 45.0 ? 60 : 5);
   });
   job::Case c;
   c.file = folder / "case.toml";
