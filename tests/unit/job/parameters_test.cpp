@@ -206,8 +206,8 @@ TEST_CASE("a parameter that is set and that no stage of the case reads is refuse
           "[unit][job]") {
   for (const Lines& base : bases())
     for (const Parameter& p : job::parameters()) {
-      if (base.contains(p.name))
-        continue;
+      if (base.contains(p.name) || std::string(p.name) == "strain.cine")
+        continue;  // the latter brings its stage with it
       const Case c = parsed(base);
       const std::string words = job::counts_only(p, c);
       INFO(p.name << " in\n" << text_of(base));
