@@ -28,7 +28,7 @@ pressure = "2 mmHg"
 
 [calibrate]
 passive = "scale"
-edv = "105 ml"
+edv = "98 ml"
 
 [quasi_static]
 edge_length = "14 mm"
