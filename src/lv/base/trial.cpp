@@ -13,6 +13,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <system_error>
@@ -86,6 +87,13 @@ std::string read_all(int pipe) {
                  "Allow more processes (ulimit -u)");
 }
 
+/// Whether a child was ended by somebody, not by what it did: this says nothing of its work.
+bool ended_from_outside(int status) {
+  constexpr std::array signals{SIGKILL, SIGTERM, SIGINT, SIGHUP, SIGQUIT};
+  return WIFSIGNALED(status) &&
+         std::find(signals.begin(), signals.end(), WTERMSIG(status)) != signals.end();
+}
+
 }  // namespace
 
 Trial tried(const std::function<void()>& work, std::uintmax_t memory) {
@@ -108,6 +116,10 @@ Trial tried(const std::function<void()>& work, std::uintmax_t memory) {
   }
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0)
     return {};
+  if (ended_from_outside(status))
+    throw RunError(fmt::format("the process that a file was tried in was ended by signal {} ({})",
+                               WTERMSIG(status), strsignal(WTERMSIG(status))),
+                   "Was the memory exhausted? Run the same command again to go on");
   const auto split = said.find('\0');
   if (!WIFEXITED(status) || WEXITSTATUS(status) != refused || split == std::string::npos)
     return {Trial::Ending::died, {}, {}};

@@ -21,7 +21,7 @@ struct Trial {
 /// besides what is in use. Libraries that read files of other programs end by a signal on files
 /// that are damaged in certain ways. What the child says is final: the limits may be what kept it
 /// from worse, so work that it did not do well must not be tried again. Throws RunError if there is
-/// no process to spare.
+/// no process to spare, or if the child was ended from outside, which says nothing of the work.
 [[nodiscard]] Trial tried(const std::function<void()>& work,
                           std::uintmax_t memory = std::uintmax_t{1} << 30U);
 

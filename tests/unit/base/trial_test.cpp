@@ -55,3 +55,10 @@ TEST_CASE("a child that dies is told from one that refuses", "[unit][base]") {
   const std::string text(300000, 'x');  // more than a pipe holds
   CHECK(tried([&] { throw InputError("x", text, ""); }).what == text);
 }
+
+TEST_CASE("a child that somebody ends says nothing of the file", "[unit][base]") {
+  for (const int signal : {SIGKILL, SIGTERM}) {
+    CHECK_THROWS_AS(tried([&] { std::raise(signal); }), RunError);
+    CHECK_THROWS_AS(check_survives("x", [&] { std::raise(signal); }), RunError);
+  }
+}
