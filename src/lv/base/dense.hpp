@@ -2,9 +2,14 @@
 
 #include <Eigen/Core>
 
+#include <vector>
+
 /// Solutions of small dense problems. Eigen's decompositions are templates that take a compiler
 /// seconds each; those of matrices of any size stand compiled here, once.
 namespace lv::dense {
+
+/// Numbers as a vector.
+[[nodiscard]] Eigen::VectorXd as_vector(const std::vector<double>& numbers);
 
 /// X that makes |A X - B| smallest, and of all such the shortest.
 [[nodiscard]] Eigen::MatrixXd least_squares(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);

@@ -5,11 +5,14 @@
 
 namespace lv {
 
-std::string ending_of(const std::filesystem::path& file) {
-  std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
+std::string lower_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
+  return text;
+}
+
+std::string ending_of(const std::filesystem::path& file) {
+  return lower_case(file.extension().string());
 }
 
 }  // namespace lv

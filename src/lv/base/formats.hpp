@@ -10,6 +10,11 @@ inline constexpr const char* images = "DICOM (files of any name, or a folder) an
 inline constexpr const char* meshes = ".inp (ABAQUS), .vtk, .vtu (VTK) and .msh (Gmsh)";
 inline constexpr const char* surfaces = ".stl, .ply, .vtp and .vtk (polygons)";
 inline constexpr const char* label_volumes = LV_NIFTI ", .vti and .vtk (structured points)";
+/// What `images` and `new --from` take.
+inline constexpr const char* sources =
+    "Read are NIfTI label maps and images (.nii, .nii.gz, .hdr), folders of DICOM files or of "
+    "Sunnybrook contours, contours (.csv), lists of guide points (columns separated by tabs), and "
+    "meshes (ABAQUS .inp, Gmsh .msh, .vtk, .vtu)";
 
 #undef LV_NIFTI
 

@@ -7,6 +7,10 @@
 
 namespace lv {
 
+std::string time_left(double seconds) {
+  return seconds < 0.0 ? "" : ", about " + log::duration(seconds) + " left";
+}
+
 TimeLeft::TimeLeft(double interval) : interval_(interval) {}
 
 double TimeLeft::now() {
@@ -28,11 +32,6 @@ double TimeLeft::seconds(double left) const {
   if (!(last.done > first.done) || !(last.at > first.at))
     return -1.0;
   return std::max(0.0, left) * (last.at - first.at) / (last.done - first.done);
-}
-
-std::string TimeLeft::words(double left) const {
-  const double time = seconds(left);
-  return time < 0.0 ? "" : ", about " + log::duration(time) + " left";
 }
 
 bool TimeLeft::due() {

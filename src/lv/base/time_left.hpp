@@ -6,6 +6,9 @@
 
 namespace lv {
 
+/// ", about 3 min 20 s left"; nothing if the time [s] is negative, that is not known.
+[[nodiscard]] std::string time_left(double seconds);
+
 /// How long a piece of work will still take, from how fast its last part went.
 class TimeLeft {
  public:
@@ -20,8 +23,8 @@ class TimeLeft {
   /// start (or of the last ten seconds, if that is more); negative if nothing can be said yet.
   [[nodiscard]] double seconds(double left) const;
 
-  /// ", about 3 min 20 s left", or nothing.
-  [[nodiscard]] std::string words(double left) const;
+  /// The same in words.
+  [[nodiscard]] std::string words(double left) const { return time_left(seconds(left)); }
 
   /// Whether a report is due; then the next is due after another interval.
   [[nodiscard]] bool due();

@@ -1,9 +1,10 @@
 #pragma once
 
+#include "lv/base/median.hpp"
 #include "lv/base/parallel.hpp"
 
-#include <algorithm>
 #include <chrono>
+#include <utility>
 #include <vector>
 
 namespace lv::bench {
@@ -21,8 +22,7 @@ double median_seconds(const Work& work, int repetitions = 7) {
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
     times.push_back(parallel::max(elapsed.count()));
   }
-  std::nth_element(times.begin(), times.begin() + repetitions / 2, times.end());
-  return times[static_cast<std::size_t>(repetitions) / 2];
+  return median(std::move(times));
 }
 
 }  // namespace lv::bench

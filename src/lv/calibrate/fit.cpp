@@ -1,6 +1,7 @@
 #include "lv/calibrate/fit.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/dense.hpp"
 #include "lv/base/log.hpp"
 #include "lv/base/units.hpp"
 #include "lv/calibrate/forecast.hpp"
@@ -66,11 +67,6 @@ std::vector<FitPart> parts_of(const Plan& plan) {
   parts.push_back(
       {"sensitivity", {2.0 * (fitted + 1.0) * at_rest, 2.0 * (fitted + 1.0) * at_work}});
   return parts;
-}
-
-Eigen::VectorXd as_vector(const std::vector<double>& numbers) {
-  return Eigen::Map<const Eigen::VectorXd>(numbers.data(),
-                                           static_cast<Eigen::Index>(numbers.size()));
 }
 
 class Fitter {
@@ -263,7 +259,7 @@ class Fitter {
       r.push_back(misfit / plan_.errors.volume);
     for (std::size_t i = 0; i < strains->size(); ++i)
       r.push_back(((*strains)[i] - plan_.strains[i].value) / plan_.errors.strain);
-    return as_vector(r);
+    return dense::as_vector(r);
   }
 
   /// Gauss-Newton steps in the exponent along the line on which the scale keeps the end-diastolic
@@ -329,7 +325,7 @@ class Fitter {
     const auto r = misfits(p, 1 + pressure_ratios.size());
     if (!r)
       return r.why();
-    return as_vector(*r);
+    return dense::as_vector(*r);
   }
 
   /// The model's volumes with the fitted parameters. Tension at rest makes the end-diastolic volume

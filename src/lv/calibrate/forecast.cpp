@@ -1,6 +1,7 @@
 #include "lv/calibrate/forecast.hpp"
 
-#include "lv/base/log.hpp"
+#include "lv/base/median.hpp"
+#include "lv/base/time_left.hpp"
 
 #include <algorithm>
 
@@ -11,10 +12,8 @@ constexpr std::size_t remembered = 5;       // equilibria of each muscle
 constexpr double remembered_answer = 1e-3;  // of a fit that was stopped and goes on [s]
 constexpr double contraction_ratio = 2;  // of durations, before one of contracting muscle is known
 
-double median(std::deque<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+double median_of(const std::deque<double>& values) {
+  return median({values.begin(), values.end()});
 }
 
 }  // namespace
@@ -48,16 +47,15 @@ double FitForecast::left(std::size_t muscle) const {
 double FitForecast::seconds_left() const {
   if (durations_[0].empty() && durations_[1].empty())
     return -1.0;
-  const double rests =
-      durations_[0].empty() ? median(durations_[1]) / contraction_ratio : median(durations_[0]);
+  const double rests = durations_[0].empty() ? median_of(durations_[1]) / contraction_ratio
+                                             : median_of(durations_[0]);
   const double contracts =
-      durations_[1].empty() ? contraction_ratio * rests : median(durations_[1]);
+      durations_[1].empty() ? contraction_ratio * rests : median_of(durations_[1]);
   return left(0) * rests + left(1) * contracts;
 }
 
 std::string FitForecast::words() const {
-  const double left = seconds_left();
-  return left < 0.0 ? "" : fmt::format(", about {} left", log::duration(left));
+  return time_left(seconds_left());
 }
 
 }  // namespace lv::calibrate

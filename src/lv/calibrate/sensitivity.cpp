@@ -16,10 +16,6 @@ FitParameters scaled(FitParameters p, const Fitted& which, double factor) {
   return p;
 }
 
-Eigen::VectorXd as_vector(const std::vector<double>& values) {
-  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
-}
-
 /// d ln V_k minus, where its target moves with the parameters, d ln target_k.
 double by_parameter(const Model& model, const FitParameters& at, const Fitted& which,
                     const ObservedVolume& o) {
@@ -44,7 +40,7 @@ StrainRows strain_rows(const Model& model, const FitParameters& at,
                        const std::vector<Fitted>& parameters, const solid::Loads& ed,
                        const solid::Loads& es) {
   const auto strains = [&](const FitParameters& p, double d_ed, double d_es) {
-    return as_vector(
+    return dense::as_vector(
         model.strains(p, {ed.pressure + d_ed, ed.activation}, {es.pressure + d_es, es.activation})
             .value());
   };

@@ -1,6 +1,7 @@
 #include "lv/geometry/contour_checks.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/median.hpp"
 #include "lv/geometry/contour_measures.hpp"
 #include "lv/geometry/long_axis.hpp"
 #include "lv/geometry/polygon.hpp"
@@ -162,8 +163,7 @@ void check_closed(const Contour& loop) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < loop.points.size(); ++i)
     steps.push_back((loop.points[i] - loop.points[i - 1]).norm());
-  std::nth_element(steps.begin(), steps.begin() + steps.size() / 2, steps.end());
-  const double usual = steps[steps.size() / 2];
+  const double usual = median(std::move(steps));
   const double gap = (loop.points.back() - loop.points.front()).norm();
   if (gap > gap_ratio * usual)
     throw InputError(

@@ -1,6 +1,7 @@
 #include "lv/geometry/long_axis.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/median.hpp"
 #include "lv/geometry/contour_measures.hpp"
 #include "lv/geometry/polygon.hpp"
 
@@ -190,8 +191,7 @@ double slice_spacing(const Contours& contours) {
   for (std::size_t k = 1; k < loops.size(); ++k)
     steps.push_back(
         std::abs((mean_of(loops[k]->points) - mean_of(loops[k - 1]->points)).dot(normal)));
-  std::nth_element(steps.begin(), steps.begin() + steps.size() / 2, steps.end());
-  return steps[steps.size() / 2];
+  return median(std::move(steps));
 }
 
 Vec3 basal_slab(const Contours& contours) {

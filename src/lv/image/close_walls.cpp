@@ -1,6 +1,7 @@
 #include "lv/image/close_walls.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/median.hpp"
 #include "lv/geometry/contour_measures.hpp"
 #include "lv/geometry/long_axis.hpp"
 #include "lv/geometry/polygon.hpp"
@@ -57,9 +58,7 @@ struct Wall {
 /// The rays between which thickness is interpolated: not those where it is less than `least`, nor
 /// their neighbours up to where the wall has half its usual thickness, for an open wall tapers.
 std::vector<int> rays_there(const std::vector<double>& thickness, double least) {
-  std::vector<double> sorted = thickness;
-  std::nth_element(sorted.begin(), sorted.begin() + rays / 2, sorted.end());
-  const double half = 0.5 * sorted[rays / 2];
+  const double half = 0.5 * median(thickness);
   std::vector<bool> missing(rays);
   for (int k = 0; k < rays; ++k) {
     if (thickness[k] >= least)
@@ -157,10 +156,7 @@ double usual_thickness(const Contours& contours, int but) {
     const auto rays_of_slice = thickness_of(*endo, epi);
     all.insert(all.end(), rays_of_slice.begin(), rays_of_slice.end());
   }
-  if (all.empty())
-    return 0.0;
-  std::nth_element(all.begin(), all.begin() + all.size() / 2, all.end());
-  return all[all.size() / 2];
+  return all.empty() ? 0.0 : median(std::move(all));
 }
 
 /// The part of the way round a slice on which it shows muscle, thicker than `least`; 1 if it shows

@@ -1,6 +1,7 @@
 #include "lv/image/dicom_study.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/ending.hpp"
 #include "lv/base/formats.hpp"
 #include "lv/base/time_left.hpp"
 
@@ -140,16 +141,10 @@ void name_stacks(std::vector<DicomStack>& stacks,
   }
 }
 
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 bool is_named(const DicomStack& stack, const std::string& name) {
   const std::string series = stack.key.substr(0, stack.key.find('#'));
   return name == stack.key || name == series || name == stack.series_uid ||
-         (!stack.description.empty() && lower(name) == lower(stack.description));
+         (!stack.description.empty() && lower_case(name) == lower_case(stack.description));
 }
 
 std::string most_and_least(std::size_t least, std::size_t most) {

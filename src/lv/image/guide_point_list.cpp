@@ -157,8 +157,13 @@ Times times_of(const std::vector<GuidePoint>& points) {
   return times;
 }
 
+bool one_time_each(const Times& times) {
+  return std::all_of(times.begin(), times.end(),
+                     [](const auto& image) { return image.second.size() == 1; });
+}
+
 /// The times that short-axis loops bear; all, if there are no loops.
-std::set<int> times_to_choose(const std::vector<GuidePoint>& points) {
+std::set<int> times_of_loops(const std::vector<GuidePoint>& points) {
   std::set<int> of_loops, all;
   for (const GuidePoint& p : points) {
     all.insert(p.frame);
@@ -197,12 +202,19 @@ std::vector<GuidePoint> read_guide_point_list(const fs::path& file,
   return points;
 }
 
+std::vector<int> times_to_choose(const std::vector<GuidePoint>& points) {
+  const Times times = times_of(points);
+  const std::set<int> choice = times_of_loops(points);
+  if (one_time_each(times))
+    return {commonest(times, choice)};
+  return {choice.begin(), choice.end()};
+}
+
 std::vector<GuidePoint> points_of_time(std::vector<GuidePoint> points, std::optional<int> frame,
                                        const std::string& file, std::vector<std::string>& notes) {
   const Times times = times_of(points);
-  const bool one_each = std::all_of(times.begin(), times.end(),
-                                    [](const auto& image) { return image.second.size() == 1; });
-  const std::set<int> choice = times_to_choose(points);
+  const bool one_each = one_time_each(times);
+  const std::set<int> choice = times_of_loops(points);
   const auto refuse = [&](const std::string& what) {
     throw InputError(file, what,
                      fmt::format("Choose one of the time frames {}", fmt::join(choice, ", ")));

@@ -21,6 +21,10 @@ struct GuidePoint {
 [[nodiscard]] std::vector<GuidePoint> read_guide_point_list(const std::filesystem::path& file,
                                                             std::vector<std::string>& notes);
 
+/// The times of which one must be chosen for points_of_time; a single one if nothing is to be
+/// chosen.
+[[nodiscard]] std::vector<int> times_to_choose(const std::vector<GuidePoint>& points);
+
 /// The points of one time, which is that of the short-axis loops; `frame` must be given if loops of
 /// several times share a slice. An image that bears a time which no loop bears has another count of
 /// its own: its points belong to the others, with a note. So do all, if no image bears two times.

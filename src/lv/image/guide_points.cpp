@@ -1,6 +1,7 @@
 #include "lv/image/guide_points.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/median.hpp"
 #include "lv/geometry/contour_measures.hpp"
 #include "lv/image/guide_point_list.hpp"
 
@@ -234,8 +235,7 @@ std::size_t drop_closing_line(std::vector<GuidePoint>& epi, const std::vector<Gu
   std::vector<double> all;
   for (const GuidePoint& p : epi)
     all.push_back(thickness(p.x));
-  std::nth_element(all.begin(), all.begin() + all.size() / 2, all.end());
-  const double half = 0.5 * all[all.size() / 2];
+  const double half = 0.5 * median(std::move(all));
   return std::erase_if(epi, [&](const GuidePoint& p) {
     return std::abs(angle(p.x)) > 0.5 * pi && thickness(p.x) < half;
   });
@@ -321,13 +321,13 @@ void add_points(const Groups& groups, const std::string& file, Side apex_of, Gui
                                       fmt::join(unused_types, ", ")));
 }
 
-}  // namespace
-
-GuidePoints read_guide_points(const fs::path& file, std::optional<int> frame, Side apex_of) {
+/// What a list shows at one time.
+GuidePoints at_time(const std::vector<GuidePoint>& list, std::vector<std::string> notes,
+                    std::optional<int> frame, const fs::path& file, Side apex_of) {
   GuidePoints found;
+  found.notes = std::move(notes);
   Groups groups;
-  for (const GuidePoint& row :
-       points_of_time(read_guide_point_list(file, found.notes), frame, file.string(), found.notes))
+  for (const GuidePoint& row : points_of_time(list, frame, file.string(), found.notes))
     groups[{row.type, row.slice}].push_back(row);
   add_points(groups, file.string(), apex_of, found);
   add_loops(groups, file.string(), found);
@@ -349,12 +349,30 @@ GuidePoints read_guide_points(const fs::path& file, std::optional<int> frame, Si
   return found;
 }
 
+}  // namespace
+
+GuidePoints read_guide_points(const fs::path& file, std::optional<int> frame, Side apex_of) {
+  std::vector<std::string> notes;
+  const std::vector<GuidePoint> list = read_guide_point_list(file, notes);
+  return at_time(list, notes, frame, file, apex_of);
+}
+
 std::vector<int> guide_point_frames(const fs::path& file) {
   std::vector<std::string> notes;
-  std::set<int> frames;
-  for (const GuidePoint& point : read_guide_point_list(file, notes))
-    frames.insert(point.frame);
-  return {frames.begin(), frames.end()};
+  return times_to_choose(read_guide_point_list(file, notes));
+}
+
+std::map<int, geometry::Contours> guide_point_contours(const fs::path& file, Side apex_of) {
+  std::vector<std::string> notes;
+  const std::vector<GuidePoint> list = read_guide_point_list(file, notes);
+  std::map<int, geometry::Contours> frames;
+  for (const int frame : times_to_choose(list)) {
+    try {
+      frames[frame] = at_time(list, {}, frame, file, apex_of).contours;
+    } catch (const InputError&) {  // a frame that cannot be chosen
+    }
+  }
+  return frames;
 }
 
 }  // namespace lv::image

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,7 +36,12 @@ struct GuidePoints {
 [[nodiscard]] GuidePoints read_guide_points(const std::filesystem::path& file,
                                             std::optional<int> frame, geometry::Side apex_of);
 
-/// The time frames that such a list has points of.
+/// The time frames of which one must be chosen; a single one if nothing is to be chosen: one time,
+/// views besides it that count their times otherwise, or no image that bears two.
 [[nodiscard]] std::vector<int> guide_point_frames(const std::filesystem::path& file);
+
+/// The contours of each of these frames that can be read.
+[[nodiscard]] std::map<int, geometry::Contours> guide_point_contours(
+    const std::filesystem::path& file, geometry::Side apex_of);
 
 }  // namespace lv::image

@@ -1,6 +1,7 @@
 #include "lv/image/label_contours.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/median.hpp"
 #include "lv/image/plane_mask.hpp"
 #include "lv/image/short_axis_labels.hpp"
 
@@ -241,12 +242,6 @@ Run main_run(std::vector<Slice>& slices, const std::string& file, std::vector<st
   return main;
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// How the middle of the cavity moves along one direction per step along another: the median over
 /// all pairs of slices (H. Theil 1950, P.K. Sen 1968), which one jump of the breath does not turn.
 double usual_slope(const std::vector<Vec3>& middles, const Vec3& direction, const Vec3& normal) {
@@ -256,7 +251,7 @@ double usual_slope(const std::vector<Vec3>& middles, const Vec3& direction, cons
       const Vec3 step = middles[j] - middles[i];
       slopes.push_back(step.dot(direction) / step.dot(normal));
     }
-  return median(slopes);
+  return median(std::move(slopes));
 }
 
 /// The moments of the cavity with each slice moved in its plane onto the line that the middles of

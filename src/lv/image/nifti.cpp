@@ -1,6 +1,7 @@
 #include "lv/image/nifti.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/ending.hpp"
 #include "lv/base/files.hpp"
 #include "lv/base/formats.hpp"
 #include "lv/base/memory.hpp"
@@ -36,31 +37,26 @@ namespace fs = std::filesystem;
        "The file seems to be truncated, damaged or of another kind: save or copy it again");
 }
 
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 /// The endings of a pair of files, header and voxels.
 constexpr std::array<const char*, 2> header_endings{".hdr", ".hdr.gz"};
 constexpr std::array<const char*, 2> voxel_endings{".img", ".img.gz"};
 
 bool ends_as(const fs::path& file, const std::array<const char*, 2>& endings) {
-  const std::string name = lower(file.filename().string());
+  const std::string name = lower_case(file.filename().string());
   return std::any_of(endings.begin(), endings.end(),
                      [&](const char* ending) { return name.ends_with(ending); });
 }
 
 /// The other file of a pair, in whatever case its ending is written.
 fs::path other_of_pair(const fs::path& file, const std::array<const char*, 2>& endings) {
-  fs::path stem = lower(file.extension().string()) == ".gz" ? file.stem() : file.filename();
+  fs::path stem = lower_case(file.extension().string()) == ".gz" ? file.stem() : file.filename();
   stem.replace_extension();
   const FolderFiles beside = files_in(file.parent_path().empty() ? "." : file.parent_path(), false);
   for (const char* ending : endings)
     for (const fs::path& candidate : beside.files) {
       const std::string name = candidate.filename().string();
-      if (name.starts_with(stem.string()) && lower(name.substr(stem.string().size())) == ending)
+      if (name.starts_with(stem.string()) &&
+          lower_case(name.substr(stem.string().size())) == ending)
         return file.parent_path() / candidate.filename();
     }
   fail(file, fmt::format("{}{} is not beside it", stem.string(), endings.front()),
@@ -272,7 +268,7 @@ void read_values(const fs::path& file, const NiftiHeader& header, const Type& ty
   if (volume.values.size() < voxels)
     fail_damaged(file,
                  fmt::format("it ends after {} of {:.0f} bytes", stream.bytes_read(), needed));
-  if (stream.is_packed() && !lower(file.string()).ends_with(".gz"))
+  if (stream.is_packed() && !lower_case(file.string()).ends_with(".gz"))
     volume.notes.push_back(
         fmt::format("{} is packed: name it .gz, for other programs do not look", file.string()));
 }
@@ -280,7 +276,7 @@ void read_values(const fs::path& file, const NiftiHeader& header, const Type& ty
 }  // namespace
 
 bool is_nifti_name(const fs::path& file) {
-  const std::string name = lower(file.filename().string());
+  const std::string name = lower_case(file.filename().string());
   return name.ends_with(".nii") || name.ends_with(".nii.gz") || ends_as(file, header_endings) ||
          ends_as(file, voxel_endings);
 }

@@ -1,6 +1,7 @@
 #include "lv/image/sunnybrook.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/ending.hpp"
 #include "lv/base/files.hpp"
 #include "lv/base/lines.hpp"
 
@@ -32,12 +33,8 @@ std::optional<ContourName> parse_name(const std::string& name) {
   std::smatch match;
   if (!std::regex_match(name, match, form))
     return std::nullopt;
-  std::string border = match[2];
-  std::transform(border.begin(), border.end(), border.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  const char who = static_cast<char>(std::tolower(static_cast<unsigned char>(match[3].str()[0])));
-  return ContourName{std::stoi(match[1]), border,
-                     who == 'm' ? DrawnBy::manual : DrawnBy::automatic};
+  return ContourName{std::stoi(match[1]), lower_case(match[2]),
+                     lower_case(match[3]) == "manual" ? DrawnBy::manual : DrawnBy::automatic};
 }
 
 /// An image of the stack: its slice and phase, both from 1.

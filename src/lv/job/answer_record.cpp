@@ -15,10 +15,6 @@ namespace {
 using calibrate::Ventricle;
 using heartbeat::Archive;
 
-std::string equilibrium_name(std::size_t n) {
-  return fmt::format("equilibrium.{}", n);
-}
-
 void store_memory(const Ventricle::Memory& memory, Archive& archive) {
   std::vector<double> loads;
   for (std::size_t n = 0; n < memory.known.size(); ++n) {

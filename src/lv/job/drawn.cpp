@@ -164,21 +164,18 @@ Drawn from_guide_points(const Case& c) {
   require_names(c, {{"anatomy.guide_points.file", a.file, "the list of points"}});
   const fs::path file = beside(c, a.file);
   Drawn drawn;
-  std::optional<int> frame = a.frame < 0 ? std::nullopt : std::optional(a.frame);
   if (image::guide_point_frames(file).size() > 1) {
-    const auto frames = guide_point_contours(file, a.apex_point);
-    if (!frame && frames.size() == 1)
-      frame = frames.begin()->first;  // the other times are those of views without loops
-    if (!frame) {
+    const auto frames = image::guide_point_contours(file, a.apex_point);
+    if (a.frame < 0) {
       Missing missing;
       missing.add(choice("anatomy.guide_points.frame", moments_of(frames)));
       missing.raise(c, place_of(c, "anatomy.guide_points.file"),
                     fmt::format("{} has\n{}", file.string(), describe_phases(frames, "frame")));
     }
-    if (frames.size() > 1)
-      warn(end_diastole_note(c, moments_of(frames), *frame), drawn);
+    warn(end_diastole_note(c, moments_of(frames), a.frame), drawn);
   }
-  image::GuidePoints read = image::read_guide_points(file, frame, a.apex_point);
+  image::GuidePoints read = image::read_guide_points(
+      file, a.frame < 0 ? std::nullopt : std::optional(a.frame), a.apex_point);
   drawn.contours = std::move(read.contours);
   drawn.source = "guide points";
   drawn.septum = read.septum;

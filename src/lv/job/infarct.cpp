@@ -225,14 +225,8 @@ void move_slices(image::Cine& image, const std::vector<SliceMove>& moves) {
 
 /// The part of the wall's volume that is infarcted.
 double part_of_wall(const Mesh& mesh, const std::vector<double>& part) {
-  double wall = 0.0;
-  double infarct = 0.0;
-  for (int cell = 0; cell < mesh.cell_count(); ++cell) {
-    const double V = mesh::cell_volume(mesh, cell);
-    wall += V;
-    infarct += part[cell] * V;
-  }
-  return infarct / wall;
+  const mesh::InfarctVolumes volumes = mesh::infarct_volumes(mesh, part);
+  return volumes.infarct / volumes.wall;
 }
 
 /// So large a scar is rarely meant: the threshold may be wrong.

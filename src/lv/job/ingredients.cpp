@@ -1,5 +1,6 @@
 #include "lv/job/ingredients.hpp"
 
+#include "lv/base/ending.hpp"
 #include "lv/base/files.hpp"
 #include "lv/job/version.hpp"
 #include "lv/mesh/abaqus_blocks.hpp"
@@ -14,24 +15,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  return text;
-}
-
-std::string ending(const fs::path& file) {
-  return lower_case(file.extension().string());
-}
-
 /// The parts of a pair of header and image: same name, other endings.
 bool is_part_of_pair(const fs::path& file) {
-  const std::string end = ending(ending(file) == ".gz" ? file.stem() : file);
+  const std::string end = ending_of(ending_of(file) == ".gz" ? file.stem() : file);
   return end == ".hdr" || end == ".img";
 }
 
 fs::path name_of_pair(const fs::path& file) {
-  return ending(file) == ".gz" ? file.stem().stem() : file.stem();
+  return ending_of(file) == ".gz" ? file.stem().stem() : file.stem();
 }
 
 /// A file and those without which it cannot be read.
@@ -66,7 +57,7 @@ std::string contents(const fs::path& path, const std::vector<fs::path>& own) {
         parts[file.lexically_relative(path).string()] = fingerprint_of_file(file);
   } else {
     for (const fs::path& file : files_of(path))
-      parts[ending(file)] = fingerprint_of_file(file);
+      parts[ending_of(file)] = fingerprint_of_file(file);
   }
   return fs::exists(path, failed) ? fingerprint(parts) : "absent";
 }
@@ -74,7 +65,7 @@ std::string contents(const fs::path& path, const std::vector<fs::path>& own) {
 /// The files that a mesh includes, by their names alone.
 void add_included(const fs::path& mesh, FileContents& files, Ingredients& ingredients) {
   std::error_code failed;
-  if (ending(mesh) != ".inp" || !fs::is_regular_file(mesh, failed))
+  if (ending_of(mesh) != ".inp" || !fs::is_regular_file(mesh, failed))
     return;
   for (const std::string& file : mesh::read_abaqus_blocks(mesh.string()).files)
     if (fs::path(file) != mesh)

@@ -105,8 +105,8 @@ double one_of_three(const toml::node& node, const Parameter& p) {
 int whole_of(const toml::node& node, const Parameter& p, const char* mistake) {
   if (!node.is_integer())
     throw std::invalid_argument(mistake);
-  check_range(number_of(node), p);
   const double value = number_of(node);
+  check_range(value, p);
   if (std::abs(value) > 2e9)
     throw std::invalid_argument(fmt::format("is {:g}; it must be at most 2e+09", value));
   return static_cast<int>(value);

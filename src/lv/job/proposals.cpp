@@ -1,7 +1,6 @@
 #include "lv/job/proposals.hpp"
 
 #include "lv/base/check.hpp"
-#include "lv/image/guide_points.hpp"
 #include "lv/image/label_meaning.hpp"
 
 #include <fmt/format.h>
@@ -90,18 +89,6 @@ SunnybrookChoice sunnybrook_choice(const fs::path& contours, const image::DicomS
     choice_made.lines.push_back(
         choice("anatomy.sunnybrook.phase", moments_of(choice_made.read.phases)));
   return choice_made;
-}
-
-std::map<int, geometry::Contours> guide_point_contours(const fs::path& file,
-                                                       geometry::Side apex_of) {
-  std::map<int, geometry::Contours> frames;
-  for (const int frame : image::guide_point_frames(file)) {
-    try {
-      frames[frame] = image::read_guide_points(file, frame, apex_of).contours;
-    } catch (const InputError&) {  // a frame that cannot be chosen
-    }
-  }
-  return frames;
 }
 
 const image::DicomStack* short_axis_cine(const image::DicomStudy& study) {

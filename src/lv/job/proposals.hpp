@@ -30,10 +30,6 @@ struct SunnybrookChoice {
                                                  const image::DicomStudy& study,
                                                  const SunnybrookAnatomy& said);
 
-/// The contours of each frame of a list of guide points that can be read.
-[[nodiscard]] std::map<int, geometry::Contours> guide_point_contours(
-    const std::filesystem::path& file, geometry::Side apex_of);
-
 /// The series that looks most like a short-axis cine: of three or more slices of five or more
 /// images the one with most images. Null if there is none.
 [[nodiscard]] const image::DicomStack* short_axis_cine(const image::DicomStudy& study);

@@ -1,7 +1,9 @@
 #include "lv/job/propose_case.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/ending.hpp"
 #include "lv/base/files.hpp"
+#include "lv/base/formats.hpp"
 #include "lv/base/lines.hpp"
 #include "lv/base/units.hpp"
 #include "lv/geometry/contours.hpp"
@@ -26,29 +28,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* all_kinds =
-    "Read are NIfTI label maps and images (.nii, .nii.gz, .hdr), folders of DICOM files or of "
-    "Sunnybrook contours, contours (.csv), lists of guide points (columns separated by tabs), and "
-    "meshes (ABAQUS .inp, Gmsh .msh, .vtk, .vtu)";
-
 constexpr const char* septum_comment =
     "a point of the middle of the septum: without it regions may bear wrong names";
 
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 bool has_ending(const fs::path& file, std::initializer_list<const char*> endings) {
-  const std::string ending = lower(file.extension().string());
+  const std::string ending = ending_of(file);
   return std::find(endings.begin(), endings.end(), ending) != endings.end();
 }
 
 /// The first line of a text, in small letters; empty for other files.
 std::string first_line(const fs::path& file) {
   LineReader lines(file);
-  return lines.is_open() && lines.next() ? lower(std::string(lines.text())) : "";
+  return lines.is_open() && lines.next() ? lower_case(std::string(lines.text())) : "";
 }
 
 CaseLine septum_line() {
@@ -158,7 +149,7 @@ Proposal of_contours(const fs::path& source, const std::string& name) {
 }
 
 Proposal of_guide_points(const fs::path& source, const std::string& name) {
-  const auto frames = guide_point_contours(source, geometry::Side::epi);
+  const auto frames = image::guide_point_contours(source, geometry::Side::epi);
   Proposal p{fmt::format("{}: guide points\n{}", source.string(), describe_phases(frames, "frame")),
              {source_line("guide_points"), {"anatomy.guide_points.file", quoted(name), ""}}};
   const Moments m = moments_of(frames);
@@ -270,7 +261,7 @@ SourceKind kind_of(const fs::path& source) {
     return SourceKind::guide_points;
   if (line.find("x_mm") != std::string::npos && line.find("contour") != std::string::npos)
     return SourceKind::contours;
-  throw InputError(source.string(), fmt::format("is {}", what_is(source)), all_kinds);
+  throw InputError(source.string(), fmt::format("is {}", what_is(source)), formats::sources);
 }
 
 Proposal propose(const image::DicomStudy& study, const std::string& name, const fs::path& contours,
@@ -349,7 +340,7 @@ std::string first_lines(const std::string& name) {
 std::string proposed_case(const fs::path& source, const fs::path& file) {
   const SourceKind kind = kind_of(source);
   if (kind == SourceKind::case_file || kind == SourceKind::surface)
-    throw InputError(source.string(), "shows no wall of a ventricle", all_kinds);
+    throw InputError(source.string(), "shows no wall of a ventricle", formats::sources);
   const std::string name =
       fs::proximate(fs::absolute(source).lexically_normal(), fs::absolute(file).parent_path())
           .string();

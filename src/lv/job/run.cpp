@@ -111,7 +111,7 @@ class Pipeline {
     on_root([&] {
       for (const Planned& p : stages)
         if (p.stage == Stage::calibrate && !folder_of(p).up_to_date())
-          check_measured_volumes(case_, cavity_of(shape()));
+          check_measured_volumes(case_, shape());
     });
   }
 

@@ -35,13 +35,6 @@ std::vector<double> as_numbers(const std::vector<int>& whole) {
   return {whole.begin(), whole.end()};
 }
 
-std::vector<double> as_numbers(const std::vector<Vec3>& vectors) {
-  std::vector<double> numbers;
-  for (const Vec3& v : vectors)
-    numbers.insert(numbers.end(), v.begin(), v.end());
-  return numbers;
-}
-
 void store(const mesh::Surface& surface, const std::string& name, Archive& archive) {
   archive.set(name + ".nodes_per_face", {static_cast<double>(surface.nodes_per_face)});
   archive.set(name, as_numbers(surface.nodes));
@@ -49,8 +42,8 @@ void store(const mesh::Surface& surface, const std::string& name, Archive& archi
 
 void store(const mesh::GivenFibres& fibres, Archive& archive) {
   archive.set("fibres.at_nodes", {fibres.at == mesh::GivenFibres::At::nodes ? 1.0 : 0.0});
-  archive.set("fibres.f0", as_numbers(fibres.f0));
-  archive.set("fibres.s0", as_numbers(fibres.s0));
+  archive.set("fibres.f0", heartbeat::flat(fibres.f0));
+  archive.set("fibres.s0", heartbeat::flat(fibres.s0));
 }
 
 mesh::GivenFibres load_fibres(const Archive& archive, const mesh::Mesh& m) {
@@ -318,7 +311,7 @@ void write_mesh_result(const MeshResult& result, const std::filesystem::path& fo
   Archive archive;
   archive.set("kind", {m.kind == mesh::CellKind::hexahedron ? 0.0 : 1.0});
   archive.set("order", {static_cast<double>(m.order)});
-  archive.set("nodes", as_numbers(m.nodes));
+  archive.set("nodes", heartbeat::flat(m.nodes));
   archive.set("cells", as_numbers(m.cells));
   archive.set("transmural", m.transmural);
   archive.set("infarct", m.infarct);

@@ -2,6 +2,7 @@
 
 #include "lv/analysis/regional.hpp"
 #include "lv/base/check.hpp"
+#include "lv/base/ending.hpp"
 #include "lv/base/lines.hpp"
 #include "lv/base/parallel.hpp"
 
@@ -18,12 +19,6 @@ namespace {
 constexpr const char* columns_rule =
     "The first line must be slice,segment,strain; then one line per segment, for instance "
     "3,ant,-0.19 or aha,7,-0.18";
-
-std::string lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
 
 /// One file, line by line.
 class StrainFile {

@@ -25,10 +25,6 @@ using heartbeat::Archive;
 constexpr const char* summary_name = "unloaded.json";
 constexpr const char* record_name = "search.bin";
 
-std::string equilibrium_name(std::size_t n) {
-  return fmt::format("equilibrium.{}", n);
-}
-
 /// What a search that was stopped has found.
 quasi_static::Equilibria read_record(const std::filesystem::path& file, std::size_t nodes) {
   quasi_static::Equilibria known;
@@ -140,6 +136,10 @@ void write_unloaded(const Unloaded& unloaded, const std::filesystem::path& file)
   Archive archive;
   store(unloaded, archive);
   archive.write(file);
+}
+
+std::string equilibrium_name(std::size_t n) {
+  return fmt::format("equilibrium.{}", n);
 }
 
 void store(const quasi_static::State& state, const std::string& name, Archive& archive) {

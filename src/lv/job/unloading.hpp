@@ -21,6 +21,9 @@ void make_unloading(const Case& c, const MeshResult& seen, const mesh::Mesh& ele
 inline constexpr const char* unloaded_shape_name = "unloaded.bin";
 void write_unloaded(const quasi_static::Unloaded& unloaded, const std::filesystem::path& file);
 
+/// The name in an archive of the n-th of several equilibria.
+[[nodiscard]] std::string equilibrium_name(std::size_t n);
+
 /// A shape and its equilibrium, or an equilibrium, as arrays of an archive, and back; `nodes` of
 /// the wall.
 void store(const quasi_static::State& state, const std::string& name, heartbeat::Archive& archive);

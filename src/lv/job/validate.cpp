@@ -98,10 +98,12 @@ std::string describe_shape(const Case& c, const Shape& shape, double cavity, con
 
 }  // namespace
 
-void check_measured_volumes(const Case& c, double cavity) {
+void check_measured_volumes(const Case& c, const Shape& shape) {
   const Calibration& k = c.calibration;
-  if (k.passive == calibrate::FittedPassive::none || is_loaded(c) ||
-      k.edv > (1.0 + k.tolerance) * cavity)
+  if (k.passive == calibrate::FittedPassive::none || is_loaded(c))
+    return;
+  const double cavity = cavity_of(shape);
+  if (k.edv > (1.0 + k.tolerance) * cavity)
     return;
   throw InputError(
       place_of(c, "calibrate.edv"),
@@ -125,7 +127,7 @@ std::string validate(const Case& c) {
   mistakes.attempt([&] { shape = make_anatomy(c); });
   mistakes.attempt([&] { require_infarct(c); });
   mistakes.raise();
-  check_measured_volumes(c, cavity_of(*shape));
+  check_measured_volumes(c, *shape);
   const MeshResult result = make_mesh(c, *shape);
   check_room(c, result.mesh);
   const double cavity = solid::EndocardialSurface(result.mesh).volume(result.mesh.nodes);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "lv/job/anatomy.hpp"
 #include "lv/job/case.hpp"
 
 #include <string>
@@ -16,7 +17,7 @@ inline constexpr const char* no_parameters =
     "the case file sets no parameter: this is the default case, the idealised healthy ventricle";
 
 /// Throws InputError where no stiffness can fill the wall to calibrate.edv, since the shape that
-/// is taken as free of stress holds as much already. `cavity`: of that shape [mm^3].
-void check_measured_volumes(const Case& c, double cavity);
+/// is taken as free of stress holds as much already.
+void check_measured_volumes(const Case& c, const Shape& shape);
 
 }  // namespace lv::job

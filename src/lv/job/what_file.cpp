@@ -1,6 +1,6 @@
 #include "lv/job/what_file.hpp"
 
-#include "lv/image/dicom_file.hpp"
+#include "lv/base/ending.hpp"
 #include "lv/image/nifti.hpp"
 
 #include <algorithm>
@@ -56,18 +56,6 @@ constexpr std::array marks{
     Mark{Mark::anywhere, "x_mm"sv, "a table of contours (anatomy.contours.short_axis, long_axis)"},
 };
 
-struct Ending {
-  std::string_view ending;
-  const char* kind;
-};
-
-constexpr std::array endings{
-    Ending{".toml", "a case file (ventricle validate)"},
-    Ending{".inp", "an ABAQUS mesh (anatomy.mesh.file)"},
-    Ending{".stl", "an STL surface (infarct.surface.file)"},
-    Ending{".csv", "a table"},
-};
-
 std::string beginning_of(const std::filesystem::path& file) {
   std::array<char, 1024> bytes{};
   std::ifstream stream(file, std::ios::binary);
@@ -87,8 +75,6 @@ std::string what_is(const std::filesystem::path& file) {
   const std::string begin = beginning_of(file);
   if (begin.empty())
     return "an empty file";
-  if (image::looks_like_dicom(file))
-    return "DICOM";
   if (image::holds_nifti(file))
     return "NIfTI whose name does not say so: name it .nii or .nii.gz";
   for (const Mark& mark : marks)
@@ -96,12 +82,8 @@ std::string what_is(const std::filesystem::path& file) {
             ? begin.find(mark.bytes) != std::string::npos
             : begin.compare(std::min(mark.at, begin.size()), mark.bytes.size(), mark.bytes) == 0)
       return mark.kind;
-  std::string name = file.filename().string();
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  for (const Ending& known : endings)
-    if (name.ends_with(known.ending))
-      return known.kind;
+  if (ending_of(file) == ".csv")
+    return "a table";
   return is_text(begin) ? "text of an unknown kind" : "of an unknown kind";
 }
 

@@ -5,8 +5,8 @@
 
 namespace lv::job {
 
-/// What a file that can be read seems to be, by its first bytes and else by its ending, and where a
-/// case names such a file: "an STL surface (infarct.surface.file)".
+/// What a file that kind_of does not know by its name or contents seems to be, by its first bytes,
+/// and where a case names such a file: "a PLY surface (infarct.surface.file)".
 [[nodiscard]] std::string what_is(const std::filesystem::path& file);
 
 /// Whether a file begins as text does: without control characters.

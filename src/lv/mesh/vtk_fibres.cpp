@@ -1,6 +1,7 @@
 #include "lv/mesh/vtk_fibres.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/ending.hpp"
 #include "lv/base/printable.hpp"
 #include "lv/mesh/vtk_grid.hpp"
 
@@ -129,9 +130,8 @@ bool has_unit_length(vtkDataArray& array) {
   return array.GetNumberOfTuples() > 0 && 10 * unit >= 9 * array.GetNumberOfTuples();
 }
 
-bool is_fibre_name(std::string name) {
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+bool is_fibre_name(const std::string& called) {
+  const std::string name = lower_case(called);
   constexpr std::array<std::string_view, 4> whole{"f", "f0", "s", "s0"};
   constexpr std::array<std::string_view, 3> parts{"fib", "sheet", "lon"};
   return std::find(whole.begin(), whole.end(), name) != whole.end() ||

@@ -1,6 +1,7 @@
 #include "lv/strain/agreement.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/ending.hpp"
 #include "lv/base/lines.hpp"
 #include "lv/mesh/regions.hpp"
 
@@ -13,12 +14,6 @@
 
 namespace lv::strain {
 namespace {
-
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
 
 std::size_t column_of(const std::vector<std::string>& header, const std::string& name,
                       const std::string& where) {
@@ -117,8 +112,8 @@ std::vector<Measured> read_measured(const std::filesystem::path& file, const std
       throw InputError(
           where, fmt::format("{} values in a table of {} columns", fields.size(), header.size()),
           "Give every line one value per column");
-    Measured m{whole_number_in(fields[slice], where), lower(fields[component]),
-               lower(fields[segment]), number_in(fields[value], where)};
+    Measured m{whole_number_in(fields[slice], where), lower_case(fields[component]),
+               lower_case(fields[segment]), number_in(fields[value], where)};
     check_segment(m.segment, where);
     if (m.component != "cir" && m.component != "rad")
       throw InputError(where, fmt::format("unknown component \"{}\"", fields[component]),

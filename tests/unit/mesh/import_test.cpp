@@ -32,14 +32,6 @@ Mesh with_infarct(CellKind kind) {
   return mesh;
 }
 
-std::vector<mesh::FaceKey> sorted_keys(const mesh::Surface& surface) {
-  std::vector<mesh::FaceKey> keys;
-  for (int f = 0; f < surface.size(); ++f)
-    keys.push_back(mesh::face_key(surface.face(f)));
-  std::sort(keys.begin(), keys.end());
-  return keys;
-}
-
 void check_same(const Mesh& found, const Mesh& expected) {
   CHECK(found.kind == expected.kind);
   CHECK((found.cells == expected.cells));
@@ -48,9 +40,9 @@ void check_same(const Mesh& found, const Mesh& expected) {
   for (std::size_t i = 0; i < found.nodes.size(); ++i)
     furthest = std::max(furthest, (found.nodes[i] - expected.nodes[i]).norm());
   CHECK(furthest < 1e-9);
-  CHECK((sorted_keys(found.endo) == sorted_keys(expected.endo)));
-  CHECK((sorted_keys(found.epi) == sorted_keys(expected.epi)));
-  CHECK((sorted_keys(found.base) == sorted_keys(expected.base)));
+  CHECK((test::sorted_keys(found.endo) == test::sorted_keys(expected.endo)));
+  CHECK((test::sorted_keys(found.epi) == test::sorted_keys(expected.epi)));
+  CHECK((test::sorted_keys(found.base) == test::sorted_keys(expected.base)));
   double enclosed = 0.0;
   for (const mesh::Surface* side : {&found.endo, &found.epi, &found.base})
     enclosed += mesh::signed_volume(found.nodes, *side, {1.0, 2.0, 3.0});

@@ -415,6 +415,14 @@ std::string vtu_array(const std::string& name, const std::vector<Vec3>& vectors)
   return text + "</DataArray>\n";
 }
 
+std::vector<mesh::FaceKey> sorted_keys(const mesh::Surface& surface) {
+  std::vector<mesh::FaceKey> keys;
+  for (int f = 0; f < surface.size(); ++f)
+    keys.push_back(mesh::face_key(surface.face(f)));
+  std::sort(keys.begin(), keys.end());
+  return keys;
+}
+
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
   const auto at = text.find(from);
   if (at == std::string::npos)

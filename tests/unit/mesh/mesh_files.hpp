@@ -3,6 +3,7 @@
 #include "lv/geometry/ellipsoid.hpp"
 #include "lv/mesh/import.hpp"
 #include "lv/mesh/mesh.hpp"
+#include "lv/mesh/surface.hpp"
 
 #include <filesystem>
 #include <functional>
@@ -18,6 +19,9 @@ namespace lv::test {
 
 /// A coarse ventricle of the default size: hexahedra, or the tetrahedra they split into.
 [[nodiscard]] mesh::Mesh coarse_mesh(mesh::CellKind kind);
+
+/// The faces of a surface whatever their order and the order of their nodes.
+[[nodiscard]] std::vector<mesh::FaceKey> sorted_keys(const mesh::Surface& surface);
 
 /// A file that holds `text` as long as the object lives.
 class TemporaryFile {

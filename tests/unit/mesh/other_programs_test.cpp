@@ -46,19 +46,11 @@ Catch::Matchers::StdString::ContainsMatcher has(const std::string& part) {
   return Catch::Contains(part);
 }
 
-std::vector<mesh::FaceKey> sorted_keys(const Surface& surface) {
-  std::vector<mesh::FaceKey> keys;
-  for (int f = 0; f < surface.size(); ++f)
-    keys.push_back(mesh::face_key(surface.face(f)));
-  std::sort(keys.begin(), keys.end());
-  return keys;
-}
-
 void check_sides(const Mesh& found, const Mesh& expected) {
   CHECK((found.cells == expected.cells));
-  CHECK((sorted_keys(found.endo) == sorted_keys(expected.endo)));
-  CHECK((sorted_keys(found.epi) == sorted_keys(expected.epi)));
-  CHECK((sorted_keys(found.base) == sorted_keys(expected.base)));
+  CHECK((test::sorted_keys(found.endo) == test::sorted_keys(expected.endo)));
+  CHECK((test::sorted_keys(found.epi) == test::sorted_keys(expected.epi)));
+  CHECK((test::sorted_keys(found.base) == test::sorted_keys(expected.base)));
 }
 
 /// Every third cell.
