@@ -25,14 +25,11 @@ class QuasiStaticRun {
 
   Beat run() {
     const auto start = std::chrono::steady_clock::now();
-    const Protocol& p = setup_.protocol;
-    go_to({p.ed_pressure, 0.0});
-    run_.beat.end_diastole = state();
-    run_.phase = Phase::contraction;
-    run_.phase_start = p.filling_ramp;
-    go_to({p.es_pressure, 1.0});
-    run_.beat.end_systole = state();
-    run_.beat.filling_was_steady = run_.beat.contraction_was_steady = true;
+    for (run_.phase = 0; run_.phase < phases_.size(); ++run_.phase) {
+      go_to(phase().loads(phase().settled));
+      run_.beat.moments.push_back({phase().marks, phase().name, true, state()});
+      run_.phase_start += phase().ramp;
+    }
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
     run_.beat.wall_clock = elapsed.count();
     return std::move(run_.beat);
@@ -44,8 +41,8 @@ class QuasiStaticRun {
       ++run_.beat.steps;
       record(step);
       log::info("{} {:3.0f}%  {:.2f} mmHg  {:.2f} ml  T {:.1f} kPa  {} corrections, {} {}{}",
-                name(run_.phase), 100.0 * step.progress, step.loads.pressure / mmHg,
-                1e-3 * step.volume, run_.beat.curves.back().mean_tension, step.newton.iterations,
+                phase().name, 100.0 * step.progress, step.loads.pressure / mmHg, 1e-3 * step.volume,
+                run_.beat.curves.back().mean_tension, step.newton.iterations,
                 step.newton.factorisations,
                 step.newton.factorisations == 1 ? "tangent" : "tangents",
                 step.newton.linear_iterations == 0
@@ -58,23 +55,22 @@ class QuasiStaticRun {
   }
 
   void record(const Step& step) {
-    const Protocol& p = setup_.protocol;
-    const double ramp = run_.phase == Phase::filling ? p.filling_ramp : p.contraction_ramp;
-    run_.time = run_.phase_start + step.progress * ramp;
+    constexpr double nearly = 1e-9;  // of the way
+    const bool is_end = step.progress == 0.0 || step.progress > 1.0 - nearly;
+    run_.time = run_.phase_start + step.progress * phase().ramp;
     CurveRow row;
     row.time = run_.time;
-    row.phase = run_.phase;
+    row.phase = phase().name;
     row.pressure = step.loads.pressure;
     row.volume = step.volume;
-    row.calcium = calcium(step.loads.activation);
+    // in between the tension is a mean of both ends
+    row.calcium = is_end ? step.loads.calcium : std::numeric_limits<double>::quiet_NaN();
     row.mean_tension = engine_.mean_tension();
-    row.step = step.length * ramp;
+    row.step = step.length * phase().ramp;
     row.min_J = row.max_J = std::numeric_limits<double>::quiet_NaN();  // not looked at
     run_.beat.curves.push_back(row);
     if (observers_.curves)
       observers_.curves(run_);
-    constexpr double nearly = 1e-9;  // of the way
-    const bool is_end = step.progress == 0.0 || step.progress > 1.0 - nearly;
     if (!observers_.frame || (!is_end && run_.time < run_.next_frame))
       return;
     run_.next_frame = run_.time + setup_.frame_interval;
@@ -83,19 +79,12 @@ class QuasiStaticRun {
     observers_.frame({number, state(), run_, {}});
   }
 
-  /// Known where the muscle rests or is fully active; in between the tension is a mean of both.
-  [[nodiscard]] double calcium(double activation) const {
-    const auto& c = setup_.protocol.calcium;
-    return activation == 0.0   ? c.Ca_0
-           : activation == 1.0 ? c.Ca_max
-                               : std::numeric_limits<double>::quiet_NaN();
-  }
+  [[nodiscard]] const Phase& phase() const { return phases_[run_.phase]; }
 
   /// The engine's present state.
   [[nodiscard]] Snapshot state() const {
     Snapshot s;
     s.time = run_.time;
-    s.phase = run_.phase;
     s.pressure = engine_.loads().pressure;
     s.volume = engine_.cavity_volume();
     s.positions = engine_.state().positions;
@@ -105,6 +94,7 @@ class QuasiStaticRun {
 
   const QuasiStaticSetup& setup_;
   const Observers& observers_;
+  std::vector<Phase> phases_;
   Engine engine_;
   RunState run_;
 };

@@ -2,6 +2,7 @@
 
 #include "lv/heartbeat/archive.hpp"
 #include "lv/heartbeat/beat.hpp"
+#include "lv/heartbeat/protocol.hpp"
 
 #include <optional>
 
@@ -10,7 +11,7 @@ namespace lv::heartbeat {
 /// Everything that a run carries besides the model itself; the same on all ranks.
 struct RunState {
   double time = 0.0;
-  Phase phase = Phase::filling;
+  std::size_t phase = 0;  ///< which of the protocol's
   double phase_start = 0.0;
   double next_frame = 0.0;
   double next_curve = 0.0;
@@ -21,8 +22,8 @@ struct RunState {
   int good_steps = 0;             ///< since the last halving
   int patience = 500;  ///< good steps before a halving is undone; doubles with every failure
   SteadyVolume steady{0.0, 0.0};
-  bool volume_was_falling = false;  ///< in the last step (transient calcium)
-  Snapshot least;  ///< at the smallest volume of the contraction so far (transient calcium)
+  bool volume_was_falling = false;  ///< in the last step
+  Snapshot least;  ///< at the smallest volume of the phase so far, if it looks for that
   Beat beat;
 };
 
@@ -30,16 +31,20 @@ struct RunState {
 void store(const Snapshot& snapshot, const std::string& name, Archive& archive);
 [[nodiscard]] Snapshot load_snapshot(const Archive& archive, const std::string& name);
 
+/// Adds named moments to an archive, and takes them out again.
+void store(const std::vector<NamedMoment>& moments, Archive& archive);
+[[nodiscard]] std::vector<NamedMoment> load_moments(const Archive& archive);
+
 /// Adds curves to an archive, and takes them out again.
 void store(const std::vector<CurveRow>& curves, Archive& archive);
 [[nodiscard]] std::vector<CurveRow> load_curves(const Archive& archive);
 
 /// Adds the run's state (without the model's) to an archive, and takes it out again; the steadiness
-/// criterion of the phase is made anew from `protocol` and fed the recorded volumes.
+/// criterion of the phase is made anew and fed the recorded volumes.
 void store(const RunState& run, Archive& archive);
-[[nodiscard]] RunState load_run_state(const Archive& archive, const Protocol& protocol);
+[[nodiscard]] RunState load_run_state(const Archive& archive, const std::vector<Phase>& phases);
 
 /// The steadiness criterion of a phase.
-[[nodiscard]] SteadyVolume criterion(const Protocol& protocol, Phase phase);
+[[nodiscard]] SteadyVolume criterion(const Phase& phase);
 
 }  // namespace lv::heartbeat

@@ -78,9 +78,9 @@ class BeatWriter {
 
   void frame(const heartbeat::Frame& f) {
     const auto cells = analysis_.fields(f.wall);
-    const auto& ed = f.run.beat.end_diastole;
-    if (!ed.positions.empty() && !end_diastole_)
-      end_diastole_ = analysis_.fields(ed);
+    const auto* ed = f.run.beat.find(heartbeat::end_diastole);
+    if (ed != nullptr && !end_diastole_)
+      end_diastole_ = analysis_.fields(ed->wall);
     if (parallel::is_root())
       report::write_wall(folder_ / wall_file(f.number), mesh_.mesh, mesh_.regions, f.wall, cells,
                          end_diastole_.value_or(std::vector<analysis::CellFields>{}));
@@ -141,12 +141,10 @@ report::RunFacts run_facts(const Case& c, const MeshResult& mesh, const BeatResu
   facts.origins.assign(c.origin.begin(), c.origin.end());
   if (const std::string note = septum_note(c); !note.empty())
     facts.warnings.push_back(note);
-  if (!beat.beat.filling_was_steady)
-    facts.warnings.push_back(
-        "filling ended at protocol.filling_longest before the volume was steady");
-  if (!beat.beat.contraction_was_steady)
-    facts.warnings.push_back(
-        "contraction ended at protocol.contraction_longest before its criterion was met");
+  for (const heartbeat::NamedMoment& m : beat.beat.moments)
+    if (!m.by_criterion)
+      facts.warnings.push_back(
+          fmt::format("{0} ended at protocol.{0}_longest before its criterion was met", m.phase));
   if (beat.beat.retries > 0)
     facts.warnings.push_back(
         fmt::format("{} steps were taken back and repeated smaller", beat.beat.retries));
@@ -317,28 +315,27 @@ heartbeat::Beat make_beat(const Case& c, const MeshResult& mesh,
 void write_beat(const heartbeat::Beat& beat, const std::filesystem::path& folder) {
   Archive archive;
   heartbeat::store(beat.curves, archive);
-  heartbeat::store(beat.end_diastole, "end_diastole", archive);
-  heartbeat::store(beat.end_systole, "end_systole", archive);
-  archive.set("facts",
-              {beat.filling_was_steady ? 1.0 : 0.0, beat.contraction_was_steady ? 1.0 : 0.0,
-               static_cast<double>(beat.steps), static_cast<double>(beat.retries), beat.wall_clock,
-               static_cast<double>(parallel::size())});
+  heartbeat::store(beat.moments, archive);
+  archive.set("facts", {static_cast<double>(beat.steps), static_cast<double>(beat.retries),
+                        beat.wall_clock, static_cast<double>(parallel::size())});
   archive.write(folder / beat_name);
 }
 
 BeatResult read_beat(const std::filesystem::path& folder) {
   const Archive archive = Archive::read(folder / beat_name);
-  const auto& facts = archive.get_rows("facts", 6, 1);
+  const auto& facts = archive.get_rows("facts", 4, 1);
   BeatResult result;
   result.beat.curves = heartbeat::load_curves(archive);
-  result.beat.end_diastole = heartbeat::load_snapshot(archive, "end_diastole");
-  result.beat.end_systole = heartbeat::load_snapshot(archive, "end_systole");
-  result.beat.filling_was_steady = facts[0] != 0.0;
-  result.beat.contraction_was_steady = facts[1] != 0.0;
-  result.beat.steps = heartbeat::whole_number(facts[2]);
-  result.beat.retries = heartbeat::whole_number(facts[3]);
-  result.beat.wall_clock = facts[4];
-  result.ranks = heartbeat::whole_number(facts[5]);
+  result.beat.moments = heartbeat::load_moments(archive);
+  for (const char* moment : {heartbeat::end_diastole, heartbeat::end_systole})
+    if (result.beat.find(moment) == nullptr)
+      throw RunError(
+          fmt::format("{} holds a beat without {}", (folder / beat_name).string(), moment),
+          "Delete the folder to run the beat again");
+  result.beat.steps = heartbeat::whole_number(facts[0]);
+  result.beat.retries = heartbeat::whole_number(facts[1]);
+  result.beat.wall_clock = facts[2];
+  result.ranks = heartbeat::whole_number(facts[3]);
   return result;
 }
 
@@ -347,8 +344,9 @@ std::string make_results(const Case& c, const MeshResult& mesh, const BeatResult
                          const std::optional<report::UnloadedShape>& unloaded,
                          const std::filesystem::path& folder) {
   const analysis::FieldAnalysis analysis = field_analysis(c, mesh.mesh);
-  const analysis::BeatFields fields{analysis.at_rest(), analysis.fields(beat.beat.end_diastole),
-                                    analysis.fields(beat.beat.end_systole)};
+  analysis::BeatFields fields{analysis.at_rest(), {}};
+  for (const heartbeat::NamedMoment& m : beat.beat.moments)
+    fields.moments.push_back({m.name, analysis.fields(m.wall)});
   if (!parallel::is_root())
     return "";
   const analysis::Results results = analysis::results(mesh.mesh, mesh.regions, beat.beat, fields);
@@ -362,10 +360,9 @@ std::string make_results(const Case& c, const MeshResult& mesh, const BeatResult
   report::regions_table(results).write_csv(folder / "regions.csv");
   report::rotation_table(results).write_csv(folder / "rotation.csv");
   report::curves_table(beat.beat.curves).write_csv(folder / "curves.csv");
-  report::write_wall(folder / "end_diastole.vtu", mesh.mesh, mesh.regions, beat.beat.end_diastole,
-                     fields.end_diastole, fields.end_diastole);
-  report::write_wall(folder / "end_systole.vtu", mesh.mesh, mesh.regions, beat.beat.end_systole,
-                     fields.end_systole, fields.end_diastole);
+  for (const auto& [name, cells] : fields.moments)
+    report::write_wall(folder / (name + ".vtu"), mesh.mesh, mesh.regions, beat.beat.at(name), cells,
+                       fields.at(heartbeat::end_diastole));
   draw(mesh.mesh, beat.beat, fields, results, folder);
   return report::summary_text(facts, beat.beat, results) +
          beside_measured(c, mesh, beat, fields, folder);

@@ -96,8 +96,8 @@ Panel open_wall_panel(const std::string& title, const Mesh& mesh, std::span<cons
 Camera camera_for(const Mesh& mesh, const heartbeat::Beat& beat) {
   const std::vector<double> none(mesh.nodes.size(), 0.0);
   Scene all;
-  for (const std::vector<Vec3>* x :
-       {&mesh.nodes, &beat.end_diastole.positions, &beat.end_systole.positions}) {
+  for (const std::vector<Vec3>* x : {&mesh.nodes, &beat.at(heartbeat::end_diastole).positions,
+                                     &beat.at(heartbeat::end_systole).positions}) {
     const Scene one = open_wall(mesh, *x, none, {});
     all.items.insert(all.items.end(), one.items.begin(), one.items.end());
   }
@@ -219,12 +219,14 @@ Figure states_figure(const Mesh& mesh, const heartbeat::Beat& beat,
   };
   return {.panels = {open_wall_panel("early diastole: free of stress", mesh, mesh.nodes,
                                      at_nodes(mesh, fields.early_diastole, stretch), scale, camera),
-                     open_wall_panel(title("end-diastole", beat.end_diastole), mesh,
-                                     beat.end_diastole.positions,
-                                     at_nodes(mesh, fields.end_diastole, stretch), scale, camera),
-                     open_wall_panel(title("end-systole", beat.end_systole), mesh,
-                                     beat.end_systole.positions,
-                                     at_nodes(mesh, fields.end_systole, stretch), scale, camera)},
+                     open_wall_panel(title("end-diastole", beat.at(heartbeat::end_diastole)), mesh,
+                                     beat.at(heartbeat::end_diastole).positions,
+                                     at_nodes(mesh, fields.at(heartbeat::end_diastole), stretch),
+                                     scale, camera),
+                     open_wall_panel(title("end-systole", beat.at(heartbeat::end_systole)), mesh,
+                                     beat.at(heartbeat::end_systole).positions,
+                                     at_nodes(mesh, fields.at(heartbeat::end_systole), stretch),
+                                     scale, camera)},
           .columns = 3,
           .colour_bar = ColourBar{"fibre stretch from early diastole", scale}};
 }
@@ -241,12 +243,15 @@ Figure stress_figure(const Mesh& mesh, const heartbeat::Beat& beat,
     p.colour_bar = ColourBar{label, scale};
     return p;
   };
-  return {.panels = {panel("end-diastole", beat.end_diastole,
-                           at_nodes(mesh, fields.end_diastole, stress), "fibre stress [kPa]"),
-                     panel("end-systole", beat.end_systole,
-                           at_nodes(mesh, fields.end_systole, stress), "fibre stress [kPa]"),
-                     panel("end-systole", beat.end_systole,
-                           at_nodes(mesh, fields.end_systole, tension), "active tension [kPa]")},
+  return {.panels = {panel("end-diastole", beat.at(heartbeat::end_diastole),
+                           at_nodes(mesh, fields.at(heartbeat::end_diastole), stress),
+                           "fibre stress [kPa]"),
+                     panel("end-systole", beat.at(heartbeat::end_systole),
+                           at_nodes(mesh, fields.at(heartbeat::end_systole), stress),
+                           "fibre stress [kPa]"),
+                     panel("end-systole", beat.at(heartbeat::end_systole),
+                           at_nodes(mesh, fields.at(heartbeat::end_systole), tension),
+                           "active tension [kPa]")},
           .columns = 3};
 }
 

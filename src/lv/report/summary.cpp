@@ -130,16 +130,18 @@ Json pairs(const std::vector<std::pair<std::string, std::string>>& list) {
 std::vector<Observation> observations(const Results& r) {
   const double apex = r.rotation.back().from_end_diastole / degree;
   const double shortening = 100.0 * r.fibre_shortening;
-  const double shift = std::max(r.end_diastole.base_axial_shift, r.end_systole.base_axial_shift);
+  const double shift = std::max(r.at(heartbeat::end_diastole).base_axial_shift,
+                                r.at(heartbeat::end_systole).base_axial_shift);
   const auto off_mean = [](const Statistics& J) { return 100.0 * (J.mean - 1.0); };
   const auto off_percentiles = [](const Statistics& J) {
     return 100.0 * std::max(std::abs(J.p1 - 1.0), std::abs(J.p99 - 1.0));
   };
-  const double mean_J = std::abs(off_mean(r.J_end_diastole)) > std::abs(off_mean(r.J_end_systole))
-                            ? off_mean(r.J_end_diastole)
-                            : off_mean(r.J_end_systole);
-  const double tail_J =
-      std::max(off_percentiles(r.J_end_diastole), off_percentiles(r.J_end_systole));
+  const double mean_J = std::abs(off_mean(r.whole(heartbeat::end_diastole, "J"))) >
+                                std::abs(off_mean(r.whole(heartbeat::end_systole, "J")))
+                            ? off_mean(r.whole(heartbeat::end_diastole, "J"))
+                            : off_mean(r.whole(heartbeat::end_systole, "J"));
+  const double tail_J = std::max(off_percentiles(r.whole(heartbeat::end_diastole, "J")),
+                                 off_percentiles(r.whole(heartbeat::end_systole, "J")));
   return {
       {"apex_rotation", apex, "deg", "positive: anticlockwise seen from the apex", apex > 0.0},
       {"wall_thickening", 100.0 * r.thickening, "%", "positive", r.thickening > 0.0},
@@ -164,13 +166,13 @@ std::string summary_json(const RunFacts& facts, const heartbeat::Beat& beat, con
                         {"retries", beat.retries},
                         {"wall_clock_s", number(facts.wall_clock)}};
   json["early_diastole"] = shape_json(r.early_diastole);
-  json["end_diastole"] = shape_json(r.end_diastole);
-  json["end_systole"] = shape_json(r.end_systole);
-  json["edv_ml"] = number(1e-3 * r.end_diastole.cavity_volume);
-  json["esv_ml"] = number(1e-3 * r.end_systole.cavity_volume);
+  json["end_diastole"] = shape_json(r.at(heartbeat::end_diastole));
+  json["end_systole"] = shape_json(r.at(heartbeat::end_systole));
+  json["edv_ml"] = number(1e-3 * r.at(heartbeat::end_diastole).cavity_volume);
+  json["esv_ml"] = number(1e-3 * r.at(heartbeat::end_systole).cavity_volume);
   json["ejection_fraction_percent"] = number(100.0 * r.ejection_fraction());
-  json["filling_was_steady"] = beat.filling_was_steady;
-  json["contraction_was_steady"] = beat.contraction_was_steady;
+  for (const heartbeat::NamedMoment& m : beat.moments)
+    json[m.phase + "_was_steady"] = m.by_criterion;
   json["strain"] =
       std::string(
           "Green-Lagrange; at end-systole relative to end-diastole, at end-diastole "
@@ -224,8 +226,8 @@ std::string summary_text(const RunFacts& facts, const heartbeat::Beat& beat, con
     text += fmt::format("  {:<34}{:>14.2f}{:>14.2f}{:>14.2f}\n", what, a, b, c);
   };
   const Shape& e = r.early_diastole;
-  const Shape& d = r.end_diastole;
-  const Shape& s = r.end_systole;
+  const Shape& d = r.at(heartbeat::end_diastole);
+  const Shape& s = r.at(heartbeat::end_systole);
   row("endocardial pressure (mmHg)", 0.0, d.pressure / mmHg, s.pressure / mmHg);
   row("cavity volume (ml)", 1e-3 * e.cavity_volume, 1e-3 * d.cavity_volume, 1e-3 * s.cavity_volume);
   row("wall volume (ml)", 1e-3 * e.wall_volume, 1e-3 * d.wall_volume, 1e-3 * s.wall_volume);

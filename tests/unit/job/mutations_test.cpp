@@ -88,8 +88,11 @@ TEST_CASE("a damaged beat of an earlier run is read or refused", "[unit][job][mu
   };
   heartbeat::Beat beat;
   beat.curves.resize(2);
-  beat.end_diastole.positions.resize(2, Vec3::Ones());
-  beat.end_systole.stress.resize(1);
+  beat.moments.resize(2);
+  beat.moments[0].name = heartbeat::end_diastole;
+  beat.moments[0].wall.positions.resize(2, Vec3::Ones());
+  beat.moments[1].name = heartbeat::end_systole;
+  beat.moments[1].wall.stress.resize(1);
   const std::string bytes =
       made("beat.bin", [&](const auto& folder) { job::write_beat(beat, folder); });
   try_damaged("beat.bin", bytes, read, {}, test::repair_checksum);
