@@ -9,6 +9,12 @@ struct Constitution {
   const StaticModel& model;
   double activation;
 
+  /// Calls f with the point's material::PointLaw.
+  template <class F>
+  [[nodiscard]] auto with_law(const F& f) const {
+    return material::with_point_law(model.heart.myocardium, model.stabilisation, f);
+  }
+
   /// With the infarct's factor.
   [[nodiscard]] Tension tension(const Mat3& F, double M) const {
     Tension T = model.contractility.at(F.col(0).norm(), activation);
@@ -30,12 +36,6 @@ struct Constitution {
   [[nodiscard]] solid::CellStress cauchy(const Mat3& F, double M) const {
     const double T = tension(F, M).value;
     return with_law([&](const auto& law) { return solid::point_stress(law, F, T, M); });
-  }
-
- private:
-  template <class F>
-  [[nodiscard]] auto with_law(const F& f) const {
-    return material::with_point_law(model.heart.myocardium, model.stabilisation, f);
   }
 };
 

@@ -12,7 +12,8 @@ namespace lv::quasi_static {
 namespace {
 
 Loads between(const Loads& a, const Loads& b, double s) {
-  return {(1.0 - s) * a.pressure + s * b.pressure, (1.0 - s) * a.activation + s * b.activation};
+  return {(1.0 - s) * a.pressure + s * b.pressure, (1.0 - s) * a.activation + s * b.activation,
+          (1.0 - s) * a.calcium + s * b.calcium};
 }
 
 /// The straight line through two states, `by` times their distance beyond the second.
