@@ -11,7 +11,7 @@ namespace lv::heartbeat {
 /// One row of the curves of a beat.
 struct CurveRow {
   double time = 0.0;              ///< [s]
-  std::string phase;              ///< its name
+  std::string phase{};            ///< its name
   double pressure = 0.0;          ///< on the endocardium [kPa]
   double volume = 0.0;            ///< of the cavity [mm^3]
   double calcium = 0.0;           ///< [uM]
@@ -36,10 +36,10 @@ struct Snapshot {
 
 /// A moment of a beat that has a name: the end of a phase.
 struct NamedMoment {
-  std::string name;           ///< end_diastole, ...
-  std::string phase;          ///< that it ends
+  std::string name{};         ///< end_diastole, ...
+  std::string phase{};        ///< that it ends
   bool by_criterion = false;  ///< the criterion ended the phase, not its longest duration
-  Snapshot wall;
+  Snapshot wall{};
 };
 
 /// What a beat comes to, whichever engine ran it.
