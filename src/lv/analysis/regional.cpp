@@ -56,7 +56,7 @@ void add_zones(const std::vector<CellFields>& cells, std::vector<Region>& list) 
 
 std::vector<CellQuantity> quantities(const std::vector<CellFields>& now,
                                      const std::vector<CellFields>& then) {
-  std::vector<Strain> strains;
+  std::vector<CellStrain> strains;
   for (std::size_t c = 0; c < now.size(); ++c)
     strains.push_back(then.empty() ? strain(now[c]) : strain(now[c], then[c]));
   Columns q(now.size());

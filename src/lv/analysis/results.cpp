@@ -9,9 +9,9 @@
 namespace lv::analysis {
 namespace {
 
-Shape shape(const mesh::Mesh& mesh, const std::vector<Vec3>& positions,
-            const std::vector<CellFields>& cells) {
-  Shape s;
+VentricleShape shape(const mesh::Mesh& mesh, const std::vector<Vec3>& positions,
+                     const std::vector<CellFields>& cells) {
+  VentricleShape s;
   s.cavity_volume = solid::EndocardialSurface(mesh).volume(positions);
   for (const CellFields& cell : cells)
     s.wall_volume += cell.J * cell.volume;
@@ -31,9 +31,9 @@ Shape shape(const mesh::Mesh& mesh, const std::vector<Vec3>& positions,
   return s;
 }
 
-Shape shape(const mesh::Mesh& mesh, const heartbeat::Snapshot& snapshot,
-            const std::vector<CellFields>& cells) {
-  Shape s = shape(mesh, snapshot.positions, cells);
+VentricleShape shape(const mesh::Mesh& mesh, const heartbeat::Snapshot& snapshot,
+                     const std::vector<CellFields>& cells) {
+  VentricleShape s = shape(mesh, snapshot.positions, cells);
   s.time = snapshot.time;
   s.pressure = snapshot.pressure;
   return s;

@@ -10,7 +10,7 @@
 namespace lv::analysis {
 
 /// Size and shape of the ventricle at one time.
-struct Shape {
+struct VentricleShape {
   double time = 0.0;              ///< [s]
   double pressure = 0.0;          ///< on the endocardium [kPa]
   double cavity_volume = 0.0;     ///< [mm^3]
@@ -57,15 +57,15 @@ struct BeatFields {
 
 /// All numbers of a beat.
 struct Results {
-  Shape early_diastole;
-  std::vector<std::pair<std::string, Shape>> moments;  ///< name and shape, in their order
+  VentricleShape early_diastole;
+  std::vector<std::pair<std::string, VentricleShape>> moments;  ///< name and shape, in their order
   std::vector<RegionalValue> regional;
   std::vector<SliceRotation> rotation;
   double fibre_shortening = 0.0;  ///< mean of 1 - lambda_ES/lambda_ED
   double thickening =
       0.0;  ///< mean stretch of the wall's thickness from end-diastole to end-systole, minus 1
 
-  [[nodiscard]] const Shape& at(const std::string& moment) const;
+  [[nodiscard]] const VentricleShape& at(const std::string& moment) const;
   [[nodiscard]] double ejection_fraction() const {
     return 1.0 -
            at(heartbeat::end_systole).cavity_volume / at(heartbeat::end_diastole).cavity_volume;

@@ -69,7 +69,7 @@ CellFields zero_fields() {
   return cell;
 }
 
-Strain strain_in(const Mat3& F, const Vec3& f, const mesh::WallAxes& axes) {
+CellStrain strain_in(const Mat3& F, const Vec3& f, const mesh::WallAxes& axes) {
   const Mat3 E = 0.5 * (F.transpose() * F - Mat3::Identity());
   const auto& [c, l, r] = axes;
   return {
@@ -145,11 +145,11 @@ std::vector<CellFields> shape_fields(const solid::Wall& wall, const mesh::Mesh& 
   return cell_fields(wall, s, std::vector<double>(mesh.cell_count(), 0.0));
 }
 
-Strain strain(const CellFields& now) {
+CellStrain strain(const CellFields& now) {
   return strain_in(now.F, now.fibre_frame.col(0), now.axes);
 }
 
-Strain strain(const CellFields& now, const CellFields& then) {
+CellStrain strain(const CellFields& now, const CellFields& then) {
   const Mat3 inverse = then.F.inverse();
   const Vec3 f = (then.F * then.fibre_frame.col(0)).normalized();
   return strain_in(now.F * inverse, f, mesh::wall_axes(inverse.transpose() * then.axes.radial));

@@ -65,7 +65,7 @@ class FieldAnalysis {
 
 /// Green-Lagrange strain of an element between two states, E = (F^T F - 1)/2 with F = F_now
 /// F_then^-1, in the wall's own directions at the earlier state.
-struct Strain {
+struct CellStrain {
   double fibre = 0.0;
   double circumferential = 0.0, radial = 0.0, longitudinal = 0.0;
   double circumferential_radial = 0.0, circumferential_longitudinal = 0.0,
@@ -74,10 +74,10 @@ struct Strain {
 };
 
 /// Strain from the undeformed wall (early diastole).
-[[nodiscard]] Strain strain(const CellFields& now);
+[[nodiscard]] CellStrain strain(const CellFields& now);
 
 /// Strain from an earlier state: the paper's systolic strain is from end-diastole. The directions
 /// follow the rule of mesh::wall_axes on the wall as it was then.
-[[nodiscard]] Strain strain(const CellFields& now, const CellFields& then);
+[[nodiscard]] CellStrain strain(const CellFields& now, const CellFields& then);
 
 }  // namespace lv::analysis

@@ -43,12 +43,12 @@ Eigen::VectorXd as_vector(const std::vector<double>& numbers) {
 
 class Fitter {
  public:
-  Fitter(const Model& model, const Parameters& start, const Plan& plan)
+  Fitter(const Model& model, const FitParameters& start, const Plan& plan)
       : plan_(plan), model_(model) {
     fit_.parameters = start;
     if (plan.strains.empty())
       model_.strains = {};
-    model_.volume = [this, &model](const Parameters& p, const Loads& loads) {
+    model_.volume = [this, &model](const FitParameters& p, const Loads& loads) {
       const auto volume = model.volume(p, loads);
       if (!volume)
         return volume;
@@ -65,14 +65,15 @@ class Fitter {
   Fit run() {
     observe();
     std::vector<Fitted> fitted;
-    if (plan_.passive != Passive::none)
-      fitted.push_back(plan_.passive == Passive::C_a ? Fitted{"C_a", &Parameters::C_a}
-                                                     : Fitted{"scale", &Parameters::scale});
-    if (plan_.passive == Passive::scale_and_exponent)
-      fitted.push_back({"exponent", &Parameters::exponent});
+    if (plan_.passive != FittedPassive::none)
+      fitted.push_back(plan_.passive == FittedPassive::C_a
+                           ? Fitted{"C_a", &FitParameters::C_a}
+                           : Fitted{"scale", &FitParameters::scale});
+    if (plan_.passive == FittedPassive::scale_and_exponent)
+      fitted.push_back({"exponent", &FitParameters::exponent});
     fit_passive(fitted, far);
     if (plan_.active) {
-      fitted.push_back({"T_scale", &Parameters::T_scale});
+      fitted.push_back({"T_scale", &FitParameters::T_scale});
       bracket(fitted.back(), plan_.T_scale, es_loads(), plan_.esv, far);
       // with the tension at rest, the end-diastolic volume has moved a little
       fit_passive(fitted, near);
@@ -93,10 +94,10 @@ class Fitter {
 
   /// Of `fitted`, the passive parameters.
   void fit_passive(const std::vector<Fitted>& fitted, double first_factor) {
-    if (plan_.passive == Passive::none)
+    if (plan_.passive == FittedPassive::none)
       return;
     bracket(fitted.front(), plan_.stiffness, ed_loads(), plan_.edv, first_factor);
-    if (plan_.passive == Passive::scale_and_exponent)
+    if (plan_.passive == FittedPassive::scale_and_exponent)
       fit_exponent(fitted[0], fitted[1]);
   }
 
@@ -113,7 +114,7 @@ class Fitter {
 
   Outcome<double> solve(const Fitted& which, const Range& range, const Loads& loads,
                         const Target& target, double first_factor) {
-    Parameters& p = fit_.parameters;
+    FitParameters& p = fit_.parameters;
     const auto volume = [&](double x) {
       p.*which.member = x;
       return model_.volume(p, loads);
@@ -128,9 +129,9 @@ class Fitter {
   /// The measured points, and the Klotz curve where it is fitted to.
   void observe() {
     const double edv = plan_.edv.volume;
-    const bool curve = plan_.passive == Passive::scale_and_exponent;
+    const bool curve = plan_.passive == FittedPassive::scale_and_exponent;
     auto& list = fit_.observations;
-    if (plan_.passive != Passive::none)
+    if (plan_.passive != FittedPassive::none)
       list.push_back(
           {"EDV", ed_loads(), edv, curve && !model_.strains ? weight_of_edv : 1.0, 1.0, 1.0});
     if (curve)
@@ -149,8 +150,8 @@ class Fitter {
   }
 
   /// The Klotz curve starts from the model's volume without load; why there is none, if so.
-  [[nodiscard]] std::optional<Unsolved> move_curve(const Parameters& p) {
-    for (Observation& o : fit_.observations) {
+  [[nodiscard]] std::optional<Unsolved> move_curve(const FitParameters& p) {
+    for (ObservedVolume& o : fit_.observations) {
       if (o.target_by_unloaded == 0.0)
         continue;
       const auto V_0 = model_.unloaded_volume(p);
@@ -162,12 +163,12 @@ class Fitter {
   }
 
   /// V/V_k - 1 of the first observations.
-  Outcome<std::vector<double>> misfits(const Parameters& p, std::size_t count) {
+  Outcome<std::vector<double>> misfits(const FitParameters& p, std::size_t count) {
     if (const auto why = move_curve(p))
       return *why;
     std::vector<double> r;
     for (std::size_t k = 0; k < count; ++k) {
-      const Observation& o = fit_.observations[k];
+      const ObservedVolume& o = fit_.observations[k];
       const auto volume = model_.volume(p, o.loads);
       if (!volume)
         return volume.why();
@@ -188,7 +189,7 @@ class Fitter {
       high[j] = std::log(range.high) - start[j];
     }
     const auto parameters = [&](const Eigen::VectorXd& x) {
-      Parameters p = fit_.parameters;
+      FitParameters p = fit_.parameters;
       for (Eigen::Index j = 0; j < n; ++j)
         p.*fitted[j].member = std::exp(start[j] + x[j]);
       return p;
@@ -203,13 +204,13 @@ class Fitter {
   }
 
   [[nodiscard]] const Range& range_of(const Fitted& which) const {
-    if (which.member == &Parameters::T_scale)
+    if (which.member == &FitParameters::T_scale)
       return plan_.T_scale;
-    return which.member == &Parameters::exponent ? plan_.exponent : plan_.stiffness;
+    return which.member == &FitParameters::exponent ? plan_.exponent : plan_.stiffness;
   }
 
   /// Of all volumes and strains, each by its error.
-  Outcome<Eigen::VectorXd> weighted_residuals(const Parameters& p) {
+  Outcome<Eigen::VectorXd> weighted_residuals(const FitParameters& p) {
     const auto of_volumes = misfits(p, fit_.observations.size());
     if (!of_volumes)
       return of_volumes.why();
@@ -251,16 +252,16 @@ class Fitter {
   /// d ln scale/d ln exponent at constant end-diastolic volume, which is off by `misfit`.
   double scale_along(const Fitted& scale, const Fitted& exponent, double misfit) {
     const auto slope = [&](const Fitted& which) {
-      Parameters p = fit_.parameters;
+      FitParameters p = fit_.parameters;
       p.*which.member *= std::exp(difference);
       return model_.volume(p, ed_loads()).value() / plan_.edv.volume - 1.0 - misfit;
     };
     return -slope(exponent) / slope(scale);
   }
 
-  [[nodiscard]] Parameters moved(const Fitted& scale, const Fitted& exponent, double along,
-                                 double step) const {
-    Parameters p = fit_.parameters;
+  [[nodiscard]] FitParameters moved(const Fitted& scale, const Fitted& exponent, double along,
+                                    double step) const {
+    FitParameters p = fit_.parameters;
     p.*exponent.member *= std::exp(step);
     p.*scale.member *= std::exp(along * step);
     return p;
@@ -269,7 +270,7 @@ class Fitter {
   /// Takes a step if it brings the model nearer to the Klotz curve.
   bool nearer(const Fitted& scale, const Fitted& exponent, double along, double step,
               Eigen::VectorXd& r) {
-    const Parameters before = fit_.parameters;
+    const FitParameters before = fit_.parameters;
     fit_.parameters = moved(scale, exponent, along, step);
     if (keep_edv(scale)) {
       const auto r_next = residuals(fit_.parameters);
@@ -283,7 +284,7 @@ class Fitter {
   }
 
   /// Of the filling.
-  Outcome<Eigen::VectorXd> residuals(const Parameters& p) {
+  Outcome<Eigen::VectorXd> residuals(const FitParameters& p) {
     const auto r = misfits(p, 1 + pressure_ratios.size());
     if (!r)
       return r.why();
@@ -297,7 +298,7 @@ class Fitter {
     fit_.unloaded_volume = model_.unloaded_volume(fit_.parameters).value();
     static_cast<void>(move_curve(fit_.parameters));
     fit_.edv = model_.volume(fit_.parameters, ed_loads()).value();
-    for (const Observation& o : fit_.observations)
+    for (const ObservedVolume& o : fit_.observations)
       fit_.volumes.push_back(o.name == "EDV" ? fit_.edv
                                              : model_.volume(fit_.parameters, o.loads).value());
     if (plan_.active)
@@ -306,7 +307,7 @@ class Fitter {
       measure_strains(*fit_.strain_fit);
       return;  // a compromise, whose volumes are reported and need not be met
     }
-    if (plan_.passive != Passive::none)
+    if (plan_.passive != FittedPassive::none)
       check("end-diastolic", fit_.edv, plan_.edv.volume);
     if (plan_.active)
       check("end-systolic", fit_.esv, plan_.esv.volume);
@@ -339,7 +340,7 @@ class Fitter {
 
 }  // namespace
 
-Fit fit(const Model& model, const Parameters& start, const Plan& plan) {
+Fit fit(const Model& model, const FitParameters& start, const Plan& plan) {
   return Fitter(model, start, plan).run();
 }
 

@@ -11,7 +11,7 @@
 namespace lv::calibrate {
 
 /// What of the passive muscle is fitted to the end-diastolic volume.
-enum class Passive {
+enum class FittedPassive {
   none,
   C_a,                ///< the paper's way for a patient (2.25)
   scale,              ///< all stiffnesses by one factor
@@ -26,7 +26,7 @@ struct MeasuredStrain {
 
 /// What a calibration is to do. Ranges are of the parameters themselves.
 struct Plan {
-  Passive passive = Passive::none;
+  FittedPassive passive = FittedPassive::none;
   bool active = false;                          ///< T_scale, to the end-systolic volume
   double ed_pressure = 0.0, es_pressure = 0.0;  ///< [kPa]
   Target edv, esv;
@@ -40,7 +40,7 @@ struct Plan {
 /// One equilibrium of the search.
 struct Evaluation {
   std::string purpose;  ///< which fit asked for it
-  Parameters parameters;
+  FitParameters parameters;
   solid::Loads loads;
   double volume = 0.0;  ///< [mm^3]
 };
@@ -54,10 +54,10 @@ struct StrainFit {
 };
 
 struct Fit {
-  Parameters parameters;
+  FitParameters parameters;
   double unloaded_volume = 0.0;  ///< of the model [mm^3]
   double edv = 0.0, esv = 0.0;   ///< of the model with these parameters [mm^3]
-  std::vector<Observation> observations;
+  std::vector<ObservedVolume> observations;
   std::vector<double> volumes;  ///< of the model at the observations [mm^3]
   std::optional<StrainFit> strain_fit;
   Sensitivity sensitivity;
@@ -86,6 +86,6 @@ struct Fit {
 ///
 /// Throws InputError for a volume out of reach and RunError when a fitted model misses the measured
 /// volumes, to which alone it was fitted, by more than the tolerance.
-[[nodiscard]] Fit fit(const Model& model, const Parameters& start, const Plan& plan);
+[[nodiscard]] Fit fit(const Model& model, const FitParameters& start, const Plan& plan);
 
 }  // namespace lv::calibrate

@@ -19,7 +19,7 @@ double distance(const Loads& a, const Loads& b) {
 }  // namespace
 
 Ventricle::Ventricle(const mesh::Mesh& mesh, ModelOf model_of,
-                     const quasi_static::Parameters& solver,
+                     const quasi_static::SolverParameters& solver,
                      const quasi_static::UnloadParameters& unloading)
     : given_(mesh),
       model_of_(std::move(model_of)),
@@ -28,7 +28,7 @@ Ventricle::Ventricle(const mesh::Mesh& mesh, ModelOf model_of,
       wall_(mesh),
       endocardium_(mesh) {}
 
-Outcome<double> Ventricle::unloaded_volume(const Parameters& parameters) {
+Outcome<double> Ventricle::unloaded_volume(const FitParameters& parameters) {
   if (unloading_.pressure == 0.0 || (unloaded_ && unloaded_with_ == parameters))
     return endocardium_.volume(wall_.nodes);
   const auto unloaded = quasi_static::unload(given_, model_of_(parameters), unloading_, solver_,
@@ -44,7 +44,7 @@ Outcome<double> Ventricle::unloaded_volume(const Parameters& parameters) {
   return endocardium_.volume(wall_.nodes);
 }
 
-Outcome<double> Ventricle::volume(const Parameters& parameters, const Loads& loads) {
+Outcome<double> Ventricle::volume(const FitParameters& parameters, const Loads& loads) {
   if (const auto unloaded = unloaded_volume(parameters); !unloaded)
     return unloaded;
   const auto volume = approach(model_of_(parameters), loads);
@@ -57,7 +57,8 @@ Outcome<double> Ventricle::volume(const Parameters& parameters, const Loads& loa
   return volume;
 }
 
-Outcome<std::vector<Vec3>> Ventricle::positions(const Parameters& parameters, const Loads& loads) {
+Outcome<std::vector<Vec3>> Ventricle::positions(const FitParameters& parameters,
+                                                const Loads& loads) {
   if (const auto found = volume(parameters, loads); !found)
     return found.why();
   return engine_->state().positions;

@@ -9,25 +9,26 @@
 namespace lv::calibrate {
 
 /// The parameters that a calibration may change.
-struct Parameters {
+struct FitParameters {
   double C_a = 1.0;       ///< factor of a_f, a_s and a_fs (2.25)
   double scale = 1.0;     ///< factor of a, a_f, a_s and a_fs besides
   double exponent = 1.0;  ///< factor of b, b_f, b_s and b_fs
   double T_scale = 1.0;   ///< strength of contraction (Appendix A)
 
-  [[nodiscard]] bool operator==(const Parameters&) const = default;
+  [[nodiscard]] bool operator==(const FitParameters&) const = default;
 };
 
 /// What a fit asks of a ventricle; nowhere need there be an equilibrium.
 struct Model {
   using Loads = solid::Loads;
   /// Of the cavity in equilibrium [mm^3].
-  std::function<Outcome<double>(const Parameters&, const Loads&)> volume;
+  std::function<Outcome<double>(const FitParameters&, const Loads&)> volume;
   /// Of the cavity without load [mm^3].
-  std::function<Outcome<double>(const Parameters&)> unloaded_volume;
+  std::function<Outcome<double>(const FitParameters&)> unloaded_volume;
   /// Regional strains between two equilibria, in the order of Plan::strains. May be empty without
   /// such.
-  std::function<Outcome<std::vector<double>>(const Parameters&, const Loads& ed, const Loads& es)>
+  std::function<Outcome<std::vector<double>>(const FitParameters&, const Loads& ed,
+                                             const Loads& es)>
       strains;
 };
 
@@ -37,20 +38,20 @@ struct Model {
 /// the last result on.
 class Ventricle {
  public:
-  using ModelOf = std::function<quasi_static::StaticModel(const Parameters&)>;
+  using ModelOf = std::function<quasi_static::StaticModel(const FitParameters&)>;
 
   /// The mesh must outlive it.
-  Ventricle(const mesh::Mesh& mesh, ModelOf model_of, const quasi_static::Parameters& solver,
+  Ventricle(const mesh::Mesh& mesh, ModelOf model_of, const quasi_static::SolverParameters& solver,
             const quasi_static::UnloadParameters& unloading = {});
 
   // Each is collective.
 
   /// Of the cavity [mm^3].
-  Outcome<double> volume(const Parameters& parameters, const solid::Loads& loads);
-  Outcome<double> unloaded_volume(const Parameters& parameters);
+  Outcome<double> volume(const FitParameters& parameters, const solid::Loads& loads);
+  Outcome<double> unloaded_volume(const FitParameters& parameters);
 
   /// Of the nodes [mm].
-  Outcome<std::vector<Vec3>> positions(const Parameters& parameters, const solid::Loads& loads);
+  Outcome<std::vector<Vec3>> positions(const FitParameters& parameters, const solid::Loads& loads);
 
   /// Free of stress, with the parameters that were asked for last.
   [[nodiscard]] const mesh::Mesh& wall() const { return wall_; }
@@ -65,12 +66,12 @@ class Ventricle {
 
   const mesh::Mesh& given_;
   ModelOf model_of_;
-  quasi_static::Parameters solver_;
+  quasi_static::SolverParameters solver_;
   quasi_static::UnloadParameters unloading_;
   mesh::Mesh wall_;  ///< free of stress
   solid::EndocardialSurface endocardium_;
   std::optional<quasi_static::Unloaded> unloaded_;
-  Parameters unloaded_with_;
+  FitParameters unloaded_with_;
   std::optional<quasi_static::Engine> engine_;  ///< of wall_
   std::vector<Equilibrium> known_;
 };

@@ -12,7 +12,7 @@ namespace {
 constexpr double parameter_step = 0.01;               // of the logarithm
 constexpr double pressure_step = 0.25 * units::mmHg;  // [kPa]
 
-Parameters scaled(Parameters p, const Fitted& which, double factor) {
+FitParameters scaled(FitParameters p, const Fitted& which, double factor) {
   p.*which.member *= factor;
   return p;
 }
@@ -22,10 +22,10 @@ Eigen::VectorXd as_vector(const std::vector<double>& values) {
 }
 
 /// d ln V_k minus, where its target moves with the parameters, d ln target_k.
-double by_parameter(const Model& model, const Parameters& at, const Fitted& which,
-                    const Observation& o) {
-  const Parameters above = scaled(at, which, std::exp(parameter_step));
-  const Parameters below = scaled(at, which, std::exp(-parameter_step));
+double by_parameter(const Model& model, const FitParameters& at, const Fitted& which,
+                    const ObservedVolume& o) {
+  const FitParameters above = scaled(at, which, std::exp(parameter_step));
+  const FitParameters below = scaled(at, which, std::exp(-parameter_step));
   double change =
       std::log(model.volume(above, o.loads).value() / model.volume(below, o.loads).value());
   if (o.target_by_unloaded != 0.0)
@@ -41,10 +41,10 @@ struct StrainRows {
   Eigen::Matrix<double, Eigen::Dynamic, 2> by_pressure;  ///< dE_i/dp_ED, dE_i/dp_ES [1/kPa]
 };
 
-StrainRows strain_rows(const Model& model, const Parameters& at,
+StrainRows strain_rows(const Model& model, const FitParameters& at,
                        const std::vector<Fitted>& parameters, const solid::Loads& ed,
                        const solid::Loads& es) {
-  const auto strains = [&](const Parameters& p, double d_ed, double d_es) {
+  const auto strains = [&](const FitParameters& p, double d_ed, double d_es) {
     return as_vector(
         model.strains(p, {ed.pressure + d_ed, ed.activation}, {es.pressure + d_es, es.activation})
             .value());
@@ -79,9 +79,9 @@ Eigen::MatrixXd inverse_of_normal_matrix(const Eigen::MatrixXd& J) {
 
 }  // namespace
 
-Sensitivity sensitivity(const Model& model, const Parameters& at,
+Sensitivity sensitivity(const Model& model, const FitParameters& at,
                         const std::vector<Fitted>& parameters,
-                        const std::vector<Observation>& observations, double edv,
+                        const std::vector<ObservedVolume>& observations, double edv,
                         const solid::Loads& ed, const solid::Loads& es, const Errors& errors) {
   const auto n = static_cast<Eigen::Index>(parameters.size());
   const auto m = static_cast<Eigen::Index>(observations.size());
@@ -89,7 +89,7 @@ Sensitivity sensitivity(const Model& model, const Parameters& at,
   Eigen::MatrixXd by_data = Eigen::MatrixXd::Zero(m, 4);  // of ln V_target - ln V, at fixed x
   Eigen::VectorXd weight(m);
   for (Eigen::Index k = 0; k < m; ++k) {
-    const Observation& o = observations[k];
+    const ObservedVolume& o = observations[k];
     for (Eigen::Index j = 0; j < n; ++j)
       s.by_parameter(k, j) = by_parameter(model, at, parameters[j], o);
     const auto under = [&](double p) { return model.volume(at, {p, o.loads.activation}).value(); };

@@ -12,12 +12,12 @@ namespace lv::calibrate {
 /// A fitted parameter: its name and place.
 struct Fitted {
   std::string name;
-  double Parameters::*member;
+  double FitParameters::*member;
 };
 
 /// A volume that the model should have under loads, and how its target follows from what was
 /// measured.
-struct Observation {
+struct ObservedVolume {
   std::string name;
   solid::Loads loads;
   double target = 0.0;  ///< [mm^3]
@@ -55,9 +55,9 @@ struct Sensitivity {
 
 /// `ed` and `es` are the loads between which strains are measured; without `model.strains` they and
 /// `errors` mean nothing.
-[[nodiscard]] Sensitivity sensitivity(const Model& model, const Parameters& at,
+[[nodiscard]] Sensitivity sensitivity(const Model& model, const FitParameters& at,
                                       const std::vector<Fitted>& parameters,
-                                      const std::vector<Observation>& observations, double edv,
+                                      const std::vector<ObservedVolume>& observations, double edv,
                                       const solid::Loads& ed = {}, const solid::Loads& es = {},
                                       const Errors& errors = {});
 

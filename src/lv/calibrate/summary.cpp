@@ -43,7 +43,7 @@ std::string volume_rows(const Fit& fit) {
   std::string text = fmt::format("  {:<18}{:>10}{:>14}{:>12}{:>9}{:>16}\n", "volume", "mmHg",
                                  "measured ml", "model ml", "off", "dV/dp ml/mmHg");
   for (std::size_t k = 0; k < fit.observations.size(); ++k) {
-    const Observation& o = fit.observations[k];
+    const ObservedVolume& o = fit.observations[k];
     text += fmt::format("  {:<18}{:>10.2f}{:>14.2f}{:>12.2f}{:>8.2f}%{:>16.3f}\n", o.name,
                         o.loads.pressure / mmHg, 1e-3 * o.target, 1e-3 * fit.volumes[k],
                         100.0 * (fit.volumes[k] / o.target - 1.0),
@@ -136,20 +136,20 @@ std::string weakest_direction(const Fit& fit) {
 /// In words, which parameters the data cannot tell apart.
 std::vector<std::string> ambiguities(const Plan& plan, const Fit& fit) {
   std::vector<std::string> words;
-  if (plan.passive == Passive::C_a && !fit.strain_fit)
+  if (plan.passive == FittedPassive::C_a && !fit.strain_fit)
     words.emplace_back(
         "One volume determines one passive parameter: how a compares with a_f, a_s and a_fs, and "
         "the exponents, keep the case's values; other values with the same EDV fit as well.");
-  if (plan.passive == Passive::scale && !fit.strain_fit)
+  if (plan.passive == FittedPassive::scale && !fit.strain_fit)
     words.emplace_back(
         "One volume determines one passive parameter: how a, a_f, a_s and a_fs compare, and the "
         "exponents, keep the case's values; other values with the same EDV fit as well.");
-  if (plan.passive == Passive::scale_and_exponent)
+  if (plan.passive == FittedPassive::scale_and_exponent)
     words.emplace_back(
         "Scale and exponent are told apart by the Klotz curve alone, a mean over hearts and not a "
         "measurement of this one; how the a's compare, and how the b's, keep the case's values.");
   const double e = fit.parameters.exponent;
-  if (plan.passive == Passive::scale_and_exponent &&
+  if (plan.passive == FittedPassive::scale_and_exponent &&
       (e < 1.001 * plan.exponent.low || e > 0.999 * plan.exponent.high))
     words.emplace_back("The exponent stands at the end of its range.");
   const Sensitivity& s = fit.sensitivity;
@@ -172,12 +172,12 @@ std::vector<std::string> ambiguities(const Plan& plan, const Fit& fit) {
   return words;
 }
 
-Json parameters_json(const Parameters& p) {
+Json parameters_json(const FitParameters& p) {
   return {{"C_a", p.C_a}, {"scale", p.scale}, {"exponent", p.exponent}, {"T_scale", p.T_scale}};
 }
 
 Json observation_json(const Fit& fit, std::size_t k) {
-  const Observation& o = fit.observations[k];
+  const ObservedVolume& o = fit.observations[k];
   const auto row = static_cast<Eigen::Index>(k);
   Json json{{"name", o.name},
             {"pressure_mmHg", o.loads.pressure / mmHg},
@@ -239,7 +239,7 @@ std::string text(const Plan& plan, const Fit& fit) {
   std::string text = "calibration with the quasi-static engine\n\n" + volume_rows(fit) +
                      (fit.strain_fit ? strain_rows(plan, fit) : "") + parameter_rows(fit) +
                      (fit.strain_fit ? deviation_rows(fit) : "") + derivative_rows(fit) + "\n";
-  if (plan.passive == Passive::scale_and_exponent) {
+  if (plan.passive == FittedPassive::scale_and_exponent) {
     const Klotz k = klotz(plan.edv.volume, plan.ed_pressure);
     text += fmt::format(
         "  Klotz's own estimate without pressure is {:.2f} ml; the model starts from {:.2f} ml.\n",
@@ -280,8 +280,8 @@ Table history_table(const Fit& fit) {
   return table;
 }
 
-Parameters parameters_of(const std::filesystem::path& file) {
-  return from_json_file(file, [](const Json& json) -> Parameters {
+FitParameters parameters_of(const std::filesystem::path& file) {
+  return from_json_file(file, [](const Json& json) -> FitParameters {
     const Json& p = json.at("parameters");
     return {p.at("C_a"), p.at("scale"), p.at("exponent"), p.at("T_scale")};
   });

@@ -15,6 +15,6 @@ namespace lv::calibrate {
 [[nodiscard]] Table history_table(const Fit& fit);
 
 /// The fitted parameters from a file of `json`'s text. Throws RunError when it is damaged.
-[[nodiscard]] Parameters parameters_of(const std::filesystem::path& file);
+[[nodiscard]] FitParameters parameters_of(const std::filesystem::path& file);
 
 }  // namespace lv::calibrate

@@ -8,7 +8,7 @@ namespace lv::heartbeat {
 struct QuasiStaticSetup {
   const mesh::Mesh& mesh;
   quasi_static::StaticModel model;
-  quasi_static::Parameters parameters;
+  quasi_static::SolverParameters parameters;
   Protocol protocol;            ///< its tolerances, drags and longest times mean nothing here
   double frame_interval = 0.0;  ///< between frames [s]; the ends of the phases always have one
 };

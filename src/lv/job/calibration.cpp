@@ -19,14 +19,14 @@
 namespace lv::job {
 namespace {
 
-using calibrate::Parameters;
-using calibrate::Passive;
+using calibrate::FitParameters;
+using calibrate::FittedPassive;
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t most_beats = 3;  // one, and two with corrected parameters
 
 /// The case with other parameters; scale and exponent are factors of the case's.
-Case with(Case c, const Parameters& p) {
+Case with(Case c, const FitParameters& p) {
   c.passive.C_a = p.C_a;
   c.passive.holzapfel_ogden = c.passive.holzapfel_ogden.scaled(p.scale, p.exponent);
   c.active.T_scale = p.T_scale;
@@ -55,12 +55,12 @@ calibrate::Plan plan(const Case& c, const std::vector<StrainTarget>& targets) {
 /// The names of the parameters that a calibration changes.
 std::vector<std::string> changed(const Calibration& k) {
   std::vector<std::string> names;
-  if (k.passive == Passive::C_a)
+  if (k.passive == FittedPassive::C_a)
     names.emplace_back("passive.C_a");
-  if (k.passive == Passive::scale || k.passive == Passive::scale_and_exponent)
+  if (k.passive == FittedPassive::scale || k.passive == FittedPassive::scale_and_exponent)
     for (const char* a : {"a", "a_f", "a_s", "a_fs"})
       names.push_back(std::string("passive.holzapfel_ogden.") + a);
-  if (k.passive == Passive::scale_and_exponent)
+  if (k.passive == FittedPassive::scale_and_exponent)
     for (const char* b : {"b", "b_f", "b_s", "b_fs"})
       names.push_back(std::string("passive.holzapfel_ogden.") + b);
   if (k.active)
@@ -139,18 +139,19 @@ Case for_calibration(Case c) {
 
 void make_calibration(const Case& c, const MeshResult& mesh, const std::filesystem::path& folder) {
   calibrate::Ventricle ventricle(
-      mesh.mesh, [&](const Parameters& p) { return static_model(with(c, p)); },
+      mesh.mesh, [&](const FitParameters& p) { return static_model(with(c, p)); },
       c.quasi_static.solver, c.unloaded);
   const std::vector<StrainTarget> targets = strain_targets(c, mesh.regions);
   using solid::Loads;
   const calibrate::Model model{
-      [&](const Parameters& p, const Loads& loads) {
+      [&](const FitParameters& p, const Loads& loads) {
         if (parallel::any(interrupt::requested()))
           throw heartbeat::Interrupted("stopped; run the same command again to calibrate anew");
         return ventricle.volume(p, loads);
       },
-      [&](const Parameters& p) { return ventricle.unloaded_volume(p); },
-      [&](const Parameters& p, const Loads& ed, const Loads& es) -> Outcome<std::vector<double>> {
+      [&](const FitParameters& p) { return ventricle.unloaded_volume(p); },
+      [&](const FitParameters& p, const Loads& ed,
+          const Loads& es) -> Outcome<std::vector<double>> {
         const auto end_diastole = ventricle.positions(p, ed);
         if (!end_diastole)
           return end_diastole.why();

@@ -100,7 +100,7 @@ struct QuasiStatic {
   int layers = 0;            ///< quadratic elements through the wall; 0: as edge_length asks
   double apex = 0.3, endocardium = 0.5;  ///< see mesh::WallMeshParameters
   material::Volumetric stabilisation = quasi_static::StaticModel::default_stabilisation;
-  quasi_static::Parameters solver;
+  quasi_static::SolverParameters solver;
 };
 
 /// Which measure of strain a file holds: E = (lambda^2 - 1)/2 or lambda - 1.
@@ -108,7 +108,7 @@ enum class StrainMeasure { green_lagrange, engineering };
 
 /// Which parameters are fitted to which measured volumes, at the pressures of the protocol.
 struct Calibration {
-  calibrate::Passive passive = calibrate::Passive::none;
+  calibrate::FittedPassive passive = calibrate::FittedPassive::none;
   bool active = false;
   double edv = 0.0, esv = 0.0;  ///< 0: not measured [mm^3]
   double tolerance = 0.01;      ///< of the volumes, as a fraction
@@ -120,7 +120,7 @@ struct Calibration {
   calibrate::Errors errors;  ///< of what was measured, which weigh it
   bool confirm = false;      ///< with the immersed engine
 
-  [[nodiscard]] bool asked() const { return passive != calibrate::Passive::none || active; }
+  [[nodiscard]] bool asked() const { return passive != calibrate::FittedPassive::none || active; }
 };
 
 /// Strain measured from cine images, or by somebody else. File names as the case file gives them.

@@ -135,7 +135,7 @@ class CaseReader {
 
   void check_calibration() {
     const Calibration& k = case_.calibration;
-    const bool passive = k.passive != calibrate::Passive::none;
+    const bool passive = k.passive != calibrate::FittedPassive::none;
     for (const char* name :
          {"calibrate.edv", "calibrate.esv", "calibrate.strains", "calibrate.confirm"})
       rule(k.asked() || case_.origin.count(name) == 0, name,

@@ -33,7 +33,7 @@ class ModelStrain {
     const auto& then = model.fields.at(heartbeat::end_diastole);
     const auto& now = model.fields.at(heartbeat::end_systole);
     for (std::size_t i = 0; i < now.size(); ++i) {
-      const analysis::Strain s = analysis::strain(now[i], then[i]);
+      const analysis::CellStrain s = analysis::strain(now[i], then[i]);
       for (std::size_t k = 0; k < 2; ++k) {
         const double E = k == 0 ? s.circumferential : s.radial;
         values_[k].push_back(

@@ -25,7 +25,7 @@ concept PassiveLaw = requires(const L& law, const Tensor<double>& F, const Tenso
 static_assert(PassiveLaw<HolzapfelOgden> && PassiveLaw<Guccione> && PassiveLaw<NeoHookean>);
 
 /// The passive law of a wall.
-using Passive = std::variant<HolzapfelOgden, Guccione, NeoHookean>;
+using AnyPassiveLaw = std::variant<HolzapfelOgden, Guccione, NeoHookean>;
 
 /// How an infarct changes the muscle, with M(X) the local extent (2.11): 1 in the scar, 0 in
 /// healthy muscle.

@@ -13,7 +13,7 @@ enum class VolumetricPoints { full, mean };
 
 /// What the wall is made of.
 struct Myocardium {
-  Passive passive = HolzapfelOgden{};
+  AnyPassiveLaw passive = HolzapfelOgden{};
   ActiveLaw active = NiedererHunterSmith{};
   Volumetric volumetric;  ///< of the immersed engine
   VolumetricPoints volumetric_points = VolumetricPoints::mean;

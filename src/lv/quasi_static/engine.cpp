@@ -33,7 +33,7 @@ constexpr double growth = 1.7;
 
 }  // namespace
 
-Engine::Engine(const mesh::Mesh& mesh, const StaticModel& model, const Parameters& parameters)
+Engine::Engine(const mesh::Mesh& mesh, const StaticModel& model, const SolverParameters& parameters)
     : parameters_(parameters),
       equations_(mesh, model),
       newton_(equations_, parameters.newton),

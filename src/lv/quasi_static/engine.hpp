@@ -9,7 +9,7 @@
 namespace lv::quasi_static {
 
 /// Parameters of the quasi-static engine.
-struct Parameters {
+struct SolverParameters {
   NewtonParameters newton;
   double first_step = 0.1;      ///< of the way from one load to the next [-]
   double smallest_step = 1e-4;  ///< before the engine gives up [-]
@@ -29,7 +29,7 @@ struct Step {
 class Engine {
  public:
   /// The mesh must outlive the engine. Throws InputError as reference_wall.
-  Engine(const mesh::Mesh& mesh, const StaticModel& model, const Parameters& parameters);
+  Engine(const mesh::Mesh& mesh, const StaticModel& model, const SolverParameters& parameters);
 
   /// Goes straight from the present loads to others, in steps as long as Newton's method manages,
   /// and returns the cavity's volume there [mm^3]; `observe` (may be empty) is told each
@@ -60,7 +60,7 @@ class Engine {
   void restore(const State& state, const Loads& loads);
 
  private:
-  Parameters parameters_;
+  SolverParameters parameters_;
   Equations equations_;
   Newton newton_;
   State state_;

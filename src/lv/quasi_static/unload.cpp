@@ -20,14 +20,14 @@ constexpr double smallest_share = 1.0 / 64;  // of the pressure, before it gives
 constexpr double far_below = 0.02;
 constexpr double loose = 0.5;  // tolerance on the way to the whole pressure [mm]
 
-using Shape = std::vector<Vec3>;
+using Nodes = std::vector<Vec3>;
 
-Eigen::Map<const Eigen::VectorXd> as_vector(const Shape& shape) {
+Eigen::Map<const Eigen::VectorXd> as_vector(const Nodes& shape) {
   return {shape.front().data(), static_cast<Eigen::Index>(3 * shape.size())};
 }
 
-Shape as_shape(const Eigen::VectorXd& numbers) {
-  Shape shape(static_cast<std::size_t>(numbers.size() / 3));
+Nodes as_nodes(const Eigen::VectorXd& numbers) {
+  Nodes shape(static_cast<std::size_t>(numbers.size() / 3));
   for (std::size_t a = 0; a < shape.size(); ++a)
     shape[a] = numbers.segment<3>(static_cast<Eigen::Index>(3 * a));
   return shape;
@@ -60,7 +60,7 @@ struct Trial {
 class Unloader {
  public:
   Unloader(const mesh::Mesh& given, const StaticModel& model, const UnloadParameters& parameters,
-           const Parameters& solver)
+           const SolverParameters& solver)
       : given_(given),
         model_(model),
         parameters_(parameters),
@@ -79,7 +79,7 @@ class Unloader {
                       equilibria_),
           "Check unloaded.pressure (a soft wall may never have had so much), or raise "
           "unloaded.tolerance or unloaded.iterations"};
-    return Unloaded{as_shape(now_.X), std::move(now_.loaded), std::move(steps_)};
+    return Unloaded{as_nodes(now_.X), std::move(now_.loaded), std::move(steps_)};
   }
 
  private:
@@ -177,7 +177,7 @@ class Unloader {
   /// The equilibrium of X; nothing where the wall is turned inside out or has none.
   std::optional<Trial> load(const Eigen::VectorXd& X, const State* near) {
     mesh::Mesh wall = given_;
-    wall.nodes = as_shape(X);
+    wall.nodes = as_nodes(X);
     if (!is_sound(wall))
       return {};
     ++equilibria_;
@@ -217,7 +217,7 @@ class Unloader {
   const mesh::Mesh& given_;
   const StaticModel& model_;
   const UnloadParameters& parameters_;
-  const Parameters& solver_;
+  const SolverParameters& solver_;
   solid::EndocardialSurface endocardium_;
   Eigen::VectorXd target_;
   double pressure_ = 0.0;  ///< in force [kPa]
@@ -230,7 +230,7 @@ class Unloader {
 }  // namespace
 
 Outcome<Unloaded> unload(const mesh::Mesh& given, const StaticModel& model,
-                         const UnloadParameters& parameters, const Parameters& solver,
+                         const UnloadParameters& parameters, const SolverParameters& solver,
                          const Unloaded* start) {
   return Unloader(given, model, parameters, solver).run(start);
 }

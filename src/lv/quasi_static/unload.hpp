@@ -45,7 +45,7 @@ struct Unloaded {
 /// `start` may be the result for other muscle, from where few steps are needed. Unsolved, with the
 /// distance that is left, when the tolerance is not met. Collective.
 Outcome<Unloaded> unload(const mesh::Mesh& given, const StaticModel& model,
-                         const UnloadParameters& parameters, const Parameters& solver,
+                         const UnloadParameters& parameters, const SolverParameters& solver,
                          const Unloaded* start = nullptr);
 
 }  // namespace lv::quasi_static

@@ -24,7 +24,7 @@ namespace lv::report {
 namespace {
 
 using analysis::CellFields;
-using analysis::Strain;
+using analysis::CellStrain;
 
 /// Adds arrays to the points or cells of a data set, one value function each.
 class Arrays {
@@ -132,7 +132,7 @@ void add_frames(Arrays& arrays, const std::vector<CellFields>& cells) {
   arrays.scalar("infarct", [&](auto c) { return cells[c].infarct; });
 }
 
-void add_strain(Arrays& arrays, const std::string& against, const std::vector<Strain>& strains,
+void add_strain(Arrays& arrays, const std::string& against, const std::vector<CellStrain>& strains,
                 const std::vector<Mat3>& E) {
   const auto named = [&](const char* component) {
     return fmt::format("E_{}_{}", component, against);
@@ -151,7 +151,7 @@ Mat3 green_lagrange(const Mat3& F) {
 
 void add_strains(Arrays& arrays, const std::vector<CellFields>& now,
                  const std::vector<CellFields>& end_diastole) {
-  std::vector<Strain> strains;
+  std::vector<CellStrain> strains;
   std::vector<Mat3> E;
   for (const CellFields& cell : now) {
     strains.push_back(analysis::strain(cell));
@@ -163,7 +163,7 @@ void add_strains(Arrays& arrays, const std::vector<CellFields>& now,
     const bool known = !end_diastole.empty();
     strains[c] =
         known ? analysis::strain(now[c], end_diastole[c])
-              : Strain{missing, missing, missing, missing, missing, missing, missing, missing};
+              : CellStrain{missing, missing, missing, missing, missing, missing, missing, missing};
     E[c] = known ? green_lagrange(now[c].F * end_diastole[c].F.inverse())
                  : Mat3::Constant(missing).eval();
   }

@@ -14,8 +14,8 @@ namespace {
 
 using analysis::RegionalValue;
 using analysis::Results;
-using analysis::Shape;
 using analysis::Statistics;
+using analysis::VentricleShape;
 using Json = nlohmann::ordered_json;
 using units::degree;
 using units::mmHg;
@@ -27,7 +27,7 @@ Json number(double value) {
   return std::stod(fmt::format("{:.7g}", value));
 }
 
-Json shape_json(const Shape& s) {
+Json shape_json(const VentricleShape& s) {
   return {{"time_s", number(s.time)},
           {"pressure_mmHg", number(s.pressure / mmHg)},
           {"cavity_volume_ml", number(1e-3 * s.cavity_volume)},
@@ -225,9 +225,9 @@ std::string summary_text(const RunFacts& facts, const heartbeat::Beat& beat, con
   const auto row = [&](const char* what, double a, double b, double c) {
     text += fmt::format("  {:<34}{:>14.2f}{:>14.2f}{:>14.2f}\n", what, a, b, c);
   };
-  const Shape& e = r.early_diastole;
-  const Shape& d = r.at(heartbeat::end_diastole);
-  const Shape& s = r.at(heartbeat::end_systole);
+  const VentricleShape& e = r.early_diastole;
+  const VentricleShape& d = r.at(heartbeat::end_diastole);
+  const VentricleShape& s = r.at(heartbeat::end_systole);
   row("endocardial pressure (mmHg)", 0.0, d.pressure / mmHg, s.pressure / mmHg);
   row("cavity volume (ml)", 1e-3 * e.cavity_volume, 1e-3 * d.cavity_volume, 1e-3 * s.cavity_volume);
   row("wall volume (ml)", 1e-3 * e.wall_volume, 1e-3 * d.wall_volume, 1e-3 * s.wall_volume);

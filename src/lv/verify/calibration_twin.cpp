@@ -9,10 +9,10 @@
 namespace lv::verify {
 namespace {
 
-using calibrate::Parameters;
+using calibrate::FitParameters;
 using units::mmHg;
 
-quasi_static::StaticModel static_model(const Parameters& p) {
+quasi_static::StaticModel static_model(const FitParameters& p) {
   solid::CardiacModel heart{.base = {.stiffness = quasi_static::rigid_base}};
   heart.myocardium.passive =
       material::HolzapfelOgden{}.scaled(p.scale).with_anisotropy_scaled(p.C_a);
@@ -25,12 +25,12 @@ mesh::Mesh coarse_ventricle() {
   return ideal_mesh({.edge_length = 6.0, .layers = 2, .order = 2});
 }
 
-constexpr Parameters truth{.C_a = 1.4, .T_scale = 3.6};
+constexpr FitParameters truth{.C_a = 1.4, .T_scale = 3.6};
 
 /// C_a and T_scale at the paper's healthy pressures; the measurements are left out.
 calibrate::Plan both_parameters() {
   calibrate::Plan plan;
-  plan.passive = calibrate::Passive::C_a;
+  plan.passive = calibrate::FittedPassive::C_a;
   plan.active = true;
   plan.ed_pressure = 8.0 * mmHg;
   plan.es_pressure = 150.0 * mmHg;
@@ -63,8 +63,8 @@ void calibration_twin(Findings& found) {
   const mesh::Mesh mesh = coarse_ventricle();
   calibrate::Ventricle ventricle(mesh, static_model, {});
   const calibrate::Model model{
-      [&](const Parameters& p, const solid::Loads& loads) { return ventricle.volume(p, loads); },
-      [&](const Parameters& p) { return ventricle.unloaded_volume(p); },
+      [&](const FitParameters& p, const solid::Loads& loads) { return ventricle.volume(p, loads); },
+      [&](const FitParameters& p) { return ventricle.unloaded_volume(p); },
       {}};
   calibrate::Plan plan = both_parameters();
   plan.edv.volume = model.volume(truth, {plan.ed_pressure, 0.0}).value();
@@ -84,9 +84,10 @@ void strain_twin(Findings& found) {
   calibrate::Ventricle ventricle(mesh, static_model, {});
   using solid::Loads;
   const calibrate::Model model{
-      [&](const Parameters& p, const Loads& loads) { return ventricle.volume(p, loads); },
-      [&](const Parameters& p) { return ventricle.unloaded_volume(p); },
-      [&](const Parameters& p, const Loads& ed, const Loads& es) -> Outcome<std::vector<double>> {
+      [&](const FitParameters& p, const Loads& loads) { return ventricle.volume(p, loads); },
+      [&](const FitParameters& p) { return ventricle.unloaded_volume(p); },
+      [&](const FitParameters& p, const Loads& ed,
+          const Loads& es) -> Outcome<std::vector<double>> {
         const auto end_diastole = ventricle.positions(p, ed).value();
         const auto end_systole = ventricle.positions(p, es).value();
         return segment_strains(mesh, regions, end_diastole, end_systole);

@@ -21,7 +21,7 @@ using quasi_static::Engine;
 using solid::CardiacModel;
 
 /// A wall of one passive law, on a base that slides.
-CardiacModel without_tension(const material::Passive& law) {
+CardiacModel without_tension(const material::AnyPassiveLaw& law) {
   CardiacModel heart{.base = {.stiffness = quasi_static::rigid_base}};
   heart.myocardium.passive = law;
   heart.myocardium.active = material::PrescribedTension{0.0};
@@ -147,7 +147,7 @@ struct Filled {
   double iterations = 0.0;  ///< per linear solve
 
   Filled(const mesh::Mesh& mesh, quasi_static::LinearMethod method) {
-    quasi_static::Parameters parameters;
+    quasi_static::SolverParameters parameters;
     parameters.newton.linear.method = method;
     Engine engine(mesh, without_tension(material::HolzapfelOgden{}), parameters);
     int solves = 0, sum = 0;

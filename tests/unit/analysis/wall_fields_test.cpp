@@ -13,7 +13,7 @@ namespace {
 
 using namespace lv;
 using analysis::CellFields;
-using analysis::Strain;
+using analysis::CellStrain;
 using mesh::CellKind;
 using mesh::Mesh;
 
@@ -54,7 +54,7 @@ Mat3 sheared() {
   return F;
 }
 
-void check_strain(const Strain& s, const Mat3& E, const Vec3& f) {
+void check_strain(const CellStrain& s, const Mat3& E, const Vec3& f) {
   CHECK(s.fibre == Approx(f.dot(E * f)).margin(1e-13));
   CHECK(s.radial == Approx(E(0, 0)).margin(1e-13));
   CHECK(s.circumferential == Approx(E(1, 1)).margin(1e-13));
@@ -132,7 +132,7 @@ TEST_CASE("the directions of an earlier state turn with the wall", "[unit][analy
   const auto then = uniform(CellKind::tetrahedron, turn);
   const auto now = uniform(CellKind::tetrahedron, turn * since);
   for (std::size_t c = 0; c < now.size(); ++c) {
-    const Strain s = analysis::strain(now[c], then[c]);
+    const CellStrain s = analysis::strain(now[c], then[c]);
     CHECK(s.radial == Approx(0.5 * (1.3 * 1.3 - 1.0)));
     CHECK(s.circumferential == Approx(0.5 * (0.9 * 0.9 - 1.0)));
     CHECK(s.longitudinal == Approx(0.5 * (0.85 * 0.85 - 1.0)));
@@ -152,7 +152,7 @@ TEST_CASE("layers that slide over one another do not thicken", "[unit][analysis]
   Mat3 slide = Mat3::Identity();
   slide(2, 0) = 0.4;
   for (const CellFields& cell : uniform(CellKind::hexahedron, slide)) {
-    const Strain s = analysis::strain(cell);
+    const CellStrain s = analysis::strain(cell);
     CHECK(std::abs(s.thickening) < 1e-13);
     CHECK(s.radial == Approx(0.08));  // the line across the wall is longer all the same
     CHECK(s.radial_longitudinal == Approx(0.2));

@@ -21,7 +21,7 @@ constexpr double V_0 = 70e3;
 
 /// A cavity whose volume is known in closed form: it fills by a power of pressure over stiffness,
 /// like Klotz's curve for exponent = 1, and contraction takes its share away.
-double volume(const Parameters& p, const Loads& loads) {
+double volume(const FitParameters& p, const Loads& loads) {
   const double filling = 40e3 * std::pow(loads.pressure / (p.C_a * p.scale), p.exponent / 2.76);
   return (V_0 + filling) / (1.0 + 0.8 * loads.activation * p.T_scale);
 }
@@ -39,16 +39,16 @@ Plan plan() {
   return p;
 }
 
-double unloaded_volume(const Parameters&) {
+double unloaded_volume(const FitParameters&) {
   return V_0;
 }
 
 const Model model{volume, unloaded_volume, {}};
 
 /// To find C_a and T_scale from the volumes that these make.
-Plan plan_for(const Parameters& truth) {
+Plan plan_for(const FitParameters& truth) {
   Plan p = plan();
-  p.passive = Passive::C_a;
+  p.passive = FittedPassive::C_a;
   p.active = true;
   p.edv.volume = volume(truth, {p.ed_pressure, 0.0});
   p.esv.volume = volume(truth, {p.es_pressure, 1.0});
@@ -58,7 +58,7 @@ Plan plan_for(const Parameters& truth) {
 }  // namespace
 
 TEST_CASE("C_a and T_scale that made the volumes are found", "[calibrate]") {
-  const Parameters truth{.C_a = 7.5, .T_scale = 5.5};
+  const FitParameters truth{.C_a = 7.5, .T_scale = 5.5};
   const Plan p = plan_for(truth);
   const Fit found = fit(model, {.C_a = 1.0, .T_scale = 3.0}, p);
   CHECK(found.parameters.C_a == Approx(truth.C_a).epsilon(1e-3));
@@ -70,7 +70,7 @@ TEST_CASE("C_a and T_scale that made the volumes are found", "[calibrate]") {
 }
 
 TEST_CASE("a fit says how it moves with the measurements", "[calibrate]") {
-  const Parameters truth{.C_a = 7.5, .T_scale = 5.5};
+  const FitParameters truth{.C_a = 7.5, .T_scale = 5.5};
   const Plan p = plan_for(truth);
   const Sensitivity s = fit(model, truth, p).sensitivity;
 
@@ -93,7 +93,7 @@ TEST_CASE("a fit says how it moves with the measurements", "[calibrate]") {
 TEST_CASE("scale and exponent are found from the end-diastolic point and the Klotz curve",
           "[calibrate]") {
   Plan p = plan();
-  p.passive = Passive::scale_and_exponent;
+  p.passive = FittedPassive::scale_and_exponent;
   p.edv.volume = volume({.scale = 3.0}, {p.ed_pressure, 0.0});
   const Fit found = fit(model, {.scale = 1.0, .exponent = 1.6}, p);
   CHECK(found.parameters.scale == Approx(3.0).epsilon(1e-3));
@@ -104,7 +104,7 @@ TEST_CASE("scale and exponent are found from the end-diastolic point and the Klo
 
 TEST_CASE("a volume out of reach is refused with the volumes within reach", "[calibrate]") {
   Plan p = plan();
-  p.passive = Passive::C_a;
+  p.passive = FittedPassive::C_a;
   p.edv.volume = 65e3;  // below the unloaded volume
   const double least = 1e-3 * volume({.C_a = 50.0}, {p.ed_pressure, 0.0});
   const double most = 1e-3 * volume({.C_a = 0.05}, {p.ed_pressure, 0.0});
@@ -117,9 +117,9 @@ TEST_CASE("a volume out of reach is refused with the volumes within reach", "[ca
 
 TEST_CASE("the bracket keeps away from where the model has no equilibrium", "[calibrate]") {
   Plan p = plan();
-  p.passive = Passive::C_a;
+  p.passive = FittedPassive::C_a;
   p.edv.volume = volume({.C_a = 0.72}, {p.ed_pressure, 0.0});
-  const auto fragile = [](const Parameters& q, const Loads& loads) -> lv::Outcome<double> {
+  const auto fragile = [](const FitParameters& q, const Loads& loads) -> lv::Outcome<double> {
     if (q.C_a < 0.7)
       return lv::Unsolved{"no equilibrium", ""};
     return volume(q, loads);
@@ -130,7 +130,7 @@ TEST_CASE("the bracket keeps away from where the model has no equilibrium", "[ca
 namespace {
 
 /// Strains of two segments that the two parameters move differently.
-std::vector<double> strains(const Parameters& p, const Loads& ed, const Loads& es) {
+std::vector<double> strains(const FitParameters& p, const Loads& ed, const Loads& es) {
   const double filling = std::log(volume(p, ed) / V_0);
   return {-0.1 - 0.05 * std::log(p.T_scale) * es.activation, -0.05 - 0.2 * filling};
 }
@@ -138,7 +138,7 @@ std::vector<double> strains(const Parameters& p, const Loads& ed, const Loads& e
 }  // namespace
 
 TEST_CASE("volumes and strains of a twin give its parameters back", "[calibrate]") {
-  const Parameters truth{.C_a = 2.5, .T_scale = 4.0};
+  const FitParameters truth{.C_a = 2.5, .T_scale = 4.0};
   Plan p = plan_for(truth);
   const std::vector<double> seen = strains(truth, {p.ed_pressure, 0.0}, {p.es_pressure, 1.0});
   p.strains = {{"3 ant", seen[0]}, {"3 inf", seen[1]}};
@@ -154,7 +154,7 @@ TEST_CASE("volumes and strains of a twin give its parameters back", "[calibrate]
 }
 
 TEST_CASE("the covariance of a fit to strains is that of its linear model", "[calibrate]") {
-  const Parameters truth{.C_a = 2.5, .T_scale = 4.0};
+  const FitParameters truth{.C_a = 2.5, .T_scale = 4.0};
   Plan p = plan_for(truth);
   const std::vector<double> seen = strains(truth, {p.ed_pressure, 0.0}, {p.es_pressure, 1.0});
   p.strains = {{"3 ant", seen[0]}, {"3 inf", seen[1]}};
@@ -169,7 +169,7 @@ TEST_CASE("the covariance of a fit to strains is that of its linear model", "[ca
 }
 
 TEST_CASE("a fit that the strains pull off its volumes is reported, not refused", "[calibrate]") {
-  const Parameters truth{.C_a = 2.5, .T_scale = 4.0};
+  const FitParameters truth{.C_a = 2.5, .T_scale = 4.0};
   Plan p = plan_for(truth);
   const std::vector<double> seen = strains(truth, {p.ed_pressure, 0.0}, {p.es_pressure, 1.0});
   p.strains = {{"3 ant", seen[0] - 0.05}, {"3 inf", seen[1]}};
@@ -181,12 +181,12 @@ TEST_CASE("a fit that the strains pull off its volumes is reported, not refused"
 
 TEST_CASE("of a volume with a maximum the stiffer root is found, and the maximum named",
           "[calibrate]") {
-  const auto with_maximum = [](const Parameters& p, const Loads&) {
+  const auto with_maximum = [](const FitParameters& p, const Loads&) {
     return 100e3 - 20e3 * std::pow(std::log(p.scale / 0.5), 2);  // at scale 0.5
   };
   const Model hill{with_maximum, unloaded_volume, {}};
   Plan p = plan();
-  p.passive = Passive::scale;
+  p.passive = FittedPassive::scale;
   p.edv.volume = 95e3;
   const double root = 0.5 * std::exp(0.5);
   for (const double start : {0.1, 0.4, 0.55, 1.0, 3.0})
@@ -201,10 +201,10 @@ TEST_CASE("of a volume with a maximum the stiffer root is found, and the maximum
 
 TEST_CASE("what is no lack of an equilibrium ends a fit", "[calibrate]") {
   Plan p = plan_for({.C_a = 2.5, .T_scale = 4.0});
-  p.passive = Passive::scale_and_exponent;
+  p.passive = FittedPassive::scale_and_exponent;
   int calls = 0;
   const auto disk_full_after = [&](int count) {
-    return [&, count](const Parameters& q, const Loads& loads) {
+    return [&, count](const FitParameters& q, const Loads& loads) {
       if (++calls > count)
         throw lv::RunError("the disk is full", "");
       return volume(q, loads);

@@ -45,7 +45,7 @@ Mesh infarcted(Mesh mesh) {
   return mesh;
 }
 
-Myocardium material_of(const material::Passive& passive, VolumetricPoints points) {
+Myocardium material_of(const material::AnyPassiveLaw& passive, VolumetricPoints points) {
   Myocardium material;
   material.passive = passive;
   material.volumetric_points = points;
@@ -172,8 +172,9 @@ TEST_CASE("the wall's force is minus the derivative of its energy", "[unit][soli
   test::RandomValues random(5);
   for (const CellKind kind : kinds) {
     for (const VolumetricPoints points : volumetric_points) {
-      for (const material::Passive& law : {material::Passive(material::Guccione{}),
-                                           material::Passive(material::NeoHookean{5.0})}) {
+      for (const material::AnyPassiveLaw& law :
+           {material::AnyPassiveLaw(material::Guccione{}),
+            material::AnyPassiveLaw(material::NeoHookean{5.0})}) {
         const Mesh mesh = infarcted(test::block_mesh(kind));
         const Myocardium material = material_of(law, points);
         const Wall wall(mesh, {}, material);
