@@ -90,7 +90,7 @@ const std::vector<CellFields>& BeatFields::reference(const std::string& moment) 
   return *from;
 }
 
-const Shape& Results::at(const std::string& moment) const {
+const VentricleShape& Results::at(const std::string& moment) const {
   return named(moments, moment, [](const auto& m) { return m.first; }).second;
 }
 
