@@ -1,9 +1,10 @@
 #include "lv/base/check.hpp"
+#include "lv/base/interrupt.hpp"
 #include "lv/base/launch.hpp"
 #include "lv/base/parallel.hpp"
+#include "lv/base/processors.hpp"
 #include "lv/base/table.hpp"
 #include "lv/base/units.hpp"
-#include "lv/heartbeat/immersed_beat.hpp"
 #include "lv/job/list_images.hpp"
 #include "lv/job/read_case.hpp"
 #include "lv/job/run.hpp"
@@ -21,16 +22,20 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <new>
 #include <optional>
-#include <thread>
+#include <system_error>
 
 namespace {
 
 // exit codes; 0: done
-constexpr int wrong_input = 1;    // or a failed verification
-constexpr int no_way_on = 2;      // a run that could not go on
-constexpr int defect = 3;         // of the program
-constexpr int interrupted = 130;  // with a checkpoint
+constexpr int wrong_input = 1;  // or a failed verification
+constexpr int no_way_on = 2;    // a run that could not go on
+constexpr int defect = 3;       // of the program
+constexpr int interrupted = lv::interrupt::exit_code;
+
+constexpr int usual_ranks = 8;    // that are started at most, unless more are asked for
+constexpr int most_ranks = 1024;  // that may be asked for
 
 /// What the command line asks for.
 struct Command {
@@ -53,32 +58,59 @@ struct Command {
   std::string solve_in;  ///< folder for the findings of one problem, see verify::solve_option
 };
 
-/// Cores that this process may use, at most eight.
-int default_ranks() {
-  return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 8);
+/// Does something that may be asked to stop, as all ranks are together; the exit code.
+template <class Work>
+int until_stopped(const Work& work) {
+  try {
+    work();
+    return 0;
+  } catch (const lv::Interrupted& stop) {
+    if (lv::parallel::is_root())
+      fmt::print(stderr, "ventricle: {}\n", stop.what());
+    return interrupted;
+  }
 }
 
 void write_new_case(const std::string& file) {
-  if (std::filesystem::exists(file))
+  if (std::filesystem::exists(std::filesystem::symlink_status(file)))
     throw lv::InputError(file, "exists already", "Choose another name");
   lv::write_file(file, lv::job::starter_case(std::filesystem::path(file).stem()));
   fmt::print("wrote {}; next: ventricle validate {}\n", file, file);
 }
 
+/// Refuses more ranks than the computation can be divided among, and two answers to how many.
+void check_ranks(const std::string& how, int ranks, int most) {
+  if (ranks > most)
+    throw lv::InputError(
+        how, fmt::format("the box can be divided among {} ranks at most", most),
+        fmt::format("Use at most {} ranks, or more box.cells along x and z", most));
+}
+
 /// Runs this program under mpirun if it is to run on several ranks. Its exit code; nothing if this
-/// process is to do the work itself.
-std::optional<int> run_on_ranks(const Command& command, const std::array<int, 3>& cells, int argc,
-                                char** argv) {
-  const int usual = std::min(default_ranks(), lv::job::most_ranks(cells));
+/// process is to do the work itself. Mistakes are told before any rank starts.
+std::optional<int> run_on_ranks(const Command& command, int most, int argc, char** argv) {
+  const int started = lv::launch::world_size();
+  if (started > 1) {
+    if (command.ranks > 0 && command.ranks != started)
+      throw lv::InputError(fmt::format("--ranks {}", command.ranks),
+                           fmt::format("mpirun has started {} ranks", started),
+                           "Leave out --ranks, or mpirun");
+    check_ranks(fmt::format("mpirun -n {}", started), started, most);
+    return {};
+  }
+  check_ranks(fmt::format("--ranks {}", command.ranks), command.ranks, most);
+  const int usual =
+      lv::launch::hindrance().empty() ? std::min({lv::processors(), usual_ranks, most}) : 1;
   const int ranks = command.ranks > 0 ? command.ranks : usual;
-  if (lv::launch::under_mpirun() || ranks == 1)
+  if (ranks == 1)
     return {};
   return lv::launch::run_in_front(ranks, {argv + 1, argv + argc});
 }
 
 int bench(const Command& command, int argc, char** argv) {
   const std::vector<int>& n = command.bench.cells;
-  if (const auto code = run_on_ranks(command, {n.at(0), n.at(1), n.at(2)}, argc, argv))
+  const int most = lv::job::most_ranks({n.at(0), n.at(1), n.at(2)});
+  if (const auto code = run_on_ranks(command, most, argc, argv))
     return *code;
   const lv::parallel::Session session(&argc, &argv);
   const std::string result = lv::job::bench(command.bench);
@@ -88,26 +120,18 @@ int bench(const Command& command, int argc, char** argv) {
 }
 
 int run_parallel(Command& command, int argc, char** argv) {
-  const lv::job::Case c =
-      lv::job::read_case(command.case_file);  // mistakes are told before ranks start
-  if (const auto code = run_on_ranks(command, c.box.cells, argc, argv))
+  const lv::job::Case c = lv::job::read_case(command.case_file);
+  const int most =
+      c.engine == lv::job::Engine::immersed ? lv::job::most_ranks(c.box.cells) : most_ranks;
+  if (const auto code = run_on_ranks(command, most, argc, argv))
     return *code;
   const lv::parallel::Session session(&argc, &argv);
   if (!command.until.empty())
     command.run.until = command.until;
-  try {
-    lv::job::run(c, command.run);
-  } catch (const lv::heartbeat::Interrupted& stop) {  // thrown on all ranks together
-    if (lv::parallel::is_root())
-      fmt::print(stderr, "ventricle: {}\n", stop.what());
-    return interrupted;
-  }
-  return 0;
+  return until_stopped([&] { lv::job::run(c, command.run); });
 }
 
 int validate(const Command& command, int argc, char** argv) {
-  if (lv::launch::under_mpirun())
-    throw lv::InputError("validate", "runs on one rank", "Run it without mpirun");
   const lv::parallel::Session session(&argc, &argv);
   fmt::print("{}", lv::job::validate(lv::job::read_case(command.case_file)));
   return 0;
@@ -117,8 +141,7 @@ int measure_strain(Command& command, int argc, char** argv) {
   const lv::job::Case c = lv::job::read_case(command.case_file);
   const lv::parallel::Session session(&argc, &argv);
   command.run.until = "strain";
-  lv::job::run(c, command.run);
-  return 0;
+  return until_stopped([&] { lv::job::run(c, command.run); });
 }
 
 int verify(const Command& command, int argc, char** argv) {
@@ -126,10 +149,17 @@ int verify(const Command& command, int argc, char** argv) {
     fmt::print("{}", lv::verify::list());
     return 0;
   }
+  lv::interrupt::install();
   if (command.solve_in.empty())
-    return lv::verify::run(command.verify) ? 0 : 1;
+    return lv::verify::run(command.verify) ? 0 : wrong_input;
   const lv::parallel::Session session(&argc, &argv);
-  lv::verify::solve(command.verify.names.at(0), command.solve_in);
+  return until_stopped([&] { lv::verify::solve(command.verify.names.at(0), command.solve_in); });
+}
+
+int phantom(const Command& command) {
+  lv::interrupt::install();
+  fmt::print("{}", lv::phantom::write_study(command.ventricle, command.scan, command.study,
+                                            command.folder));
   return 0;
 }
 
@@ -150,14 +180,20 @@ int write_page(const Command& command, const std::string& name, int argc, char**
   return 0;
 }
 
+void add_ranks(CLI::App& app, Command& command) {
+  app.add_option("--ranks", command.ranks,
+                 fmt::format("MPI ranks (default: the processors that it may use, at most {})",
+                             usual_ranks))
+      ->check(CLI::Range(1, most_ranks));
+}
+
 /// Options of the commands that compute in a work folder.
 void add_run_options(CLI::App& app, Command& command) {
   app.add_option("CASE", command.case_file, "the case file")->required();
   app.add_option("--work", command.run.work,
                  "work folder (default: the case file's name with .work)");
   app.add_flag("--explain", command.run.explain, "say why each stage runs or does not");
-  app.add_option("--ranks", command.ranks, "MPI ranks (default: the number of cores, at most 8)")
-      ->check(CLI::PositiveNumber);
+  add_ranks(app, command);
 }
 
 void add_verify(CLI::App& app, Command& command) {
@@ -166,6 +202,10 @@ void add_verify(CLI::App& app, Command& command) {
   verify->add_flag("--list", command.list, "list the problems and what each proves");
   verify->add_flag("--json", command.verify.json, "print one JSON object a line per quantity");
   verify->add_flag("--nightly", command.verify.nightly, "the long problems too");
+  verify
+      ->add_option("--ranks", command.verify.ranks,
+                   "MPI ranks of the problems that are solved on several (default: as listed)")
+      ->check(CLI::Range(1, most_ranks));
   verify->add_option(lv::verify::solve_option, command.solve_in)->group("");
 }
 
@@ -244,6 +284,14 @@ void add_images(CLI::App& app, Command& command) {
                      "labels of the cavity: volume at each time of a label map");
 }
 
+/// Of the ranks that mpirun has started, one tells that the command is for one; the exit code of
+/// the others.
+int refuse_ranks(const std::string& command) {
+  if (lv::launch::world_rank() == 0)
+    throw lv::InputError(command, "runs on one rank", "Run it without mpirun");
+  return wrong_input;
+}
+
 int dispatch(int argc, char** argv) {
   Command command;
   CLI::App app{"ventricle: left-ventricular mechanics from cardiac magnetic resonance"};
@@ -293,8 +341,7 @@ int dispatch(int argc, char** argv) {
       ->check(CLI::Range(0.2, 10.0))
       ->capture_default_str();
   time->add_flag("--quadrature", command.bench.quadrature, "the paper's coupling instead of nodal");
-  time->add_option("--ranks", command.ranks, "MPI ranks (default: the number of cores, at most 8)")
-      ->check(CLI::PositiveNumber);
+  add_ranks(*time, command);
   time->add_flag("--json", command.bench.json, "one JSON object instead of a table");
 
   try {
@@ -302,6 +349,9 @@ int dispatch(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : wrong_input;
   }
+  const bool divides = *run || *fit || *strain || *time || !command.solve_in.empty();
+  if (lv::launch::world_size() > 1 && !divides)
+    return refuse_ranks(app.get_subcommands().front()->get_name());
   if (*start)
     write_new_case(command.new_file);
   if (*check)
@@ -312,11 +362,8 @@ int dispatch(int argc, char** argv) {
     return measure_strain(command, argc, argv);
   if (*run || *fit)
     return run_parallel(command, argc, argv);
-  if (app.got_subcommand("phantom")) {
-    fmt::print("{}", lv::phantom::write_study(command.ventricle, command.scan, command.study,
-                                              command.folder));
-    return 0;
-  }
+  if (app.got_subcommand("phantom"))
+    return phantom(command);
   if (*time)
     return bench(command, argc, argv);
   for (const char* page : {"report", "compare"})
@@ -332,6 +379,11 @@ int dispatch(int argc, char** argv) {
     fmt::print("{}", lv::job::manual(command.markdown));
   return 0;
 }
+
+constexpr const char* no_memory =
+    "the memory is exhausted. Allow more, close other programs, or give smaller images, coarser "
+    "meshes "
+    "or fewer box.cells";
 
 /// Reports a failure once, after some seconds if this is not the root, and ends all ranks.
 int fail(const std::string& message, int code, unsigned patience = 2) {
@@ -359,6 +411,8 @@ int fail(const std::string& message, int code, unsigned patience = 2) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ,
+              SIG_IGN);  // a file that may not grow is told of as one that cannot be written
   try {
     return dispatch(argc, argv);
   } catch (const lv::InputError& error) {
@@ -367,6 +421,21 @@ int main(int argc, char** argv) {
     return fail(error.what(), defect, 30);  // the rank that failed ends this one before
   } catch (const lv::RunError& error) {
     return fail(error.what(), no_way_on);
+  } catch (const lv::Interrupted& stop) {
+    return fail(stop.what(), interrupted);
+  } catch (const std::filesystem::filesystem_error& error) {
+    return fail(fmt::format("{}: {}. Check the path and its permissions", error.path1().string(),
+                            error.code().message()),
+                no_way_on);
+  } catch (const std::system_error& error) {
+    return fail(fmt::format("the system refuses something: {}. Are memory, processes or open files "
+                            "limited?",
+                            error.what()),
+                no_way_on);
+  } catch (const std::bad_alloc&) {
+    return fail(no_memory, no_way_on);
+  } catch (const std::length_error&) {
+    return fail(no_memory, no_way_on);
   } catch (const std::exception& error) {
     return fail(error.what(), defect);
   }

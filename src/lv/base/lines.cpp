@@ -1,5 +1,7 @@
 #include "lv/base/lines.hpp"
 
+#include "lv/base/table.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -55,7 +57,7 @@ std::vector<std::string> csv_fields(std::string_view line) {
 }
 
 LineReader::LineReader(const std::filesystem::path& file) : file_(file.string()) {
-  if (std::filesystem::is_regular_file(file))
+  if (why_unreadable(file).empty())
     stream_.open(file);
 }
 

@@ -1,6 +1,8 @@
 #include "lv/base/log.hpp"
 
+#include "lv/base/check.hpp"
 #include "lv/base/parallel.hpp"
+#include "lv/base/table.hpp"
 
 #include <spdlog/sinks/basic_file_sink.h>
 #include <spdlog/sinks/stdout_sinks.h>
@@ -24,12 +26,26 @@ spdlog::logger& logger() {
   return instance;
 }
 
+[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& why) {
+  throw RunError(fmt::format("{} cannot be written: {}", file.string(), why),
+                 "Move it away, or name another work folder with --work");
+}
+
 }  // namespace
 
 void to_file(const std::filesystem::path& file) {
   if (!parallel::is_root())
     return;
-  auto sink = std::make_shared<spdlog::sinks::basic_file_sink_mt>(file.string());
+  const std::filesystem::file_type type = std::filesystem::symlink_status(file).type();
+  const bool is_new = type == std::filesystem::file_type::not_found;
+  if (const std::string why = is_new ? "" : why_unreadable(file); !why.empty())
+    refuse(file, why);
+  std::shared_ptr<spdlog::sinks::basic_file_sink_mt> sink;
+  try {
+    sink = std::make_shared<spdlog::sinks::basic_file_sink_mt>(file.string());
+  } catch (const spdlog::spdlog_ex& error) {
+    refuse(file, error.what());
+  }
   sink->set_pattern("[%Y-%m-%d %H:%M:%S] %l %v");
   logger().sinks().push_back(std::move(sink));
 }

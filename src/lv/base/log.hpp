@@ -8,7 +8,8 @@
 /// One line per event, from the root rank, to the terminal and to a log file.
 namespace lv::log {
 
-/// Sends lines to this file too, from now on, adding to what is there. Only the root writes.
+/// Sends lines to this file too, from now on, adding to what is there. Only the root writes. Throws
+/// RunError there when it cannot.
 void to_file(const std::filesystem::path& file);
 
 /// Keeps quiet on the terminal (for output that a program reads).

@@ -1,6 +1,8 @@
 #include "lv/base/parallel.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/interrupt.hpp"
+#include "lv/base/launch.hpp"
 
 #include <mpi.h>
 
@@ -38,6 +40,7 @@ Layout layout_of(std::size_t count) {
 }  // namespace
 
 Session::Session(int* argc, char*** argv) {
+  launch::prepare();
   MPI_Init(argc, argv);
 }
 Session::~Session() {
@@ -57,6 +60,33 @@ int size() {
   int value = 1;
   MPI_Comm_size(MPI_COMM_WORLD, &value);
   return value;
+}
+
+void on_root(const std::function<void()>& work) {
+  std::exception_ptr failure;
+  bool stopped = false;
+  if (is_root()) {
+    try {
+      work();
+    } catch (const Interrupted&) {
+      failure = std::current_exception();
+      stopped = true;
+    } catch (...) {
+      failure = std::current_exception();
+    }
+  }
+  if (!any(failure != nullptr))
+    return;
+  stopped = any(stopped);
+  if (failure)
+    std::rethrow_exception(failure);
+  if (stopped)
+    throw Interrupted("stopped");
+  throw FailedElsewhere();
+}
+
+bool root_says(bool value) {
+  return any(is_root() && value);
 }
 
 void barrier() {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,6 +24,13 @@ class Session {
 }
 
 void barrier();
+
+/// Runs something on the root alone; when it throws, all ranks throw: Interrupted if that is what
+/// the root was, else FailedElsewhere.
+void on_root(const std::function<void()>& work);
+
+/// What the root's value is.
+[[nodiscard]] bool root_says(bool value);
 
 [[nodiscard]] double sum(double value);
 [[nodiscard]] double max(double value);

@@ -4,11 +4,13 @@
 #include "lv/base/lines.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -114,10 +116,11 @@ std::string Table::number(double value, int digits) {
 
 void write_file(const std::filesystem::path& file, const std::string& text) {
   const std::filesystem::path unfinished = file.string() + ".part";
+  std::error_code error;
+  std::filesystem::remove(unfinished, error);  // whatever it is, a pipe perhaps
   std::ofstream out(unfinished, std::ios::binary | std::ios::trunc);
   out << text;
   out.close();
-  std::error_code error;
   if (out)
     std::filesystem::rename(unfinished, file, error);
   if (!out || error)
@@ -126,13 +129,41 @@ void write_file(const std::filesystem::path& file, const std::string& text) {
                    "Check the folder's permissions and the space left on the disk");
 }
 
+std::string why_unreadable(const std::filesystem::path& file) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(file, error);
+  if (error)
+    return error.message();
+  if (std::filesystem::is_directory(status))
+    return "it is a folder";
+  if (!std::filesystem::is_regular_file(status))
+    return "it is a pipe, a device or the like, not a file";
+  if (access(file.c_str(), R_OK) != 0)
+    return std::strerror(errno);
+  const auto memory = static_cast<std::uintmax_t>(sysconf(_SC_PHYS_PAGES)) *
+                      static_cast<std::uintmax_t>(sysconf(_SC_PAGESIZE));
+  const std::uintmax_t size = std::filesystem::file_size(file, error);
+  if (!error && size > memory)
+    return fmt::format("it holds {:.1f} GB, more than this machine's memory of {:.1f} GB",
+                       1e-9 * static_cast<double>(size), 1e-9 * static_cast<double>(memory));
+  return "";
+}
+
 std::string read_file(const std::filesystem::path& file) {
+  constexpr std::size_t piece = std::size_t{1} << 20U;
+  if (const std::string why = why_unreadable(file); !why.empty())
+    throw InputError(file.string(), "cannot be read: " + why, "Check the path and its permissions");
   std::ifstream in(file, std::ios::binary);
-  if (!in || std::filesystem::is_directory(file))
-    throw InputError(file.string(), "cannot be read", "Check the path and its permissions");
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
+  std::string text;
+  while (in) {
+    const std::size_t before = text.size();
+    text.resize(before + piece);
+    in.read(text.data() + before, piece);
+    text.resize(before + static_cast<std::size_t>(in.gcount()));
+  }
+  if (!in.eof())
+    throw InputError(file.string(), "cannot be read to its end", "Check the disk");
+  return text;
 }
 
 }  // namespace lv

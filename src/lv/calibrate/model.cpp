@@ -44,6 +44,14 @@ Outcome<double> Ventricle::unloaded_volume(const FitParameters& parameters) {
   return endocardium_.volume(wall_.nodes);
 }
 
+void Ventricle::restore(Memory memory) {
+  known_ = std::move(memory.known);
+  unloaded_ = std::move(memory.unloaded);
+  unloaded_with_ = memory.unloaded_with;
+  wall_.nodes = unloaded_ ? unloaded_->nodes : given_.nodes;
+  engine_.reset();
+}
+
 Outcome<double> Ventricle::volume(const FitParameters& parameters, const Loads& loads) {
   if (const auto unloaded = unloaded_volume(parameters); !unloaded)
     return unloaded;

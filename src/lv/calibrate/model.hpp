@@ -53,14 +53,26 @@ class Ventricle {
   /// Of the nodes [mm].
   Outcome<std::vector<Vec3>> positions(const FitParameters& parameters, const solid::Loads& loads);
 
-  /// Free of stress, with the parameters that were asked for last.
+  /// The wall free of stress, with the parameters that were asked for last.
   [[nodiscard]] const mesh::Mesh& wall() const { return wall_; }
+  /// The same with its equilibrium under the load that it was seen with; nothing when it was given
+  /// free of stress.
+  [[nodiscard]] const std::optional<quasi_static::Unloaded>& unloaded() const { return unloaded_; }
 
- private:
   struct Equilibrium {
     solid::Loads loads;
     quasi_static::State state;
   };
+  /// All that further answers depend on.
+  struct Memory {
+    std::vector<Equilibrium> known;
+    std::optional<quasi_static::Unloaded> unloaded;
+    FitParameters unloaded_with;
+  };
+  [[nodiscard]] Memory memory() const { return {known_, unloaded_, unloaded_with_}; }
+  void restore(Memory memory);
+
+ private:
   Outcome<double> approach(const quasi_static::StaticModel& model, const solid::Loads& loads);
   [[nodiscard]] Equilibrium& nearest(const solid::Loads& loads);
 

@@ -1,6 +1,7 @@
 #include "lv/heartbeat/archive.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/table.hpp"
 
 #include <boost/crc.hpp>
 #include <fcntl.h>
@@ -12,18 +13,14 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
 #include <iterator>
 #include <limits>
-#include <sstream>
 #include <system_error>
 
 namespace lv::heartbeat {
 namespace {
 
 constexpr char magic[] = "ventricle archive 1\n";
-constexpr const char* another_version =
-    "It was written by another version of the program; delete it to start this stage again";
 
 std::uint32_t checksum(const std::string& bytes) {
   boost::crc_32_type crc;
@@ -91,9 +88,35 @@ void write_durably(const std::filesystem::path& file, const std::string& bytes) 
 
 }  // namespace
 
-int whole_number(double stored) {
-  if (!(std::abs(stored) <= std::numeric_limits<int>::max()))
-    throw RunError(fmt::format("the archive has {} for a whole number", stored), another_version);
+std::vector<double> flat(std::span<const Vec3> vectors) {
+  std::vector<double> numbers;
+  numbers.reserve(3 * vectors.size());
+  for (const Vec3& v : vectors)
+    numbers.insert(numbers.end(), v.data(), v.data() + 3);
+  return numbers;
+}
+
+std::vector<Vec3> vectors(std::span<const double> numbers) {
+  std::vector<Vec3> result;
+  result.reserve(numbers.size() / 3);
+  for (std::size_t i = 0; i + 2 < numbers.size(); i += 3)
+    result.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);
+  return result;
+}
+
+void Archive::refuse(const std::string& why) const {
+  throw RunError(fmt::format("{} cannot be used: {}", source_, why),
+                 "It was written by another version of the program, or is damaged; delete it to "
+                 "start this stage again");
+}
+
+int Archive::whole_number(double stored, Range range) const {
+  constexpr int largest = std::numeric_limits<int>::max();
+  const double low = std::max<double>(range.low, -largest);
+  const double high = std::min<double>(range.high, largest);
+  if (!(stored >= low && stored <= high) || stored != std::trunc(stored))
+    refuse(fmt::format("it has {} where a whole number from {:.0f} to {:.0f} belongs", stored, low,
+                       high));
   return static_cast<int>(stored);
 }
 
@@ -101,10 +124,26 @@ void Archive::set(const std::string& name, std::vector<double> values) {
   arrays_[name] = std::move(values);
 }
 
+void Archive::add(const std::string& part, Archive other) {
+  for (auto& [name, values] : other.arrays_)
+    arrays_[part + "." + name] = std::move(values);
+}
+
+Archive Archive::take(const std::string& part) {
+  const std::string prefix = part + ".";
+  Archive taken;
+  taken.source_ = source_;
+  for (auto i = arrays_.lower_bound(prefix); i != arrays_.end() && i->first.starts_with(prefix);) {
+    taken.arrays_[i->first.substr(prefix.size())] = std::move(i->second);
+    i = arrays_.erase(i);
+  }
+  return taken;
+}
+
 const std::vector<double>& Archive::get(const std::string& name) const {
   const auto found = arrays_.find(name);
   if (found == arrays_.end())
-    throw RunError(fmt::format("the archive has no '{}'", name), another_version);
+    refuse(fmt::format("it has no '{}'", name));
   return found->second;
 }
 
@@ -113,19 +152,23 @@ double Archive::number(const std::string& name) const {
 }
 
 const std::vector<double>& Archive::get_rows(const std::string& name, std::size_t width,
-                                             std::optional<std::size_t> rows) const {
+                                             std::optional<std::size_t> rows, Range range) const {
   const std::vector<double>& numbers = get(name);
   if (numbers.size() % width != 0 || (rows && numbers.size() != width * *rows))
-    throw RunError(fmt::format("the archive has {} numbers of '{}', which does not fit the rest",
-                               numbers.size(), name),
-                   another_version);
+    refuse(fmt::format("it has {} numbers of '{}', which does not fit the rest", numbers.size(),
+                       name));
+  for (const double number : numbers)
+    if (!(number >= range.low && number <= range.high) && !(range.missing && std::isnan(number)))
+      refuse(fmt::format("it has {} among the numbers of '{}', which lie between {:g} and {:g}",
+                         number, name, range.low, range.high));
   return numbers;
 }
 
-std::vector<int> Archive::get_whole(const std::string& name) const {
-  const std::vector<double>& numbers = get(name);
+std::vector<int> Archive::get_whole(const std::string& name, std::optional<std::size_t> count,
+                                    Range range) const {
   std::vector<int> whole;
-  std::transform(numbers.begin(), numbers.end(), std::back_inserter(whole), whole_number);
+  for (const double number : get_rows(name, 1, count))
+    whole.push_back(whole_number(number, range));
   return whole;
 }
 
@@ -150,12 +193,9 @@ void Archive::write(const std::filesystem::path& file) const {
 }
 
 Archive Archive::read(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in)
-    fail(file, "cannot be read");
-  std::ostringstream contents;
-  contents << in.rdbuf();
-  const std::string whole = contents.str();
+  if (const std::string why = why_unreadable(file); !why.empty())
+    fail(file, "cannot be read: " + why);
+  const std::string whole = read_file(file);
   const std::size_t header = std::strlen(magic) + sizeof(std::uint32_t);
   if (whole.size() < header || whole.compare(0, std::strlen(magic), magic) != 0)
     fail(file, "is not a checkpoint of this program");
@@ -165,6 +205,7 @@ Archive Archive::read(const std::filesystem::path& file) {
     fail(file, "is damaged (its checksum is wrong)");
 
   Archive archive;
+  archive.source_ = file.string();
   for (Reader reader(file, whole, header); !reader.at_end();) {
     const auto sizes = reader.take<std::vector<std::uint64_t>>(2);
     const auto name = reader.take<std::string>(sizes[0]);

@@ -5,6 +5,7 @@
 #include "lv/base/log.hpp"
 #include "lv/base/parallel.hpp"
 #include "lv/base/units.hpp"
+#include "lv/heartbeat/checkpoint.hpp"
 
 #include <chrono>
 #include <cmath>
@@ -50,11 +51,12 @@ class ImmersedRun {
         checkpoint_timer_(setup.output.checkpoint_interval) {}
 
   Beat run() {
-    if (!resume())
+    if (!resume()) {
       start();
+      keep();
+    }
     begun_time_ = run_.time;
     begun_steps_ = run_.beat.steps;
-    keep();
     while (!finished_) {
       if (advance()) {
         observe();
@@ -111,11 +113,9 @@ class ImmersedRun {
   RunState run_;
   immersed::StepReport last_;
   bool finished_ = false;
-  int flips_ = 0;  ///< steps in a row in which the velocity changed its direction of change
   double volume_before_ = 0.0;
 
-  std::optional<immersed::ModelState> kept_model_;  ///< to go back to when a step fails
-  RunState kept_run_;
+  std::optional<Moment> kept_;  ///< to go back to when a step fails
 
   Timer checkpoint_timer_;
   Timer progress_timer_{5.0};
@@ -129,26 +129,10 @@ bool ImmersedRun::resume() {
   const std::filesystem::path file = folder_ / checkpoint_name;
   if (!parallel::any(parallel::is_root() && std::filesystem::exists(file)))
     return false;
-  const Archive archive = Archive::read(file);
-  run_ = load_run_state(archive, phases_);
-  immersed::ModelState state = model_.state();
-  const std::size_t nodes = state.positions.size();
-  const auto& positions = archive.get_rows("positions", 3, nodes);
-  const auto& velocities = archive.get_rows("node_velocities", 3, nodes);
-  for (std::size_t a = 0; a < nodes; ++a) {
-    state.positions[a] = Vec3(positions.data() + 3 * a);
-    state.node_velocities[a] = Vec3(velocities.data() + 3 * a);
-  }
-  state.contraction = archive.get_rows("contraction", 1, state.contraction.size());
-  for (int c = 0; c < 3; ++c) {
-    model_.transform().scatter(archive.get("modes." + std::to_string(c)), c, state.velocity_modes);
-    fluid::scatter(archive.get("convection." + std::to_string(c)), state.convection.component[c]);
-  }
-  const auto& steps = archive.get_rows("steps", 3, 1);
-  state.dt = steps[0];
-  state.dt_before = steps[1];
-  state.calcium = steps[2];
-  model_.restore(state);
+  Checkpoint checkpoint = read_checkpoint(file, model_, phases_);
+  model_.restore(checkpoint.now.model);
+  run_ = std::move(checkpoint.now.run);
+  kept_ = std::move(checkpoint.kept);
   log::info("resumed from the checkpoint at {:.4f} s of {}", run_.time, phase().name);
   return true;
 }
@@ -161,20 +145,9 @@ void ImmersedRun::count_time() {
 
 void ImmersedRun::save() {
   count_time();
-  const immersed::ModelState& state = model_.state();
   Archive archive;
-  store(run_, archive);
-  const auto flat = [](const std::vector<Vec3>& v) {
-    return std::vector<double>(v.front().data(), v.front().data() + 3 * v.size());
-  };
-  archive.set("positions", flat(state.positions));
-  archive.set("node_velocities", flat(state.node_velocities));
-  archive.set("contraction", state.contraction);
-  for (int c = 0; c < 3; ++c) {
-    archive.set("modes." + std::to_string(c), model_.transform().gather(state.velocity_modes, c));
-    archive.set("convection." + std::to_string(c), fluid::gather(state.convection.component[c]));
-  }
-  archive.set("steps", {state.dt, state.dt_before, state.calcium});
+  archive.add("now", archived(model_.state(), run_, model_.transform()));
+  archive.add("kept", archived(kept_->model, kept_->run, model_.transform()));
   if (parallel::is_root())
     archive.write(folder_ / checkpoint_name);
   parallel::barrier();
@@ -182,8 +155,7 @@ void ImmersedRun::save() {
 
 /// Remembers the present as a place to go back to.
 void ImmersedRun::keep() {
-  kept_model_ = model_.state();
-  kept_run_ = run_;
+  kept_ = {model_.state(), run_};
 }
 
 /// The longest step divided by two as often as past failures and the Courant number ask. Powers of
@@ -207,8 +179,8 @@ std::string ImmersedRun::what_is_wrong(const immersed::StepReport& report) {
     return fmt::format("the blood moved at {:.3g} m/s", 1e-3 * run_.largest_velocity);
   constexpr double visible = 5.0;  // [mm/s]
   constexpr int patience = 20;     // steps
-  flips_ = report.smoothness < -0.5 && report.velocity_change > visible ? flips_ + 1 : 0;
-  return flips_ >= patience ? "the wall's velocity flips from step to step" : "";
+  run_.flips = report.smoothness < -0.5 && report.velocity_change > visible ? run_.flips + 1 : 0;
+  return run_.flips >= patience ? "the wall's velocity flips from step to step" : "";
 }
 
 /// One step. False when it failed and the run went back.
@@ -250,14 +222,14 @@ void ImmersedRun::take_back(const std::string& why) {
   const int retries = run_.beat.retries + 1;
   count_time();
   const double spent = run_.beat.wall_clock;
-  model_.restore(*kept_model_);
-  run_ = kept_run_;
+  model_.restore(kept_->model);
+  run_ = kept_->run;
   run_.halvings = halvings;
   run_.patience = patience;
   run_.good_steps = 0;
   run_.beat.retries = retries;
   run_.beat.wall_clock = spent;
-  flips_ = 0;
+  run_.flips = 0;
   if (halvings > setup_.control.halvings) {
     run_.halvings = 0;  // whoever resumes begins with the step of the case file
     save();

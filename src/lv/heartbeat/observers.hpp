@@ -5,7 +5,6 @@
 
 #include <functional>
 #include <optional>
-#include <stdexcept>
 
 namespace lv::heartbeat {
 
@@ -29,12 +28,6 @@ struct Observers {
   std::function<void(const Frame&)> frame;
   std::function<void(const RunState&)>
       curves;  ///< every few seconds and at the end: the curves so far
-};
-
-/// The run was asked to stop. The immersed engine leaves a valid checkpoint.
-class Interrupted : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
 };
 
 }  // namespace lv::heartbeat

@@ -29,6 +29,9 @@ struct Protocol {
   double contraction_drag = 0.0;     ///< [1/s]
 };
 
+/// How often a case may ask for the step to be halved.
+inline constexpr int most_halvings = 12;
+
 /// Time steps and what to do when one fails.
 struct StepControl {
   double longest = 1.0e-4;        ///< the step, unless stability asks for less [s]

@@ -1,8 +1,6 @@
 #include "lv/heartbeat/quasi_static_beat.hpp"
 
-#include "lv/base/interrupt.hpp"
 #include "lv/base/log.hpp"
-#include "lv/base/parallel.hpp"
 #include "lv/base/units.hpp"
 
 #include <chrono>
@@ -48,8 +46,6 @@ class QuasiStaticRun {
                 step.newton.linear_iterations == 0
                     ? ""
                     : fmt::format(", {} iterations of GMRES", step.newton.linear_iterations));
-      if (parallel::any(interrupt::requested()))
-        throw Interrupted("stopped; run the same command again to start the beat anew");
     };
     engine_.go_to(loads, follow).value();
   }

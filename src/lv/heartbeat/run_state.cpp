@@ -1,30 +1,12 @@
 #include "lv/heartbeat/run_state.hpp"
 
-#include "lv/base/check.hpp"
-
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstring>
 #include <utility>
 
 namespace lv::heartbeat {
 namespace {
-
-std::vector<double> flat(const std::vector<Vec3>& vectors) {
-  std::vector<double> numbers;
-  numbers.reserve(3 * vectors.size());
-  for (const Vec3& v : vectors)
-    numbers.insert(numbers.end(), v.data(), v.data() + 3);
-  return numbers;
-}
-
-std::vector<Vec3> vectors(const std::vector<double>& numbers) {
-  std::vector<Vec3> result(numbers.size() / 3);
-  for (std::size_t a = 0; a < result.size(); ++a)
-    result[a] = Vec3(numbers[3 * a], numbers[3 * a + 1], numbers[3 * a + 2]);
-  return result;
-}
 
 /// Words as the numbers of their letters, each word ended by a zero, and back.
 std::vector<double> as_numbers(const std::vector<std::string>& words) {
@@ -36,25 +18,28 @@ std::vector<double> as_numbers(const std::vector<std::string>& words) {
   return numbers;
 }
 
-std::vector<std::string> as_words(const std::vector<double>& numbers) {
+std::vector<std::string> words_of(const Archive& archive, const std::string& name) {
   std::vector<std::string> words;
   std::string word;
-  for (const double letter : numbers) {
-    if (letter != 0.0)
-      word += static_cast<char>(whole_number(letter));
+  for (const int letter : archive.get_whole(name, {}, {0.0, 127.0})) {
+    if (letter != 0)
+      word += static_cast<char>(letter);
     else
       words.push_back(std::exchange(word, {}));
   }
   return words;
 }
 
-/// Throws RunError when there is no phase of that number.
-const std::string& phase_named(const std::vector<std::string>& phases, double number) {
-  const auto phase = static_cast<std::size_t>(whole_number(number));
-  if (phase >= phases.size())
-    throw RunError(fmt::format("the archive has no phase {}", phase),
-                   "It was written by another version of the program; delete it to start again");
-  return phases[phase];
+/// A number of an archive that counts things from zero of which there are so many.
+std::size_t index_of(const Archive& archive, double number, std::size_t count) {
+  return static_cast<std::size_t>(
+      archive.whole_number(number, {0.0, static_cast<double>(count) - 1.0}));
+}
+
+/// How many rows an array may have: none, or one for each of the nodes where their number is known.
+std::optional<std::size_t> none_or(const Archive& archive, const std::string& name,
+                                   std::optional<std::size_t> nodes) {
+  return archive.get(name).empty() ? 0 : nodes;
 }
 
 }  // namespace
@@ -69,8 +54,11 @@ void store(const Snapshot& s, const std::string& name, Archive& archive) {
   archive.set(name + ".stress", std::move(stress));
 }
 
-Snapshot load_snapshot(const Archive& archive, const std::string& name) {
+Snapshot load_snapshot(const Archive& archive, const std::string& name,
+                       std::optional<std::size_t> nodes) {
   const auto& n = archive.get_rows(name + ".numbers", 3, 1);
+  const std::string positions = name + ".positions";
+  const std::string tension = name + ".tension";
   const auto& numbers = archive.get_rows(name + ".stress", solid::CellStress::numbers);
   std::vector<solid::CellStress> stress(numbers.size() / solid::CellStress::numbers);
   if (!stress.empty())
@@ -78,8 +66,8 @@ Snapshot load_snapshot(const Archive& archive, const std::string& name) {
   return {n[0],
           n[1],
           n[2],
-          vectors(archive.get_rows(name + ".positions", 3)),
-          archive.get(name + ".tension"),
+          vectors(archive.get_rows(positions, 3, none_or(archive, positions, nodes))),
+          archive.get_rows(tension, 1, none_or(archive, tension, nodes)),
           std::move(stress)};
 }
 
@@ -97,14 +85,16 @@ void store(const std::vector<NamedMoment>& moments, Archive& archive) {
   archive.set("moments.by_criterion", std::move(by_criterion));
 }
 
-std::vector<NamedMoment> load_moments(const Archive& archive) {
-  const auto names = as_words(archive.get("moments.names"));
-  const auto phases = as_words(archive.get("moments.phases"));
-  const auto& by_criterion = archive.get_rows("moments.by_criterion", 1, names.size());
+std::vector<NamedMoment> load_moments(const Archive& archive, std::optional<std::size_t> nodes) {
+  const auto names = words_of(archive, "moments.names");
+  const auto phases = words_of(archive, "moments.phases");
+  const auto by_criterion = archive.get_whole("moments.by_criterion", names.size(), {0.0, 1.0});
+  if (phases.size() != names.size())
+    archive.refuse("it has more moments than phases, or fewer");
   std::vector<NamedMoment> moments;
-  for (std::size_t i = 0; i < std::min(names.size(), phases.size()); ++i)
+  for (std::size_t i = 0; i < names.size(); ++i)
     moments.push_back(
-        {names[i], phases[i], by_criterion[i] != 0.0, load_snapshot(archive, names[i])});
+        {names[i], phases[i], by_criterion[i] == 1, load_snapshot(archive, names[i], nodes)});
   return moments;
 }
 
@@ -125,12 +115,16 @@ void store(const std::vector<CurveRow>& curves, Archive& archive) {
 
 std::vector<CurveRow> load_curves(const Archive& archive) {
   constexpr std::size_t width = 11;
-  const auto& numbers = archive.get_rows("curves", width);
-  const auto phases = as_words(archive.get("curves.phases"));
+  const auto& numbers = archive.get_rows("curves", width, {}, {.missing = true});
+  const auto phases = words_of(archive, "curves.phases");
   std::vector<CurveRow> curves(numbers.size() / width);
   for (std::size_t i = 0; i < curves.size(); ++i) {
     const double* n = numbers.data() + width * i;
-    curves[i] = {n[0], phase_named(phases, n[1]), n[2], n[3], n[4], n[5], n[6], n[7], n[8], n[9],
+    curves[i] = {n[0], phases[index_of(archive, n[1], phases.size())],
+                 n[2], n[3],
+                 n[4], n[5],
+                 n[6], n[7],
+                 n[8], n[9],
                  n[10]};
   }
   return curves;
@@ -140,9 +134,9 @@ void store(const RunState& run, Archive& archive) {
   archive.set("run", {run.time, static_cast<double>(run.phase), run.phase_start, run.next_frame,
                       run.next_curve, static_cast<double>(run.frames), run.largest_velocity,
                       static_cast<double>(run.halvings), static_cast<double>(run.good_steps),
-                      static_cast<double>(run.patience), run.volume_was_falling ? 1.0 : 0.0,
-                      static_cast<double>(run.beat.steps), static_cast<double>(run.beat.retries),
-                      run.beat.wall_clock});
+                      static_cast<double>(run.patience), static_cast<double>(run.flips),
+                      run.volume_was_falling ? 1.0 : 0.0, static_cast<double>(run.beat.steps),
+                      static_cast<double>(run.beat.retries), run.beat.wall_clock});
   archive.set("frame_times", run.frame_times);
   std::vector<double> samples;
   for (const auto& [time, volume] : run.steady.samples())
@@ -153,35 +147,38 @@ void store(const RunState& run, Archive& archive) {
   store(run.beat.moments, archive);
 }
 
-RunState load_run_state(const Archive& archive, const std::vector<Phase>& phases) {
-  const auto& n = archive.get_rows("run", 14, 1);
+RunState load_run_state(const Archive& archive, const std::vector<Phase>& phases,
+                        std::optional<std::size_t> nodes) {
+  const auto& n = archive.get_rows("run", 15, 1, not_negative);
+  const auto whole = [&](double number) { return archive.whole_number(number, not_negative); };
   RunState run;
   run.time = n[0];
-  run.phase = static_cast<std::size_t>(whole_number(n[1]));
-  if (run.phase >= phases.size())
-    throw RunError(fmt::format("the archive has no phase {}", run.phase),
-                   "It was written by another version of the program; delete it to start again");
+  run.phase = index_of(archive, n[1], phases.size());
   run.phase_start = n[2];
   run.next_frame = n[3];
   run.next_curve = n[4];
-  run.frames = whole_number(n[5]);
+  run.frames = whole(n[5]);
   run.largest_velocity = n[6];
-  run.halvings = whole_number(n[7]);
-  run.good_steps = whole_number(n[8]);
-  run.patience = whole_number(n[9]);
-  run.volume_was_falling = n[10] != 0.0;
-  run.beat.steps = whole_number(n[11]);
-  run.beat.retries = whole_number(n[12]);
-  run.beat.wall_clock = n[13];
-  run.frame_times =
-      archive.get_rows("frame_times", 1, static_cast<std::size_t>(std::max(run.frames, 0)));
+  run.halvings = archive.whole_number(n[7], {0.0, most_halvings});
+  run.good_steps = whole(n[8]);
+  run.patience = whole(n[9]);
+  run.flips = whole(n[10]);
+  run.volume_was_falling = archive.whole_number(n[11], {0.0, 1.0}) == 1;
+  run.beat.steps = whole(n[12]);
+  run.beat.retries = whole(n[13]);
+  run.beat.wall_clock = n[14];
+  run.frame_times = archive.get_rows("frame_times", 1, static_cast<std::size_t>(run.frames));
   run.steady = criterion(phases[run.phase]);
   const auto& samples = archive.get_rows("steady", 2);
   for (std::size_t i = 0; i + 1 < samples.size(); i += 2)
     run.steady.record(samples[i], samples[i + 1]);
-  run.least = load_snapshot(archive, "least");
+  run.least = load_snapshot(archive, "least", nodes);
   run.beat.curves = load_curves(archive);
-  run.beat.moments = load_moments(archive);
+  run.beat.moments = load_moments(archive, nodes);
+  for (std::size_t p = 0; p < run.phase; ++p)
+    if (run.beat.find(phases[p].marks) == nullptr)
+      archive.refuse(
+          fmt::format("it holds a {} without {}", phases[run.phase].name, phases[p].marks));
   return run;
 }
 

@@ -32,12 +32,15 @@ Model::Model(const mesh::Mesh& mesh, const solid::CardiacModel& heart,
       coupling_(make_coupling(parameters.coupling, mesh, parameters.grid, slab_)),
       transform_(parameters.grid, slab_),
       stokes_(parameters.grid, transform_, parameters.blood),
-      state_{mesh.nodes, std::vector<Vec3>(mesh.nodes.size(), Vec3::Zero()), contraction_.state(),
-             transform_.zero_modes(), fluid::FaceField(parameters.grid, slab_)},
+      state_{mesh.nodes,
+             std::vector<Vec3>(mesh.nodes.size(), Vec3::Zero()),
+             std::vector<Vec3>(mesh.nodes.size(), Vec3::Zero()),
+             contraction_.state(),
+             transform_.zero_modes(),
+             fluid::FaceField(parameters.grid, slab_)},
       stretch_(mesh.nodes.size()),
       node_forces_(mesh.nodes.size()),
       midpoints_(mesh.nodes.size()),
-      velocity_change_(mesh.nodes.size(), Vec3::Zero()),
       velocity_(parameters.grid, slab_),
       force_(parameters.grid, slab_),
       force_modes_(transform_.zero_modes()) {
@@ -114,10 +117,10 @@ StepReport Model::move_wall(double dt) {
   for (std::size_t a = 0; a < x.size(); ++a) {
     x[a] += dt * U[a];
     const Vec3 change = U[a] - U_before[a];
-    product += change.dot(velocity_change_[a]);
+    product += change.dot(state_.velocity_change[a]);
     squares += change.squaredNorm();
-    squares_before += velocity_change_[a].squaredNorm();
-    velocity_change_[a] = change;
+    squares_before += state_.velocity_change[a].squaredNorm();
+    state_.velocity_change[a] = change;
     largest = std::max(largest, U[a].squaredNorm());
   }
   report.largest_node_speed = std::sqrt(largest);
@@ -136,7 +139,6 @@ bool Model::inside_box(std::span<const Vec3> positions) const {
 void Model::restore(const ModelState& state) {
   state_ = state;
   contraction_.set_state(state.contraction);
-  std::fill(velocity_change_.begin(), velocity_change_.end(), Vec3::Zero());
   transform_.to_points(state_.velocity_modes, velocity_);
   fluid::fill_ghosts(velocity_, slab_);
 }

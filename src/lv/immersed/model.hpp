@@ -23,6 +23,7 @@ struct ModelParameters {
 /// Everything that one rank's part of a Model carries from step to step.
 struct ModelState {
   std::vector<Vec3> positions, node_velocities;
+  std::vector<Vec3> velocity_change;  ///< of the nodes in the last step [mm/s]
   std::vector<double> contraction;
   fluid::ModeField velocity_modes;
   fluid::FaceField convection;
@@ -60,7 +61,8 @@ class Model {
   /// resistance to the velocity, which moves no equilibrium.
   StepReport step(const solid::Loads& loads, double dt, double drag = 0.0);
 
-  /// The model as it is now, and back to an earlier state.
+  /// The model as it is now, and back to an earlier state: all steps after it come out the same to
+  /// the last bit.
   [[nodiscard]] const ModelState& state();
   void restore(const ModelState& state);
 
@@ -84,13 +86,15 @@ class Model {
   [[nodiscard]] const fluid::BoxTransform& transform() const { return transform_; }
   [[nodiscard]] const fluid::Grid& grid() const { return parameters_.grid; }
   [[nodiscard]] const fluid::Slab& slab() const { return slab_; }
+  /// Whether nodes at these positions would be far enough from the box's sides; none that is no
+  /// number is.
+  [[nodiscard]] bool inside_box(std::span<const Vec3> positions) const;
 
  private:
   void activate(const solid::Loads& loads);
   solid::VolumeRange nodal_forces(double pressure);
   void move_blood(double drag, double dt);
   StepReport move_wall(double dt);
-  [[nodiscard]] bool inside_box(std::span<const Vec3> positions) const;
 
   ModelParameters parameters_;
   fluid::Slab slab_;
@@ -107,7 +111,7 @@ class Model {
 
   ModelState state_;
   std::vector<double> stretch_;
-  std::vector<Vec3> node_forces_, midpoints_, velocity_change_;
+  std::vector<Vec3> node_forces_, midpoints_;
   fluid::FaceField velocity_, force_;
   fluid::ModeField force_modes_;
 };

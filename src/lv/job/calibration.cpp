@@ -1,14 +1,15 @@
 #include "lv/job/calibration.hpp"
 
-#include "lv/base/interrupt.hpp"
 #include "lv/base/json_file.hpp"
 #include "lv/base/log.hpp"
 #include "lv/base/parallel.hpp"
 #include "lv/base/table.hpp"
 #include "lv/calibrate/summary.hpp"
 #include "lv/heartbeat/immersed_beat.hpp"
+#include "lv/job/answer_record.hpp"
 #include "lv/job/parameters.hpp"
 #include "lv/job/strain_targets.hpp"
+#include "lv/job/unloading.hpp"
 
 #include <Eigen/LU>
 #include <fmt/format.h>
@@ -23,6 +24,7 @@ using calibrate::FitParameters;
 using calibrate::FittedPassive;
 using Json = nlohmann::ordered_json;
 
+constexpr const char* answers_name = "answers.bin";
 constexpr std::size_t most_beats = 3;  // one, and two with corrected parameters
 
 /// The case with other parameters; scale and exponent are factors of the case's.
@@ -143,28 +145,43 @@ void make_calibration(const Case& c, const MeshResult& mesh, const std::filesyst
       c.quasi_static.solver, c.unloaded);
   const std::vector<StrainTarget> targets = strain_targets(c, mesh.regions);
   using solid::Loads;
+  using Numbers = std::vector<double>;
+  AnswerRecord record(ventricle, mesh.mesh.nodes.size(), folder / answers_name);
+  const auto number = [&](const std::function<Outcome<double>()>& ask) -> Outcome<double> {
+    const auto answer = record.answer([&]() -> Outcome<Numbers> {
+      const auto number = ask();
+      return number ? Outcome<Numbers>(Numbers{*number}) : number.why();
+    });
+    return answer ? Outcome<double>(answer->front()) : answer.why();
+  };
+  const auto strains = [&](const FitParameters& p, const Loads& ed,
+                           const Loads& es) -> Outcome<Numbers> {
+    const auto end_diastole = ventricle.positions(p, ed);
+    if (!end_diastole)
+      return end_diastole.why();
+    const auto end_systole = ventricle.positions(p, es);
+    if (!end_systole)
+      return end_systole.why();
+    return regional_strains(c, ventricle.wall(), targets, *end_diastole, *end_systole);
+  };
   const calibrate::Model model{
       [&](const FitParameters& p, const Loads& loads) {
-        if (parallel::any(interrupt::requested()))
-          throw heartbeat::Interrupted("stopped; run the same command again to calibrate anew");
-        return ventricle.volume(p, loads);
+        return number([&] { return ventricle.volume(p, loads); });
       },
-      [&](const FitParameters& p) { return ventricle.unloaded_volume(p); },
-      [&](const FitParameters& p, const Loads& ed,
-          const Loads& es) -> Outcome<std::vector<double>> {
-        const auto end_diastole = ventricle.positions(p, ed);
-        if (!end_diastole)
-          return end_diastole.why();
-        const auto end_systole = ventricle.positions(p, es);
-        if (!end_systole)
-          return end_systole.why();
-        return regional_strains(c, ventricle.wall(), targets, *end_diastole, *end_systole);
+      [&](const FitParameters& p) { return number([&] { return ventricle.unloaded_volume(p); }); },
+      [&](const FitParameters& p, const Loads& ed, const Loads& es) {
+        return record.answer([&] { return strains(p, ed, es); });
       }};
   const calibrate::Plan task = plan(c, targets);
   const calibrate::Fit fit =
       calibrate::fit(model, {.C_a = c.passive.C_a, .T_scale = c.active.T_scale}, task);
+  ventricle.unloaded_volume(fit.parameters).value();
+  const auto& unloaded = ventricle.unloaded();
   if (!parallel::is_root())
     return;
+  if (unloaded)
+    write_unloaded(*unloaded, folder / unloaded_shape_name);
+  std::filesystem::remove(folder / answers_name);
   calibrate::history_table(fit).write_csv(folder / "calibration.csv");
   write_file(folder / "calibration.txt", calibrate::text(task, fit));
   write_file(folder / "calibrated.toml", fragment(with(c, fit.parameters)));
@@ -185,14 +202,17 @@ bool correct(const Case& c, const std::filesystem::path& calibration_folder,
   Json record{{"parameters", calibration.at("parameters")}, {"beats", Json::array()}};
   if (std::filesystem::exists(file))
     record = from_json_file(file, whole);
+  Json& beats = record["beats"];
+  if (!beats.empty() && beats.back().at("parameters") == record.at("parameters"))
+    beats.erase(beats.size() - 1);  // this very beat, recorded before the run was stopped
   const Json rows = volumes_json(calibration, beat);
   const bool within = std::all_of(rows.begin(), rows.end(), [&](const Json& row) {
     return std::abs(row.at("off").get<double>()) <= c.calibration.tolerance;
   });
-  record["beats"].push_back(
+  beats.push_back(
       {{"parameters", record.at("parameters")}, {"volumes", rows}, {"within_tolerance", within}});
   record["tolerance"] = c.calibration.tolerance;
-  const bool again = !within && c.calibration.confirm && record["beats"].size() < most_beats;
+  const bool again = !within && c.calibration.confirm && beats.size() < most_beats;
   if (again) {
     record["parameters"] = corrected(calibration, record.at("parameters"), rows);
     log::info("the beat's volumes are off by more than {:g}%; once more with {}",

@@ -12,7 +12,8 @@ namespace lv::job {
 /// Fits what the case asks for, with the wall unloaded anew for all parameters where it was seen
 /// under load, and writes into `folder` calibration.json, calibration.txt,
 /// calibration.csv (every equilibrium of the search) and calibrated.toml (for a case file);
-/// collective. Throws InputError for a volume out of reach, with the volumes within reach.
+/// collective. A fit that was stopped goes on from the answers that it left in `folder`. Throws
+/// InputError for a volume out of reach, with the volumes within reach.
 void make_calibration(const Case& c, const MeshResult& mesh, const std::filesystem::path& folder);
 
 /// The files with fitted parameters: of a calibration, and of a beat made with them.

@@ -558,7 +558,7 @@ void declare_protocol(Declarations& d) {
   d.quantity("velocity_limit", LV_AT(time.velocity_limit), "m/s", positive,
              "a step that makes the wall or the blood faster than this is taken back and repeated "
              "smaller");
-  d.whole("halvings", LV_AT(time.halvings), between(0, 12),
+  d.whole("halvings", LV_AT(time.halvings), between(0, heartbeat::most_halvings),
           "how often the step may be halved before the run gives up");
 }
 

@@ -31,27 +31,8 @@
 namespace lv::job {
 namespace {
 
-/// Runs something on the root alone; when it throws, all ranks throw.
-template <class Work>
-void on_root(const Work& work) {
-  std::exception_ptr failure;
-  if (parallel::is_root()) {
-    try {
-      work();
-    } catch (...) {
-      failure = std::current_exception();
-    }
-  }
-  if (!parallel::any(failure != nullptr))
-    return;
-  if (failure)
-    std::rethrow_exception(failure);
-  throw FailedElsewhere();
-}
-
-bool root_says(bool value) {
-  return parallel::any(parallel::is_root() && value);
-}
+using parallel::on_root;
+using parallel::root_says;
 
 /// Whether a parameter changes what the engines of the case compute.
 bool is_used(const Case& c, const std::string& name) {
@@ -94,7 +75,7 @@ class Pipeline {
   void run() {
     std::optional<WorkLock> lock;
     on_root([&] { lock.emplace(work_); });
-    log::to_file(work_ / "log.txt");
+    on_root([&] { log::to_file(work_ / "log.txt"); });
     log::info("{}: ventricle {} on {} rank{}, results in {}", case_.name, version(),
               parallel::size(), parallel::size() == 1 ? "" : "s", work_.string());
     if (case_.origin.empty())
@@ -162,8 +143,7 @@ class Pipeline {
   }
 
   void run_stage(std::size_t s, Ingredients ingredients) {
-    if (parallel::any(interrupt::requested()))
-      throw heartbeat::Interrupted("stopped; run the same command again to go on");
+    interrupt::check_together();
     const StageFolder stage(work_, stage_folder(s), std::move(ingredients));
     if (root_says(stage.up_to_date())) {
       if (options_.explain)
@@ -214,7 +194,8 @@ class Pipeline {
       case Stage::results: {
         const auto beat = folder(Stage::beat);
         const auto wall = wall_of(beat);
-        text_ = make_results(fitted_case(beat), read_mesh_result(wall), read_beat(beat),
+        const MeshResult mesh = read_mesh_result(wall);
+        text_ = make_results(fitted_case(beat), mesh, read_beat(beat, mesh.mesh),
                              fitted_volumes(case_, beat), unloaded_shape(wall), part);
         on_root([&] { write_file(part / "summary.txt", text_); });
         break;
@@ -231,8 +212,11 @@ class Pipeline {
   }
 
   void run_beat(const std::filesystem::path& part) {
-    if (root_says(std::filesystem::exists(part / beat_name)))
-      return;  // finished, but the folder had not got its name yet
+    if (root_says(std::filesystem::exists(part / beat_name))) {
+      // finished, but the folder had not got its name yet
+      on_root([&] { std::filesystem::remove(part / heartbeat::checkpoint_name); });
+      return;
+    }
     heartbeat::Beat beat;
     bool again = false;
     do {
@@ -256,7 +240,7 @@ class Pipeline {
   /// The wall without load for the parameters in use, into a folder.
   void unload(const std::filesystem::path& part, const std::filesystem::path& elements) const {
     make_unloading(fitted_case(part), read_mesh_result(folder(Stage::mesh)),
-                   read_mesh_result(elements).mesh, part);
+                   read_mesh_result(elements).mesh, part, calibration() / unloaded_shape_name);
   }
 
   /// Where the stress-free wall of a beat is.

@@ -2,6 +2,7 @@
 
 #include "lv/base/bounds.hpp"
 #include "lv/base/check.hpp"
+#include "lv/base/interrupt.hpp"
 #include "lv/base/log.hpp"
 #include "lv/base/parallel.hpp"
 #include "lv/base/table.hpp"
@@ -39,9 +40,34 @@ void store(const mesh::Surface& surface, const std::string& name, Archive& archi
   archive.set(name, as_numbers(surface.nodes));
 }
 
-mesh::Surface load_surface(const Archive& archive, const std::string& name) {
-  return {heartbeat::whole_number(archive.number(name + ".nodes_per_face")),
-          archive.get_whole(name)};
+/// Nodes of cells or faces, `each` of one, of those that a wall has.
+std::vector<int> load_nodes(const Archive& archive, const std::string& name, std::size_t each,
+                            std::size_t nodes) {
+  static_cast<void>(archive.get_rows(name, each));
+  return archive.get_whole(name, {}, {0.0, static_cast<double>(nodes) - 1.0});
+}
+
+mesh::Surface load_surface(const Archive& archive, const std::string& name, std::size_t nodes) {
+  const int each = archive.whole_number(archive.number(name + ".nodes_per_face"), {3.0, 4.0});
+  return {each, load_nodes(archive, name, static_cast<std::size_t>(each), nodes)};
+}
+
+/// The moments of a whole beat as an engine has taken them of a wall: with the stress of every
+/// element, or the tension at every node.
+std::vector<heartbeat::NamedMoment> load_whole_moments(const Archive& archive,
+                                                       const mesh::Mesh& mesh) {
+  auto moments = heartbeat::load_moments(archive, mesh.nodes.size());
+  for (const auto& [name, phase, by_criterion, wall] : moments) {
+    const bool fits = wall.stress.empty()
+                          ? wall.tension.size() == mesh.nodes.size()
+                          : wall.stress.size() == static_cast<std::size_t>(mesh.cell_count());
+    if (!fits || wall.positions.empty())
+      archive.refuse(fmt::format("'{}' is of another wall", name));
+  }
+  for (const char* name : {heartbeat::end_diastole, heartbeat::end_systole})
+    if (std::none_of(moments.begin(), moments.end(), [&](const auto& m) { return m.name == name; }))
+      archive.refuse(fmt::format("it holds a beat without {}", name));
+  return moments;
 }
 
 analysis::FieldAnalysis field_analysis(const Case& c, const mesh::Mesh& m) {
@@ -198,7 +224,9 @@ void check_spacing(const Case& c, const mesh::Mesh& m) {
 
 void draw(const mesh::Mesh& mesh, const heartbeat::Beat& beat, const analysis::BeatFields& fields,
           const analysis::Results& results, const std::filesystem::path& folder) {
+  interrupt::check();
   report::write(report::states_figure(mesh, beat, fields), folder / "states.png");
+  interrupt::check();
   report::write(report::stress_figure(mesh, beat, fields), folder / "stress.png");
   report::write(report::curves_figure(report::curves_table(beat.curves)), folder / "curves.png");
   report::write(report::segments_figure(report::regions_table(results)), folder / "segments.png");
@@ -212,6 +240,25 @@ std::string beside_measured(const Case& c, const MeshResult& mesh, const BeatRes
     return "";
   const auto strain = folder.parent_path() / stage_folder(static_cast<std::size_t>(Stage::strain));
   return "\n" + compare_strain(c, {mesh, beat.beat, fields, make_anatomy(c).frame}, strain, folder);
+}
+
+/// The root's part of make_results.
+std::string write_results(const Case& c, const MeshResult& mesh, const BeatResult& beat,
+                          const report::RunFacts& facts, const analysis::BeatFields& fields,
+                          const std::filesystem::path& folder) {
+  const analysis::Results results = analysis::results(mesh.mesh, mesh.regions, beat.beat, fields);
+  write_file(folder / "summary.json", report::summary_json(facts, beat.beat, results));
+  if (!describe_infarct(c, mesh).empty())
+    infarct_table(c, mesh).write_csv(folder / "infarct.csv");
+  report::regions_table(results).write_csv(folder / "regions.csv");
+  report::rotation_table(results).write_csv(folder / "rotation.csv");
+  report::curves_table(beat.beat.curves).write_csv(folder / "curves.csv");
+  for (const auto& [name, cells] : fields.moments)
+    report::write_wall(folder / (name + ".vtu"), mesh.mesh, mesh.regions, beat.beat.at(name), cells,
+                       fields.at(heartbeat::end_diastole));
+  draw(mesh.mesh, beat.beat, fields, results, folder);
+  return report::summary_text(facts, beat.beat, results) +
+         beside_measured(c, mesh, beat, fields, folder);
 }
 
 }  // namespace
@@ -260,37 +307,44 @@ void write_mesh_result(const MeshResult& result, const std::filesystem::path& fo
 void show_mesh(const MeshResult& result, const Case& c, const std::filesystem::path& folder) {
   const mesh::Mesh& m = result.mesh;
   const auto undeformed = field_analysis(c, m).at_rest();
-  if (!parallel::is_root())
-    return;
-  report::write_mesh(folder / "mesh.vtu", m, result.regions, undeformed);
-  report::quality_table(mesh::quality(m)).write_csv(folder / "quality.csv");
-  report::write(report::mesh_figure(m), folder / "mesh.png");
-  report::write(report::fibre_figure(m, undeformed), folder / "fibres.png");
-  if (const std::string infarct = describe_infarct(c, result); !infarct.empty()) {
-    log::info("{}", infarct);
-    infarct_table(c, result).write_csv(folder / "infarct.csv");
-    report::write(report::infarct_figure(m), folder / "infarct.png");
-  }
+  parallel::on_root([&] {
+    report::write_mesh(folder / "mesh.vtu", m, result.regions, undeformed);
+    report::quality_table(mesh::quality(m)).write_csv(folder / "quality.csv");
+    interrupt::check();
+    report::write(report::mesh_figure(m), folder / "mesh.png");
+    report::write(report::fibre_figure(m, undeformed), folder / "fibres.png");
+    if (const std::string infarct = describe_infarct(c, result); !infarct.empty()) {
+      log::info("{}", infarct);
+      infarct_table(c, result).write_csv(folder / "infarct.csv");
+      report::write(report::infarct_figure(m), folder / "infarct.png");
+    }
+  });
 }
 
 MeshResult read_mesh_result(const std::filesystem::path& folder) {
   const Archive archive = Archive::read(folder / "mesh.bin");
   MeshResult result;
   mesh::Mesh& m = result.mesh;
-  m.kind = archive.number("kind") == 0.0 ? mesh::CellKind::hexahedron : mesh::CellKind::tetrahedron;
-  m.order = heartbeat::whole_number(archive.number("order"));
-  const auto& nodes = archive.get_rows("nodes", 3);
-  for (std::size_t a = 0; a < nodes.size(); a += 3)
-    m.nodes.emplace_back(nodes[a], nodes[a + 1], nodes[a + 2]);
-  m.cells = archive.get_whole("cells");
-  m.transmural = archive.get("transmural");
-  m.infarct = archive.get("infarct");
-  result.infarcted = archive.get("infarcted");
-  m.endo = load_surface(archive, "endo");
-  m.epi = load_surface(archive, "epi");
-  m.base = load_surface(archive, "base");
-  result.regions = {archive.get_whole("slice"), archive.get_whole("sector"),
-                    archive.get_whole("aha")};
+  m.kind = archive.whole_number(archive.number("kind"), {0.0, 1.0}) == 0
+               ? mesh::CellKind::hexahedron
+               : mesh::CellKind::tetrahedron;
+  m.order = archive.whole_number(archive.number("order"), {1.0, 2.0});
+  m.nodes = heartbeat::vectors(archive.get_rows("nodes", 3));
+  const std::size_t nodes = m.nodes.size();
+  const int of_element = m.order == 1 ? 1 : 8;  // its parts, see mesh.hpp
+  m.cells = load_nodes(archive, "cells",
+                       static_cast<std::size_t>(mesh::nodes_per_cell(m.kind) * of_element), nodes);
+  constexpr heartbeat::Range part{-1e-6, 1.0 + 1e-6};
+  m.transmural = archive.get_rows("transmural", 1, nodes, part);
+  m.infarct = archive.get_rows("infarct", 1, nodes, part);
+  m.endo = load_surface(archive, "endo", nodes);
+  m.epi = load_surface(archive, "epi", nodes);
+  m.base = load_surface(archive, "base", nodes);
+  const auto cells = static_cast<std::size_t>(m.cell_count());
+  result.infarcted = archive.get_rows("infarcted", 1, cells, part);
+  result.regions = {archive.get_whole("slice", cells, {1.0, mesh::slice_count}),
+                    archive.get_whole("sector", cells, {1.0, mesh::sectors_of_slice(1)}),
+                    archive.get_whole("aha", cells, {1.0, 17.0})};
   return result;
 }
 
@@ -321,21 +375,16 @@ void write_beat(const heartbeat::Beat& beat, const std::filesystem::path& folder
   archive.write(folder / beat_name);
 }
 
-BeatResult read_beat(const std::filesystem::path& folder) {
+BeatResult read_beat(const std::filesystem::path& folder, const mesh::Mesh& mesh) {
   const Archive archive = Archive::read(folder / beat_name);
-  const auto& facts = archive.get_rows("facts", 4, 1);
+  const auto& facts = archive.get_rows("facts", 4, 1, heartbeat::not_negative);
   BeatResult result;
   result.beat.curves = heartbeat::load_curves(archive);
-  result.beat.moments = heartbeat::load_moments(archive);
-  for (const char* moment : {heartbeat::end_diastole, heartbeat::end_systole})
-    if (result.beat.find(moment) == nullptr)
-      throw RunError(
-          fmt::format("{} holds a beat without {}", (folder / beat_name).string(), moment),
-          "Delete the folder to run the beat again");
-  result.beat.steps = heartbeat::whole_number(facts[0]);
-  result.beat.retries = heartbeat::whole_number(facts[1]);
+  result.beat.moments = load_whole_moments(archive, mesh);
+  result.beat.steps = archive.whole_number(facts[0]);
+  result.beat.retries = archive.whole_number(facts[1]);
   result.beat.wall_clock = facts[2];
-  result.ranks = heartbeat::whole_number(facts[3]);
+  result.ranks = archive.whole_number(facts[3]);
   return result;
 }
 
@@ -347,25 +396,15 @@ std::string make_results(const Case& c, const MeshResult& mesh, const BeatResult
   analysis::BeatFields fields{analysis.at_rest(), {}};
   for (const heartbeat::NamedMoment& m : beat.beat.moments)
     fields.moments.push_back({m.name, analysis.fields(m.wall)});
-  if (!parallel::is_root())
-    return "";
-  const analysis::Results results = analysis::results(mesh.mesh, mesh.regions, beat.beat, fields);
-  report::RunFacts facts = run_facts(c, mesh, beat);
-  facts.fitted = fitted;
-  facts.unloaded = unloaded;
-  facts.scar = scar_facts(c, mesh);
-  write_file(folder / "summary.json", report::summary_json(facts, beat.beat, results));
-  if (!describe_infarct(c, mesh).empty())
-    infarct_table(c, mesh).write_csv(folder / "infarct.csv");
-  report::regions_table(results).write_csv(folder / "regions.csv");
-  report::rotation_table(results).write_csv(folder / "rotation.csv");
-  report::curves_table(beat.beat.curves).write_csv(folder / "curves.csv");
-  for (const auto& [name, cells] : fields.moments)
-    report::write_wall(folder / (name + ".vtu"), mesh.mesh, mesh.regions, beat.beat.at(name), cells,
-                       fields.at(heartbeat::end_diastole));
-  draw(mesh.mesh, beat.beat, fields, results, folder);
-  return report::summary_text(facts, beat.beat, results) +
-         beside_measured(c, mesh, beat, fields, folder);
+  std::string text;
+  parallel::on_root([&] {
+    report::RunFacts facts = run_facts(c, mesh, beat);
+    facts.fitted = fitted;
+    facts.unloaded = unloaded;
+    facts.scar = scar_facts(c, mesh);
+    text = write_results(c, mesh, beat, facts, fields, folder);
+  });
+  return text;
 }
 
 }  // namespace lv::job

@@ -24,6 +24,7 @@ struct MeshResult {
 [[nodiscard]] MeshResult make_mesh(const Case& c, const Shape& shape);
 
 void write_mesh_result(const MeshResult& result, const std::filesystem::path& folder);
+/// Throws RunError when the folder's mesh is absent, damaged or none.
 [[nodiscard]] MeshResult read_mesh_result(const std::filesystem::path& folder);
 
 /// Writes the mesh for ParaView, its quality table and pictures; collective.
@@ -41,7 +42,8 @@ struct BeatResult {
   heartbeat::Beat beat;
   int ranks = 1;
 };
-[[nodiscard]] BeatResult read_beat(const std::filesystem::path& folder);
+/// Throws RunError when the beat is not one of this wall.
+[[nodiscard]] BeatResult read_beat(const std::filesystem::path& folder, const mesh::Mesh& mesh);
 
 /// Computes and writes the results; collective. `fitted` is empty unless the case is calibrated,
 /// `unloaded` unless the wall was seen under load.

@@ -2,6 +2,7 @@
 
 #include "lv/base/check.hpp"
 #include "lv/base/json_file.hpp"
+#include "lv/base/log.hpp"
 #include "lv/base/parallel.hpp"
 #include "lv/base/table.hpp"
 #include "lv/base/units.hpp"
@@ -18,7 +19,46 @@ using Json = nlohmann::ordered_json;
 using quasi_static::Unloaded;
 using units::mmHg;
 
+using heartbeat::Archive;
+
 constexpr const char* summary_name = "unloaded.json";
+constexpr const char* record_name = "search.bin";
+
+std::string equilibrium_name(std::size_t n) {
+  return fmt::format("equilibrium.{}", n);
+}
+
+/// What a search that was stopped has found.
+quasi_static::Equilibria read_record(const std::filesystem::path& file, std::size_t nodes) {
+  quasi_static::Equilibria known;
+  if (!std::filesystem::exists(file))
+    return known;
+  const Archive archive = Archive::read(file);
+  for (const double found : archive.get_rows("found", 1, {}, {0.0, 1.0})) {
+    const std::string name = equilibrium_name(known.size());
+    known.push_back(found == 1.0 ? std::optional(load_state(archive, name, nodes)) : std::nullopt);
+  }
+  log::info("the search for the wall without load goes on after {} equilibria", known.size());
+  return known;
+}
+
+void write_record(const quasi_static::Equilibria& known, const std::filesystem::path& file) {
+  Archive archive;
+  std::vector<double> found;
+  for (std::size_t n = 0; n < known.size(); ++n) {
+    found.push_back(known[n] ? 1.0 : 0.0);
+    if (known[n])
+      store(*known[n], equilibrium_name(n), archive);
+  }
+  archive.set("found", std::move(found));
+  archive.write(file);
+}
+
+std::optional<Unloaded> read_start(const std::filesystem::path& file, std::size_t nodes) {
+  if (!std::filesystem::exists(file))
+    return {};
+  return load_unloaded(Archive::read(file), nodes);
+}
 
 Table steps_table(const Unloaded& unloaded) {
   Table table({"step", "largest_distance_mm", "rms_distance_mm", "unloaded_volume_ml",
@@ -70,9 +110,17 @@ void check_elements(const mesh::Mesh& wall) {
 }  // namespace
 
 void make_unloading(const Case& c, const MeshResult& seen, const mesh::Mesh& elements,
-                    const std::filesystem::path& folder) {
+                    const std::filesystem::path& folder, const std::filesystem::path& start) {
+  const std::filesystem::path record = folder / record_name;
+  const std::optional<Unloaded> near = read_start(start, elements.nodes.size());
   const Unloaded unloaded =
-      quasi_static::unload(elements, static_model(c), c.unloaded, c.quasi_static.solver).value();
+      quasi_static::unload(elements, static_model(c), c.unloaded, c.quasi_static.solver,
+                           near ? &*near : nullptr,
+                           {read_record(record, elements.nodes.size()),
+                            [&](const quasi_static::Equilibria& known) {
+                              parallel::on_root([&] { write_record(known, record); });
+                            }})
+          .value();
   MeshResult result = seen;
   result.mesh.nodes =
       c.engine == Engine::quasi_static ? unloaded.nodes : carried(elements, unloaded, seen.mesh);
@@ -81,8 +129,36 @@ void make_unloading(const Case& c, const MeshResult& seen, const mesh::Mesh& ele
     write_mesh_result(result, folder);
     steps_table(unloaded).write_csv(folder / "unloading.csv");
     write_file(folder / summary_name, summary(c, elements, unloaded).dump(2) + "\n");
+    std::filesystem::remove(record);
   }
   show_mesh(result, c, folder);
+}
+
+void write_unloaded(const Unloaded& unloaded, const std::filesystem::path& file) {
+  Archive archive;
+  store(unloaded, archive);
+  archive.write(file);
+}
+
+void store(const quasi_static::State& state, const std::string& name, Archive& archive) {
+  archive.set(name + ".positions", heartbeat::flat(state.positions));
+  archive.set(name + ".pressures", state.pressures);
+}
+
+quasi_static::State load_state(const Archive& archive, const std::string& name, std::size_t nodes) {
+  return {heartbeat::vectors(archive.get_rows(name + ".positions", 3, nodes)),
+          archive.get_rows(name + ".pressures", 1)};
+}
+
+void store(const Unloaded& unloaded, Archive& archive) {
+  archive.set("unloaded.nodes", heartbeat::flat(unloaded.nodes));
+  store(unloaded.loaded, "loaded", archive);
+}
+
+Unloaded load_unloaded(const Archive& archive, std::size_t nodes) {
+  return {heartbeat::vectors(archive.get_rows("unloaded.nodes", 3, nodes)),
+          load_state(archive, "loaded", nodes),
+          {}};
 }
 
 std::optional<report::UnloadedShape> unloaded_shape(const std::filesystem::path& folder) {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include "lv/heartbeat/archive.hpp"
 #include "lv/job/stages.hpp"
+#include "lv/quasi_static/unload.hpp"
 
 #include <optional>
 
@@ -10,9 +12,23 @@ namespace lv::job {
 /// quasi-static engine on `elements`, and writes it for the engine of the case in place of `seen`
 /// (for the immersed engine the displacement is carried over to its mesh), with unloading.csv (the
 /// search) and unloaded.json (what is left); collective. Depth, regions and infarct are carried
-/// with the wall.
+/// with the wall. The search begins at the shape in the file `start` if it is there; one that was
+/// stopped goes on from what it left in `folder`.
 void make_unloading(const Case& c, const MeshResult& seen, const mesh::Mesh& elements,
-                    const std::filesystem::path& folder);
+                    const std::filesystem::path& folder, const std::filesystem::path& start);
+
+/// A wall without load as the start of a search, in a file and back.
+inline constexpr const char* unloaded_shape_name = "unloaded.bin";
+void write_unloaded(const quasi_static::Unloaded& unloaded, const std::filesystem::path& file);
+
+/// A shape and its equilibrium, or an equilibrium, as arrays of an archive, and back; `nodes` of
+/// the wall.
+void store(const quasi_static::State& state, const std::string& name, heartbeat::Archive& archive);
+[[nodiscard]] quasi_static::State load_state(const heartbeat::Archive& archive,
+                                             const std::string& name, std::size_t nodes);
+void store(const quasi_static::Unloaded& unloaded, heartbeat::Archive& archive);
+[[nodiscard]] quasi_static::Unloaded load_unloaded(const heartbeat::Archive& archive,
+                                                   std::size_t nodes);
 
 /// What make_unloading left in a folder; nothing when it was not there.
 [[nodiscard]] std::optional<report::UnloadedShape> unloaded_shape(

@@ -15,7 +15,6 @@
 #include <cerrno>
 #include <fstream>
 #include <optional>
-#include <sstream>
 
 namespace lv::job {
 namespace {
@@ -30,6 +29,8 @@ std::string checksum(const std::string& text) {
 
 /// The recorded ingredients of a folder; empty when there is no readable record.
 Ingredients recorded(const std::filesystem::path& folder) {
+  if (!why_unreadable(folder / record_name).empty())
+    return {};
   std::ifstream in(folder / record_name);
   const auto json = nlohmann::json::parse(in, nullptr, false);
   if (json.is_discarded() || !json.is_object())
@@ -87,12 +88,7 @@ std::string fingerprint(const Ingredients& ingredients) {
 }
 
 std::string fingerprint_of_file(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in)
-    return "absent";
-  std::ostringstream contents;
-  contents << in.rdbuf();
-  return checksum(contents.str());
+  return why_unreadable(file).empty() ? checksum(read_file(file)) : "absent";
 }
 
 StageFolder::StageFolder(const std::filesystem::path& work, const std::string& name,
@@ -154,6 +150,8 @@ void StageFolder::finish() const {
 
 std::vector<std::string> state_of(const std::filesystem::path& work) {
   constexpr auto results = static_cast<std::size_t>(Stage::results);
+  if (std::filesystem::is_directory(work))
+    check_contents(work);
   std::vector<std::string> state;
   std::size_t found = 0;
   for (std::size_t s = 0; s <= results; ++s) {
@@ -183,6 +181,17 @@ std::vector<std::string> state_of(const std::filesystem::path& work) {
   return state;
 }
 
+void check_contents(const std::filesystem::path& work) {
+  std::error_code failed;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(work)) {
+    const std::filesystem::file_status status = std::filesystem::status(entry, failed);
+    if (!std::filesystem::is_regular_file(status) && !std::filesystem::is_directory(status))
+      throw RunError(fmt::format("{} is neither a file nor a folder{}", entry.path().string(),
+                                 failed ? ": " + failed.message() : ""),
+                     "Remove it, or name another work folder with --work");
+  }
+}
+
 WorkLock::WorkLock(const std::filesystem::path& work) {
   std::error_code error;
   std::filesystem::create_directories(work, error);
@@ -200,6 +209,7 @@ WorkLock::WorkLock(const std::filesystem::path& work) {
     throw RunError(fmt::format("another run is at work in {}", work.string()),
                    "Wait for it to end, or name another folder with --work");
   }
+  check_contents(work);
 }
 
 WorkLock::~WorkLock() {

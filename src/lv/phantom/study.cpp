@@ -1,6 +1,7 @@
 #include "lv/phantom/study.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/processors.hpp"
 #include "lv/base/table.hpp"
 #include "lv/phantom/files.hpp"
 
@@ -8,7 +9,6 @@
 
 #include <cmath>
 #include <string_view>
-#include <thread>
 
 namespace lv::phantom {
 namespace {
@@ -16,18 +16,6 @@ namespace {
 namespace fs = std::filesystem;
 using geometry::Contour;
 using geometry::Side;
-
-/// Works on 0..n-1 with every core.
-template <class Work>
-void on_all_cores(std::size_t n, const Work& work) {
-  const std::size_t threads = std::max(1U, std::thread::hardware_concurrency());
-  std::vector<std::jthread> pool;
-  for (std::size_t t = 0; t < threads; ++t)
-    pool.emplace_back([&, t] {
-      for (std::size_t i = t; i < n; i += threads)
-        work(i);
-    });
-}
 
 image::Cine cine_of(const Scanner& scanner, const Scan& scan, const std::vector<ScanPlane>& planes,
                     std::uint32_t first_number) {
@@ -39,7 +27,7 @@ image::Cine cine_of(const Scanner& scanner, const Scan& scan, const std::vector<
       slice.times.push_back(time * scan.rr);
     cine.slices.push_back(std::move(slice));
   }
-  on_all_cores(planes.size() * times.size(), [&](std::size_t n) {
+  in_threads(planes.size() * times.size(), [&](std::size_t n) {
     const std::size_t s = n / times.size();
     const std::size_t k = n % times.size();
     cine.slices[s].frames[k] = scanner.picture(planes[s], times[k], Contrast::cine,
@@ -55,7 +43,7 @@ image::Cine late_enhancement(const Scanner& scanner, const Scan& scan, const Sca
   image::Cine stack;
   for (std::size_t s = 0; s < planes.short_axis.size(); ++s)
     stack.slices.push_back({planes.short_axis[s].name, {}, {time * scan.rr}, scan.rr});
-  on_all_cores(planes.short_axis.size(), [&](std::size_t s) {
+  in_threads(planes.short_axis.size(), [&](std::size_t s) {
     stack.slices[s].frames = {scanner.picture(planes.short_axis[s], time,
                                               Contrast::late_enhancement,
                                               first_number + static_cast<std::uint32_t>(s))};
@@ -66,8 +54,8 @@ image::Cine late_enhancement(const Scanner& scanner, const Scan& scan, const Sca
 std::vector<LabelPicture> label_stack(const Scanner& scanner, const ScanPlanes& planes,
                                       double time) {
   std::vector<LabelPicture> stack(planes.short_axis.size());
-  on_all_cores(stack.size(),
-               [&](std::size_t s) { stack[s] = scanner.labels(planes.short_axis[s], time); });
+  in_threads(stack.size(),
+             [&](std::size_t s) { stack[s] = scanner.labels(planes.short_axis[s], time); });
   return stack;
 }
 

@@ -105,6 +105,10 @@ void Engine::relax() {
 }
 
 void Engine::restore(const State& state, const Loads& loads) {
+  if (state.positions.size() != state_.positions.size() ||
+      state.pressures.size() != state_.pressures.size())
+    throw InputError("an equilibrium that was kept", "is one of another wall",
+                     "Delete the unfinished folder of this stage to start it again");
   state_ = state;
   loads_ = loads;
   newton_.forget_tangent();

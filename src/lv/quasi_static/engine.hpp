@@ -56,7 +56,8 @@ class Engine {
     return equations_.mean_tension(state_, loads_.activation);
   }
 
-  /// Takes over an equilibrium that was reached before, with the loads that held it.
+  /// Takes over an equilibrium that was reached before, with the loads that held it. Throws
+  /// InputError when it is one of another wall.
   void restore(const State& state, const Loads& loads);
 
  private:

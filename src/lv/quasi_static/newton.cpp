@@ -1,5 +1,7 @@
 #include "lv/quasi_static/newton.hpp"
 
+#include "lv/base/interrupt.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -96,6 +98,7 @@ class Newton::Attempt {
   }
 
   void iterate() {
+    interrupt::check_together();
     if (++report_.iterations > newton_.parameters_.iterations) {
       give_up(
           fmt::format("no equilibrium after {} corrections (the last moved the wall by {:.2g} mm "

@@ -60,11 +60,12 @@ struct Trial {
 class Unloader {
  public:
   Unloader(const mesh::Mesh& given, const StaticModel& model, const UnloadParameters& parameters,
-           const SolverParameters& solver)
+           const SolverParameters& solver, UnloadRecord record)
       : given_(given),
         model_(model),
         parameters_(parameters),
         solver_(solver),
+        record_(std::move(record)),
         endocardium_(given),
         target_(as_vector(given.nodes)) {}
 
@@ -180,24 +181,39 @@ class Unloader {
     wall.nodes = as_nodes(X);
     if (!is_sound(wall))
       return {};
-    ++equilibria_;
-    Trial trial{X, {}, {}, {}};
-    Engine engine(wall, model_, solver_);
-    if (near != nullptr)
-      engine.restore({given_.nodes, near->pressures}, {pressure_, 0.0});
-    const auto volume = near != nullptr ? engine.set_model(model_) : engine.go_to({pressure_, 0.0});
-    if (!volume) {
-      log::info("a wall that was tried without load has no equilibrium: {}", volume.why().what);
+    std::optional<State> loaded = next_equilibrium(wall, near);
+    if (!loaded)
       return {};
-    }
-    trial.loaded = engine.state();
-    trial.step.volume = *volume;
+    Trial trial{X, {}, std::move(*loaded), {}};
+    trial.step.volume = endocardium_.volume(trial.loaded.positions);
     trial.R = target_ - as_vector(trial.loaded.positions);
     trial.step.unloaded_volume = endocardium_.volume(wall.nodes);
     const Eigen::Map<const Eigen::Matrix3Xd> R(trial.R.data(), 3, trial.R.size() / 3);
     trial.step.largest = R.colwise().norm().maxCoeff();
     trial.step.rms = std::sqrt(R.colwise().squaredNorm().mean());
     return trial;
+  }
+
+  /// From the record, or found and put there.
+  std::optional<State> next_equilibrium(const mesh::Mesh& wall, const State* near) {
+    const auto n = static_cast<std::size_t>(equilibria_++);
+    if (n >= record_.known.size()) {
+      record_.known.push_back(equilibrium(wall, near));
+      if (record_.keep)
+        record_.keep(record_.known);
+    }
+    return record_.known[n];
+  }
+
+  std::optional<State> equilibrium(const mesh::Mesh& wall, const State* near) {
+    Engine engine(wall, model_, solver_);
+    if (near != nullptr)
+      engine.restore({given_.nodes, near->pressures}, {pressure_, 0.0});
+    const auto volume = near != nullptr ? engine.set_model(model_) : engine.go_to({pressure_, 0.0});
+    if (volume)
+      return engine.state();
+    log::info("a wall that was tried without load has no equilibrium: {}", volume.why().what);
+    return {};
   }
 
   void accept(Trial&& trial) {
@@ -218,6 +234,7 @@ class Unloader {
   const StaticModel& model_;
   const UnloadParameters& parameters_;
   const SolverParameters& solver_;
+  UnloadRecord record_;
   solid::EndocardialSurface endocardium_;
   Eigen::VectorXd target_;
   double pressure_ = 0.0;  ///< in force [kPa]
@@ -231,8 +248,8 @@ class Unloader {
 
 Outcome<Unloaded> unload(const mesh::Mesh& given, const StaticModel& model,
                          const UnloadParameters& parameters, const SolverParameters& solver,
-                         const Unloaded* start) {
-  return Unloader(given, model, parameters, solver).run(start);
+                         const Unloaded* start, UnloadRecord record) {
+  return Unloader(given, model, parameters, solver, std::move(record)).run(start);
 }
 
 }  // namespace lv::quasi_static

@@ -2,6 +2,8 @@
 
 #include "lv/quasi_static/engine.hpp"
 
+#include <functional>
+#include <optional>
 #include <vector>
 
 namespace lv::quasi_static {
@@ -28,6 +30,15 @@ struct Unloaded {
   std::vector<UnloadStep> steps;  ///< shapes that came nearer, in their order; the last is X
 };
 
+/// The equilibria of a search in the order in which they were sought, nothing where there was none.
+using Equilibria = std::vector<std::optional<State>>;
+
+/// Lets a search that was stopped go on to the same result, bit for bit.
+struct UnloadRecord {
+  Equilibria known;                             ///< of the search so far: not sought again
+  std::function<void(const Equilibria&)> keep;  ///< told all of them after each new one; or empty
+};
+
 /// The stress-free wall X whose equilibrium x(X) under the pressure on the muscle at rest is the
 /// given shape x*, by fixed-point iteration (backward displacement: M. Sellier, Struct. Multidisc.
 /// Optim. 44:683, 2011; J. Bols et al., J. Comput. Appl. Math. 246:10, 2013),
@@ -43,9 +54,9 @@ struct Unloaded {
 /// along with the nodes.
 ///
 /// `start` may be the result for other muscle, from where few steps are needed. Unsolved, with the
-/// distance that is left, when the tolerance is not met. Collective.
+/// distance that is left, when the tolerance is not met. Throws Interrupted. Collective.
 Outcome<Unloaded> unload(const mesh::Mesh& given, const StaticModel& model,
                          const UnloadParameters& parameters, const SolverParameters& solver,
-                         const Unloaded* start = nullptr);
+                         const Unloaded* start = nullptr, UnloadRecord record = {});
 
 }  // namespace lv::quasi_static

@@ -1,6 +1,7 @@
 #include "lv/report/flow_series.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/interrupt.hpp"
 
 #include <fmt/format.h>
 #include <vtkCellData.h>
@@ -89,6 +90,7 @@ FlowSeries read_flow_series(const std::vector<TimedFrame>& frames,
                             const std::array<double, 2>& upper) {
   FlowSeries flow;
   for (const TimedFrame& frame : frames) {
+    interrupt::check();
     const auto image = read_image(frame.file);
     const Window window(image, lower, upper);
     flow.cells = window.size;

@@ -1,6 +1,7 @@
 #include "lv/report/wall_series.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/interrupt.hpp"
 #include "lv/base/table.hpp"
 #include "lv/mesh/vtk_file.hpp"
 
@@ -208,8 +209,10 @@ WallSeries read_wall_series(const std::vector<TimedFrame>& frames, double end_di
   WallSeries wall =
       fixed_part(Frame(frames.front().file, {"f0", "infarct", "slice", "sector", "aha17"}));
   constexpr double rounding = 1e-5;  // of times in a series [s]
-  for (const TimedFrame& frame : frames)
+  for (const TimedFrame& frame : frames) {
+    interrupt::check();
     add_frame(wall, frame, frame.time > end_diastole + rounding);
+  }
   return wall;
 }
 

@@ -1,18 +1,15 @@
 #include "lv/strain/track.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/processors.hpp"
 #include "lv/geometry/contour_measures.hpp"
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <exception>
-#include <mutex>
 #include <numbers>
-#include <thread>
 
 namespace lv::strain {
 namespace {
@@ -221,26 +218,8 @@ TrackedSlice track(const SliceTask& task, const Orientation& orientation,
 std::vector<TrackedSlice> track(const std::vector<SliceTask>& tasks, const Orientation& orientation,
                                 const RegistrationParameters& parameters) {
   std::vector<TrackedSlice> results(tasks.size());
-  std::atomic<std::size_t> next = 0;
-  std::exception_ptr failure;
-  std::mutex mutex;
-  const auto work = [&] {
-    for (std::size_t i = next++; i < tasks.size(); i = next++) {
-      try {
-        results[i] = track(tasks[i], orientation, parameters);
-      } catch (...) {
-        const std::lock_guard lock(mutex);
-        failure = std::current_exception();
-      }
-    }
-  };
-  {
-    std::vector<std::jthread> pool;
-    for (unsigned t = 0; t < std::max(1U, std::thread::hardware_concurrency()); ++t)
-      pool.emplace_back(work);
-  }
-  if (failure)
-    std::rethrow_exception(failure);
+  in_threads(tasks.size(),
+             [&](std::size_t i) { results[i] = track(tasks[i], orientation, parameters); });
   return results;
 }
 

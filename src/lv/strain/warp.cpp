@@ -1,6 +1,7 @@
 #include "lv/strain/warp.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/interrupt.hpp"
 #include "lv/geometry/polygon.hpp"
 #include "lv/strain/grey_image.hpp"
 
@@ -315,6 +316,7 @@ class Tracker::Implementation {
     double energy = normal.value + p.dot(bent(p));
     Match match;
     while (match.iterations < most && damping < 1e6) {
+      interrupt::check();
       ++match.iterations;
       MatrixXd A = normal.A;
       A.topLeftCorner(n, n) += stiffness_ * bending_;

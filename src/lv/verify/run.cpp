@@ -1,6 +1,7 @@
 #include "lv/verify/run.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/interrupt.hpp"
 #include "lv/base/launch.hpp"
 #include "lv/base/log.hpp"
 #include "lv/base/parallel.hpp"
@@ -45,6 +46,7 @@ std::filesystem::path findings_file(const std::filesystem::path& folder, int ran
 std::vector<Quantity> solve_apart(const Problem& problem, int ranks,
                                   const std::filesystem::path& folder) {
   const int code = launch::run(ranks, {"verify", problem.name, solve_option, folder.string()});
+  interrupt::check();
   std::vector<Quantity> found = read(findings_file(folder, ranks));
   if (code != 0 || found.empty())
     found.push_back({problem.name, fmt::format("exit code on {} ranks", ranks),
@@ -52,10 +54,21 @@ std::vector<Quantity> solve_apart(const Problem& problem, int ranks,
   return found;
 }
 
-std::vector<Quantity> solve_all(const Problem& problem) {
+/// On how many ranks a problem is solved, one after the other; `several` replaces those that are
+/// more than one, if it is not 0.
+std::vector<int> rank_counts(const Problem& problem, int several) {
+  std::vector<int> counts = problem.ranks;
+  if (several > 0)
+    for (int& count : counts)
+      count = count > 1 ? several : count;
+  counts.erase(std::unique(counts.begin(), counts.end()), counts.end());
+  return counts;
+}
+
+std::vector<Quantity> solve_all(const Problem& problem, int several) {
   const ScratchFolder scratch;
   std::vector<Quantity> all;
-  for (const int ranks : problem.ranks) {
+  for (const int ranks : rank_counts(problem, several)) {
     const auto start = std::chrono::steady_clock::now();
     const std::vector<Quantity> found = solve_apart(problem, ranks, scratch.path());
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
@@ -83,11 +96,9 @@ std::vector<const Problem*> chosen(const Options& options) {
 }  // namespace
 
 bool run(const Options& options) {
-  if (launch::under_mpirun())
-    throw InputError("verify", "starts its own ranks", "Run it without mpirun");
   std::vector<Quantity> all;
   for (const Problem* p : chosen(options)) {
-    const std::vector<Quantity> found = solve_all(*p);
+    const std::vector<Quantity> found = solve_all(*p, options.ranks);
     if (options.json)
       for (const Quantity& q : found)
         fmt::print("{}\n", json_line(q));

@@ -10,10 +10,12 @@ struct Options {
   std::vector<std::string> names;  ///< empty: all short problems
   bool nightly = false;            ///< without names: the long problems too
   bool json = false;               ///< one JSON object a line instead of a table
+  int ranks = 0;  ///< on which problems of several ranks are solved; 0: as each of them asks
 };
 
 /// Solves problems, each in a process of its own on as many ranks as it asks for, and prints what
-/// they found. Returns whether all quantities pass. The caller must not hold MPI.
+/// they found. Returns whether all quantities pass. Throws Interrupted when asked to stop. The
+/// caller must not hold MPI.
 [[nodiscard]] bool run(const Options& options);
 
 /// The problems and what each proves.

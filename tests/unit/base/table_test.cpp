@@ -1,9 +1,11 @@
 #include "lv/base/table.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/lines.hpp"
 
 #include "support/temporary_folder.hpp"
 #include <catch2/catch.hpp>
+#include <sys/stat.h>
 
 #include <cmath>
 #include <limits>
@@ -98,4 +100,49 @@ TEST_CASE("a column of numbers that holds words is refused", "[unit][base]") {
   CHECK_THROWS_AS(table.numbers("volume_ml"), InputError);
   CHECK_THROWS_WITH(table.numbers("volume_ml"), Contains("volume_ml") && Contains("12 ml"));
   CHECK_THROWS_AS(table.whole_numbers("slice"), InputError);
+}
+
+TEST_CASE("only files are read: no folder, pipe, device, or link that leads nowhere or round",
+          "[unit][base]") {
+  const test::TemporaryFolder folder;
+  REQUIRE(mkfifo((folder / "pipe").c_str(), 0600) == 0);
+  std::filesystem::create_symlink("/dev/zero", folder / "device");
+  std::filesystem::create_symlink("absent", folder / "nowhere");
+  std::filesystem::create_symlink("round", folder / "round");
+  std::filesystem::create_directory(folder / "folder");
+  for (const char* name : {"pipe", "device", "nowhere", "round", "folder"}) {
+    INFO(name);
+    CHECK_FALSE(why_unreadable(folder / name).empty());
+    CHECK_THROWS_AS(read_file(folder / name), InputError);
+    CHECK_THROWS_WITH(read_file(folder / name), Contains(name) && Contains("cannot be read"));
+    CHECK_FALSE(LineReader(folder / name).is_open());
+  }
+  test::write_bytes(folder / "file", "text");
+  std::filesystem::create_symlink("file", folder / "link");
+  CHECK(read_file(folder / "link") == "text");
+}
+
+TEST_CASE("a file larger than the memory is refused unread", "[unit][base]") {
+  const test::TemporaryFolder folder;
+  test::write_bytes(folder / "huge", "");
+  std::error_code failed;
+  std::filesystem::resize_file(folder / "huge", std::uintmax_t{1} << 43U, failed);
+  if (failed)
+    return;  // the disk has no files with holes
+  CHECK_THROWS_WITH(read_file(folder / "huge"), Contains("memory"));
+}
+
+TEST_CASE("a pipe in the place of an unfinished file does not stop a file from being written",
+          "[unit][base]") {
+  const test::TemporaryFolder folder;
+  REQUIRE(mkfifo((folder / "a.csv.part").c_str(), 0600) == 0);
+  write_file(folder / "a.csv", "text");
+  CHECK(read_file(folder / "a.csv") == "text");
+}
+
+TEST_CASE("files of megabytes are read whole", "[unit][base]") {
+  const test::TemporaryFolder folder;
+  const std::string text(5'000'001, 'x');
+  write_file(folder / "long", text);
+  CHECK(read_file(folder / "long") == text);
 }

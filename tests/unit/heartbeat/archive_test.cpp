@@ -4,6 +4,7 @@
 
 #include "support/temporary_folder.hpp"
 #include <catch2/catch.hpp>
+#include <sys/stat.h>
 
 #include <cstring>
 #include <limits>
@@ -121,4 +122,61 @@ TEST_CASE("an archive that cannot take its final name is a run's failure", "[uni
   std::filesystem::create_directories(folder / "taken/by_a_folder");
   CHECK_THROWS_AS(example().write(folder / "taken"), RunError);
   CHECK_THROWS_WITH(example().write(folder / "taken"), Contains("taken"));
+}
+
+TEST_CASE("an array of another length, or with numbers out of range, is refused by name",
+          "[unit][heartbeat]") {
+  Archive archive;
+  const double infinite = std::numeric_limits<double>::infinity();
+  const double missing = std::numeric_limits<double>::quiet_NaN();
+  archive.set("three", {1.0, 2.0, 3.0});
+  archive.set("infinite", {infinite});
+  archive.set("missing", {missing});
+  CHECK(archive.get_rows("three", 3, 1).size() == 3);
+  CHECK_THROWS_WITH(archive.get_rows("three", 2), Contains("'three'"));
+  CHECK_THROWS_WITH(archive.get_rows("three", 3, 2), Contains("'three'"));
+  CHECK_THROWS_WITH(archive.get_rows("three", 3, 1, {0.0, 2.5}), Contains("'three'"));
+  CHECK_THROWS_WITH(archive.get_rows("infinite", 1), Contains("'infinite'"));
+  CHECK_THROWS_AS(archive.get_rows("missing", 1), RunError);
+  CHECK(archive.get_rows("missing", 1, {}, {.missing = true}).size() == 1);
+  CHECK_THROWS_AS(archive.get_rows("infinite", 1, {}, {.missing = true}), RunError);
+}
+
+TEST_CASE("whole numbers are whole and in their range", "[unit][heartbeat]") {
+  Archive archive;
+  archive.set("whole", {0.0, 7.0});
+  archive.set("half", {0.5});
+  archive.set("large", {1e10});
+  CHECK(archive.get_whole("whole") == std::vector<int>{0, 7});
+  CHECK_THROWS_AS(archive.get_whole("whole", 3), RunError);
+  CHECK_THROWS_AS(archive.get_whole("whole", 2, {0.0, 6.0}), RunError);
+  CHECK_THROWS_AS(archive.get_whole("half"), RunError);
+  CHECK_THROWS_AS(archive.get_whole("large"), RunError);
+}
+
+TEST_CASE("an archive inside another comes out as it went in", "[unit][heartbeat]") {
+  Archive outer;
+  outer.set("a", {1.0});
+  outer.add("part", example());
+  Archive part = outer.take("part");
+  CHECK(part.get("positions") == example().get("positions"));
+  CHECK(outer.has("a"));
+  CHECK_FALSE(outer.has("part.positions"));
+}
+
+TEST_CASE("what does not fit is told with the file's name", "[unit][heartbeat]") {
+  const test::TemporaryFolder folder;
+  Archive outer;
+  outer.add("part", example());
+  outer.write(folder / "state.bin");
+  Archive read = Archive::read(folder / "state.bin");
+  const Archive part = read.take("part");
+  CHECK_THROWS_WITH(part.get_rows("positions", 2), Contains("state.bin"));
+}
+
+TEST_CASE("an archive that is no file is refused", "[unit][heartbeat]") {
+  const test::TemporaryFolder folder;
+  REQUIRE(mkfifo((folder / "pipe").c_str(), 0600) == 0);
+  CHECK_THROWS_AS(Archive::read(folder / "pipe"), RunError);
+  CHECK_THROWS_AS(Archive::read(folder / ""), RunError);
 }

@@ -38,6 +38,7 @@ TEST_CASE("damaged checkpoints are read or refused", "[unit][heartbeat][mutation
   test::try_damaged("checkpoint.bin", checkpoint(), read_checkpoint);
 }
 
-TEST_CASE("checkpoints that say anything are read or refused", "[unit][heartbeat][mutations]") {
+TEST_CASE("checkpoints that say anything are read or refused",
+          "[unit][heartbeat][mutations][records]") {
   test::try_damaged("checkpoint.bin", checkpoint(), read_checkpoint, {}, test::repair_checksum);
 }

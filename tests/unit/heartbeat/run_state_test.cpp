@@ -5,6 +5,10 @@
 #include "support/temporary_folder.hpp"
 #include <catch2/catch.hpp>
 
+#include <cmath>
+#include <functional>
+#include <limits>
+
 namespace {
 
 using namespace lv;
@@ -77,6 +81,7 @@ RunState example(const std::vector<Phase>& phases) {
   run.halvings = 2;
   run.good_steps = 117;
   run.patience = 1000;
+  run.flips = 13;
   run.steady = criterion(phases[run.phase]);
   for (int i = 0; i < 500; ++i)
     run.steady.record(0.62 + 1e-3 * i, 100.0 + 0.01 * (i % 7));
@@ -116,6 +121,7 @@ TEST_CASE("a run's state comes back from a checkpoint as it was", "[unit][heartb
   CHECK(loaded.halvings == run.halvings);
   CHECK(loaded.good_steps == run.good_steps);
   CHECK(loaded.patience == run.patience);
+  CHECK(loaded.flips == run.flips);
   CHECK(loaded.volume_was_falling == run.volume_was_falling);
   CHECK(loaded.beat.steps == run.beat.steps);
   CHECK(loaded.beat.retries == run.beat.retries);
@@ -171,4 +177,23 @@ TEST_CASE("each phase has its own criterion", "[unit][heartbeat]") {
 
 TEST_CASE("a checkpoint without the run's state is refused", "[unit][heartbeat]") {
   CHECK_THROWS_AS(load_run_state(Archive{}, {}), RunError);
+}
+
+TEST_CASE("a checkpoint of a run that cannot be is refused", "[unit][heartbeat]") {
+  const auto refused = [](const std::function<void(RunState&)>& change) {
+    RunState run = example({});
+    change(run);
+    Archive archive;
+    store(run, archive);
+    CHECK_THROWS_AS(load_run_state(archive, {}, 2), RunError);
+  };
+  refused([](RunState& run) { run.time = std::nan(""); });
+  refused([](RunState& run) { run.time = -1.0; });
+  refused([](RunState& run) { run.halvings = 1000; });
+  refused([](RunState& run) { run.frames = 4; });
+  refused([](RunState& run) { run.frame_times[1] = std::numeric_limits<double>::infinity(); });
+  refused([](RunState& run) { run.beat.steps = -1; });
+  refused([](RunState& run) { run.beat.end_diastole = {}; });
+  refused([](RunState& run) { run.beat.end_diastole.positions.resize(3, Vec3::Zero()); });
+  refused([](RunState& run) { run.least.tension.resize(7); });
 }

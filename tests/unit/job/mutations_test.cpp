@@ -8,7 +8,9 @@
 #include "lv/job/strain_targets.hpp"
 #include "lv/job/unloading.hpp"
 #include "lv/job/workspace.hpp"
+#include "lv/mesh/quality.hpp"
 #include "lv/mesh/regions.hpp"
+#include "lv/solid/endocardial_surface.hpp"
 #include "lv/strain/agreement.hpp"
 
 #include "mesh/mesh_files.hpp"
@@ -41,9 +43,16 @@ job::MeshResult mesh_result() {
   return result;
 }
 
+solid::CellStress zero_stress() {
+  solid::CellStress stress;
+  stress.cauchy_passive.setZero();
+  stress.cauchy_active.setZero();
+  return stress;
+}
+
 }  // namespace
 
-TEST_CASE("damaged case files are read or refused", "[unit][job][mutations]") {
+TEST_CASE("damaged case files are read or refused", "[unit][job][mutations][records]") {
   std::string text = job::starter_case("a case");
   text +=
       "\n[anatomy.labels]\nfile = \"labels.nii.gz\"\ncavity = [1, 2]\n"
@@ -73,7 +82,8 @@ TEST_CASE("damaged tables of measured strains are read or refused", "[unit][stra
               read);
 }
 
-TEST_CASE("a damaged mesh of an earlier run is read or refused", "[unit][job][mutations]") {
+TEST_CASE("a damaged mesh of an earlier run is read or refused",
+          "[unit][job][mutations][records]") {
   const auto read = [](const std::filesystem::path& file) {
     static_cast<void>(job::read_mesh_result(file.parent_path()));
   };
@@ -82,23 +92,28 @@ TEST_CASE("a damaged mesh of an earlier run is read or refused", "[unit][job][mu
   try_damaged("mesh.bin", bytes, read, {}, test::repair_checksum);
 }
 
-TEST_CASE("a damaged beat of an earlier run is read or refused", "[unit][job][mutations]") {
-  const auto read = [](const std::filesystem::path& file) {
-    static_cast<void>(job::read_beat(file.parent_path()));
+TEST_CASE("a damaged beat of an earlier run is read or refused",
+          "[unit][job][mutations][records]") {
+  const mesh::Mesh mesh = mesh_result().mesh;
+  const auto read = [&](const std::filesystem::path& file) {
+    static_cast<void>(job::read_beat(file.parent_path(), mesh));
   };
   heartbeat::Beat beat;
   beat.curves.resize(2);
   beat.moments.resize(2);
   beat.moments[0].name = heartbeat::end_diastole;
-  beat.moments[0].wall.positions.resize(2, Vec3::Ones());
+  beat.moments[0].wall.positions = mesh.nodes;
+  beat.moments[0].wall.tension.resize(mesh.nodes.size());
   beat.moments[1].name = heartbeat::end_systole;
-  beat.moments[1].wall.stress.resize(1);
+  beat.moments[1].wall.positions = mesh.nodes;
+  beat.moments[1].wall.stress.resize(static_cast<std::size_t>(mesh.cell_count()), zero_stress());
   const std::string bytes =
       made("beat.bin", [&](const auto& folder) { job::write_beat(beat, folder); });
   try_damaged("beat.bin", bytes, read, {}, test::repair_checksum);
 }
 
-TEST_CASE("damaged records of earlier stages are read or refused", "[unit][job][mutations]") {
+TEST_CASE("damaged records of earlier stages are read or refused",
+          "[unit][job][mutations][records]") {
   const auto record = [](const std::filesystem::path& file) {
     const auto folder = file.parent_path();
     const job::StageFolder stage(folder.parent_path(), folder.filename().string(),
@@ -122,4 +137,17 @@ TEST_CASE("damaged records of earlier stages are read or refused", "[unit][job][
               "\"loaded_again_volume_ml\": 100.4, \"largest_distance_mm\": 0.1,\n"
               "\"rms_distance_mm\": 0.02}\n",
               unloading);
+}
+
+TEST_CASE("a damaged mesh of an earlier run that is read is one",
+          "[unit][job][mutations][records]") {
+  const auto use = [](const std::filesystem::path& file) {
+    const job::MeshResult result = job::read_mesh_result(file.parent_path());
+    static_cast<void>(mesh::quality(result.mesh));
+    static_cast<void>(mesh::divide(result.mesh, {}));
+    static_cast<void>(solid::EndocardialSurface(result.mesh).volume(result.mesh.nodes));
+  };
+  const std::string bytes =
+      made("mesh.bin", [](const auto& folder) { job::write_mesh_result(mesh_result(), folder); });
+  try_damaged("mesh.bin", bytes, use, {}, test::repair_checksum);
 }

@@ -1,6 +1,7 @@
 #include "lv/quasi_static/unload.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/interrupt.hpp"
 #include "lv/base/units.hpp"
 #include "lv/geometry/ellipsoid.hpp"
 #include "lv/mesh/wall_mesh.hpp"
@@ -71,4 +72,33 @@ TEST_CASE("unloading that does not come to its tolerance says what is left", "[q
   REQUIRE_FALSE(unloaded);
   CHECK_THAT(unloaded.why().what, Contains("loaded again it is off by"));
   CHECK_THAT(unloaded.why().what_to_do, Contains("unloaded.iterations"));
+}
+
+TEST_CASE("a search that was stopped goes on to the same wall, bit for bit", "[quasi_static]") {
+  const mesh::Mesh seen = coarse_ventricle();
+  const quasi_static::UnloadParameters parameters{.pressure = 3.0 * mmHg, .tolerance = 1e-3};
+  const auto unload = [&](const quasi_static::UnloadRecord& record) {
+    return quasi_static::unload(seen, model(1.0), parameters, {}, nullptr, record).value();
+  };
+  const auto undisturbed = unload({});
+  quasi_static::Equilibria left;
+  const auto stop_after_three = [&](const quasi_static::Equilibria& known) {
+    left = known;
+    if (known.size() == 3)
+      throw Interrupted("stopped");
+  };
+  CHECK_THROWS_AS(unload({{}, stop_after_three}), Interrupted);
+  REQUIRE(left.size() == 3);
+  const auto resumed = unload({left, {}});
+  CHECK(resumed.nodes == undisturbed.nodes);
+  CHECK(resumed.loaded.positions == undisturbed.loaded.positions);
+  CHECK(resumed.steps.size() == undisturbed.steps.size());
+}
+
+TEST_CASE("an equilibrium of another wall is refused", "[quasi_static]") {
+  const mesh::Mesh seen = coarse_ventricle();
+  Engine engine(seen, model(1.0), {});
+  quasi_static::State other = engine.state();
+  other.pressures.pop_back();
+  CHECK_THROWS_AS(engine.restore(other, {}), InputError);
 }
