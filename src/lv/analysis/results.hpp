@@ -1,7 +1,7 @@
 #pragma once
 
 #include "lv/analysis/regional.hpp"
-#include "lv/heartbeat/protocol.hpp"
+#include "lv/heartbeat/beat.hpp"
 
 #include <string>
 #include <utility>

@@ -34,6 +34,10 @@ struct Snapshot {
   std::vector<solid::CellStress> stress;
 };
 
+/// The names of the moments that every beat has.
+inline constexpr const char* end_diastole = "end_diastole";
+inline constexpr const char* end_systole = "end_systole";
+
 /// A moment of a beat that has a name: the end of a phase.
 struct NamedMoment {
   std::string name{};         ///< end_diastole, ...

@@ -1,5 +1,7 @@
 #include "lv/heartbeat/protocol.hpp"
 
+#include "lv/heartbeat/beat.hpp"
+
 #include <algorithm>
 #include <limits>
 

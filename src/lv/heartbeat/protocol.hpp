@@ -11,10 +11,6 @@
 
 namespace lv::heartbeat {
 
-/// The names of the moments that the paper's protocol marks.
-inline constexpr const char* end_diastole = "end_diastole";
-inline constexpr const char* end_systole = "end_systole";
-
 /// Rises from 0 to 1 over s in [0,1] with zero slope and curvature at both ends, so that wall and
 /// blood ring little: s^3 (10 - 15 s + 6 s^2).
 [[nodiscard]] double smooth_step(double s);
