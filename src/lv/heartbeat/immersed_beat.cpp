@@ -74,7 +74,7 @@ class ImmersedRun {
 
  private:
   void start() {
-    model_.relax(setup_.protocol.calcium.Ca_0);
+    model_.relax(loads_now().calcium);
     run_.steady = criterion(phase());
     record_curve();
   }
