@@ -2,6 +2,7 @@
 
 #include "lv/base/check.hpp"
 #include "lv/geometry/contour_measures.hpp"
+#include "lv/geometry/polygon.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
@@ -79,6 +80,57 @@ Vec3 base_offset(const Contours& contours, const Vec3& basal_centre, BaseAt at) 
                      "no point of the mitral annulus and no long-axis curve shows the base",
                      "Lay the base plane in the most basal slice or at the end of its slab");
   return mean_of(points) - basal_centre;
+}
+
+/// The centre of an endocardial loop, or the apex.
+struct Centre {
+  Vec3 x;
+  double radius;  ///< of the loop; of the last one for the apex [mm]
+};
+
+/// From the base to the apex.
+std::vector<Centre> centres_of(const Contours& contours) {
+  std::vector<Centre> centres;
+  for (const Contour* loop : loops_from_base(contours, Side::endo))
+    centres.push_back({mean_of(loop->points), mean_radius(*loop)});
+  if (shows_apex(contours, Side::endo))
+    centres.push_back({mean_of(apex_points(contours, Side::endo)), centres.back().radius});
+  return centres;
+}
+
+/// The line from which the weighted squares of the centres' distances are least.
+template <class Weight>
+LongAxis line_through(const std::vector<Centre>& centres, const Weight& weight) {
+  LongAxis axis{Vec3::Zero(), Vec3::Zero()};
+  double total = 0.0;
+  for (const Centre& c : centres) {
+    axis.point += weight(c) * c.x;
+    total += weight(c);
+  }
+  axis.point /= total;
+  Mat3 scatter = Mat3::Zero();
+  for (const Centre& c : centres)
+    scatter += weight(c) * (c.x - axis.point) * (c.x - axis.point).transpose();
+  axis.up = Eigen::SelfAdjointEigenSolver<Mat3>(scatter).eigenvectors().col(2);
+  if (axis.up.dot(centres.front().x - centres.back().x) < 0.0)
+    axis.up = -axis.up;
+  return axis;
+}
+
+/// Whether a line passes through all endocardial loops.
+bool passes_within(const LongAxis& axis, const Contours& contours) {
+  const auto loops = endo_loops(contours);
+  return std::all_of(loops.begin(), loops.end(), [&](const Contour* loop) {
+    Frame frame;
+    frame.origin = axis.point;
+    frame.axes.col(2) = axis.up;
+    frame.axes.col(0) = axis.up.unitOrthogonal();
+    frame.axes.col(1) = axis.up.cross(frame.axes.col(0));
+    Polygon seen;
+    for (const Vec3& x : loop->points)
+      seen.emplace_back(frame.to_model(x).head<2>());
+    return encloses(seen, Eigen::Vector2d::Zero());
+  });
 }
 
 Vec3 across(const Vec3& direction, const Vec3& axis) {
@@ -165,20 +217,11 @@ double extrapolated_depth(const Contours& contours, Side side) {
 }
 
 LongAxis long_axis(const Contours& contours) {
-  std::vector<Vec3> centres;
-  for (const Contour* loop : loops_from_base(contours, Side::endo))
-    centres.push_back(mean_of(loop->points));
-  const Vec3 base = centres.front();
-  if (shows_apex(contours, Side::endo))
-    centres.push_back(mean_of(apex_points(contours, Side::endo)));
-  LongAxis axis{mean_of(centres), Vec3::Zero()};
-  Mat3 scatter = Mat3::Zero();
-  for (const Vec3& x : centres)
-    scatter += (x - axis.point) * (x - axis.point).transpose();
-  axis.up = Eigen::SelfAdjointEigenSolver<Mat3>(scatter).eigenvectors().col(2);
-  if (axis.up.dot(base - centres.back()) < 0.0)
-    axis.up = -axis.up;
-  return axis;
+  const std::vector<Centre> centres = centres_of(contours);
+  const LongAxis even = line_through(centres, [](const Centre&) { return 1.0; });
+  if (passes_within(even, contours))
+    return even;
+  return line_through(centres, [](const Centre& c) { return 1.0 / (c.radius * c.radius); });
 }
 
 Vec3 endo_apex(const Contours& contours) {

@@ -19,7 +19,9 @@ struct LongAxis {
 
 /// The straight line of least squares through the centres (the means of the points) of all
 /// endocardial loops and, if it is shown, the endocardial apex. All of them together, so that one
-/// slice drawn out of place or one uncertain apex does not turn the axis.
+/// slice drawn out of place or one uncertain apex does not turn the axis. Where that line leaves a
+/// loop (a ventricle whose apex is bent), the centres count by the inverse squares of their loops'
+/// radii, so that the axis keeps to the small loops and uses the room in the large ones.
 [[nodiscard]] LongAxis long_axis(const Contours& contours);
 
 /// The endocardial apex in image space: the mean of its apex points, else of the tips of its

@@ -146,11 +146,12 @@ class Sampler {
   std::array<std::vector<Sample>, 2> samples_;
 };
 
-int count_images(const std::vector<Contour>& contours) {
+/// Whether curves on two or more images show where the slices belong.
+bool shown_by_long_axes(const Contours& contours) {
   std::set<int> images;
-  for (const Contour& c : contours)
+  for (const Contour& c : contours.long_axis)
     images.insert(c.slice);
-  return static_cast<int>(images.size());
+  return images.size() >= 2;
 }
 
 Contours moved(Contours contours, const std::vector<Vec3>& shifts) {
@@ -281,10 +282,13 @@ Vec3 SplineWall::point(double u, double theta, double t) const {
   return x;
 }
 
+bool moves_slices(const Contours& contours, const SplineFitParameters& parameters) {
+  return shown_by_long_axes(contours) ? parameters.correct_shifts : parameters.align_slices;
+}
+
 std::vector<Vec3> slice_shifts(const Contours& contours, const SplineFitParameters& parameters) {
   const std::vector<int> slices = slices_from_base(contours);
-  const bool shown = count_images(contours.long_axis) >= 2;
-  if (shown ? !parameters.correct_shifts : !parameters.align_slices)
+  if (!moves_slices(contours, parameters))
     return std::vector<Vec3>(slices.size(), Vec3::Zero());
   const Frame frame = model_frame(contours, parameters.frame);
   const Sampler sampler(contours, frame, parameters);
@@ -292,14 +296,15 @@ std::vector<Vec3> slice_shifts(const Contours& contours, const SplineFitParamete
   for (std::size_t k = 0; k < slices.size(); ++k) {
     shifts[k] = frame.axes * shifts[k];
     if (shifts[k].norm() > parameters.largest_shift)
-      throw InputError(find(contours.short_axis, slices[k], Side::endo)->where(),
-                       fmt::format("slice {} lies {:.1f} mm from where {} put "
-                                   "it; at most {:g} mm are accepted",
-                                   slices[k], shifts[k].norm(),
-                                   shown ? "the long-axis contours" : "its neighbours",
-                                   parameters.largest_shift),
-                       "Check that all contours show the same time of the heartbeat, or redraw "
-                       "the slice");
+      throw InputError(
+          find(contours.short_axis, slices[k], Side::endo)->where(),
+          fmt::format("slice {} lies {:.1f} mm from where {} put "
+                      "it; at most {:g} mm are accepted",
+                      slices[k], shifts[k].norm(),
+                      shown_by_long_axes(contours) ? "the long-axis contours" : "its neighbours",
+                      parameters.largest_shift),
+          "Check that all contours show the same time of the heartbeat, or redraw "
+          "the slice");
   }
   return shifts;
 }

@@ -32,6 +32,10 @@ class SplineWall {
   FitReport report_;
 };
 
+/// Whether a fit moves slices in their planes: with contours of two or more long-axis images unless
+/// correct_shifts is off, without them if align_slices is on.
+[[nodiscard]] bool moves_slices(const Contours& contours, const SplineFitParameters& parameters);
+
 /// How the slices, from base to apex, have to move in their planes to agree with the contours of
 /// two or more long-axis images, or without these and with align_slices to make the wall smooth
 /// [mm, image space]; zero where neither is given. They are the shifts that fit_surfaces finds.

@@ -1,6 +1,9 @@
 #include "lv/image/close_walls.hpp"
 
+#include "lv/base/check.hpp"
 #include "lv/geometry/contour_measures.hpp"
+#include "lv/geometry/long_axis.hpp"
+#include "lv/geometry/polygon.hpp"
 
 #include <fmt/format.h>
 
@@ -127,7 +130,109 @@ bool close_wall(const Contour& endo, Contour& epi, double least, std::vector<std
   return true;
 }
 
+double middle_distance(const Contour& a, const Contour& b) {
+  return (geometry::mean_of(a.points) - geometry::mean_of(b.points)).norm();
+}
+
+/// Whether an outer contour is drawn somewhere else than round the inner one of its slice.
+bool is_stray(const Contour& endo, const Contour& epi) {
+  return !geometry::encloses(in_plane(epi, geometry::plane_of(endo.points)), Vec2::Zero()) ||
+         middle_distance(endo, epi) > 0.5 * geometry::mean_radius(epi);
+}
+
+/// The wall's thickness along each ray; empty where a loop is no loop.
+std::vector<double> thickness_of(const Contour& endo, const Contour& epi) {
+  if (endo.points.size() < 3 || epi.points.size() < 3)
+    return {};
+  return measure(endo, epi, geometry::plane_of(endo.points), 0.0).thickness;
+}
+
+/// The usual thickness of all slices but one; 0 if none has an epicardium.
+double usual_thickness(const Contours& contours, int but) {
+  std::vector<double> all;
+  for (const Contour& epi : contours.short_axis) {
+    const Contour* endo = geometry::find(contours.short_axis, epi.slice, Side::endo);
+    if (epi.side != Side::epi || epi.slice == but || endo == nullptr)
+      continue;
+    const auto rays_of_slice = thickness_of(*endo, epi);
+    all.insert(all.end(), rays_of_slice.begin(), rays_of_slice.end());
+  }
+  if (all.empty())
+    return 0.0;
+  std::nth_element(all.begin(), all.begin() + all.size() / 2, all.end());
+  return all[all.size() / 2];
+}
+
+/// The part of the way round a slice on which it shows muscle, thicker than `least`; 1 if it shows
+/// no epicardium at all.
+double part_with_muscle(const Contours& contours, int slice, double least) {
+  const Contour* endo = geometry::find(contours.short_axis, slice, Side::endo);
+  const Contour* epi = geometry::find(contours.short_axis, slice, Side::epi);
+  if (endo == nullptr || epi == nullptr)
+    return 1.0;
+  const auto thickness = thickness_of(*endo, *epi);
+  if (thickness.empty())
+    return 1.0;
+  const auto muscle =
+      std::count_if(thickness.begin(), thickness.end(), [&](double t) { return t >= least; });
+  return static_cast<double>(muscle) / rays;
+}
+
 }  // namespace
+
+void drop_strays(Contours& contours, std::vector<std::string>& notes) {
+  std::vector<std::string> strays;
+  std::string first;
+  const auto outer_loops = [&] {
+    return std::count_if(contours.short_axis.begin(), contours.short_axis.end(),
+                         [](const Contour& c) { return c.side == Side::epi; });
+  };
+  const auto drawn = outer_loops();
+  std::vector<Contour> kept;
+  for (const Contour& loop : contours.short_axis) {
+    const Contour* endo = geometry::find(contours.short_axis, loop.slice, Side::endo);
+    if (loop.side == Side::endo || endo == nullptr || !is_stray(*endo, loop)) {
+      kept.push_back(loop);
+      continue;
+    }
+    if (strays.empty())
+      first = loop.where();
+    strays.push_back(
+        fmt::format("slice {}: the outer contour lies off the heart, its middle {:.0f} mm from that "
+                    "of the inner one",
+                    loop.slice, middle_distance(*endo, loop)));
+  }
+  contours.short_axis = std::move(kept);
+  if (!strays.empty() && outer_loops() == 0)
+    throw InputError(
+        first,
+        fmt::format("{}{}", strays.front(), drawn == 1 ? "" : fmt::format("; so do all {}", drawn)),
+        "The outer contours belong to other images or coordinates: give those of this "
+        "heart");
+  for (const std::string& stray : strays)
+    notes.push_back(stray + ": not used");
+}
+
+void drop_open_base(Contours& contours, double thinnest, std::vector<std::string>& notes) {
+  constexpr std::ptrdiff_t least_left = 3;
+  constexpr double thin = 1.0 / 3.0;  // of the usual thickness
+  const auto slices_left = [&] {
+    return std::count_if(contours.short_axis.begin(), contours.short_axis.end(),
+                         [](const Contour& c) { return c.side == Side::endo; });
+  };
+  while (slices_left() > least_left) {
+    const int slice = geometry::slices_from_base(contours).front();
+    const double least = std::max(thinnest, thin * usual_thickness(contours, slice));
+    const double part = part_with_muscle(contours, slice, least);
+    if (part >= 0.5)
+      return;
+    notes.push_back(
+        fmt::format("slice {}, the most basal: muscle ({:.1f} mm and more) surrounds {:.0f}% of "
+                    "the cavity, less than half: left out, as it shows the valve or the atrium",
+                    slice, least, 100.0 * part));
+    std::erase_if(contours.short_axis, [&](const Contour& c) { return c.slice == slice; });
+  }
+}
 
 void close_walls(Contours& contours, double least, std::vector<std::string>& notes) {
   std::vector<Contour> kept;

@@ -1,7 +1,9 @@
 #include "lv/image/dicom_file.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/files.hpp"
 #include "lv/base/lines.hpp"
+#include "lv/base/memory.hpp"
 #include "lv/base/trial.hpp"
 
 #include <fmt/format.h>
@@ -17,9 +19,9 @@
 #include <cstring>
 #include <exception>
 #include <fstream>
-#include <iterator>
 #include <new>
 #include <string_view>
+#include <utility>
 
 namespace lv::image {
 namespace {
@@ -147,6 +149,12 @@ class FrameGroups {
   std::vector<gdcm::SmartPointer<gdcm::SequenceOfItems>> kept_;
 };
 
+/// A file read up to its pixels.
+struct ParsedFile {
+  gdcm::Reader reader;
+  std::uintmax_t pixels_begin = 0, size = 0;  ///< [bytes]
+};
+
 /// Position, orientation and spacing as text values; empty if fine, else what is wrong.
 std::string lay(const std::vector<double>& position, const std::vector<double>& orientation,
                 const std::vector<double>& spacing, Plane& plane) {
@@ -190,6 +198,14 @@ std::string kind_of(const std::string& image_type) {
   return at == std::string::npos ? "" : image_type.substr(at + 1);
 }
 
+/// Magnitude, phase and the like, by both attributes that may say so; of a file or a frame.
+std::string kind_of(const Values& values, const Tag& type) {
+  std::string kind = kind_of(values.text(type));
+  if (const std::string component = values.text(Tag(0x0008, 0x9208)); !component.empty())
+    kind += (kind.empty() ? "" : "\\") + component;
+  return kind;
+}
+
 /// What all images of a file share.
 DicomImage common(const fs::path& file, const Values& values) {
   DicomImage image;
@@ -197,7 +213,7 @@ DicomImage common(const fs::path& file, const Values& values) {
   image.series_uid = values.text(Tag(0x0020, 0x000e));
   image.description = values.text(Tag(0x0008, 0x103e));
   image.instance_uid = values.text(Tag(0x0008, 0x0018));
-  image.kind = kind_of(values.text(Tag(0x0008, 0x0008)));
+  image.kind = kind_of(values, Tag(0x0008, 0x0008));
   image.modality = values.text(Tag(0x0008, 0x0060));
   image.series_number = values.whole(Tag(0x0020, 0x0011));
   image.instance = values.whole(Tag(0x0020, 0x0013));
@@ -257,6 +273,9 @@ std::string read_frame(FrameGroups groups, DicomImage& image) {
   image.slope = first(numbers(transformation, Tag(0x0028, 0x1053)), 1.0);
   image.intercept = first(numbers(transformation, Tag(0x0028, 0x1052)), 0.0);
   read_timing(groups, image);
+  if (const auto type = groups.group(Tag(0x0018, 0x9226)))
+    if (std::string kind = kind_of(*type, Tag(0x0008, 0x9007)); !kind.empty())
+      image.kind = std::move(kind);
   return "";
 }
 
@@ -272,7 +291,8 @@ DicomFile read_frames(const Values& values, const DicomImage& shared_header, int
   for (int f = 0; f < frames; ++f) {
     DicomImage image = shared_header;
     image.frame = f;
-    image.instance = f + 1;
+    if (frames > 1)
+      image.instance = f + 1;
     const Values own(per_frame->GetItem(f + 1).GetNestedDataSet());
     if (std::string wrong = read_frame(FrameGroups(own, shared_values), image); !wrong.empty())
       return {{}, fmt::format("frame {}: {}", f + 1, wrong)};
@@ -281,58 +301,43 @@ DicomFile read_frames(const Values& values, const DicomImage& shared_header, int
   return found;
 }
 
-/// Where the values of the pixels begin: behind the tag that announces so many bytes. GDCM does not
-/// tell, and takes zeros for what is missing.
-std::optional<std::uintmax_t> pixels_begin(const fs::path& file, std::uintmax_t announced) {
-  std::ifstream stream(file, std::ios::binary);
-  const std::string bytes((std::istreambuf_iterator<char>(stream)), {});
-  constexpr std::string_view tag("\xe0\x7f\x10\x00", 4);
-  for (auto at = bytes.find(tag); at != std::string::npos; at = bytes.find(tag, at + 1)) {
-    const bool explicit_vr = bytes.compare(at + 4, 1, "O") == 0;
-    const auto begin = at + (explicit_vr ? 12 : 8);
-    std::uint32_t length = 0;
-    if (begin > bytes.size())
-      continue;
-    std::memcpy(&length, bytes.data() + begin - 4, sizeof(length));
-    if (length >= announced && length <= announced + 1)  // of even length
-      return begin;
-  }
-  return std::nullopt;
-}
-
-/// Whether the file ends before its pixels do; compressed ones are tried when they are read.
-std::string damage_of(const fs::path& file, const gdcm::Reader& reader, const Values& values,
-                      const DicomImage& image, int frames) {
-  if (reader.GetFile().GetHeader().GetDataSetTransferSyntax().IsEncapsulated())
-    return "";
+/// How many bytes the pixels of all frames are, unpacked.
+std::uintmax_t pixel_bytes(const Values& values, const DicomImage& image, int frames) {
   const auto bits = values.binary<std::uint16_t>(Tag(0x0028, 0x0100)).value_or(16);
-  const auto needed = static_cast<std::uintmax_t>(image.plane.rows) * image.plane.columns *
-                      static_cast<std::uintmax_t>(frames) * (bits / 8U);
-  const auto begin = pixels_begin(file, needed).value_or(0);
-  std::error_code ignored;
-  const auto size = fs::file_size(file, ignored);
-  return size < begin + needed
-             ? fmt::format("the file is truncated: {} of {} bytes of pixels are there",
-                           size > begin ? size - begin : 0, needed)
-             : "";
+  return static_cast<std::uintmax_t>(image.plane.rows) *
+         static_cast<std::uintmax_t>(image.plane.columns) * static_cast<std::uintmax_t>(frames) *
+         bits / 8U;
 }
 
-/// "DICM" after the preamble, or for old files without one an element of the first groups.
-bool looks_like_dicom(const fs::path& file) {
-  std::array<char, 132> head{};
-  std::ifstream stream(file, std::ios::binary);
-  stream.read(head.data(), head.size());
-  const auto got = stream.gcount();
-  if (got == 132 && std::string_view(head.data() + 128, 4) == "DICM")
-    return true;
-  return got >= 8 && (head[0] == 2 || head[0] == 8) && head[1] == 0 && head[3] == 0;
+/// Whether the file ends before its pixels do; packed and compressed ones are tried when they are
+/// read. GDCM takes zeros for what is missing.
+std::string damage_of(const ParsedFile& parsed, const Values& values, const DicomImage& image,
+                      int frames) {
+  const gdcm::TransferSyntax syntax =
+      parsed.reader.GetFile().GetHeader().GetDataSetTransferSyntax();
+  if (syntax.IsEncapsulated() || syntax == gdcm::TransferSyntax::DeflatedExplicitVRLittleEndian)
+    return "";
+  const std::uintmax_t needed = pixel_bytes(values, image, frames);
+  const std::uintmax_t there = parsed.size - std::min(parsed.size, parsed.pixels_begin);
+  return there < needed ? fmt::format("the file is truncated: {} of {} bytes of pixels are there",
+                                      there, needed)
+                        : "";
 }
 
-DicomFile read_parsed(const fs::path& file, const gdcm::Reader& reader) {
-  const Values values(reader.GetFile().GetDataSet());
+/// What the file is whose header shows no image.
+std::string without_image(const DicomImage& header) {
+  return header.modality.empty()
+             ? "it is DICOM but no image"
+             : fmt::format("it is DICOM of the modality {} but no image", header.modality);
+}
+
+DicomFile read_parsed(const fs::path& file, const ParsedFile& parsed) {
+  const Values values(parsed.reader.GetFile().GetDataSet());
   DicomImage image = common(file, values);
   if (image.plane.rows < 2 || image.plane.columns < 2)
-    return {{}, "it is DICOM but no image"};
+    return {{}, without_image(image)};
+  if (image.modality == "SEG")
+    return {{}, "it is a DICOM segmentation, which is not read: export it as a NIfTI label map"};
   if (image.plane.rows > largest_side || image.plane.columns > largest_side)
     return {{}, fmt::format("it claims {} x {} pixels", image.plane.columns, image.plane.rows)};
   if (values.binary<std::uint16_t>(Tag(0x0028, 0x0002)).value_or(1) != 1)
@@ -340,7 +345,8 @@ DicomFile read_parsed(const fs::path& file, const gdcm::Reader& reader) {
   const int frames = values.whole(Tag(0x0028, 0x0008)).value_or(1);
   if (frames < 1 || frames > most_frames)
     return {{}, fmt::format("it claims {} frames", frames)};
-  image.damage = damage_of(file, reader, values, image, frames);
+  image.damage = damage_of(parsed, values, image, frames);
+  image.file_bytes = pixel_bytes(values, image, frames);
   // Some scanners add an empty per-frame sequence to images of one frame.
   if (frames > 1 || values.bytes(Tag(0x0020, 0x0032)).empty())
     if (frames > 1 || values.sequence(Tag(0x5200, 0x9230)) != nullptr)
@@ -428,27 +434,35 @@ std::vector<float> decoded_values(const fs::path& file) {
   return values;
 }
 
-std::vector<float> stored_values(const fs::path& file) {
+/// The same, tried first: GDCM as Debian builds it ends the program by an assertion on files
+/// damaged in certain ways. `bytes` are those of the pixels.
+std::vector<float> stored_values(const fs::path& file, std::uintmax_t bytes) {
+  constexpr std::uintmax_t always = std::uintmax_t{1} << 30U;
+  constexpr std::uintmax_t per_byte =
+      8;  // the file, GDCM's copies of it, and floats of single bytes
   silence();
-  // GDCM as Debian builds it ends the program by an assertion on files damaged in certain ways
-  const bool alive = survives([&] {
-    try {
-      static_cast<void>(decoded_values(file));
-    } catch (const InputError&) {  // this process says it
-    }
-  });
-  if (!alive)
+  require_memory(file.string(), static_cast<double>(per_byte) * static_cast<double>(bytes));
+  const Trial trial =
+      tried([&] { static_cast<void>(decoded_values(file)); }, always + per_byte * bytes);
+  if (trial.ending == Trial::Ending::refused)
+    throw InputError(trial.where, trial.what, "");
+  if (trial.ending == Trial::Ending::died)
     fail_pixels(file, "the pixels cannot be decoded: the file is truncated or damaged");
   return decoded_values(file);
 }
 
 DicomFile read_headers(const fs::path& file) {
   try {
-    gdcm::Reader reader;
-    reader.SetFileName(file.c_str());
-    if (!reader.ReadUpToTag(Tag(0x7fe0, 0x0010)))
+    std::ifstream stream(file, std::ios::binary);
+    ParsedFile parsed;
+    parsed.reader.SetStream(stream);
+    const Tag pixels(0x7fe0, 0x0010);
+    if (!parsed.reader.ReadUpToTag(pixels, {pixels}))  // and no further
       return {{}, "its DICOM header is truncated or damaged"};
-    return read_parsed(file, reader);
+    parsed.size = fs::file_size(file);
+    const std::streamoff at = stream.tellg();
+    parsed.pixels_begin = at < 0 ? parsed.size : static_cast<std::uintmax_t>(at);
+    return read_parsed(file, parsed);
   } catch (const std::bad_alloc&) {
     throw;  // ends the trial in the child
   } catch (const std::exception& error) {
@@ -458,20 +472,41 @@ DicomFile read_headers(const fs::path& file) {
 
 }  // namespace
 
+bool looks_like_dicom(const fs::path& file) {
+  std::array<char, 132> head{};
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(head.data(), head.size());
+  const auto got = stream.gcount();
+  if (got == 132 && std::string_view(head.data() + 128, 4) == "DICM")
+    return true;
+  return got >= 8 && (head[0] == 2 || head[0] == 8) && head[1] == 0 && head[3] == 0;
+}
+
 DicomFile read_dicom_headers(const fs::path& file) {
   silence();
+  if (std::string reason = unreadable(file); !reason.empty())
+    return {{}, std::move(reason)};
   if (!looks_like_dicom(file))
     return {{}, "it is not DICOM"};
-  if (!survives([&] { static_cast<void>(read_headers(file)); }))
-    return {{}, "its DICOM header is truncated or damaged"};
-  return read_headers(file);
+  const Trial trial = tried([&] {
+    if (const DicomFile read = read_headers(file); !read.reason.empty())
+      throw InputError(file.string(), read.reason, "");
+  });
+  switch (trial.ending) {
+    case Trial::Ending::well:
+      return read_headers(file);
+    case Trial::Ending::refused:
+      return {{}, trial.what};
+    default:
+      return {{}, "its DICOM header is truncated or damaged"};
+  }
 }
 
 Picture DicomPixels::read(const DicomImage& image) {
   if (!image.damage.empty())
     fail_pixels(image.file, image.damage);
   if (image.file != file_ || values_.empty()) {
-    values_ = stored_values(image.file);
+    values_ = stored_values(image.file, image.file_bytes);
     file_ = image.file;
   }
   const std::size_t n = static_cast<std::size_t>(image.plane.rows) * image.plane.columns;

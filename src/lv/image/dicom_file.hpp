@@ -2,6 +2,7 @@
 
 #include "lv/image/picture.hpp"
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -16,10 +17,11 @@ struct DicomImage {
   std::string series_uid;    ///< SeriesInstanceUID
   std::string description;   ///< SeriesDescription
   std::string instance_uid;  ///< SOPInstanceUID
-  std::string kind;          ///< ImageType from its third value on: magnitude, phase, ...
+  std::string kind;          ///< ImageType (of a frame FrameType) from its third value on, and
+                             ///< ComplexImageComponent: magnitude, phase, ...
   std::string modality;
   std::optional<int> series_number;
-  std::optional<int> instance;           ///< InstanceNumber; of a multi-frame file the frame from 1
+  std::optional<int> instance;  ///< InstanceNumber; of a file of several frames the frame from 1
   std::optional<int> temporal_position;  ///< TemporalPositionIdentifier or -Index
   std::optional<double> trigger_time;    ///< after the R wave [s]
   Plane plane;
@@ -27,6 +29,7 @@ struct DicomImage {
   double thickness = 0.0;    ///< of the slice; 0 if not said [mm]
   double rr = 0.0;           ///< NominalInterval, else 60 s over HeartRate; 0 if not said [s]
   double slope = 1.0, intercept = 0.0;  ///< value = slope stored + intercept
+  std::uintmax_t file_bytes = 0;        ///< of the pixels of all frames of the file, unpacked
   std::string damage;                   ///< why its pixels cannot be read; empty if they can
 };
 
@@ -35,6 +38,10 @@ struct DicomFile {
   std::vector<DicomImage> images;
   std::string reason;  ///< empty if there are images
 };
+
+/// Whether a file begins as DICOM files do: "DICM" after the preamble, or for old files without one
+/// an element of the first groups.
+[[nodiscard]] bool looks_like_dicom(const std::filesystem::path& file);
 
 /// Reads the headers alone. Never throws for what the file holds: a file that is no DICOM image
 /// says so in `reason`. Multi-frame files must have their frames' positions in functional groups

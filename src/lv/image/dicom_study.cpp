@@ -1,15 +1,20 @@
 #include "lv/image/dicom_study.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/formats.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <set>
+#include <system_error>
 #include <tuple>
 #include <utility>
 
@@ -21,27 +26,6 @@ namespace fs = std::filesystem;
 constexpr double same_plane = 0.1;    // [mm]
 constexpr double parallel = 0.99985;  // cosine of one degree
 constexpr double degrees = 180.0 / std::numbers::pi;
-
-std::vector<fs::path> files_in(std::span<const fs::path> where) {
-  std::vector<fs::path> files;
-  for (const fs::path& place : where) {
-    std::error_code failed;
-    if (fs::is_directory(place, failed)) {
-      for (const auto& entry : fs::recursive_directory_iterator(
-               place, fs::directory_options::skip_permission_denied, failed))
-        if (entry.is_regular_file())
-          files.push_back(entry.path());
-    } else if (fs::is_regular_file(place, failed)) {
-      files.push_back(place);
-    } else {
-      throw InputError(place.string(), "there is no such file or folder",
-                       "Name a folder with DICOM files, or the files");
-    }
-  }
-  std::sort(files.begin(), files.end());
-  files.erase(std::unique(files.begin(), files.end()), files.end());
-  return files;
-}
 
 /// Whether two images lie on planes of one direction, rows and spacing.
 bool alike(const Plane& a, const Plane& b) {
@@ -58,24 +42,39 @@ std::string spacing_text(const Plane& p) {
 /// What orders the images of one slice.
 enum class Order { trigger_time, temporal_position, instance };
 
+/// Whether all images have a value, and not all the same.
 template <class Value>
-bool all_distinct(const std::vector<DicomImage>& images, const Value& value) {
+bool tells_apart(const std::vector<DicomImage>& images, const Value& value) {
   std::set<double> seen;
   for (const DicomImage& image : images) {
     const auto v = value(image);
-    if (!v || !seen.insert(static_cast<double>(*v)).second)
+    if (!v)
       return false;
+    seen.insert(static_cast<double>(*v));
   }
-  return true;
+  return seen.size() > 1 || images.size() == 1;
 }
 
-/// The first that every image has and that tells them all apart; the last if none does.
+/// The first that every image has and that tells any apart; the last if none does.
 Order order_of(const std::vector<DicomImage>& images) {
-  if (all_distinct(images, [](const DicomImage& i) { return i.trigger_time; }))
+  if (tells_apart(images, [](const DicomImage& i) { return i.trigger_time; }))
     return Order::trigger_time;
-  if (all_distinct(images, [](const DicomImage& i) { return i.temporal_position; }))
+  if (tells_apart(images, [](const DicomImage& i) { return i.temporal_position; }))
     return Order::temporal_position;
   return Order::instance;
+}
+
+/// Whether two images are of one time, by what orders them.
+bool same_time(const DicomImage& a, const DicomImage& b, Order order) {
+  constexpr double shortest = 2e-3;  // that a scanner takes for an image [s]
+  switch (order) {
+    case Order::trigger_time:
+      return std::abs(*a.trigger_time - *b.trigger_time) < shortest;
+    case Order::temporal_position:
+      return *a.temporal_position == *b.temporal_position;
+    default:
+      return !a.instance || !b.instance || *a.instance == *b.instance;
+  }
 }
 
 void sort_by_time(std::vector<DicomImage>& images) {
@@ -224,28 +223,53 @@ std::string place_text(const DicomSlice& slice) {
   return fmt::format("the slice at {:.1f} mm along the normal", slice.position);
 }
 
-/// No two images of a slice may be of one time or lie beside each other.
-void check_slice(const DicomSlice& slice, const std::string& where, const std::string& parameter) {
-  const Order order = order_of(slice.images);
-  for (std::size_t i = 1; i < slice.images.size(); ++i) {
-    const DicomImage& a = slice.images[i - 1];
-    const DicomImage& b = slice.images[i];
-    if ((a.plane.origin - b.plane.origin).norm() > same_plane ||
-        a.plane.columns != b.plane.columns || a.plane.rows != b.plane.rows)
-      throw InputError(where,
-                       fmt::format("{} has images of different places or sizes: {} and {}",
-                                   place_text(slice), a.file.string(), b.file.string()),
-                       fmt::format("Choose one of the acquisitions with {}", parameter));
-    const bool told_apart =
-        order != Order::instance || (a.instance && b.instance && *a.instance != *b.instance);
-    if (!told_apart || a.series_uid != b.series_uid)
-      throw InputError(
-          where,
-          fmt::format("{} is there more than once: {} (series \"{}\") and {} (series \"{}\")",
-                      place_text(slice), a.file.string(), a.description, b.file.string(),
-                      b.description),
-          fmt::format("Choose one of the acquisitions with {}", parameter));
+/// A file, and the frame if it may have several.
+std::string name_of(const DicomImage& image) {
+  return image.frame == 0 ? image.file.string()
+                          : fmt::format("{} frame {}", image.file.string(), image.frame + 1);
+}
+
+std::string time_text(const DicomImage& image, Order order) {
+  switch (order) {
+    case Order::trigger_time:
+      return fmt::format(" at {:.0f} ms", 1e3 * *image.trigger_time);
+    case Order::temporal_position:
+      return fmt::format(" at the temporal position {}", *image.temporal_position);
+    default:
+      return "";
   }
+}
+
+/// Why two images that follow each other in a slice cannot both be of it; empty if they can.
+std::string clash(const DicomImage& a, const DicomImage& b, Order order) {
+  if ((a.plane.origin - b.plane.origin).norm() > same_plane || a.plane.columns != b.plane.columns ||
+      a.plane.rows != b.plane.rows)
+    return fmt::format("has images of different places or sizes: {} and {}", name_of(a),
+                       name_of(b));
+  if (a.series_uid != b.series_uid)
+    return fmt::format("is there more than once: {} (series \"{}\") and {} (series \"{}\")",
+                       name_of(a), a.description, name_of(b), b.description);
+  if (same_time(a, b, order))
+    return fmt::format("is there more than once{}: {} and {}", time_text(a, order), name_of(a),
+                       name_of(b));
+  return "";
+}
+
+/// Why the images of a slice are not those of one heart's cycle; empty if they may be.
+std::string clash_in(const DicomSlice& slice) {
+  const Order order = order_of(slice.images);
+  const DicomImage& first = slice.images.front();
+  for (std::size_t i = 1; i < slice.images.size(); ++i)
+    if (std::string found = clash(slice.images[i - 1], slice.images[i], order); !found.empty())
+      return fmt::format("{} {}", place_text(slice), found);
+  const auto announced = static_cast<std::size_t>(std::max(first.phases_announced, 0));
+  if (announced > 1 && slice.images.size() > announced && slice.images.size() % announced == 0)
+    return fmt::format(
+        "{} has {} images where the headers announce {} phases, so it seems to be there more than "
+        "once: {} and {} follow each other",
+        place_text(slice), slice.images.size(), announced, name_of(first),
+        name_of(slice.images[1]));
+  return "";
 }
 
 std::string indented(const std::string& text) {
@@ -261,54 +285,137 @@ std::string indented(const std::string& text) {
                    fmt::format("Name the series to use with {}. There are:{}", parameter, list));
 }
 
-}  // namespace
-
-DicomStudy read_dicom_study(std::span<const fs::path> where) {
-  DicomStudy study;
-  std::map<std::pair<std::string, std::string>, std::vector<DicomImage>> groups;
-  std::map<std::string, std::optional<int>> numbers;
-  std::map<std::pair<std::string, int>, fs::path> seen;
-  for (const fs::path& file : files_in(where)) {
-    DicomFile read = read_dicom_headers(file);
-    if (!read.reason.empty())
-      study.skipped.push_back(fmt::format("{}: {}", file.string(), read.reason));
-    for (DicomImage& image : read.images) {
-      if (!image.instance_uid.empty()) {
-        const auto [first, fresh] = seen.try_emplace({image.instance_uid, image.frame}, file);
-        if (!fresh) {
-          study.skipped.push_back(
-              fmt::format("{}: the same image as {}", file.string(), first->second.string()));
-          continue;
-        }
+/// Tells copies of an image from others that bear its SOPInstanceUID too.
+class Copies {
+ public:
+  /// An image seen before that has the same UID, place, time and pixels; null if there is none.
+  const DicomImage* of(const DicomImage& image) {
+    if (image.instance_uid.empty())
+      return nullptr;
+    if (int& uses = uses_[{image.instance_uid, image.frame}]; ++uses > 1)
+      ++reused_;
+    const Vec3& x = image.plane.origin;
+    std::vector<DicomImage>& alike =
+        seen_[{image.instance_uid, image.frame, image.kind, image.trigger_time,
+               image.temporal_position, x.x(), x.y(), x.z()}];
+    for (const DicomImage& other : alike)
+      if (same_pixels(other, image)) {
+        --reused_;
+        return &other;
       }
-      auto& number = numbers[image.series_uid];
-      if (!number)
-        number = image.series_number;
-      groups[{image.series_uid, image.kind}].push_back(std::move(image));
+    alike.push_back(image);
+    return nullptr;
+  }
+
+  /// How many images have the UID of one before them, and are not its copies.
+  [[nodiscard]] int reused() const { return reused_; }
+
+ private:
+  bool same_pixels(const DicomImage& a, const DicomImage& b) {
+    try {
+      return pixels_[0].read(a).values == pixels_[1].read(b).values;
+    } catch (const InputError&) {  // unreadable: whoever uses it says so
+      return false;
     }
   }
-  for (auto& [key, images] : groups) {
+
+  using Shown = std::tuple<std::string, int, std::string, std::optional<double>, std::optional<int>,
+                           double, double, double>;
+  std::map<Shown, std::vector<DicomImage>> seen_;
+  std::map<std::pair<std::string, int>, int> uses_;
+  std::array<DicomPixels, 2> pixels_;
+  int reused_ = 0;
+};
+
+/// Sorts images that are read one after the other into stacks.
+class Collector {
+ public:
+  void read(const fs::path& place) {
+    std::error_code failed;
+    if (!fs::is_directory(place, failed)) {
+      require_readable(place, "Name a folder with DICOM files, or the files");
+      read_file(place);
+      return;
+    }
+    FolderFiles folder = files_in(place, true);
+    std::move(folder.left_out.begin(), folder.left_out.end(), std::back_inserter(study_.skipped));
+    for (const fs::path& file : folder.files)
+      read_file(file);
+  }
+
+  [[nodiscard]] DicomStudy study() {
+    for (auto& [key, images] : groups_)
+      add_stacks(images);
+    std::stable_sort(study_.stacks.begin(), study_.stacks.end(),
+                     [&](const DicomStack& a, const DicomStack& b) {
+                       return std::pair(numbers_.at(a.series_uid).value_or(0), a.series_uid) <
+                              std::pair(numbers_.at(b.series_uid).value_or(0), b.series_uid);
+                     });
+    name_stacks(study_.stacks, numbers_);
+    if (copies_.reused() > 0)
+      study_.notes.push_back(fmt::format(
+          "SOPInstanceUIDs are used more than once, by {} images that bear the UID of another: "
+          "images are told apart by place, time and pixels",
+          copies_.reused()));
+    return std::move(study_);
+  }
+
+ private:
+  void read_file(const fs::path& file) {
+    if (!read_.insert(file).second)
+      return;
+    DicomFile read = read_dicom_headers(file);
+    if (!read.reason.empty())
+      study_.skipped.push_back({file, read.reason});
+    for (DicomImage& image : read.images) {
+      if (const DicomImage* same = copies_.of(image)) {
+        study_.skipped.push_back({file, fmt::format("the same image as {}", same->file.string())});
+        continue;
+      }
+      auto& number = numbers_[image.series_uid];
+      if (!number)
+        number = image.series_number;
+      groups_[{image.series_uid, image.kind}].push_back(std::move(image));
+    }
+  }
+
+  void add_stacks(std::vector<DicomImage>& images) {
     std::stable_sort(images.begin(), images.end(), [](const DicomImage& a, const DicomImage& b) {
       return a.instance.value_or(0) < b.instance.value_or(0);
     });
     for (auto& group : by_orientation(images)) {
       const DicomImage first = group.front();
       const Vec3 normal = first.plane.normal();
-      study.stacks.push_back({"", first.series_uid, first.description, first.kind, normal,
-                              slices_of(std::move(group), normal)});
+      study_.stacks.push_back({"",
+                               first.series_uid,
+                               first.description,
+                               first.kind,
+                               normal,
+                               slices_of(std::move(group), normal),
+                               {}});
     }
   }
-  std::stable_sort(study.stacks.begin(), study.stacks.end(),
-                   [&](const DicomStack& a, const DicomStack& b) {
-                     return std::pair(numbers.at(a.series_uid).value_or(0), a.series_uid) <
-                            std::pair(numbers.at(b.series_uid).value_or(0), b.series_uid);
-                   });
-  name_stacks(study.stacks, numbers);
-  return study;
+
+  DicomStudy study_;
+  std::set<fs::path> read_;
+  Copies copies_;
+  std::map<std::pair<std::string, std::string>, std::vector<DicomImage>> groups_;
+  std::map<std::string, std::optional<int>> numbers_;
+};
+
+}  // namespace
+
+DicomStudy read_dicom_study(std::span<const fs::path> where) {
+  Collector found;
+  for (const fs::path& place : where)
+    found.read(place);
+  return found.study();
 }
 
 std::string describe(const DicomStudy& study) {
   std::string text;
+  for (const std::string& note : study.notes)
+    text += fmt::format("note: {}\n", note);
   for (const DicomStack& stack : study.stacks) {
     const auto [least, most] = images_per_slice(stack);
     const auto [rr_least, rr_most] = cycle_lengths(stack);
@@ -328,17 +435,14 @@ std::string describe(const DicomStudy& study) {
 }
 
 void require_images(const DicomStudy& study, const std::string& where) {
-  if (!study.stacks.empty())
-    return;
-  throw InputError(
-      where,
-      fmt::format(
-          "holds no DICOM image with a place in space{}",
-          study.skipped.empty()
-              ? ", nor any other file"
-              : fmt::format("; {} file{} skipped, the first: {}", study.skipped.size(),
-                            study.skipped.size() == 1 ? " was" : "s were", study.skipped.front())),
-      "Name the folder with the images of the scanner");
+  if (study.stacks.empty())
+    throw InputError(
+        where,
+        fmt::format("holds no DICOM image with a place in space{}",
+                    study.skipped.empty()
+                        ? ", nor any other file"
+                        : fmt::format("; {}", fmt::join(summary(study.skipped), "; "))),
+        fmt::format("Images are read from {}", formats::images));
 }
 
 DicomStack choose_stack(const DicomStudy& study, std::span<const std::string> series,
@@ -364,7 +468,7 @@ DicomStack choose_stack(const DicomStudy& study, std::span<const std::string> se
     if (!series.empty() && std::none_of(series.begin(), series.end(), named))
       continue;
     if (joined.key.empty())
-      joined = {stack.key, stack.series_uid, stack.description, stack.kind, stack.normal, {}};
+      joined = {stack.key, stack.series_uid, stack.description, stack.kind, stack.normal, {}, {}};
     else if (std::abs(joined.normal.dot(stack.normal)) < parallel)
       fail_choice(study, where,
                   fmt::format("the series \"{}\" and \"{}\" that were chosen are not parallel",
@@ -375,12 +479,24 @@ DicomStack choose_stack(const DicomStudy& study, std::span<const std::string> se
   }
   joined.slices = slices_of(std::move(images), joined.normal);
   for (const DicomSlice& slice : joined.slices)
-    check_slice(slice, where, parameter);
+    if (const std::string wrong = clash_in(slice); !wrong.empty())
+      throw InputError(
+          where, wrong,
+          fmt::format("Choose one of the acquisitions with {}, or give the files of one "
+                      "in a folder of their own",
+                      parameter));
+  joined.notes = study.notes;
+  for (std::string& sentence : summary(study.skipped))
+    joined.notes.push_back(std::move(sentence));
   return joined;
 }
 
 std::vector<std::string> remarks(const DicomStack& stack) {
-  std::vector<std::string> notes;
+  std::vector<std::string> notes = stack.notes;
+  const auto unusable = std::find_if(stack.slices.begin(), stack.slices.end(),
+                                     [](const DicomSlice& s) { return !clash_in(s).empty(); });
+  if (unusable != stack.slices.end())
+    notes.push_back("cannot be used as it is: " + clash_in(*unusable));
   const auto [least, most] = images_per_slice(stack);
   if (least != most)
     for (const DicomSlice& slice : stack.slices)
@@ -433,12 +549,7 @@ Cine read_dicom_cine(std::span<const fs::path> where, std::span<const std::strin
                      const std::string& parameter) {
   const DicomStudy study = read_dicom_study(where);
   const std::string place = where.empty() ? "no files" : where.front().string();
-  Cine cine = read_pixels(choose_stack(study, series, place, parameter));
-  if (!study.skipped.empty())
-    cine.notes.push_back(fmt::format("{} file{} skipped, the first: {}", study.skipped.size(),
-                                     study.skipped.size() == 1 ? " was" : "s were",
-                                     study.skipped.front()));
-  return cine;
+  return read_pixels(choose_stack(study, series, place, parameter));
 }
 
 }  // namespace lv::image

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "lv/base/files.hpp"
 #include "lv/image/dicom_file.hpp"
 #include "lv/image/picture.hpp"
 
@@ -24,45 +25,49 @@ struct DicomStack {
   std::string series_uid, description, kind;
   Vec3 normal = Vec3::UnitZ();
   std::vector<DicomSlice> slices;  ///< along the normal
+  std::vector<std::string> notes;  ///< of a chosen stack: what of the study a user should know
 };
 
 /// All that some files hold.
 struct DicomStudy {
-  std::vector<DicomStack> stacks;    ///< by series number, UID and orientation
-  std::vector<std::string> skipped;  ///< files that are not used, each with its reason
+  std::vector<DicomStack> stacks;  ///< by series number, UID and orientation
+  std::vector<LeftOut> skipped;    ///< files that are not used
+  std::vector<std::string> notes;  ///< what a user should know of its files
 };
 
-/// Reads the headers of files and of all files in folders, whatever their names. Images that are
-/// there twice (the same SOPInstanceUID) count once; what is no DICOM image with a place in space
-/// is skipped with its reason. Slices are told apart by their planes and images of a slice ordered
-/// by trigger time, else temporal position, else instance number. Throws InputError if a file or
-/// folder is absent.
+/// Reads the headers of files and of all files in folders, whatever their names; for links see
+/// lv::files_in. Images that are there twice (the same SOPInstanceUID, place, time and pixels)
+/// count once; what is no DICOM image with a place in space is skipped with its reason. Slices are
+/// told apart by their planes and images of a slice ordered by trigger time, else temporal
+/// position, else instance number: the first that all have and that is not the same for all. Throws
+/// InputError if a file or folder is absent or cannot be read.
 [[nodiscard]] DicomStudy read_dicom_study(std::span<const std::filesystem::path> where);
 
 /// A line per stack: key, description, slices, images per slice, size, spacing, orientation, RR.
 [[nodiscard]] std::string describe(const DicomStudy& study);
 
-/// Throws InputError with the reason why the first file was skipped unless there is a stack;
-/// `where` names the files.
+/// Throws InputError with the reasons why files were skipped unless there is a stack; `where` names
+/// the files.
 void require_images(const DicomStudy& study, const std::string& where);
 
 /// The stacks that a user names, joined to one: each name is a key, a series number, a
 /// SeriesInstanceUID or a description (then all series that bear it). Without names there must be
 /// one stack only. `where` and `parameter` are for messages. Throws InputError with the list of
 /// stacks where a name fits none, where there are several to choose from, where the chosen ones are
-/// not parallel, or where two images show the same slice at the same time.
+/// not parallel, or where two images show the same slice at the same time or a slice has several
+/// times as many as the headers announce.
 [[nodiscard]] DicomStack choose_stack(const DicomStudy& study, std::span<const std::string> series,
                                       const std::string& where, const std::string& parameter);
 
-/// What a user should know of a stack: gaps and steps between slices, differing heart rates,
-/// differing numbers of images, damaged files.
+/// What a user should know of a stack: files left out, slices that cannot be used as they are, gaps
+/// and steps between slices, differing heart rates, differing numbers of images, damaged files.
 [[nodiscard]] std::vector<std::string> remarks(const DicomStack& stack);
 
 /// The images of a stack with their pixels.
 [[nodiscard]] Cine read_pixels(const DicomStack& stack);
 
 /// A cine stack, or any stack of images, from files and folders; see read_dicom_study and
-/// choose_stack. The notes are those of remarks, and how many files were skipped.
+/// choose_stack. The notes are those of remarks.
 [[nodiscard]] Cine read_dicom_cine(std::span<const std::filesystem::path> where,
                                    std::span<const std::string> series = {},
                                    const std::string& parameter = "series");

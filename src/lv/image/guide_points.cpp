@@ -1,19 +1,18 @@
 #include "lv/image/guide_points.hpp"
 
 #include "lv/base/check.hpp"
-#include "lv/base/lines.hpp"
 #include "lv/geometry/contour_measures.hpp"
+#include "lv/image/guide_point_list.hpp"
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <set>
-#include <string_view>
 #include <utility>
 
 namespace lv::image {
@@ -25,176 +24,46 @@ using geometry::Side;
 
 constexpr double pi = std::numbers::pi;
 constexpr double widest_gap = pi / 3.0;  // of an epicardial loop
-constexpr double farthest = 1e7;         // more than a ventricle in micrometres
-constexpr const char* column_rule =
-    "The first line names the columns x, y, z, contour type, slice and time frame, separated by "
-    "tabs";
-
-struct Row {
-  Vec3 x;
-  std::string type;
-  int slice = 0, frame = 0, line = 0;
-};
-
-std::string lower(std::string_view text) {
-  std::string result;
-  for (const char c : text)
-    result += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return result;
-}
-
-/// The fields of a line, without quotation marks.
-std::vector<std::string_view> columns_of(std::string_view line) {
-  std::vector<std::string_view> fields = fields_of(line, '\t');
-  for (std::string_view& field : fields)
-    if (field.size() > 1 && field.front() == '"' && field.back() == '"')
-      field = trimmed(field.substr(1, field.size() - 2));
-  return fields;
-}
-
-/// The file, line by line.
-class List {
- public:
-  explicit List(const fs::path& file) : file_(file.string()), lines_(file) {
-    if (!lines_.is_open())
-      throw InputError(file_, "the list of points cannot be opened",
-                       "Check the name and that it can be read");
-    read_header();
-  }
-
-  std::vector<Row> rows() {
-    std::vector<Row> rows;
-    while (lines_.next())
-      rows.push_back(row());
-    if (rows.empty())
-      throw InputError(file_, "the list holds no points", "Write one point a line");
-    return rows;
-  }
-
- private:
-  void read_header() {
-    if (!lines_.next())
-      throw InputError(file_, "the list of points is empty", column_rule);
-    const auto fields = columns_of(lines_.text());
-    width_ = fields.size();
-    const auto column = [&](const std::vector<std::string>& names) {
-      for (std::size_t i = 0; i < fields.size(); ++i)
-        if (std::find(names.begin(), names.end(), lower(fields[i])) != names.end())
-          return static_cast<int>(i);
-      return -1;
-    };
-    at_ = {column({"x"}),     column({"y"}),
-           column({"z"}),     column({"contour type", "type"}),
-           column({"slice"}), column({"time frame", "frame"})};
-    const std::array<const char*, 5> needed{"x", "y", "z", "contour type", "slice"};
-    for (std::size_t c = 0; c < needed.size(); ++c)
-      if (at_[c] < 0)
-        throw InputError(lines_.where(), fmt::format("column \"{}\" is missing", needed[c]),
-                         column_rule);
-  }
-
-  [[nodiscard]] Row row() const {
-    const auto fields = columns_of(lines_.text());
-    if (fields.size() < width_)
-      throw InputError(lines_.where(),
-                       fmt::format("{} values in a table of {} columns", fields.size(), width_),
-                       "Give every line one value per column, separated by tabs");
-    Row row;
-    row.line = lines_.number();
-    for (int d = 0; d < 3; ++d)
-      row.x[d] = coordinate(fields[at_[d]]);
-    row.type = fields[at_[3]];
-    row.slice = whole(fields[at_[4]]);
-    row.frame = at_[5] < 0 ? 0 : whole(fields[at_[5]]);
-    return row;
-  }
-
-  [[nodiscard]] double number(std::string_view text) const {
-    double value = 0.0;
-    const char* end = text.data() + text.size();
-    const auto result = std::from_chars(text.data(), end, value);
-    if (result.ec != std::errc() || result.ptr != end || !std::isfinite(value))
-      throw InputError(lines_.where(), fmt::format("\"{}\" is not a finite number", text),
-                       "Give positions in scanner millimetres");
-    return value;
-  }
-
-  [[nodiscard]] double coordinate(std::string_view text) const {
-    const double value = number(text);
-    if (std::abs(value) > farthest)
-      throw InputError(lines_.where(), fmt::format("\"{}\" is no place in a scanner", text),
-                       "Give positions in scanner millimetres");
-    return value;
-  }
-
-  /// Whole numbers are also written as 3.0 or 3.0000.
-  [[nodiscard]] int whole(std::string_view text) const {
-    const double value = number(text);
-    if (value != std::round(value) || std::abs(value) > 1e9)
-      throw InputError(lines_.where(), fmt::format("\"{}\" is not a whole number", text),
-                       "Number slices and times 0, 1, 2 and so on");
-    return static_cast<int>(value);
-  }
-
-  std::string file_;
-  LineReader lines_;
-  std::size_t width_ = 0;
-  std::array<int, 6> at_{};
-};
-
-/// The points of one time.
-std::vector<Row> of_frame(std::vector<Row> rows, std::optional<int> frame,
-                          const std::string& file) {
-  std::set<int> frames;
-  for (const Row& row : rows)
-    frames.insert(row.frame);
-  if (!frame && frames.size() > 1)
-    throw InputError(file, fmt::format("has points of {} times", frames.size()),
-                     fmt::format("Choose one of the time frames {}", fmt::join(frames, ", ")));
-  if (frame && !frames.contains(*frame))
-    throw InputError(file, fmt::format("has no points of the time frame {}", *frame),
-                     fmt::format("Choose one of the time frames {}", fmt::join(frames, ", ")));
-  if (frame)
-    std::erase_if(rows, [&](const Row& row) { return row.frame != *frame; });
-  return rows;
-}
-
-using Groups = std::map<std::pair<std::string, int>, std::vector<Row>>;
+constexpr std::size_t least_points = 8;  // of a loop
+using Groups = std::map<std::pair<std::string, int>, std::vector<GuidePoint>>;
 
 /// The points of a type on each slice.
-std::map<int, std::vector<Row>> slices_of(const Groups& groups, const std::string& type) {
-  std::map<int, std::vector<Row>> slices;
+std::map<int, std::vector<GuidePoint>> slices_of(const Groups& groups, const std::string& type) {
+  std::map<int, std::vector<GuidePoint>> slices;
   for (const auto& [key, rows] : groups)
     if (key.first == type)
       slices[key.second] = rows;
   return slices;
 }
 
-Contour contour_of(const std::vector<Row>& rows, int slice, Side side, const std::string& file) {
+Contour contour_of(const std::vector<GuidePoint>& rows, int slice, Side side,
+                   const std::string& file) {
   Contour contour{slice, side, {}, file, {}};
-  for (const Row& row : rows) {
+  for (const GuidePoint& row : rows) {
     contour.points.push_back(row.x);
     contour.lines.push_back(row.line);
   }
   return contour;
 }
 
-std::vector<Vec3> points_of(const std::vector<Row>& rows) {
+std::vector<Vec3> points_of(const std::vector<GuidePoint>& rows) {
   std::vector<Vec3> points;
-  for (const Row& row : rows)
+  for (const GuidePoint& row : rows)
     points.push_back(row.x);
   return points;
 }
 
 /// Sorts rows by an angle.
 template <class Angle>
-void sort_by(std::vector<Row>& rows, const Angle& angle) {
-  std::stable_sort(rows.begin(), rows.end(),
-                   [&](const Row& a, const Row& b) { return angle(a.x) < angle(b.x); });
+void sort_by(std::vector<GuidePoint>& rows, const Angle& angle) {
+  std::stable_sort(rows.begin(), rows.end(), [&](const GuidePoint& a, const GuidePoint& b) {
+    return angle(a.x) < angle(b.x);
+  });
 }
 
-/// In order round the point `centre`; the widest angle between neighbours.
-double sort_round(std::vector<Row>& rows, const Vec3& centre) {
+/// In order round the point `centre`, ending where neighbours are nearest, for there the loop is
+/// closed; the widest angle between neighbours.
+double sort_round(std::vector<GuidePoint>& rows, const Vec3& centre) {
   if (rows.size() < 3)
     return 2.0 * pi;
   const geometry::Frame plane = geometry::plane_of(points_of(rows));
@@ -203,38 +72,55 @@ double sort_round(std::vector<Row>& rows, const Vec3& centre) {
     return std::atan2(p.y(), p.x());
   };
   sort_by(rows, angle);
-  double widest = 2.0 * pi + angle(rows.front().x) - angle(rows.back().x);
+  std::vector<double> gaps{2.0 * pi + angle(rows.front().x) - angle(rows.back().x)};
   for (std::size_t i = 1; i < rows.size(); ++i)
-    widest = std::max(widest, angle(rows[i].x) - angle(rows[i - 1].x));
-  return widest;
+    gaps.push_back(angle(rows[i].x) - angle(rows[i - 1].x));
+  const auto [narrowest, widest] = std::minmax_element(gaps.begin(), gaps.end());
+  std::rotate(rows.begin(), rows.begin() + (narrowest - gaps.begin()), rows.end());
+  return *widest;
+}
+
+/// Whether points, open over some angle, make a loop; says so if not.
+bool is_loop(const std::vector<GuidePoint>& rows, double gap, const Contour& as,
+             std::vector<std::string>& notes) {
+  if (rows.size() >= least_points && gap <= widest_gap)
+    return true;
+  notes.push_back(fmt::format("{}: {} points, open over {:.0f} degrees, make no loop: left out",
+                              geometry::label(as), rows.size(), gap * 180.0 / pi));
+  return false;
+}
+
+/// The epicardium of a slice in order round a centre, with the septum's right side where it is
+/// drawn on the free wall alone; the widest angle without a point.
+double close_epicardium(std::vector<GuidePoint>& rows, const std::vector<GuidePoint>* septum,
+                        const Vec3& centre) {
+  const double gap = sort_round(rows, centre);
+  if (gap <= widest_gap || septum == nullptr)
+    return gap;
+  rows.insert(rows.end(), septum->begin(), septum->end());
+  return sort_round(rows, centre);
 }
 
 void add_loops(const Groups& groups, const std::string& file, GuidePoints& found) {
   const auto endo = slices_of(groups, "SAX_LV_ENDOCARDIAL");
   const auto epi = slices_of(groups, "SAX_LV_EPICARDIAL");
   const auto septum = slices_of(groups, "SAX_RV_SEPTUM");
-  std::map<int, Vec3> centres;
+  std::vector<Contour>& loops = found.contours.short_axis;
+  const auto add = [&](const std::vector<GuidePoint>& rows, double gap, int slice, Side side) {
+    Contour loop = contour_of(rows, slice, side, file);
+    if (is_loop(rows, gap, loop, found.notes))
+      loops.push_back(std::move(loop));
+  };
   for (auto [slice, rows] : endo) {
-    centres[slice] = geometry::mean_of(points_of(rows));
-    sort_round(rows, centres[slice]);
-    found.contours.short_axis.push_back(contour_of(rows, slice, Side::endo, file));
+    const double gap = sort_round(rows, geometry::mean_of(points_of(rows)));
+    add(rows, gap, slice, Side::endo);
   }
   for (auto [slice, rows] : epi) {
-    const Vec3 centre =
-        centres.contains(slice) ? centres[slice] : geometry::mean_of(points_of(rows));
-    double gap = sort_round(rows, centre);
-    if (gap > widest_gap && septum.contains(slice)) {
-      const auto& right = septum.at(slice);
-      rows.insert(rows.end(), right.begin(), right.end());
-      gap = sort_round(rows, centre);
-    }
-    if (gap > widest_gap)
-      found.notes.push_back(
-          fmt::format("slice {}: the epicardium is open over {:.0f} degrees: left "
-                      "out",
-                      slice, gap * 180.0 / pi));
-    else
-      found.contours.short_axis.push_back(contour_of(rows, slice, Side::epi, file));
+    const Contour* inner = geometry::find(loops, slice, Side::endo);
+    const Vec3 centre = geometry::mean_of(inner != nullptr ? inner->points : points_of(rows));
+    const double gap =
+        close_epicardium(rows, septum.contains(slice) ? &septum.at(slice) : nullptr, centre);
+    add(rows, gap, slice, Side::epi);
   }
   std::stable_sort(found.contours.short_axis.begin(), found.contours.short_axis.end(),
                    [](const Contour& a, const Contour& b) { return a.slice < b.slice; });
@@ -264,11 +150,26 @@ void renumber(GuidePoints& found) {
                    [](const Contour& a, const Contour& b) { return a.slice < b.slice; });
 }
 
+/// The middle of all endocardial loops.
+Vec3 middle_of_cavity(const std::vector<Contour>& short_axis) {
+  std::vector<Vec3> centres;
+  for (const Contour& c : short_axis)
+    if (c.side == Side::endo)
+      centres.push_back(geometry::mean_of(c.points));
+  return geometry::mean_of(centres);
+}
+
+std::ptrdiff_t endo_loops(const geometry::Contours& contours) {
+  return std::count_if(contours.short_axis.begin(), contours.short_axis.end(),
+                       [](const Contour& c) { return c.side == Side::endo; });
+}
+
 /// From the most basal to the most apical: the end with the larger cavity is the base unless points
 /// of the annulus say otherwise.
-Vec3 towards_base(const GuidePoints& found, const Vec3& middle) {
+Vec3 towards_base(const GuidePoints& found) {
   if (!found.contours.annulus.empty())
-    return (geometry::mean_of(found.contours.annulus) - middle).normalized();
+    return (geometry::mean_of(found.contours.annulus) - middle_of_cavity(found.contours.short_axis))
+        .normalized();
   std::vector<const Contour*> endo;
   for (const Contour& c : found.contours.short_axis)
     if (c.side == Side::endo)
@@ -279,30 +180,111 @@ Vec3 towards_base(const GuidePoints& found, const Vec3& middle) {
   return (base_last ? along : Vec3(-along)).normalized();
 }
 
-void add_curves(const Groups& groups, const std::string& file, GuidePoints& found) {
-  Vec3 middle = Vec3::Zero();
-  int loops = 0;
-  for (const Contour& c : found.contours.short_axis)
-    if (c.side == Side::endo) {
-      middle += geometry::mean_of(c.points);
-      ++loops;
-    }
-  if (loops < 2)
-    return;  // the check of the contours says so
-  middle /= loops;
-  const Vec3 up = towards_base(found, middle);
+/// The angle about the middle of the cavity in the plane of a long-axis image: 0 towards the apex,
+/// +-pi at the base.
+struct AngleFromApex {
+  Vec3 middle, up, across;
+
+  [[nodiscard]] double operator()(const Vec3& x) const {
+    return std::atan2((x - middle).dot(across), -(x - middle).dot(up));
+  }
+};
+
+/// Drops what of a curve, as seen from the middle of the cavity, lies between the outermost points
+/// of the valves in its image: a line drawn through the opening is no wall.
+std::size_t drop_in_valve(std::vector<GuidePoint>& rows, const std::vector<Vec3>& valve,
+                          const AngleFromApex& angle) {
+  double left = pi;
+  double right = -pi;
+  for (const Vec3& x : valve)
+    if (const double at = angle(x); at > 0.5 * pi)
+      left = std::min(left, at);
+    else if (at < -0.5 * pi)
+      right = std::max(right, at);
+  if (left == pi || right == -pi)
+    return 0;
+  return std::erase_if(rows, [&](const GuidePoint& p) {
+    const double at = angle(p.x);
+    return at > left || at < right;
+  });
+}
+
+/// The points of the mitral and the aortic valve in each image.
+std::map<int, std::vector<Vec3>> valves_of(const Groups& groups) {
+  std::map<int, std::vector<Vec3>> valves;
+  for (const char* type : {"MITRAL_VALVE", "AORTA_VALVE"})
+    for (const auto& [slice, rows] : slices_of(groups, type))
+      for (const GuidePoint& p : rows)
+        valves[slice].push_back(p.x);
+  return valves;
+}
+
+/// Drops what of an epicardial curve closes the wall at the base: nearer to the endocardial curve
+/// than half of the usual thickness.
+std::size_t drop_closing_line(std::vector<GuidePoint>& epi, const std::vector<GuidePoint>& endo,
+                              const AngleFromApex& angle) {
+  if (epi.empty() || endo.empty())
+    return 0;
+  const auto thickness = [&](const Vec3& x) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const GuidePoint& p : endo)
+      least = std::min(least, (p.x - x).norm());
+    return least;
+  };
+  std::vector<double> all;
+  for (const GuidePoint& p : epi)
+    all.push_back(thickness(p.x));
+  std::nth_element(all.begin(), all.begin() + all.size() / 2, all.end());
+  const double half = 0.5 * all[all.size() / 2];
+  return std::erase_if(epi, [&](const GuidePoint& p) {
+    return std::abs(angle(p.x)) > 0.5 * pi && thickness(p.x) < half;
+  });
+}
+
+void add_curves(const Groups& groups, const std::string& file, const Vec3& up, GuidePoints& found) {
+  const Vec3 middle = middle_of_cavity(found.contours.short_axis);
+  auto valves = valves_of(groups);
+  auto endo = slices_of(groups, "LAX_LV_ENDOCARDIAL");
+  std::size_t in_valve = 0;
+  std::size_t closing = 0;
   for (const auto& [type, side] :
        {std::pair("LAX_LV_ENDOCARDIAL", Side::endo), std::pair("LAX_LV_EPICARDIAL", Side::epi)})
     for (auto [slice, rows] : slices_of(groups, type)) {
       if (rows.size() < 3)
         continue;
       const Vec3 normal = geometry::plane_of(points_of(rows)).axes.col(2);
-      const Vec3 across = normal.cross(up);
-      sort_by(rows, [&](const Vec3& x) {
-        return std::atan2((x - middle).dot(across), -(x - middle).dot(up));
-      });
+      const AngleFromApex angle{middle, up, normal.cross(up)};
+      in_valve += drop_in_valve(rows, valves[slice], angle);
+      if (side == Side::epi)
+        closing += drop_closing_line(rows, endo[slice], angle);
+      sort_by(rows, angle);
       found.contours.long_axis.push_back(contour_of(rows, slice, side, file));
     }
+  if (closing > 0)
+    found.notes.push_back(
+        fmt::format("{} point{} of long-axis epicardia close the wall at the base: not used",
+                    closing, closing == 1 ? "" : "s"));
+  if (in_valve > 0)
+    found.notes.push_back(
+        fmt::format("{} point{} of long-axis curves lie in the opening of the valves: not used",
+                    in_valve, in_valve == 1 ? "" : "s"));
+}
+
+/// A slice without endocardium can only lie beyond the cavity's apex.
+void drop_lone_epicardium(const Vec3& up, GuidePoints& found) {
+  std::vector<Contour>& loops = found.contours.short_axis;
+  const auto height = [&](const Contour& c) { return geometry::mean_of(c.points).dot(up); };
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const Contour& c : loops)
+    if (c.side == Side::endo)
+      lowest = std::min(lowest, height(c));
+  std::erase_if(loops, [&](const Contour& c) {
+    const bool lone = geometry::find(loops, c.slice, Side::endo) == nullptr && height(c) > lowest;
+    if (lone)
+      found.notes.push_back(
+          fmt::format("slice {}: an epicardium without endocardium: left out", c.slice));
+    return lone;
+  });
 }
 
 void add_points(const Groups& groups, const std::string& file, Side apex_of, GuidePoints& found) {
@@ -312,7 +294,7 @@ void add_points(const Groups& groups, const std::string& file, Side apex_of, Gui
   for (const auto& [key, rows] : groups) {
     const std::string& type = key.first;
     const bool curve = type.starts_with("SAX_LV_E") || type.starts_with("LAX_LV_E");
-    for (const Row& row : rows)
+    for (const GuidePoint& row : rows)
       if (type == "MITRAL_VALVE")
         found.contours.annulus.push_back(row.x);
       else if (type == "SAX_RV_SEPTUM")
@@ -342,14 +324,19 @@ void add_points(const Groups& groups, const std::string& file, Side apex_of, Gui
 }  // namespace
 
 GuidePoints read_guide_points(const fs::path& file, std::optional<int> frame, Side apex_of) {
-  Groups groups;
-  for (const Row& row : of_frame(List(file).rows(), frame, file.string()))
-    groups[{row.type, row.slice}].push_back(row);
   GuidePoints found;
+  Groups groups;
+  for (const GuidePoint& row :
+       points_of_time(read_guide_point_list(file, found.notes), frame, file.string(), found.notes))
+    groups[{row.type, row.slice}].push_back(row);
   add_points(groups, file.string(), apex_of, found);
   add_loops(groups, file.string(), found);
   renumber(found);
-  add_curves(groups, file.string(), found);
+  if (endo_loops(found.contours) >= 2) {  // else the check of the contours says so
+    const Vec3 up = towards_base(found);
+    drop_lone_epicardium(up, found);
+    add_curves(groups, file.string(), up, found);
+  }
   if (found.contours.short_axis.empty()) {
     std::set<std::string> types;
     for (const auto& [key, rows] : groups)

@@ -63,6 +63,11 @@ struct Moments {
   }
 };
 
+/// The moments of the same points, moved until their middle lies at x.
+Moments moved_to(const Moments& m, const Vec3& x) {
+  return {m.zeroth, m.zeroth * x, m.zeroth * (m.covariance() + x * x.transpose())};
+}
+
 Moments moments(const PlaneMask& mask, const Plane& plane) {
   Moments m;
   for (int j = 0; j < mask.rows; ++j)
@@ -236,16 +241,54 @@ Run main_run(std::vector<Slice>& slices, const std::string& file, std::vector<st
   return main;
 }
 
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// How the middle of the cavity moves along one direction per step along another: the median over
+/// all pairs of slices (H. Theil 1950, P.K. Sen 1968), which one jump of the breath does not turn.
+double usual_slope(const std::vector<Vec3>& middles, const Vec3& direction, const Vec3& normal) {
+  std::vector<double> slopes;
+  for (std::size_t i = 0; i < middles.size(); ++i)
+    for (std::size_t j = i + 1; j < middles.size(); ++j) {
+      const Vec3 step = middles[j] - middles[i];
+      slopes.push_back(step.dot(direction) / step.dot(normal));
+    }
+  return median(slopes);
+}
+
+/// The moments of the cavity with each slice moved in its plane onto the line that the middles of
+/// most follow.
+Moments moments_on_line(const std::vector<Slice>& slices) {
+  const Plane& plane = slices.front().plane;
+  const Vec3 normal = plane.normal();
+  std::vector<Vec3> middles;
+  for (const Slice& slice : slices)
+    middles.emplace_back(slice.cavity.first / slice.cavity.zeroth);
+  const Vec3 along = normal + usual_slope(middles, plane.along_row, normal) * plane.along_row +
+                     usual_slope(middles, plane.along_column, normal) * plane.along_column;
+  Moments all;
+  for (std::size_t s = 0; s < slices.size(); ++s) {
+    const Vec3 on_line = middles.front() + (middles[s] - middles.front()).dot(normal) * along;
+    all.add(moved_to(slices[s].cavity, on_line));
+  }
+  return all;
+}
+
 /// Notes or refuses slices that do not lie across the long axis, which is taken as the direction in
 /// which the cavity spreads most. It shows only in a cavity that is clearly longer than wide and
 /// is nearly round across: for a stack of a few slices nothing can be said.
 void check_across(const std::vector<Slice>& slices, const Run& run, const std::string& file,
                   std::vector<std::string>& notes) {
-  if (run.first == run.last)
-    return;
-  Moments all;
+  std::vector<Slice> shown;
   for (std::size_t s = run.first; s <= run.last; ++s)
-    all.add(slices[s].cavity);
+    if (slices[s].cavity.zeroth > 0.0)
+      shown.push_back(slices[s]);
+  if (shown.size() < 2)
+    return;
+  const Moments all = moments_on_line(shown);
   const Eigen::SelfAdjointEigenSolver<Mat3> axes(all.covariance());
   const Vec3 spread = axes.eigenvalues().cwiseMax(0.0).cwiseSqrt();
   if (spread[2] < distinct * spread[1] || spread[2] * spread[0] < spread[1] * spread[1])
@@ -354,20 +397,24 @@ std::vector<double> volume_curve(const Volume& volume, const std::vector<int>& c
 
 Phases propose_phases(const std::vector<double>& volumes) {
   constexpr double grown = 0.1;  // of the stroke volume
-  const int n = static_cast<int>(volumes.size());
+  std::vector<int> shown;        // frames without labels say nothing of the heart
+  for (std::size_t f = 0; f < volumes.size(); ++f)
+    if (volumes[f] > 0.0)
+      shown.push_back(static_cast<int>(f));
+  if (shown.empty())
+    return {};
+  const auto smaller = [&](int a, int b) { return volumes[a] < volumes[b]; };
+  const auto systole = std::min_element(shown.begin(), shown.end(), smaller);
   Phases phases;
-  phases.end_diastole =
-      static_cast<int>(std::max_element(volumes.begin(), volumes.end()) - volumes.begin());
-  phases.end_systole =
-      static_cast<int>(std::min_element(volumes.begin(), volumes.end()) - volumes.begin());
-  phases.early_diastole = phases.end_systole;
-  const double least = volumes[phases.end_systole];
-  const double stroke = volumes[phases.end_diastole] - least;
-  for (int k = 1; k < n; ++k) {
-    const int at = (phases.end_systole + k) % n;
+  phases.end_diastole = *std::max_element(shown.begin(), shown.end(), smaller);
+  phases.end_systole = *systole;
+  phases.early_diastole = *systole;
+  const double stroke = volumes[phases.end_diastole] - volumes[phases.end_systole];
+  std::rotate(shown.begin(), systole, shown.end());
+  for (const int at : shown) {
     if (at == phases.end_diastole)
       break;
-    if (volumes[at] >= least + grown * stroke) {
+    if (at != phases.end_systole && volumes[at] >= volumes[phases.end_systole] + grown * stroke) {
       phases.early_diastole = at;
       break;
     }

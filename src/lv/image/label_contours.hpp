@@ -39,7 +39,7 @@ struct LabelContours {
 /// - A map of small voxels whose slices lie askew to the long axis is first resampled: see
 ///   on_short_axis. Otherwise slices whose normal lies more than 25 degrees from the long axis of
 ///   the cavity are refused, more than 15 noted. The long axis is then the principal axis of the
-///   cavity's pixels, if their standard deviation along it is 1.25 times the next one and the next
+///   cavity's pixels, each slice moved onto the line that the middles of most follow, if their standard deviation along it is 1.25 times the next one and the next
 ///   is nearer to the third.
 /// - A wall that reaches the edge of the image is noted.
 /// - Slices with muscle alone count beyond the apex (the end with the smaller cavity), next to it;
@@ -54,9 +54,10 @@ struct LabelContours {
 [[nodiscard]] std::vector<double> volume_curve(const Volume& volume,
                                                const std::vector<int>& cavity);
 
-/// Phases proposed from a volume curve, counted from 0: end-diastole at the largest volume,
-/// end-systole at the smallest, early diastole at the first time after it (going round) at which
-/// the volume has grown by a tenth of the stroke volume.
+/// Phases proposed from a volume curve, counted from 0, among the frames that show any volume:
+/// end-diastole at the largest, end-systole at the smallest, early diastole at the first time after
+/// it (going round) and before end-diastole at which the volume has grown by a tenth of the stroke
+/// volume; end-systole again where no frame shows that.
 struct Phases {
   int end_diastole = 0, end_systole = 0, early_diastole = 0;
 };

@@ -1,35 +1,31 @@
 #include "lv/image/nifti.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/files.hpp"
+#include "lv/base/formats.hpp"
+#include "lv/base/memory.hpp"
+#include "lv/image/nifti_header.hpp"
+#include "lv/image/nifti_place.hpp"
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
-#include <itkMetaDataObject.h>
-#include <itkNiftiImageIO.h>
 #include <zlib.h>
 
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cctype>
 #include <cmath>
 #include <cstring>
-#include <exception>
 #include <limits>
 #include <memory>
 #include <optional>
-#include <sstream>
+#include <span>
+#include <string_view>
 
 namespace lv::image {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr double at_right_angles = 1e-3;  // cosine between axes
-constexpr double same_place = 0.1;        // of a voxel, between sform and qform
-constexpr double smallest_voxel = 1e-3;   // [mm]
-constexpr double largest_voxel = 1e3;
-constexpr double farthest = 1e6;    // of an image from the scanner's centre [mm]
-constexpr double most_bytes = 8e9;  // of voxels
 
 [[noreturn]] void fail(const fs::path& file, const std::string& what, const std::string& remedy) {
   throw InputError(file.string(), what, remedy);
@@ -40,391 +36,280 @@ constexpr double most_bytes = 8e9;  // of voxels
        "The file seems to be truncated, damaged or of another kind: save or copy it again");
 }
 
-std::string first_line(const std::string& text) {
-  const auto start = text.find_last_of(':');  // ITK puts file and line before its message
-  const std::string message = start == std::string::npos ? text : text.substr(start + 1);
-  const auto from = message.find_first_not_of(" \n");
-  return from == std::string::npos ? text : message.substr(from, message.find('\n', from) - from);
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
 }
 
-std::string entry(const itk::ImageIOBase& io, const std::string& key) {
-  std::string value;
-  itk::ExposeMetaData(io.GetMetaDataDictionary(), key, value);
-  return value;
+/// The endings of a pair of files, header and voxels.
+constexpr std::array<const char*, 2> header_endings{".hdr", ".hdr.gz"};
+constexpr std::array<const char*, 2> voxel_endings{".img", ".img.gz"};
+
+bool ends_as(const fs::path& file, const std::array<const char*, 2>& endings) {
+  const std::string name = lower(file.filename().string());
+  return std::any_of(endings.begin(), endings.end(),
+                     [&](const char* ending) { return name.ends_with(ending); });
 }
 
-/// The affine map of the sform from voxels to RAS, if the file has one.
-std::optional<Eigen::Matrix<double, 3, 4>> sform(const itk::ImageIOBase& io) {
-  std::istringstream code(entry(io, "sform_code"));
-  int kind = 0;
-  code >> kind;
-  if (kind <= 0)
-    return std::nullopt;
-  Eigen::Matrix<double, 3, 4> map;
-  for (int d = 0; d < 3; ++d) {
-    std::istringstream row(entry(io, fmt::format("srow_{}", "xyz"[d])));
-    for (int e = 0; e < 4; ++e)
-      row >> map(d, e);
-    if (!row)
-      return std::nullopt;
+/// The other file of a pair, in whatever case its ending is written.
+fs::path other_of_pair(const fs::path& file, const std::array<const char*, 2>& endings) {
+  fs::path stem = lower(file.extension().string()) == ".gz" ? file.stem() : file.filename();
+  stem.replace_extension();
+  const FolderFiles beside = files_in(file.parent_path().empty() ? "." : file.parent_path(), false);
+  for (const char* ending : endings)
+    for (const fs::path& candidate : beside.files) {
+      const std::string name = candidate.filename().string();
+      if (name.starts_with(stem.string()) && lower(name.substr(stem.string().size())) == ending)
+        return file.parent_path() / candidate.filename();
+    }
+  fail(file, fmt::format("{}{} is not beside it", stem.string(), endings.front()),
+       "Header (.hdr) and voxels (.img) are two files of one name in one folder: give both");
+}
+
+/// A file that is packed by gzip or not, read from its beginning.
+class Stream {
+ public:
+  explicit Stream(const fs::path& file)
+      : file_(file), stream_(gzopen(file.c_str(), "rb"), gzclose) {
+    if (!stream_)
+      fail_damaged(file, "it cannot be opened");
   }
-  return map;
-}
 
-bool has_qform(const itk::ImageIOBase& io) {
-  std::istringstream code(entry(io, "qform_code"));
-  int kind = 0;
-  code >> kind;
-  return kind > 0;
-}
-
-void check_right_angles(const fs::path& file, const Mat3& axes) {
-  for (int d = 0; d < 3; ++d) {
-    const double length = axes.col(d).norm();
-    const double cosine =
-        axes.col(d).dot(axes.col((d + 1) % 3)) / length / axes.col((d + 1) % 3).norm();
-    if (!(length > 0.0) || !std::isfinite(length) || !(std::abs(cosine) < at_right_angles))
-      fail(file, "its sform is sheared or flat: its axes are not at right angles",
-           "Resample the image to a rectangular grid");
+  /// Fills as much of the block as the file still holds; returns how many bytes.
+  std::size_t read(std::span<char> block) {
+    const int got = gzread(stream_.get(), block.data(), static_cast<unsigned>(block.size()));
+    int error = Z_OK;
+    gzerror(stream_.get(), &error);
+    if (got < 0 || (error != Z_OK && error != Z_STREAM_END))
+      fail_damaged(file_, "it is packed, and damaged or truncated");
+    read_ += static_cast<std::uintmax_t>(got);
+    return static_cast<std::size_t>(got);
   }
-}
 
-/// The first bytes of a file, unpacked if it is packed.
-using Head = std::array<char, 352>;
+  [[nodiscard]] std::uintmax_t bytes_read() const { return read_; }
+  [[nodiscard]] bool is_packed() const { return gzdirect(stream_.get()) == 0; }
 
-using GzFile = std::unique_ptr<gzFile_s, int (*)(gzFile)>;
-
-GzFile open_packed(const fs::path& file) {
-  GzFile stream(gzopen(file.c_str(), "rb"), gzclose);
-  if (!stream)
-    fail_damaged(file, "it cannot be opened");
-  return stream;
-}
-
-Head head_of(const fs::path& file) {
-  Head head{};
-  if (gzread(open_packed(file).get(), head.data(), head.size()) < 0)
-    fail_damaged(file, "it is packed, and damaged");
-  return head;
-}
-
-/// How many bytes a file has, unpacked if it is packed, and all of them if asked for.
-struct Unpacked {
-  std::uintmax_t length = 0;
-  std::vector<char> all;
+ private:
+  fs::path file_;
+  std::unique_ptr<gzFile_s, int (*)(gzFile)> stream_;
+  std::uintmax_t read_ = 0;
 };
 
-/// Reads a file to its end: what the NIfTI library does not, which takes zeros for missing voxels.
-Unpacked unpack(const fs::path& file, bool keep) {
-  const GzFile stream = open_packed(file);
-  Unpacked unpacked;
-  std::vector<char> block(1U << 16U);
-  for (;;) {
-    const int got = gzread(stream.get(), block.data(), static_cast<unsigned>(block.size()));
-    if (got < 0)
-      fail_damaged(file, "it is packed, and damaged or truncated");
-    unpacked.length += static_cast<std::uintmax_t>(got);
-    if (keep)
-      unpacked.all.insert(unpacked.all.end(), block.begin(), block.begin() + got);
-    if (got < static_cast<int>(block.size()))
-      break;
-  }
-  int error = Z_OK;
-  gzerror(stream.get(), &error);
-  if (error != Z_OK && error != Z_STREAM_END)
-    fail_damaged(file, "it is packed, and truncated");
-  return unpacked;
+NiftiHeader read_header(const fs::path& file) {
+  std::array<char, longest_nifti_header> bytes{};
+  Stream stream(file);
+  const std::span<const char> head(bytes.data(), stream.read(bytes));
+  if (const auto header = parse_nifti_header(head))
+    return *header;
+  if (is_analyze_header(head))
+    fail(file, "is Analyze 7.5, whose header does not say how the image lies in space",
+         "Save it as NIfTI");
+  fail_damaged(file, "it has no NIfTI header");
 }
 
-/// A number of the header, turned round if the file comes from a machine of the other byte order.
-template <class Number>
-Number header_number(const Head& head, std::size_t at) {
-  std::int32_t size = 0;
-  std::memcpy(&size, head.data(), sizeof(size));
-  std::array<char, sizeof(Number)> bytes{};
-  std::memcpy(bytes.data(), head.data() + at, sizeof(Number));
-  if (size != 348)
-    std::reverse(bytes.begin(), bytes.end());
-  return std::bit_cast<Number>(bytes);
-}
-
-/// Refuses a header whose place in space is none: ITK would end the program.
-void check_finite(const fs::path& file) {
-  const Head head = head_of(file);
-  std::vector<std::size_t> numbers{80, 84, 88};  // pixdim of three axes
-  const auto add = [&](std::size_t from, std::size_t to) {
-    for (std::size_t at = from; at < to; at += 4)
-      numbers.push_back(at);
-  };
-  if (header_number<std::int16_t>(head, 252) > 0)
-    add(256, 280);  // the qform's quaternion and offset
-  if (header_number<std::int16_t>(head, 254) > 0)
-    add(280, 328);  // the sform's rows
-  for (const std::size_t at : numbers)
-    if (!(std::abs(header_number<float>(head, at)) <= farthest))
-      fail_damaged(file, fmt::format("its header has {:g} for a place or a size",
-                                     header_number<float>(head, at)));
-}
-
-/// The map of the qform from voxels to RAS (the NIfTI-1 standard's method 2).
-Eigen::Matrix<double, 3, 4> qform(const Head& head) {
-  const auto number = [&](std::size_t at) {
-    return static_cast<double>(header_number<float>(head, at));
-  };
-  const Vec3 v(number(256), number(260), number(264));
-  const double a = std::sqrt(std::max(0.0, 1.0 - v.squaredNorm()));
-  Eigen::Matrix<double, 3, 4> map;
-  map.leftCols<3>() = Eigen::Quaterniond(a, v.x(), v.y(), v.z()).toRotationMatrix();
-  const double handed = number(76) < 0.0 ? -1.0 : 1.0;
-  for (int d = 0; d < 3; ++d)
-    map.col(d) *= number(80 + 4 * d) * (d == 2 ? handed : 1.0);
-  map.col(3) = Vec3(number(268), number(272), number(276));
-  return map;
-}
-
-/// Lays the volume by its sform where there is one; if there is a qform too, both must agree.
-void lay(const fs::path& file, const itk::ImageIOBase& io, Volume& volume) {
-  const auto affine = sform(io);
-  if (!affine) {
-    if (!has_qform(io))
-      volume.notes.push_back(fmt::format(
-          "{} does not say how it lies in space (neither sform nor qform): its axes are "
-          "taken to point to the left, the back and the head; if it is mirrored, so are "
-          "the regions",
-          file.string()));
-    return;
-  }
-  const Mat3 to_lps = Vec3(-1.0, -1.0, 1.0).asDiagonal();
-  const Mat3 axes = to_lps * affine->leftCols<3>();
-  check_right_angles(file, axes);
-  volume.origin = to_lps * affine->col(3);
-  for (int d = 0; d < 3; ++d) {
-    volume.spacing[d] = axes.col(d).norm();
-    volume.directions.col(d) = axes.col(d).normalized();
-  }
-  if (!has_qform(io))
-    return;
-  const auto other = qform(head_of(file));
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vec3 ijk((corner & 1) != 0 ? volume.size[0] - 1 : 0,
-                   (corner & 2) != 0 ? volume.size[1] - 1 : 0,
-                   (corner & 4) != 0 ? volume.size[2] - 1 : 0);
-    const double apart = (volume.point(ijk) - to_lps * (other * ijk.homogeneous())).norm();
-    if (!(apart < std::max(same_place * volume.spacing.minCoeff(), 1e-2)))
-      fail(file,
-           fmt::format("its sform and its qform put a corner of the image {:.1f} mm apart", apart),
-           "Correct the header so that both agree, or set the code of the wrong one to 0");
-  }
-}
-
-/// Sizes, spacing and place as ITK reads them.
-Volume read_header(const fs::path& file, itk::NiftiImageIO& io) {
+/// Sizes of the volume, and how its frames follow each other.
+Volume sized(const fs::path& file, const NiftiHeader& header) {
+  constexpr double most = 100000;  // along an axis
+  constexpr double most_voxels = 1e15;
   Volume volume;
   volume.file = file.string();
-  const unsigned dimensions = io.GetNumberOfDimensions();
-  std::array<int, 4> size{1, 1, 1, 1};
-  for (unsigned d = 0; d < dimensions; ++d) {
-    const auto n = io.GetDimensions(d);
-    if (d >= 4 && n > 1)
-      fail(file, fmt::format("has {} dimensions", dimensions), "Save an image of three or four");
-    if (n < 1 || n > 100000)
-      fail_damaged(file, fmt::format("it claims {} voxels along an axis", n));
-    if (d < 4)
-      size[d] = static_cast<int>(n);
+  const double dimensions = header.dim[0];
+  if (!(dimensions >= 1 && dimensions <= 7))
+    fail_damaged(file, fmt::format("it claims {:g} dimensions", dimensions));
+  std::array<int, 8> size{1, 1, 1, 1, 1, 1, 1, 1};
+  double voxels = 1.0;
+  for (int d = 1; d <= static_cast<int>(dimensions); ++d) {
+    if (!(header.dim[d] >= 1 && header.dim[d] <= most))
+      fail_damaged(file, fmt::format("it claims {:g} voxels along an axis", header.dim[d]));
+    size[d] = static_cast<int>(header.dim[d]);
+    voxels *= size[d];
   }
-  for (unsigned d = 0; d < std::min(dimensions, 3U); ++d) {
-    volume.spacing[d] = io.GetSpacing(d);
-    volume.origin[d] = io.GetOrigin(d);
-    const std::vector<double> direction = io.GetDirection(d);
-    for (unsigned e = 0; e < std::min<std::size_t>(direction.size(), 3); ++e)
-      volume.directions(e, d) = direction[e];
-  }
-  volume.size = {size[0], size[1], size[2]};
-  volume.frames = size[3];
-  if (dimensions > 3 && volume.frames > 1 && io.GetSpacing(3) > 0.0 && io.GetSpacing(3) < 10.0)
-    volume.time_step = io.GetSpacing(3);
-  const double bytes = static_cast<double>(size[0]) * size[1] * size[2] * size[3] *
-                       static_cast<double>(io.GetComponentSize());
-  if (bytes > most_bytes)
-    fail(file, fmt::format("claims {:.0f} bytes of voxels", bytes), "Crop or downsample the image");
+  if (voxels > most_voxels)
+    fail_damaged(file, fmt::format("it claims {:g} voxels", voxels));
+  if (size[5] > 1)
+    fail(file, fmt::format("has {} values per voxel", size[5]),
+         "Give an image of grey values or labels");
+  if (size[6] > 1 || size[7] > 1)
+    fail(file, fmt::format("has {:g} dimensions", dimensions), "Save an image of three or four");
+  volume.size = {size[1], size[2], size[3]};
+  volume.frames = size[4];
   return volume;
 }
 
-/// Refuses voxels that are no part of a person, before anything is resampled to their size.
-void check_place(const fs::path& file, const Volume& volume) {
-  if (!(volume.spacing.minCoeff() >= smallest_voxel) ||
-      !(volume.spacing.maxCoeff() <= largest_voxel) || !volume.origin.allFinite() ||
-      volume.origin.cwiseAbs().maxCoeff() > farthest || !volume.directions.allFinite())
-    fail_damaged(file, fmt::format("its voxels measure {:g} x {:g} x {:g} mm at ({:g}, {:g}, {:g}) "
-                                   "mm",
-                                   volume.spacing.x(), volume.spacing.y(), volume.spacing.z(),
-                                   volume.origin.x(), volume.origin.y(), volume.origin.z()));
-}
-
-template <class Stored>
-void append(const std::vector<char>& bytes, std::vector<float>& values) {
-  const auto* stored = reinterpret_cast<const Stored*>(bytes.data());
-  for (std::size_t i = 0; i < bytes.size() / sizeof(Stored); ++i)
-    values.push_back(static_cast<float>(stored[i]));
-}
-
-bool append_as(itk::IOComponentEnum type, const std::vector<char>& bytes,
-               std::vector<float>& values) {
-  using T = itk::IOComponentEnum;
-  switch (type) {
-    case T::UCHAR:
-      append<unsigned char>(bytes, values);
-      return true;
-    case T::CHAR:
-      append<signed char>(bytes, values);
-      return true;
-    case T::USHORT:
-      append<unsigned short>(bytes, values);
-      return true;
-    case T::SHORT:
-      append<short>(bytes, values);
-      return true;
-    case T::UINT:
-      append<unsigned int>(bytes, values);
-      return true;
-    case T::INT:
-      append<int>(bytes, values);
-      return true;
-    case T::ULONG:
-      append<unsigned long>(bytes, values);
-      return true;
-    case T::LONG:
-      append<long>(bytes, values);
-      return true;
-    case T::ULONGLONG:
-      append<unsigned long long>(bytes, values);
-      return true;
-    case T::LONGLONG:
-      append<long long>(bytes, values);
-      return true;
-    case T::FLOAT:
-      append<float>(bytes, values);
-      return true;
-    case T::DOUBLE:
-      append<double>(bytes, values);
-      return true;
+/// Seconds per unit of time (the NIfTI standard's xyzt_units, bits 3 to 5).
+double seconds_of(const NiftiHeader& header) {
+  switch (header.units & 0x38) {
+    case 16:
+      return 1e-3;
+    case 24:
+      return 1e-6;
     default:
-      return false;
+      return 1.0;
   }
 }
 
-/// The file of the voxels: that of the header, or beside it.
-fs::path voxel_file(const fs::path& file) {
-  if (file.extension() != ".hdr")
-    return file;
-  fs::path voxels = file;
-  voxels.replace_extension(".img");
-  return fs::exists(voxels) ? voxels : fs::path(voxels.string() + ".gz");
+/// The time between frames, if they can be those of one heart's cycle.
+void set_time_step(const NiftiHeader& header, Volume& volume) {
+  constexpr double longest_cycle = 5.0;  // [s]
+  const double step = header.pixdim[4] * seconds_of(header);
+  if (volume.frames == 1 || !(step > 0.0))
+    return;
+  if (step * volume.frames <= longest_cycle)
+    volume.time_step = step;
+  else
+    volume.notes.push_back(
+        fmt::format("{} says that its {} frames follow each other after {:g} s, which is no "
+                    "heart's cycle: their "
+                    "times are taken as not known",
+                    volume.file, volume.frames, step));
 }
 
-/// Where the voxels of a file of floating-point numbers lie among its bytes, and how.
-struct Layout {
-  std::size_t offset = 0;
-  bool swapped = false;  ///< in the other byte order
+/// Appends stored numbers; none for those that are not finite.
+template <class Stored>
+void append(std::span<const char> bytes, bool swapped, std::vector<float>& values) {
+  for (std::size_t at = 0; at + sizeof(Stored) <= bytes.size(); at += sizeof(Stored)) {
+    std::array<char, sizeof(Stored)> stored{};
+    std::memcpy(stored.data(), bytes.data() + at, sizeof(Stored));
+    if (swapped)
+      std::reverse(stored.begin(), stored.end());
+    const auto value = static_cast<float>(std::bit_cast<Stored>(stored));
+    values.push_back(std::isfinite(value) ? value : std::numeric_limits<float>::quiet_NaN());
+  }
+}
+
+/// A type of voxels that is read (the NIfTI standard's datatype).
+struct Type {
+  int code;
+  std::size_t bytes;
+  void (*append)(std::span<const char>, bool, std::vector<float>&);
 };
 
-/// Voxels of a file that hold no finite number.
-template <class Stored>
-std::vector<std::size_t> not_finite(const std::vector<char>& bytes, const Layout& layout,
-                                    std::size_t voxels) {
-  std::vector<std::size_t> found;
-  for (std::size_t v = 0; v < voxels; ++v) {
-    std::array<char, sizeof(Stored)> stored{};
-    std::memcpy(stored.data(), bytes.data() + layout.offset + v * sizeof(Stored), sizeof(Stored));
-    if (layout.swapped)
-      std::reverse(stored.begin(), stored.end());
-    if (!std::isfinite(std::bit_cast<Stored>(stored)))
-      found.push_back(v);
+constexpr std::array<Type, 10> types{{{2, 1, append<std::uint8_t>},
+                                      {4, 2, append<std::int16_t>},
+                                      {8, 4, append<std::int32_t>},
+                                      {16, 4, append<float>},
+                                      {64, 8, append<double>},
+                                      {256, 1, append<std::int8_t>},
+                                      {512, 2, append<std::uint16_t>},
+                                      {768, 4, append<std::uint32_t>},
+                                      {1024, 8, append<std::int64_t>},
+                                      {1280, 8, append<std::uint64_t>}}};
+
+const Type& type_of(const fs::path& file, const NiftiHeader& header) {
+  constexpr int rgb = 128;
+  constexpr int rgba = 2304;
+  const auto* type = std::find_if(types.begin(), types.end(),
+                                  [&](const Type& t) { return t.code == header.datatype; });
+  if (type == types.end())
+    fail(file,
+         header.datatype == rgb || header.datatype == rgba
+             ? "holds colours"
+             : fmt::format("holds voxels of the type {}, which is not read", header.datatype),
+         "Give an image of grey values or labels, as whole or floating-point numbers");
+  if (header.bits != static_cast<int>(8 * type->bytes))
+    fail_damaged(
+        file, fmt::format("it claims {} bits for a voxel of {} bytes", header.bits, type->bytes));
+  return *type;
+}
+
+/// The byte at which the voxels begin.
+std::uintmax_t voxels_begin(const fs::path& file, const NiftiHeader& header) {
+  constexpr double largest = 1e9;
+  constexpr std::size_t flag = 4;  // of extensions, behind the header
+  if (!(header.voxels_begin >= 0.0 && header.voxels_begin < largest))
+    fail_damaged(file, fmt::format("its voxels begin at byte {:g}", header.voxels_begin));
+  const auto begin = static_cast<std::uintmax_t>(header.voxels_begin);
+  return header.beside ? begin : std::max<std::uintmax_t>(begin, header.length + flag);
+}
+
+/// value = slope stored + intercept, if the header has a slope. Labels that went through a slope
+/// are whole numbers but for its rounding.
+void scale(const fs::path& file, const NiftiHeader& header, std::vector<float>& values) {
+  constexpr double rounding = 1e-5;
+  if (std::isnan(header.slope) || header.slope == 0.0 ||
+      (header.slope == 1.0 && header.intercept == 0.0))
+    return;
+  if (!std::isfinite(header.slope) || !std::isfinite(header.intercept))
+    fail_damaged(file, fmt::format("it multiplies its values by {:g} and adds {:g}", header.slope,
+                                   header.intercept));
+  for (float& value : values) {
+    const double scaled = header.slope * value + header.intercept;
+    const double whole = std::round(scaled);
+    value = static_cast<float>(
+        std::abs(scaled - whole) < rounding * std::max(1.0, std::abs(whole)) ? whole : scaled);
   }
-  return found;
 }
 
-/// Refuses a file that ends before its voxels do. Returns the voxels without a finite number, for
-/// which the NIfTI library takes zeros.
-std::vector<std::size_t> check_voxels(const fs::path& file, const Volume& volume) {
-  constexpr int float32 = 16;  // datatypes of the NIfTI-1 standard
-  constexpr int float64 = 64;
-  const bool beside = voxel_file(file) != file;
-  const Head head = head_of(file);
-  const int type = header_number<std::int16_t>(head, 70);
-  const int bits = header_number<std::int16_t>(head, 72);
-  const auto start = header_number<float>(head, 108);
-  const bool real = type == float32 || type == float64;
-  const Unpacked unpacked = unpack(beside ? voxel_file(file) : file, real);
-  std::int32_t size = 0;
-  std::memcpy(&size, head.data(), sizeof(size));
-  const Layout layout{static_cast<std::size_t>(start > 0.0F && start < 1e9F ? start : 0.0F),
-                      size != 348};
-  const std::size_t voxels = volume.voxels() * static_cast<std::size_t>(volume.frames);
-  const std::uintmax_t needed = layout.offset + voxels * std::max(bits, 0) / 8;
-  if (unpacked.length < needed)
-    fail_damaged(file, fmt::format("it ends after {} of {} bytes", unpacked.length, needed));
-  if (type == float32 && bits == 32)
-    return not_finite<float>(unpacked.all, layout, voxels);
-  if (type == float64 && bits == 64)
-    return not_finite<double>(unpacked.all, layout, voxels);
-  return {};
-}
-
-void read_values(const fs::path& file, itk::NiftiImageIO& io, Volume& volume) {
-  itk::ImageIORegion all(io.GetNumberOfDimensions());
-  for (unsigned d = 0; d < io.GetNumberOfDimensions(); ++d)
-    all.SetSize(d, io.GetDimensions(d));
-  io.SetIORegion(all);
-  std::vector<char> buffer(volume.voxels() * static_cast<std::size_t>(volume.frames) *
-                           io.GetComponentSize());
-  io.Read(buffer.data());
-  if (!append_as(io.GetComponentType(), buffer, volume.values))
-    fail(file, "has values of an unknown type", "Save whole numbers or floating-point numbers");
+/// Reads the voxels, and the file to its end, where a packed one holds its checksum.
+void read_values(const fs::path& file, const NiftiHeader& header, const Type& type,
+                 Volume& volume) {
+  constexpr double best_packing = 1032;            // what gzip can make a byte of
+  constexpr double in_memory = 2 * sizeof(float);  // as a volume and as slices
+  const double voxels = 1.0 * volume.size[0] * volume.size[1] * volume.size[2] * volume.frames;
+  const std::uintmax_t begin = voxels_begin(file, header);
+  const double needed = static_cast<double>(begin) + voxels * static_cast<double>(type.bytes);
+  std::error_code ignored;
+  if (best_packing * static_cast<double>(fs::file_size(file, ignored)) >= needed) {
+    require_memory(file.string(), voxels * in_memory);
+    volume.values.reserve(static_cast<std::size_t>(voxels));
+  }
+  Stream stream(file);
+  std::vector<char> block(std::size_t{1} << 16U);
+  for (std::uintmax_t left = begin; left > 0;) {
+    const auto got = stream.read({block.data(), std::min<std::uintmax_t>(left, block.size())});
+    if (got == 0)
+      break;
+    left -= got;
+  }
+  for (;;) {
+    const std::size_t got = stream.read(block);
+    const auto missing = static_cast<std::size_t>(voxels) - volume.values.size();
+    type.append({block.data(), std::min(got, missing * type.bytes)}, header.swapped, volume.values);
+    if (got < block.size())
+      break;
+  }
+  if (volume.values.size() < voxels)
+    fail_damaged(file,
+                 fmt::format("it ends after {} of {:.0f} bytes", stream.bytes_read(), needed));
+  if (stream.is_packed() && !lower(file.string()).ends_with(".gz"))
+    volume.notes.push_back(
+        fmt::format("{} is packed: name it .gz, for other programs do not look", file.string()));
 }
 
 }  // namespace
 
 bool is_nifti_name(const fs::path& file) {
-  const std::string name = file.filename().string();
-  return name.ends_with(".nii") || name.ends_with(".nii.gz") || name.ends_with(".hdr") ||
-         name.ends_with(".img") || name.ends_with(".img.gz");
+  const std::string name = lower(file.filename().string());
+  return name.ends_with(".nii") || name.ends_with(".nii.gz") || ends_as(file, header_endings) ||
+         ends_as(file, voxel_endings);
+}
+
+bool holds_nifti(const fs::path& file) {
+  std::array<char, longest_nifti_header> bytes{};
+  const std::unique_ptr<gzFile_s, int (*)(gzFile)> stream(gzopen(file.c_str(), "rb"), gzclose);
+  const int got = stream ? gzread(stream.get(), bytes.data(), bytes.size()) : 0;
+  return got > 0 && parse_nifti_header({bytes.data(), static_cast<std::size_t>(got)});
 }
 
 Volume read_nifti(const fs::path& file) {
-  if (!fs::is_regular_file(file))
-    fail(file, "there is no such file", "Check the name of the NIfTI image");
+  require_readable(file, "Check the name of the NIfTI image");
   if (!is_nifti_name(file))
-    fail(file, fmt::format("has the ending \"{}\"", file.extension().string()),
-         "NIfTI images end in .nii, .nii.gz, .hdr or .img");
-  itk::Object::GlobalWarningDisplayOff();
-  try {
-    const auto io = itk::NiftiImageIO::New();
-    io->SetFileName(file.string());
-    if (!io->CanReadFile(file.c_str()))
-      fail_damaged(file, "it has no NIfTI header");
-    check_finite(file);
-    io->ReadImageInformation();
-    if (io->GetNumberOfComponents() != 1)
-      fail(file, fmt::format("has {} values per voxel", io->GetNumberOfComponents()),
-           "Give an image of grey values or labels");
-    Volume volume = read_header(file, *io);
-    lay(file, *io, volume);
-    check_place(file, volume);
-    const std::vector<std::size_t> without_value = check_voxels(file, volume);
-    read_values(file, *io, volume);
-    for (const std::size_t v : without_value)
-      volume.values[v] = std::numeric_limits<float>::quiet_NaN();
-    return volume;
-  } catch (const InputError&) {
-    throw;
-  } catch (const std::exception& error) {
-    const std::string what = error.what();
-    if (what.find("orthonormal") != std::string::npos)
-      fail(file, "its sform is sheared or flat: its axes are not at right angles",
-           "Resample the image to a rectangular grid");
-    fail_damaged(file, first_line(what));
-  }
+    fail(file, fmt::format("has the unknown ending \"{}\"", file.extension().string()),
+         fmt::format("Label maps are read from {}", formats::nifti));
+  const bool voxels_named = ends_as(file, voxel_endings);
+  const fs::path header_file = voxels_named ? other_of_pair(file, header_endings) : file;
+  const NiftiHeader header = read_header(header_file);
+  const Type& type = type_of(file, header);
+  Volume volume = sized(file, header);
+  set_time_step(header, volume);
+  lay_by_header(header, volume);
+  const fs::path voxels = voxels_named    ? file
+                          : header.beside ? other_of_pair(file, voxel_endings)
+                                          : file;
+  read_values(voxels, header, type, volume);
+  scale(file, header, volume.values);
+  return volume;
 }
 
 Cine read_nifti_cine(const fs::path& file) {

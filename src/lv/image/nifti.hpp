@@ -6,18 +6,20 @@
 
 namespace lv::image {
 
-/// Reads a NIfTI image (.nii, .nii.gz, .hdr with .img) of grey values or labels, of two to four
-/// dimensions, any axis order and direction, scl_slope and scl_inter applied. Its place is that of
-/// the sform, else of the qform, turned from RAS to LPS; if it has both they must agree. A file
-/// with neither is taken to have its axes along L, P and S, which a note says. Throws InputError if
-/// the file is absent, truncated or damaged, sheared (its axes not at right angles), not in a known
-/// unit of length, or of colours or vectors.
+/// Reads a NIfTI-1 or NIfTI-2 image (.nii, .nii.gz, .hdr with .img, packed or not whatever the
+/// name) of grey values or labels, of two to four dimensions, any axis order and direction, in any
+/// unit of length, scl_slope and scl_inter applied. For its place see lay_by_header. Voxels that
+/// hold no finite number become NaN. Throws InputError if the file cannot be read, is truncated or
+/// damaged, or of colours or vectors; RunError if it is larger than memory.
 [[nodiscard]] Volume read_nifti(const std::filesystem::path& file);
 
 /// The slices of a NIfTI image over time; see cine_of.
 [[nodiscard]] Cine read_nifti_cine(const std::filesystem::path& file);
 
-/// Whether a name ends as NIfTI files' do.
+/// Whether a name ends as NIfTI files' do, in small or capital letters.
 [[nodiscard]] bool is_nifti_name(const std::filesystem::path& file);
+
+/// Whether a file that can be read begins, unpacked, as NIfTI files do.
+[[nodiscard]] bool holds_nifti(const std::filesystem::path& file);
 
 }  // namespace lv::image

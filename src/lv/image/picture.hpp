@@ -10,6 +10,10 @@
 
 namespace lv::image {
 
+/// What pixels of a person's images can measure [mm]: others stand for a wrong unit.
+inline constexpr double smallest_pixel = 1e-2;
+inline constexpr double largest_pixel = 1e2;
+
 /// Where one image lies in image space (LPS as in DICOM: x to the patient's left, y to the back, z
 /// to the head) [mm]. Pixel (i, j), column i of row j, has its centre at
 ///

@@ -1,6 +1,7 @@
 #include "lv/image/sunnybrook.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/files.hpp"
 #include "lv/base/lines.hpp"
 
 #include <fmt/format.h>
@@ -121,6 +122,15 @@ Contour read_contour(const fs::path& file, const Place& place, Side side, PixelO
   return contour;
 }
 
+/// One border of one image is drawn once.
+void check_first(const std::vector<Contour>& loops, const Place& place, Side side,
+                 const fs::path& file) {
+  if (const Contour* other = geometry::find(loops, place.slice, side))
+    throw InputError(file.string(),
+                     fmt::format("draws the same border of the same image as {}", other->file),
+                     "Keep one of them in the folder and its subfolders");
+}
+
 /// Phases are numbers of images in order of time: where a slice lacks one, those of its contours
 /// would be of other times than the other slices'. `drawn` holds a contour file of each slice.
 void check_phases(const DicomStack& stack, const std::map<int, fs::path>& drawn) {
@@ -147,22 +157,15 @@ void check_phases(const DicomStack& stack, const std::map<int, fs::path>& drawn)
 
 DrawnPhases read_sunnybrook(const fs::path& folder, const DicomStack& stack, PixelOrigin origin,
                             DrawnBy drawn_by) {
-  std::error_code failed;
-  if (!fs::is_directory(folder, failed))
-    throw InputError(folder.string(), "there is no such folder",
-                     "Name the folder with the contour files");
+  const FolderFiles files = files_in(folder, true);
   const auto places = images_by_instance(stack);
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (entry.is_regular_file())
-      files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
   DrawnPhases drawn;
+  drawn.notes = summary(files.left_out);
   std::map<int, fs::path> drawn_on;
   int others = 0;
   int papillary = 0;
   int unknown = 0;
-  for (const fs::path& file : files) {
+  for (const fs::path& file : files.files) {
     const auto name = parse_name(file.filename().string());
     unknown += name ? 0 : 1;
     if (!name)
@@ -174,8 +177,10 @@ DrawnPhases read_sunnybrook(const fs::path& folder, const DicomStack& stack, Pix
     } else {
       const Place place = place_of(places, name->instance, file);
       drawn_on.emplace(place.slice, file);
-      drawn.phases[place.phase].short_axis.push_back(
-          read_contour(file, place, name->border == "i" ? Side::endo : Side::epi, origin));
+      const Side side = name->border == "i" ? Side::endo : Side::epi;
+      std::vector<Contour>& loops = drawn.phases[place.phase].short_axis;
+      check_first(loops, place, side, file);
+      loops.push_back(read_contour(file, place, side, origin));
     }
   }
   if (drawn.phases.empty())

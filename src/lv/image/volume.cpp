@@ -15,6 +15,14 @@ std::array<int, 2> axes_across(int axis) {
   return axis == 0 ? std::array{1, 2} : axis == 1 ? std::array{0, 2} : std::array{0, 1};
 }
 
+void require_frame(const Volume& volume, int frame, const std::string& where) {
+  if (frame < 1 || frame > volume.frames)
+    throw InputError(where,
+                     fmt::format("{} has {} frame{}; there is no frame {}", volume.file,
+                                 volume.frames, volume.frames == 1 ? "" : "s", frame),
+                     "Frames are counted from 1");
+}
+
 }  // namespace
 
 int slice_axis(const Volume& volume) {
@@ -68,6 +76,31 @@ Cine cine_of(const Volume& volume) {
   return cine;
 }
 
+Volume frame_of(const Volume& volume, int frame, const std::string& where) {
+  require_frame(volume, frame, where);
+  Volume one = volume;
+  const auto first =
+      volume.values.begin() +
+      static_cast<std::ptrdiff_t>(volume.voxels() * static_cast<std::size_t>(frame - 1));
+  one.values.assign(first, first + static_cast<std::ptrdiff_t>(volume.voxels()));
+  one.frames = 1;
+  one.time_step = 0.0;
+  return one;
+}
+
+std::vector<int> frames_with(const Volume& volume, const std::vector<int>& labels) {
+  std::vector<int> frames;
+  for (int f = 0; f < volume.frames; ++f) {
+    const auto* first = volume.values.data() + volume.voxels() * static_cast<std::size_t>(f);
+    if (std::any_of(first, first + volume.voxels(), [&](float value) {
+          return std::any_of(labels.begin(), labels.end(),
+                             [&](int label) { return value == static_cast<float>(label); });
+        }))
+      frames.push_back(f + 1);
+  }
+  return frames;
+}
+
 std::map<int, double> label_volumes(const Volume& volume, int frame) {
   std::map<int, std::size_t> counts;
   const std::size_t n = volume.voxels();
@@ -108,11 +141,7 @@ std::string describe(const std::map<int, double>& label_volumes) {
 
 void require_labels(const Volume& volume, int frame, const std::vector<int>& labels,
                     const std::string& where, const std::string& parameter) {
-  if (frame < 0 || frame >= volume.frames)
-    throw InputError(where,
-                     fmt::format("{} has {} frame{}; there is no frame {}", volume.file,
-                                 volume.frames, volume.frames == 1 ? "" : "s", frame + 1),
-                     "Frames are counted from 1");
+  require_frame(volume, frame + 1, where);
   const auto present = label_volumes(volume, frame);
   for (const int label : labels)
     if (!present.contains(label))

@@ -51,6 +51,13 @@ struct Volume {
 /// step.
 [[nodiscard]] Cine cine_of(const Volume& volume);
 
+/// One frame, counted from 1, as a volume of its own. Throws InputError, which names `where` the
+/// frame was chosen, if there is no such frame.
+[[nodiscard]] Volume frame_of(const Volume& volume, int frame, const std::string& where);
+
+/// The frames, counted from 1, in which any of these labels occurs.
+[[nodiscard]] std::vector<int> frames_with(const Volume& volume, const std::vector<int>& labels);
+
 /// Volume of each label of one frame [mm^3]. Throws InputError naming the voxel if a value is no
 /// whole number.
 [[nodiscard]] std::map<int, double> label_volumes(const Volume& volume, int frame = 0);

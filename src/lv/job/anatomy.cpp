@@ -2,6 +2,7 @@
 
 #include "lv/base/check.hpp"
 #include "lv/base/table.hpp"
+#include "lv/geometry/drawn_wall.hpp"
 #include "lv/job/drawn.hpp"
 #include "lv/mesh/abaqus_blocks.hpp"
 #include "lv/mesh/import.hpp"
@@ -52,17 +53,19 @@ Shape from_drawn(const Case& c) {
   fit.frame.base_at = base_at(c, drawn);
   if (!fit.frame.septum)
     fit.frame.septum = drawn.septum;
-  const auto wall =
-      std::make_shared<const geometry::SplineWall>(geometry::fit_spline_wall(drawn.contours, fit));
+  const bool base_may_move = c.anatomy.contours.base_at == BaseChoice::automatic;
+  geometry::DrawnWall found = geometry::fit_drawn_wall(drawn.contours, fit, base_may_move);
+  const auto wall = std::make_shared<const geometry::SplineWall>(std::move(found.wall));
   Shape shape;
   shape.wall = [wall](double u, double theta, double t) { return wall->point(u, theta, t); };
   shape.frame = wall->frame();
   shape.notes = std::move(drawn.notes);
-  shape.notes.insert(shape.notes.end(), wall->report().notes.begin(), wall->report().notes.end());
+  for (const auto& notes : {wall->report().notes, found.notes})
+    shape.notes.insert(shape.notes.end(), notes.begin(), notes.end());
   if (!fit.frame.septum && !c.origin.contains("regions.septum_angle"))
     shape.notes.emplace_back(assumed_septum);
   shape.quality = report::QualitySheet{
-      wall->report(),     drawn.source,       base_rule(fit.frame.base_at, fit.frame.base_plane),
+      wall->report(),     drawn.source,       base_rule(found.base_at, fit.frame.base_plane),
       drawn.label_cavity, drawn.label_muscle, shape.notes};
   return shape;
 }

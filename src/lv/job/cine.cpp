@@ -1,6 +1,7 @@
 #include "lv/job/cine.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/formats.hpp"
 #include "lv/geometry/contour_checks.hpp"
 #include "lv/geometry/contour_measures.hpp"
 #include "lv/geometry/long_axis.hpp"
@@ -16,6 +17,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <system_error>
 
 namespace lv::job {
 namespace {
@@ -47,6 +49,7 @@ void read_sunnybrook(const Case& c, const image::DicomStack& stack, CineStudy& s
   study.drawn = diastole->second;
   if (!c.strain.long_axis.empty())
     study.drawn.long_axis = geometry::read_curves(beside(c, c.strain.long_axis));
+  image::drop_strays(study.drawn, study.notes);
   image::close_walls(study.drawn, thinnest_wall, study.notes);
   geometry::check_contours(study.drawn);
   if (const auto systole = drawn.phases.find(c.strain.end_systole); systole != drawn.phases.end())
@@ -88,7 +91,7 @@ LongAxisView read_view(const Case& c, const std::optional<image::DicomStudy>& di
     throw InputError(
         place_of(c, "strain.long_axis_cine"),
         fmt::format("\"{}\" is no NIfTI file, and strain.cine is no DICOM folder", name),
-        "Name NIfTI files, or series of the folder strain.cine");
+        fmt::format("Name files of {}, or series of the folder strain.cine", formats::nifti));
   view.cine = nifti ? image::read_nifti_cine(beside(c, name))
                     : image::read_pixels(choose(c, *dicom, name, "strain.long_axis_cine"));
   if (view.cine.slices.size() != 1 || view.cine.slices.front().frames.size() < 2)
@@ -235,8 +238,9 @@ CineStudy read_cine_study(const Case& c) {
       stack ? image::read_pixels(*stack) : image::read_nifti_cine(beside(c, c.strain.cine));
   study.notes = study.cine.notes;
   study.spacing = spacing_of(study.cine);
-  if (stack && std::filesystem::is_directory(beside(c, c.strain.contours)) &&
-      !c.strain.contours.empty())
+  std::error_code failed;
+  if (stack && !c.strain.contours.empty() &&
+      std::filesystem::is_directory(beside(c, c.strain.contours), failed))
     read_sunnybrook(c, *stack, study);
   else
     study.drawn = read_drawn(c, "strain.contours", c.strain.contours);

@@ -1,6 +1,7 @@
 #include "lv/job/drawn.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/files.hpp"
 #include "lv/geometry/contour_checks.hpp"
 #include "lv/geometry/contour_measures.hpp"
 #include "lv/geometry/fit_report.hpp"
@@ -175,10 +176,8 @@ double volume_of(const geometry::Contours& contours) {
 }  // namespace
 
 void add_folder(const fs::path& folder, Ingredients& files) {
-  std::error_code failed;
-  for (const auto& entry : fs::recursive_directory_iterator(folder, failed))
-    if (entry.is_regular_file())
-      files["contents of " + entry.path().string()] = fingerprint_of_file(entry.path());
+  for (const fs::path& file : files_in(folder, true).files)
+    files["contents of " + file.string()] = fingerprint_of_file(file);
 }
 
 bool is_drawn(const Case& c) {
@@ -187,8 +186,13 @@ bool is_drawn(const Case& c) {
 
 Drawn read_drawn(const Case& c) {
   Drawn drawn = read_source(c);
-  if (c.anatomy.source != AnatomySource::contours)
-    image::close_walls(drawn.contours, c.anatomy.contours.fit.thinnest_wall, drawn.notes);
+  const double thinnest = c.anatomy.contours.fit.thinnest_wall;
+  const bool mended = c.anatomy.source != AnatomySource::contours;
+  if (mended)
+    image::drop_strays(drawn.contours, drawn.notes);
+  image::drop_open_base(drawn.contours, thinnest, drawn.notes);
+  if (mended)
+    image::close_walls(drawn.contours, thinnest, drawn.notes);
   geometry::check_contours(drawn.contours);
   return drawn;
 }
@@ -224,29 +228,42 @@ Ingredients drawn_files(const Case& c) {
 
 std::string describe_phases(const std::map<int, geometry::Contours>& phases) {
   std::string text;
+  std::vector<int> numbers;
+  std::vector<double> volumes;
   for (const auto& [phase, contours] : phases) {
     const auto endo = std::count_if(contours.short_axis.begin(), contours.short_axis.end(),
                                     [](const auto& c) { return c.side == geometry::Side::endo; });
+    numbers.push_back(phase);
+    volumes.push_back(volume_of(contours));
     text += fmt::format("  phase {}: {} endocardial and {} epicardial loops, cavity {:.2f} ml\n",
                         phase, endo, static_cast<std::ptrdiff_t>(contours.short_axis.size()) - endo,
-                        1e-3 * volume_of(contours));
+                        1e-3 * volumes.back());
   }
-  const auto by_volume = [](const auto& a, const auto& b) {
-    return volume_of(a.second) < volume_of(b.second);
-  };
-  const auto largest = std::max_element(phases.begin(), phases.end(), by_volume);
-  const auto smallest = std::min_element(phases.begin(), phases.end(), by_volume);
-  return text + fmt::format("  proposed: end-diastole {}, end-systole {}", largest->first,
-                            smallest->first);
+  if (std::none_of(volumes.begin(), volumes.end(), [](double v) { return v > 0.0; }))
+    return text + "  proposed: none, for no phase shows the cavity on two slices";
+  const image::Phases p = image::propose_phases(volumes);
+  return text + fmt::format("  proposed: end-diastole {}, end-systole {}", numbers[p.end_diastole],
+                            numbers[p.end_systole]);
 }
 
 std::string describe_volume_curve(const std::vector<double>& volumes) {
   std::string text;
-  for (std::size_t f = 0; f < volumes.size(); ++f)
-    text += fmt::format("  frame {}: cavity {:.2f} ml\n", f + 1, 1e-3 * volumes[f]);
+  std::size_t without = 0;
+  for (std::size_t f = 0; f < volumes.size(); ++f) {
+    without += volumes[f] > 0.0 ? 0 : 1;
+    if (volumes[f] > 0.0)
+      text += fmt::format("  frame {}: cavity {:.2f} ml\n", f + 1, 1e-3 * volumes[f]);
+  }
+  if (without > 0)
+    text += fmt::format("  {} of {} frames show no cavity\n", without, volumes.size());
   const image::Phases p = image::propose_phases(volumes);
-  return text + fmt::format("  proposed: end-diastole {}, end-systole {}, early diastole {}",
-                            p.end_diastole + 1, p.end_systole + 1, p.early_diastole + 1);
+  if (volumes.size() - without < 2)
+    return text + "  proposed: no phases, for less than two frames show the cavity";
+  text += fmt::format("  proposed: end-diastole {}, end-systole {}", p.end_diastole + 1,
+                      p.end_systole + 1);
+  return p.early_diastole == p.end_systole
+             ? text + "; no frame after it shows early diastole"
+             : text + fmt::format(", early diastole {}", p.early_diastole + 1);
 }
 
 }  // namespace lv::job

@@ -6,6 +6,7 @@
 #include "lv/image/lookup.hpp"
 #include "lv/image/nifti.hpp"
 #include "lv/job/drawn.hpp"
+#include "lv/job/scar_threshold.hpp"
 #include "lv/job/slice_moves.hpp"
 #include "lv/mesh/cell.hpp"
 #include "lv/mesh/closed_surface.hpp"
@@ -18,8 +19,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
+#include <system_error>
 
 namespace lv::job {
 namespace {
@@ -140,8 +141,27 @@ std::vector<int> infarcted_labels(const Case& c) {
   return labels;
 }
 
+/// The one frame of a label map that the case means: a person has one scar.
+image::Volume scar_map(const Case& c, const std::string& file) {
+  image::Volume volume = image::read_nifti(file);
+  for (const std::string& note : volume.notes)
+    log::warn("scar: {}", note);
+  if (volume.frames == 1 || c.scar.frame > 0)
+    return image::frame_of(volume, std::max(c.scar.frame, 1), place_of(c, "infarct.labels.frame"));
+  std::vector<int> frames = image::frames_with(volume, infarcted_labels(c));
+  if (frames.size() > 1)
+    throw InputError(place_of(c, "infarct.labels.file"),
+                     fmt::format("{} has {} frames and infarct.labels.frame is not set; there is "
+                                 "scar in the frames {}",
+                                 volume.file, volume.frames, fmt::join(frames, ", ")),
+                     "Choose a frame");
+  frames.push_back(1);
+  log::info("scar: frame {} of {}", frames.front(), volume.file);
+  return image::frame_of(volume, frames.front(), place_of(c, "infarct.labels.file"));
+}
+
 Infarct within_nifti(const Case& c, const Shape& shape, const Mesh& mesh, const std::string& file) {
-  const image::Volume volume = image::read_nifti(file);
+  const image::Volume volume = scar_map(c, file);
   image::require_labels(volume, 0, c.scar.scar, place_of(c, "infarct.labels.scar"),
                         "infarct.labels.scar");
   image::require_labels(volume, 0, c.scar.no_reflow, place_of(c, "infarct.labels.no_reflow"),
@@ -217,40 +237,38 @@ void move_slices(image::Cine& image, const std::vector<SliceMove>& moves) {
     image.slices[s].frames.front().plane.origin += moves[s].move;
 }
 
-/// The brightness from which on muscle is scar.
-double scar_threshold(const Case& c, const Mesh& mesh, const std::vector<double>& values) {
-  const mesh::LateEnhancement& lge = c.scar.lge;
-  if (lge.threshold == mesh::ScarThreshold::fwhm) {
-    double most = -std::numeric_limits<double>::infinity();
-    for (const double value : values)
-      if (value > most)
-        most = value;
-    return 0.5 * most;
-  }
-  if (lge.remote.empty())
-    throw InputError(
-        place_of(c, "infarct.source"), "infarct.lge.remote is not set",
-        "Name the AHA segments of remote, healthy muscle, or set threshold = \"fwhm\"");
-  const mesh::Regions regions = mesh::divide(mesh, c.regions);
-  double V = 0.0;
-  double first = 0.0;
-  double second = 0.0;
+/// The part of the wall's volume that is infarcted.
+double part_of_wall(const Mesh& mesh, const std::vector<double>& part) {
+  double wall = 0.0;
+  double infarct = 0.0;
   for (int cell = 0; cell < mesh.cell_count(); ++cell) {
-    const double value = values[cell];
-    if (std::isnan(value) ||
-        std::find(lge.remote.begin(), lge.remote.end(), regions.aha[cell]) == lge.remote.end())
-      continue;
-    const double dV = mesh::cell_volume(mesh, cell);
-    V += dV;
-    first += dV * value;
-    second += dV * value * value;
+    const double V = mesh::cell_volume(mesh, cell);
+    wall += V;
+    infarct += part[cell] * V;
   }
-  if (V == 0.0)
-    throw InputError(place_of(c, "infarct.lge.remote"),
-                     "the image shows nothing of the remote segments",
-                     "Name segments between 1 and 17 that the image covers");
-  const double mean = first / V;
-  return mean + lge.deviations * std::sqrt(std::max(0.0, second / V - mean * mean));
+  return infarct / wall;
+}
+
+/// So large a scar is rarely meant: the threshold may be wrong.
+void check_extent(const Case& c, const Mesh& mesh, const Infarct& infarct, double threshold) {
+  const double part = part_of_wall(mesh, infarct.part);
+  if (part > c.scar.lge.largest_part)
+    throw InputError(
+        place_of(c, "infarct.lge.threshold"),
+        fmt::format("{:.1f}% of the wall is scar (brighter than {:.4g} in {}); more than {:g}% is "
+                    "rarely meant",
+                    100.0 * part, threshold, c.scar.lge.image, 100.0 * c.scar.lge.largest_part),
+        "Check infarct.lge.threshold, zero, remote and deviations; if so large a scar is meant, "
+        "raise infarct.lge.largest_part");
+}
+
+Infarct with_dark_core(const Mesh& mesh, Infarct infarct) {
+  const Infarcted filled = mesh::with_enclosed(mesh, infarct.elements);
+  for (std::size_t e = 0; e < filled.size(); ++e)
+    if (filled[e] && !infarct.elements[e])
+      infarct.part[e] = 1.0;
+  infarct.elements = filled;
+  return infarct;
 }
 
 Infarct by_brightness(const Case& c, const Shape& shape, const Mesh& mesh) {
@@ -267,20 +285,16 @@ Infarct by_brightness(const Case& c, const Shape& shape, const Mesh& mesh) {
                      fmt::format("{} shows nothing of the wall, which reaches {} in image space",
                                  c.scar.lge.image, place_of_wall(shape, mesh)),
                      "Check that both share the scanner's coordinates");
-  const double threshold = scar_threshold(c, mesh, values);
+  const double threshold = scar_threshold(c, mesh, lge, values);
   log::info("late enhancement: scar is brighter than {:.4g}", threshold);
   Infarct infarct = within(
       c, shape, mesh,
       [&](const Vec3& X, double) { return image::sample(lge, in_images(c, shape, X)) > threshold; },
       fmt::format("brighter than {:.4g} in {}", threshold, c.scar.lge.image));
   infarct.slice_moves = std::move(slice_moves);
-  if (!c.scar.lge.fill_no_reflow)
-    return infarct;
-  const Infarcted filled = mesh::with_enclosed(mesh, infarct.elements);
-  for (std::size_t e = 0; e < filled.size(); ++e)
-    if (filled[e] && !infarct.elements[e])
-      infarct.part[e] = 1.0;
-  infarct.elements = filled;
+  if (c.scar.lge.fill_no_reflow)
+    infarct = with_dark_core(mesh, std::move(infarct));
+  check_extent(c, mesh, infarct, threshold);
   return infarct;
 }
 
@@ -300,6 +314,16 @@ Infarct within_labels(const Case& c, const Shape& shape, const Mesh& mesh) {
 Infarct of_elements(const Case& c, const Shape& shape, const Mesh& mesh) {
   check_found(c, shape, mesh, shape.infarcted, fmt::format("the elements of \"{}\"", c.scar.set));
   return {shape.infarcted, {shape.infarcted.begin(), shape.infarcted.end()}, {}};
+}
+
+/// Files may mean something else than was thought; who describes an infarct knows its size.
+void ask_if_large(const Case& c, const Mesh& mesh, const Infarct& infarct) {
+  constexpr double large = 0.5;
+  const bool from_file = c.scar.source != InfarctSource::described &&
+                         c.scar.source != InfarctSource::lge;  // see check_extent
+  const double part = part_of_wall(mesh, infarct.part);
+  if (from_file && part > large)
+    log::warn("the infarct is {:.1f}% of the wall: is so large a scar meant?", 100.0 * part);
 }
 
 Infarct infarcted(const Case& c, const Shape& shape, const Mesh& mesh) {
@@ -327,6 +351,7 @@ InfarctExtent infarct_extent(const Case& c, const Shape& shape, const Mesh& mesh
             std::vector<double>(mesh.cell_count(), 0.0),
             {}};
   Infarct infarct = infarcted(c, shape, mesh);
+  ask_if_large(c, mesh, infarct);
   return {mesh::infarct_field(mesh, infarct.elements, c.scar.border), std::move(infarct.part),
           std::move(infarct.slice_moves)};
 }
@@ -343,7 +368,8 @@ Ingredients infarct_files(const Case& c) {
     add("infarct.labels.file", c.scar.labels);
   if (c.scar.source == InfarctSource::lge && !c.scar.lge.image.empty()) {
     const auto place = beside(c, c.scar.lge.image);
-    if (std::filesystem::is_directory(place))
+    std::error_code failed;
+    if (std::filesystem::is_directory(place, failed))
       add_folder(place, files);
     else
       add("infarct.lge.image", c.scar.lge.image);

@@ -1,16 +1,21 @@
 #include "lv/job/list_images.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/files.hpp"
+#include "lv/base/formats.hpp"
 #include "lv/image/dicom_study.hpp"
 #include "lv/image/label_contours.hpp"
 #include "lv/image/nifti.hpp"
 #include "lv/image/sunnybrook.hpp"
 #include "lv/job/drawn.hpp"
+#include "lv/job/what_file.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <system_error>
 
 namespace lv::job {
 namespace {
@@ -40,8 +45,24 @@ std::string describe_values(const image::Volume& v) {
   return text + fmt::format("  values {:g} to {:g}: an image, no labels\n", *least, *most);
 }
 
-std::string list_nifti(const ListOptions& options) {
-  const image::Volume v = image::read_nifti(options.where);
+/// The labels of every frame that has any.
+std::string describe_labels(const image::Volume& v) {
+  std::string text;
+  int without = 0;
+  for (int f = 0; f < v.frames; ++f) {
+    const auto volumes = image::label_volumes(v, f);
+    const bool empty = volumes.size() == 1 && volumes.contains(0);
+    without += empty ? 1 : 0;
+    if (!empty)
+      text += fmt::format("  labels of frame {}: {}\n", f + 1, image::describe(volumes));
+  }
+  if (without > 0)
+    text += fmt::format("  {} of {} frames hold no label but 0\n", without, v.frames);
+  return text;
+}
+
+std::string list_nifti(const fs::path& file, const ListOptions& options) {
+  const image::Volume v = image::read_nifti(file);
   std::string text = fmt::format(
       "{}: {} x {} x {} voxels of {:.3f} x {:.3f} x {:.3f} mm, {} frame{}{}\n"
       "  axes (LPS): i {}, j {}, k {}; slices across {}\n",
@@ -58,9 +79,7 @@ std::string list_nifti(const ListOptions& options) {
                        "Leave --cavity out, or give a label map");
     return text + describe_values(v);
   }
-  for (int f = 0; f < v.frames; ++f)
-    text += fmt::format("  labels of frame {}: {}\n", f + 1,
-                        image::describe(image::label_volumes(v, f)));
+  text += describe_labels(v);
   if (options.cavity.empty())
     return text;
   for (const int label : options.cavity)
@@ -70,15 +89,40 @@ std::string list_nifti(const ListOptions& options) {
   return text + describe_volume_curve(image::volume_curve(v, options.cavity)) + "\n";
 }
 
-std::string list_dicom(const ListOptions& options) {
-  const image::DicomStudy study = image::read_dicom_study(std::array{options.where});
-  std::string text = image::describe(study);
-  image::require_images(study, options.where.string());
+std::string list_skipped(const image::DicomStudy& study) {
   constexpr std::size_t most = 20;
+  std::string text;
   for (std::size_t i = 0; i < std::min(most, study.skipped.size()); ++i)
-    text += fmt::format("skipped {}\n", study.skipped[i]);
+    text +=
+        fmt::format("skipped {}: {}\n", study.skipped[i].place.string(), study.skipped[i].reason);
   if (study.skipped.size() > most)
     text += fmt::format("skipped {} files more\n", study.skipped.size() - most);
+  return text;
+}
+
+/// The NIfTI files among those of a folder, as many public studies are kept.
+std::string list_nifti_among(const image::DicomStudy& study, const ListOptions& options) {
+  std::string text;
+  for (const LeftOut& item : study.skipped) {
+    if (!image::is_nifti_name(item.place) || !unreadable(item.place).empty())
+      continue;
+    try {
+      text += list_nifti(item.place, options);
+    } catch (const InputError& error) {
+      text += fmt::format("{}\n", error.what());
+    }
+  }
+  return text;
+}
+
+std::string list_dicom(const ListOptions& options) {
+  const image::DicomStudy study = image::read_dicom_study(std::array{options.where});
+  if (study.stacks.empty())
+    if (std::string text = list_nifti_among(study, options); !text.empty())
+      return text;
+  std::string text = image::describe(study);
+  image::require_images(study, options.where.string());
+  text += list_skipped(study);
   if (options.contours.empty())
     return text;
   const image::DicomStack stack =
@@ -95,7 +139,16 @@ std::string list_dicom(const ListOptions& options) {
 }  // namespace
 
 std::string list_images(const ListOptions& options) {
-  return image::is_nifti_name(options.where) ? list_nifti(options) : list_dicom(options);
+  std::error_code failed;
+  if (fs::is_directory(options.where, failed))
+    return list_dicom(options);
+  require_readable(options.where, "Name a folder or a file");
+  if (image::is_nifti_name(options.where))
+    return list_nifti(options.where, options);
+  if (!image::looks_like_dicom(options.where))
+    throw InputError(options.where.string(), fmt::format("is {}", what_is(options.where)),
+                     fmt::format("Images are read from {}", formats::images));
+  return list_dicom(options);
 }
 
 }  // namespace lv::job

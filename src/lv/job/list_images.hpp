@@ -8,7 +8,7 @@ namespace lv::job {
 
 /// What to look at besides the images.
 struct ListOptions {
-  std::filesystem::path where;      ///< a folder, a DICOM file, or a NIfTI file
+  std::filesystem::path where;      ///< a folder or a file
   std::filesystem::path contours;   ///< folder of Sunnybrook contours; may be empty
   std::vector<std::string> series;  ///< that the contours were drawn on
   std::vector<int> cavity;          ///< labels whose volume curve is asked for; may be empty
@@ -16,8 +16,8 @@ struct ListOptions {
 
 /// Says what images there are, so that a case file can name them: series of DICOM files with
 /// slices, phases, spacing, orientation and heart rate; size, spacing and labels of NIfTI files;
-/// volumes of labels or contours over time with proposed phases. Throws InputError for what cannot
-/// be read.
+/// volumes of labels or contours over time with proposed phases. A folder without DICOM images is
+/// listed by its NIfTI files. Throws InputError for what cannot be read, saying what it is.
 [[nodiscard]] std::string list_images(const ListOptions& options);
 
 }  // namespace lv::job

@@ -60,7 +60,7 @@ void declare_contours(Declarations& d) {
            "the base plane lies in the most basal endocardial loop, half a slice spacing above it "
            "where the slab of the slice ends, or at the mitral annulus (guide points, ends of "
            "long-axis curves); automatic: slice for contours, slab for labels and sunnybrook, "
-           "annulus for guide_points that show it");
+           "annulus for guide_points that show it, slab where that makes no wall");
   d.optional_point("septum_point", LV_AT(anatomy.contours.fit.frame.septum), "mm",
                    "a point of the middle of the septum in scanner coordinates: the model's x "
                    "direction, from which regions are counted");
@@ -230,10 +230,13 @@ void declare_infarct(Declarations& d) {
       "are relative to the case file");
   d.table = "infarct.labels";
   d.text("file", LV_AT(scar.labels),
-         "labelled volume in image space: NIfTI (.nii, .nii.gz), .vti or .vtk (structured points)");
+         "labelled volume in image space: NIfTI (.nii, .nii.gz, .hdr with .img), .vti or .vtk "
+         "(structured points)");
   d.text("array", LV_AT(scar.array),
          "array of labels, at points (centres of voxels) or in cells; empty: the only one");
   d.whole_list("scar", LV_AT(scar.scar), "the labels that mean scar");
+  d.whole("frame", LV_AT(scar.frame), between(0, 10000),
+          "time of a map of several, counted from 1; 0: the only one that shows scar");
   d.whole_list("no_reflow", LV_AT(scar.no_reflow),
                "the labels of the scar's dark core, which is infarct too", true);
   d.whole_list("muscle", LV_AT(scar.muscle), "the labels of the other muscle, for in_plane", true);
@@ -250,12 +253,17 @@ void declare_infarct(Declarations& d) {
               "one");
   d.choice(
       "threshold", LV_AT(scar.lge.threshold), {"sd", "fwhm"},
-      "scar is brighter than remote muscle by so many standard deviations, or than half of the "
-      "brightest in the wall");
+      "scar is brighter than remote muscle by so many standard deviations, or than half way from "
+      "no signal to the brightest in the wall");
   d.number("deviations", LV_AT(scar.lge.deviations), positive,
            "standard deviations above the mean of remote muscle (threshold = \"sd\")");
   d.whole_list("remote", LV_AT(scar.lge.remote),
                "AHA segments (1 to 17) of remote, healthy muscle (threshold = \"sd\")", true);
+  d.number("zero", LV_AT(scar.lge.zero), {},
+           "grey value of no signal (threshold = \"fwhm\"): that of air, where the image has an "
+           "offset, as phase-sensitive reconstructions do");
+  d.number("largest_part", LV_AT(scar.lge.largest_part), between(0.0, 1.0),
+           "of the wall that may be scar; more is refused, for it is rarely meant");
   d.flag("fill_no_reflow", LV_AT(scar.lge.fill_no_reflow),
          "dark parts of the wall that the scar shuts off from epicardium and base count to it");
   d.flag("in_plane", LV_AT(scar.lge.in_plane),

@@ -7,6 +7,7 @@
 #include "lv/geometry/contour_measures.hpp"
 #include "lv/image/nifti.hpp"
 #include "lv/job/cine.hpp"
+#include "lv/job/drawn.hpp"
 #include "lv/job/through_plane.hpp"
 #include "lv/report/overlay.hpp"
 #include "lv/strain/measures.hpp"
@@ -237,14 +238,13 @@ Ingredients strain_files(const Case& c) {
     if (name.empty())
       return;
     const fs::path path = beside(c, name);
-    if (!fs::is_directory(path)) {
+    std::error_code failed;
+    if (!fs::is_directory(path, failed)) {
       files["contents of " + parameter] = fingerprint_of_file(path);
       return;
     }
     Ingredients inside;
-    for (const auto& entry : fs::recursive_directory_iterator(path))
-      if (entry.is_regular_file())
-        inside[entry.path().string()] = fingerprint_of_file(entry.path());
+    add_folder(path, inside);
     files["contents of " + parameter] = fingerprint(inside);
   };
   add("strain.cine", c.strain.cine);

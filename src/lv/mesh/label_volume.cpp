@@ -1,6 +1,8 @@
 #include "lv/mesh/label_volume.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/files.hpp"
+#include "lv/base/formats.hpp"
 #include "lv/mesh/foreign_mesh.hpp"
 #include "lv/mesh/vtk_file.hpp"
 
@@ -15,6 +17,8 @@
 #include <vtkStructuredPointsReader.h>
 #include <vtkXMLImageDataReader.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -34,17 +38,28 @@ vtkSmartPointer<vtkImageData> read_legacy(const std::string& file) {
 vtkSmartPointer<vtkImageData> read_xml(const std::string& file) {
   vtkNew<vtkXMLImageDataReader> reader;
   reader->SetFileName(file.c_str());
+  reader->UpdateInformation();
+  if (reader->GetNumberOfTimeSteps() > 1)
+    throw InputError(file, fmt::format("has {} times", reader->GetNumberOfTimeSteps()),
+                     "Save the one that shows the infarct");
   reader->Update();
   return reader->GetOutput();
 }
 
+/// The ending of a file's name in small letters.
+std::string ending_of(const std::string& file) {
+  std::string ending = std::filesystem::path(file).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending;
+}
+
 vtkSmartPointer<vtkImageData> read_image(const std::string& file) {
-  const std::string ending = std::filesystem::path(file).extension().string();
-  if (!std::filesystem::is_regular_file(file))
-    throw InputError(file, "there is no such file", "Check the name of the labelled volume");
+  require_readable(file, "Check the name of the labelled volume");
+  const std::string ending = ending_of(file);
   if (ending != ".vti" && ending != ".vtk")
     throw InputError(file, fmt::format("has the unknown ending \"{}\"", ending),
-                     "Labelled volumes are read from .vti and .vtk (structured points)");
+                     fmt::format("Labelled volumes are read from {}", formats::label_volumes));
   return read_by_vtk(file, [&] { return ending == ".vti" ? read_xml(file) : read_legacy(file); });
 }
 
@@ -115,6 +130,11 @@ LabelVolume::LabelVolume(const std::string& file, const std::string& array, doub
                      fmt::format("array \"{}\" has {} labels for {} voxels", name,
                                  image_->labels->GetNumberOfTuples(), voxels),
                      "The file seems to be truncated or damaged");
+  if (image_->labels->GetNumberOfComponents() != 1)
+    throw InputError(file,
+                     fmt::format("array \"{}\" has {} numbers for each voxel", name,
+                                 image_->labels->GetNumberOfComponents()),
+                     "Labels are one number a voxel");
   std::set<int> found;
   for (vtkIdType i = 0; i < image_->labels->GetNumberOfTuples(); ++i) {
     const double label = image_->labels->GetComponent(i, 0);

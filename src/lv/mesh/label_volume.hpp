@@ -12,9 +12,9 @@ namespace lv::mesh {
 /// labels at its points, which are then the centres of voxels, or in its cells.
 class LabelVolume {
  public:
-  /// Reads a .vti or a legacy .vtk file (structured points). An empty `array` means the file's only
-  /// one; `unit` is the length of the file's unit [mm]. Throws InputError where the file cannot be
-  /// read, the array is missing, or a voxel has no whole number.
+  /// Reads a .vti or a legacy .vtk file (structured points) of one time. An empty `array` means the
+  /// file's only one; `unit` is the length of the file's unit [mm]. Throws InputError where the
+  /// file cannot be read, the array is missing, or a voxel has no whole number or several.
   LabelVolume(const std::string& file, const std::string& array, double unit);
   ~LabelVolume();
   LabelVolume(LabelVolume&&) noexcept;

@@ -78,7 +78,7 @@ struct DescribedInfarct {
 /// What of a late-enhancement image is bright enough for scar.
 enum class ScarThreshold {
   sd,   ///< the mean of remote muscle and some standard deviations
-  fwhm  ///< half of the brightest in the wall
+  fwhm  ///< half way from no signal to the brightest in the wall
 };
 
 /// A late-enhancement image and its threshold.
@@ -86,8 +86,10 @@ struct LateEnhancement {
   std::string image;                ///< NIfTI file, or folder of DICOM files
   std::vector<std::string> series;  ///< of the DICOM files; empty: the only one
   ScarThreshold threshold = ScarThreshold::sd;
-  double deviations = 5.0;  ///< above the mean of remote muscle
-  std::vector<int> remote;  ///< AHA segments of remote muscle; empty: not said
+  double deviations = 5.0;    ///< above the mean of remote muscle
+  std::vector<int> remote;    ///< AHA segments of remote muscle; empty: not said
+  double zero = 0.0;          ///< grey value without signal, for fwhm
+  double largest_part = 0.5;  ///< of the wall that may be scar
   bool fill_no_reflow = true;
   bool in_plane = false;       ///< move each slice onto the wall
   double largest_shift = 8.0;  ///< of a slice [mm]
@@ -105,6 +107,7 @@ struct InfarctParameters {
   std::vector<int> scar{1};    ///< the labels that mean scar
   std::vector<int> no_reflow;  ///< the labels that mean its dark core; may be empty
   std::vector<int> muscle;     ///< the labels of other muscle, for in_plane; may be empty
+  int frame = 0;               ///< of a label map of several times, from 1; 0: the only one
   bool in_plane = false;       ///< move each slice of a label map onto the wall
   std::array<double, 3> shift{0.0, 0.0, 0.0};  ///< of the images in image space [mm]
   LateEnhancement lge;

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 namespace {
 
@@ -101,7 +102,8 @@ TEST_CASE("a missing phase, a gap and a copy of a file are told", "[unit][image]
   const std::string notes = fmt::format("{}", fmt::join(cine.notes, "|"));
   CHECK_THAT(notes, Contains("has 1 images where others have 2"));
   CHECK_THAT(notes, Contains("8.00 to 16.00 mm apart"));
-  CHECK_THAT(notes, Contains("2 files were skipped"));
+  CHECK_THAT(notes, Contains("copy is left out: the same image as"));
+  CHECK_THAT(notes, Contains("notes.txt is left out: it is not DICOM"));
 }
 
 TEST_CASE("series that are mixed in a folder are named, and chosen by number or description",
@@ -149,4 +151,126 @@ TEST_CASE("truncated and empty files are named", "[unit][image]") {
   const test::TemporaryFolder nothing;
   test::write_bytes(nothing / "empty", "");
   CHECK_THAT(complaint(nothing), Contains("holds no DICOM image") && Contains("it is not DICOM"));
+}
+
+TEST_CASE("a second acquisition at the same times is refused with two of its files",
+          "[unit][image]") {
+  for (const double later : {0.0, 0.5}) {
+    const test::TemporaryFolder folder;
+    write_stack(folder);
+    DicomSpec again = oblique(1, 1);
+    again.instance = 1012;
+    again.instance_uid = "1.2.3.9.1";
+    *again.trigger_ms += later;
+    test::write_bytes(folder / "again", test::dicom_bytes(again));
+    const std::string message = complaint(folder);
+    CHECK_THAT(message, Contains("is there more than once at 43 ms: ") && Contains("/again"));
+    CHECK_THAT(describe(read_dicom_study(std::array{folder / ""})),
+               Contains("note: cannot be used as it is: ") && Contains("/again"));
+  }
+}
+
+TEST_CASE("twice as many images as phases are announced are refused, whatever their times",
+          "[unit][image]") {
+  const test::TemporaryFolder folder;
+  for (int p = 0; p < 4; ++p) {
+    DicomSpec spec = oblique(0, p);
+    spec.phases = 2;
+    test::write_bytes(folder / fmt::format("{}", p), test::dicom_bytes(spec));
+  }
+  CHECK_THAT(complaint(folder), Contains("has 4 images where the headers announce 2 phases"));
+}
+
+TEST_CASE("magnitude and phase frames of one enhanced file are two stacks", "[unit][image]") {
+  for (const bool by_component : {false, true}) {
+    std::vector<DicomSpec> frames;
+    for (const char* kind : {"M", "P"})
+      for (int p = 0; p < 3; ++p) {
+        DicomSpec frame = oblique(0, p);
+        frame.kind = by_component ? "CINE" : kind;
+        frame.component = by_component ? (*kind == 'M' ? "MAGNITUDE" : "PHASE") : "";
+        frames.push_back(frame);
+      }
+    const test::TemporaryFolder folder;
+    test::write_bytes(folder / "x", test::enhanced_dicom_bytes(frames));
+    const DicomStudy study = read_dicom_study(std::array{folder / ""});
+    REQUIRE(study.stacks.size() == 2);
+    for (const DicomStack& stack : study.stacks)
+      CHECK(stack.slices.front().images.size() == 3);
+    CHECK(study.stacks[1].kind == (by_component ? "CINE\\PHASE" : "P"));
+  }
+}
+
+TEST_CASE("enhanced files of one frame each are ordered by their own instance numbers",
+          "[unit][image]") {
+  const test::TemporaryFolder folder;
+  for (int p = 0; p < 3; ++p) {
+    DicomSpec frame = oblique(0, p);
+    frame.trigger_ms.reset();
+    frame.instance = 7 - p;
+    test::write_bytes(folder / fmt::format("{}", p), test::enhanced_dicom_bytes({frame}));
+  }
+  const DicomStack stack =
+      choose_stack(read_dicom_study(std::array{folder / ""}), {}, "study", "series");
+  REQUIRE(stack.slices.front().images.size() == 3);
+  CHECK(stack.slices.front().images.front().instance == 5);
+  CHECK(read_pixels(stack).slices.front().frames.front().at(0, 0) == 200.0F);
+}
+
+TEST_CASE("images with one SOPInstanceUID are told apart, and copies of them found",
+          "[unit][image]") {
+  const test::TemporaryFolder folder;
+  for (int s = 0; s < 3; ++s)
+    for (int p = 0; p < 2; ++p) {
+      DicomSpec spec = oblique(s, p);
+      spec.instance_uid = "1.2.3.4";
+      test::write_bytes(folder / fmt::format("{}{}", s, p), test::dicom_bytes(spec));
+    }
+  DicomSpec copy = oblique(1, 1);
+  copy.instance_uid = "1.2.3.4";
+  copy.description = "anonymous";
+  test::write_bytes(folder / "z", test::dicom_bytes(copy));
+  const Cine cine = read(folder);
+  REQUIRE(cine.slices.size() == 3);
+  CHECK(cine.slices[1].frames.size() == 2);
+  const std::string notes = fmt::format("{}", fmt::join(cine.notes, "|"));
+  CHECK_THAT(notes, Contains("SOPInstanceUIDs are used more than once, by 5 images"));
+  CHECK_THAT(notes, Contains("/z is left out: the same image as"));
+}
+
+TEST_CASE("deflated and big-endian files are read like plain ones, and named where they are cut",
+          "[unit][image]") {
+  const DicomSpec spec = oblique(0, 0);
+  const test::TemporaryFolder plain;
+  test::write_bytes(plain / "x", test::dicom_bytes(spec));
+  const std::vector<float> values = read(plain).slices.front().frames.front().values;
+  for (const std::string& bytes :
+       {test::deflated_dicom_bytes(spec), test::big_endian_dicom_bytes(spec)}) {
+    const test::TemporaryFolder folder;
+    test::write_bytes(folder / "x", bytes);
+    CHECK(read(folder).slices.front().frames.front().values == values);
+    for (const std::size_t lost : {1, 20, 60}) {
+      test::write_bytes(folder / "x", bytes.substr(0, bytes.size() - lost));
+      CHECK_THAT(complaint(folder), Contains("/x") && Contains("truncated"));
+    }
+  }
+}
+
+TEST_CASE("links that lead nowhere, pipes and links to themselves are told, and no one waits",
+          "[unit][image]") {
+  namespace fs = std::filesystem;
+  const test::TemporaryFolder folder;
+  fs::create_symlink("../annex/a", folder / "a.dcm");
+  fs::create_symlink("../annex/b", folder / "b.dcm");
+  fs::create_symlink("c.dcm", folder / "c.dcm");
+  REQUIRE(mkfifo((folder / "d.dcm").c_str(), 0600) == 0);
+  const std::string message = complaint(folder);
+  CHECK_THAT(message, Contains("holds no DICOM image with a place in space; 2 files are left out, "
+                               "the first") &&
+                          Contains("a.dcm: the link leads nowhere"));
+  CHECK_THAT(message, Contains("c.dcm is left out: the link leads to itself") &&
+                          Contains("d.dcm is left out: it is a pipe"));
+  CHECK_THROWS_WITH(read_dicom_study(std::array{folder / "d.dcm"}), Contains("it is a pipe"));
+  write_stack(folder);
+  CHECK_THAT(fmt::format("{}", fmt::join(read(folder).notes, "|")), Contains("leads nowhere"));
 }

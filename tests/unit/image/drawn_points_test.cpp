@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <random>
+#include <sstream>
 
 namespace {
 
@@ -148,6 +149,110 @@ TEST_CASE("guide points in any order become the wall that they were taken from",
   const auto expected = geometry::fit_spline_wall(contours, fit).report();
   CHECK(wall.volume_cavity == Approx(expected.volume_cavity).epsilon(0.02));
   CHECK(wall.volume_wall == Approx(expected.volume_wall).epsilon(0.02));
+}
+
+TEST_CASE("subfolders of contours are read, and a border drawn twice is refused", "[unit][image]") {
+  const test::TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "i-contours");
+  std::filesystem::create_directories(folder / "o-contours");
+  for (const int instance : {2, 22, 42}) {
+    const std::string name = fmt::format("IM-0001-{:04d}-", instance);
+    test::write_bytes(folder / ("i-contours/" + name + "icontour-manual.txt"), circle(8.0));
+    test::write_bytes(folder / ("o-contours/" + name + "ocontour-manual.txt"), circle(12.0));
+  }
+  const DrawnPhases drawn =
+      read_sunnybrook(folder / "", stack(), PixelOrigin::corner, DrawnBy::manual);
+  CHECK(drawn.phases.at(2).short_axis.size() == 6);
+  geometry::check_contours(drawn.phases.at(2));
+  test::write_bytes(folder / "IM-0002-0022-icontour-manual.txt", circle(7.0));
+  CHECK_THAT(complaint(folder), Contains("i-contours/IM-0001-0022-icontour-manual.txt") &&
+                                    Contains("draws the same border of the same image as"));
+}
+
+TEST_CASE("guide points are read under the names of columns that their writers give",
+          "[unit][image]") {
+  const std::string points = list(drawn::draw({}));
+  const std::string rest = points.substr(points.find('\n'));
+  const test::TemporaryFolder folder;
+  for (const char* header : {"x\ty\tz\tcontour type\tframeID\tweight\ttime frame",
+                             "x\ty\tz\tcontour type\tsliceID\tweight\ttime frame",
+                             "X\tY\tZ\tContour_Type\tSlice ID\tWeight\tTimeFrame",
+                             "x\ty\tz\ttype\tslice\tframeID\tframe"}) {
+    test::write_bytes(folder / "points.txt", header + rest);
+    const GuidePoints read = read_guide_points(folder / "points.txt", std::nullopt, Side::epi);
+    CHECK(read.contours.short_axis.size() == 16);
+    CHECK(read.contours.long_axis.size() == 6);
+  }
+}
+
+TEST_CASE("lines given twice and a repeated closing point count once", "[unit][image]") {
+  std::string points = list(drawn::draw({}));
+  const test::TemporaryFolder folder;
+  const auto loops = [&] {
+    test::write_bytes(folder / "points.txt", points);
+    return read_guide_points(folder / "points.txt", std::nullopt, Side::epi);
+  };
+  const GuidePoints once = loops();
+  std::istringstream lines(points);
+  std::string line;
+  for (int i = 0; std::getline(lines, line); ++i)
+    if (i > 0 && i % 5 == 0)
+      points += line + "\n";
+  const GuidePoints twice = loops();
+  CHECK_THAT(fmt::format("{}", fmt::join(twice.notes, "|")), Contains("given twice count once"));
+  geometry::check_contours(twice.contours);
+  for (std::size_t i = 0; i < once.contours.short_axis.size(); ++i)
+    CHECK(once.contours.short_axis[i].points.size() == twice.contours.short_axis[i].points.size());
+}
+
+TEST_CASE("an image with a count of time of its own belongs to the others", "[unit][image]") {
+  std::string points = list(drawn::draw({}));
+  std::string own = points;
+  for (auto at = own.find("\t101\t1\t0\n"); at != std::string::npos; at = own.find("\t101\t1\t0\n"))
+    own.replace(at, 9, "\t101\t1\t1.0\n");
+  const test::TemporaryFolder folder;
+  const auto read = [&](const std::string& text, std::optional<int> frame) {
+    test::write_bytes(folder / "points.txt", text);
+    return read_guide_points(folder / "points.txt", frame, Side::epi);
+  };
+  for (const std::optional<int> frame : {std::optional<int>(), std::optional(0)}) {
+    const GuidePoints found = read(own, frame);
+    CHECK(found.contours.long_axis.size() == 6);
+    CHECK_THAT(fmt::format("{}", fmt::join(found.notes, "|")),
+               Contains("slice 101 bears the time frame 1 where others bear 0"));
+  }
+  // the loops at a second time: now a time must be chosen, and the image still is of either
+  std::string later = own;
+  for (std::size_t at = 0, end = 0; end < points.size(); at = end) {
+    end = points.find('\n', at) + 1;
+    const std::string line = points.substr(at, end - at);
+    if (line.find("SAX_LV") != std::string::npos)
+      later += line.substr(0, line.size() - 2) + "12\n";
+  }
+  CHECK_THROWS_WITH(read(later, std::nullopt), Contains("has points of 2 times") &&
+                                                   Contains("Choose one of the time frames 0, 12"));
+  CHECK(read(later, 12).contours.long_axis.size() == 2);
+  CHECK(read(later, 0).contours.long_axis.size() == 6);
+}
+
+TEST_CASE("long-axis curves end at the valves, also where they are drawn through them",
+          "[unit][image]") {
+  const geometry::Contours contours = drawn::draw({});
+  std::string points = list(contours);
+  for (const auto& c : contours.long_axis)
+    for (const double t : {0.25, 0.5, 0.75}) {
+      const Vec3 x = (1.0 - t) * c.points.front() + t * c.points.back() - Vec3(0.0, 0.0, 4.0);
+      if (c.side == Side::endo)
+        points += fmt::format("{:.4f}\t{:.4f}\t{:.4f}\tLAX_LV_ENDOCARDIAL\t{}\t1\t0\n", x.x(),
+                              x.y(), x.z(), 100 + c.slice);
+    }
+  const test::TemporaryFolder folder;
+  test::write_bytes(folder / "points.txt", points);
+  const GuidePoints read = read_guide_points(folder / "points.txt", std::nullopt, Side::epi);
+  CHECK_THAT(fmt::format("{}", fmt::join(read.notes, "|")),
+             Contains("9 points of long-axis curves lie in the opening of the valves"));
+  for (const auto& c : read.contours.long_axis)
+    CHECK(c.points.size() == 29);
 }
 
 TEST_CASE("lists of points that say too little are refused", "[unit][image]") {

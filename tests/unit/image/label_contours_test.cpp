@@ -191,6 +191,20 @@ TEST_CASE("thick slices that do not lie across the long axis are noted, then ref
                                         Contains("at most 25 are allowed"));
 }
 
+TEST_CASE("one slice shifted by the breath does not make the long axis oblique", "[unit][image]") {
+  const geometry::Ellipsoid e;
+  const auto angle_noted = [&](double jump) {
+    const Volume volume = askew(2, [&](const Vec3& X, int label) {
+      if (X.z() < -58.0 && X.z() > -66.0)
+        return ventricle(e, X - Vec3(jump, 0.0, 0.0));
+      return label;
+    });
+    return all(trace_labels(volume, {{1}, {2}, {}}, 0).notes);
+  };
+  CHECK_THAT(angle_noted(0.0), !Contains("from the long axis"));
+  CHECK_THAT(angle_noted(18.0), !Contains("from the long axis"));
+}
+
 TEST_CASE("the borders of cubic voxels are loops that do not cross themselves", "[unit][image]") {
   // straight runs of pixels, turned in space: segments in one line, but for rounding
   for (const double angle : {0.0, 3.0, 7.0, 11.0}) {

@@ -7,11 +7,14 @@
 #include "support/temporary_folder.hpp"
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
+#include <zlib.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <system_error>
+#include <utility>
 
 namespace {
 
@@ -26,6 +29,29 @@ Mat3 oblique() {
 test::NiftiSpec small(const Mat3& directions) {
   return test::label_map({3, 4, 5}, directions, {1.0, 2.0, 8.0}, {10.0, -20.0, 30.0},
                          [n = 0](const Vec3&) mutable { return n++ % 7; });
+}
+
+Volume read(const test::NiftiSpec& spec, const std::string& name = "x.nii") {
+  const test::TemporaryFolder folder;
+  test::write_bytes(folder / name, test::nifti_bytes(spec));
+  return read_nifti(folder / name);
+}
+
+std::string packed(const std::string& bytes) {
+  const test::TemporaryFolder folder;
+  const gzFile stream = gzopen((folder / "x").c_str(), "wb");
+  gzwrite(stream, bytes.data(), static_cast<unsigned>(bytes.size()));
+  gzclose(stream);
+  return test::bytes_of(folder / "x");
+}
+
+/// The sform in another unit of length.
+test::NiftiSpec in_unit(test::NiftiSpec spec, int code, double per_mm) {
+  for (auto& row : spec.sform)
+    for (double& entry : row)
+      entry *= per_mm;
+  spec.units = code;
+  return spec;
 }
 
 std::string complaint(const test::NiftiSpec& spec, std::size_t cut = 0) {
@@ -100,10 +126,162 @@ TEST_CASE("a truncated NIfTI image is refused, not filled with zeros", "[unit][i
 TEST_CASE("a sheared sform and a sform that contradicts the qform are refused", "[unit][image]") {
   test::NiftiSpec sheared = small(oblique());
   sheared.sform[0][2] += 3.0;
-  CHECK_THAT(complaint(sheared), Contains("its axes are not at right angles"));
+  CHECK_THAT(complaint(sheared),
+             Contains("its axes are not at right angles, ") && Contains("degrees apart"));
   test::NiftiSpec contradiction = small(oblique());
   contradiction.qform_code = 1;
   CHECK_THAT(complaint(contradiction), Contains("its sform and its qform put a corner"));
+}
+
+TEST_CASE("metres and micrometres become millimetres, of the sform and of the qform",
+          "[unit][image]") {
+  const Volume mm = read(small(oblique()));
+  for (const auto& [code, per_mm] : {std::pair(1, 1e-3), {3, 1e3}, {2, 1.0}, {0, 1.0}})
+    for (const bool by_qform : {false, true}) {
+      test::NiftiSpec spec = in_unit(small(oblique()), code, per_mm);
+      spec.same_qform = by_qform;
+      spec.qform_code = by_qform ? 1 : 0;
+      spec.sform_code = by_qform ? 0 : 1;
+      const Volume v = read(spec);
+      CHECK((v.spacing - mm.spacing).norm() < 1e-5);
+      CHECK((v.origin - mm.origin).norm() < 1e-3);
+    }
+  CHECK_THAT(complaint(in_unit(small(oblique()), 0, 1e-3)),
+             Contains("its voxels measure 0.001 x 0.002 x 0.008 mm"));
+  CHECK_THAT(complaint(in_unit(small(oblique()), 1, 1.0)),
+             Contains("its voxels measure 1000 x 2000 x 8000 mm (unit of the file: m)"));
+  CHECK_THAT(complaint(in_unit(small(oblique()), 4, 1.0)), Contains("unknown code 4"));
+}
+
+TEST_CASE("axes a little off right angles, by rounding, become orthonormal", "[unit][image]") {
+  for (const double degrees : {0.007, 0.09, 0.2}) {
+    test::NiftiSpec spec = small(Mat3::Identity());
+    spec.sform[0][1] = -2.0 * std::sin(degrees / 57.29578);  // axis j leans towards i
+    if (degrees > 0.1) {
+      CHECK_THAT(complaint(spec), Contains("not at right angles, i and j are 89.80 degrees apart"));
+      continue;
+    }
+    const Volume v = read(spec);
+    CHECK((v.directions.transpose() * v.directions - Mat3::Identity()).norm() < 1e-12);
+    CHECK((v.directions - Mat3::Identity()).norm() < 2e-3);
+    CHECK(v.notes.empty());
+  }
+}
+
+TEST_CASE("lengths of the sform that are not the sizes of voxels are told apart and told",
+          "[unit][image]") {
+  test::NiftiSpec directions = test::label_map({3, 4, 5}, oblique(), Vec3::Ones(), Vec3(1, 2, 3),
+                                               [](const Vec3&) { return 0; });
+  directions.pixdim = {1.5, 1.5, 8.0};
+  const Volume by_pixdim = read(directions);
+  CHECK((by_pixdim.spacing - Vec3(1.5, 1.5, 8.0)).norm() < 1e-6);
+  CHECK((by_pixdim.directions - oblique()).norm() < 1e-5);
+  CHECK((by_pixdim.origin - Vec3(1, 2, 3)).norm() < 1e-5);
+  REQUIRE(by_pixdim.notes.size() == 1);
+  CHECK_THAT(by_pixdim.notes.front(), Contains("the lengths of its sform (1, 1, 1) are not its "
+                                               "voxel sizes (pixdim) (1.5, 1.5, 8)"));
+  test::NiftiSpec lengths = small(oblique());
+  lengths.pixdim = {1.0, 1.0, 1.0};
+  const Volume by_sform = read(lengths);
+  CHECK((by_sform.spacing - Vec3(1.0, 2.0, 8.0)).norm() < 1e-6);
+  REQUIRE(by_sform.notes.size() == 1);
+  CHECK_THAT(by_sform.notes.front(), Contains("are not its voxel sizes (pixdim) (1, 1, 1)"));
+  lengths.pixdim = {1.0, 2.0, 10.0};
+  CHECK_THAT(complaint(lengths), Contains("the lengths of its sform (1, 2, 8) are not its voxel "
+                                          "sizes (pixdim) (1, 2, 10)"));
+}
+
+TEST_CASE("a header of ones at the origin is noted as one that says nothing", "[unit][image]") {
+  test::NiftiSpec spec;
+  spec.size = {2, 2, 2, 1};
+  spec.values.assign(8, 1.0);
+  for (int d = 0; d < 3; ++d)
+    spec.sform[d][d] = 1.0;
+  const Volume v = read(spec);
+  REQUIRE(v.notes.size() == 1);
+  CHECK_THAT(v.notes.front(), Contains("its voxels measure 1 x 1 x 1 mm"));
+}
+
+TEST_CASE("NIfTI-2, capital endings and packed files of any name are read alike", "[unit][image]") {
+  test::NiftiSpec spec = small(oblique());
+  spec.slope = 2.0F;
+  const Volume plain = read(spec);
+  const test::TemporaryFolder folder;
+  test::write_bytes(folder / "X.NII.GZ", packed(test::nifti_bytes(spec)));
+  test::write_bytes(folder / "packed.nii", packed(test::nifti_bytes(spec)));
+  spec.version = 2;
+  test::write_bytes(folder / "second.nii", test::nifti_bytes(spec));
+  for (const char* name : {"X.NII.GZ", "packed.nii", "second.nii"}) {
+    const Volume v = read_nifti(folder / name);
+    CHECK(v.values == plain.values);
+    CHECK((v.directions - plain.directions).norm() < 1e-6);
+    CHECK((v.origin - plain.origin).norm() < 1e-6);
+    CHECK((v.spacing - plain.spacing).norm() < 1e-6);
+  }
+  CHECK_THAT(read_nifti(folder / "packed.nii").notes.front(), Contains("is packed: name it .gz"));
+  test::write_bytes(folder / "map.nrrd", "NRRD0004");
+  CHECK_THROWS_WITH(read_nifti(folder / "map.nrrd"),
+                    Contains("has the unknown ending \".nrrd\"") &&
+                        Contains("NIfTI (.nii, .nii.gz, or .hdr with .img)"));
+}
+
+TEST_CASE("header and voxels of a pair are found from either, in any case of their endings",
+          "[unit][image]") {
+  const std::string whole = test::nifti_bytes(small(oblique()));
+  std::string header = whole.substr(0, 348);
+  header.replace(108, 4, std::string(4, '\0'));
+  header.replace(344, 4, std::string("ni1\0", 4));
+  const test::TemporaryFolder folder;
+  test::write_bytes(folder / "A.HDR", header);
+  CHECK_THROWS_WITH(read_nifti(folder / "A.HDR"), Contains("A.img is not beside it"));
+  test::write_bytes(folder / "A.IMG", whole.substr(352));
+  test::write_bytes(folder / "b.hdr", header);
+  test::write_bytes(folder / "b.img.gz", packed(whole.substr(352)));
+  const Volume plain = read(small(oblique()));
+  for (const char* name : {"A.HDR", "A.IMG", "b.hdr", "b.img.gz"})
+    CHECK(read_nifti(folder / name).values == plain.values);
+  std::string analyze = header;
+  analyze.replace(344, 4, std::string(4, '\0'));
+  test::write_bytes(folder / "b.hdr", analyze);
+  CHECK_THROWS_WITH(read_nifti(folder / "b.hdr"), Contains("is Analyze 7.5"));
+}
+
+TEST_CASE("labels that went through a slope are whole numbers still", "[unit][image]") {
+  test::NiftiSpec spec = small(oblique());
+  for (double& value : spec.values)
+    value *= 42;  // stored; 0 to 252
+  spec.slope = static_cast<float>(1.0 / 42.0);
+  const Volume v = read(spec);
+  CHECK(v.at(1, 0, 0) == 1.0F);
+  CHECK(label_volumes(v).size() == 7);
+}
+
+TEST_CASE("times that are no heart's cycle are not taken", "[unit][image]") {
+  test::NiftiSpec spec = small(oblique());
+  spec.size[3] = 25;
+  spec.values.assign(60 * 25, 1.0);
+  spec.time_step = 1.0;
+  const Volume v = read(spec);
+  CHECK(v.time_step == 0.0);
+  CHECK_THAT(v.notes.front(), Contains("its 25 frames follow each other after 1 s"));
+  spec.time_step = 40.0;
+  spec.units = 2 | 16;  // mm, ms
+  CHECK(read(spec).time_step == Approx(0.04));
+}
+
+TEST_CASE("an image larger than memory is refused as that", "[unit][image]") {
+  test::NiftiSpec spec = small(oblique());
+  spec.size = {30000, 30000, 10000, 1};
+  CHECK_THAT(complaint(spec), Contains("it ends after 412 of"));  // its file is small
+  const test::TemporaryFolder folder;
+  test::write_bytes(folder / "x.nii", test::nifti_bytes(spec));
+  std::error_code failed;
+  std::filesystem::resize_file(folder / "x.nii", 352 + 9000000000000, failed);  // a hole
+  if (failed) {
+    WARN("skipped: no file of 9 TB with a hole can be made: " << failed.message());
+    return;
+  }
+  CHECK_THROWS_AS(read_nifti(folder / "x.nii"), RunError);
 }
 
 TEST_CASE("a voxel that is not a number stays one and is named", "[unit][image]") {

@@ -150,6 +150,66 @@ TEST_CASE("a NIfTI map and the brightness of an image mean the region that they 
   CHECK_THROWS_WITH(furthest(), Catch::Matchers::Contains("shows nothing of the wall"));
 }
 
+TEST_CASE("half of the brightest is taken from the grey value of no signal", "[unit][job]") {
+  const mesh::Mesh wall = test::ellipsoid_mesh({}, 5.0);
+  const test::TemporaryFolder folder;
+  const auto write = [&](const std::string& name, const std::function<int(const Vec3&)>& value) {
+    test::write_bytes(folder / name, test::nifti_bytes(test::label_map(
+                                         {60, 60, 60}, Mat3::Identity(), Vec3(2.0, 2.0, 2.0),
+                                         Vec3(-59.0, -59.0, -100.0), value)));
+  };
+  const auto scar = [](const Vec3& X) { return X.y() > 5.0 && X.z() > -40.0; };
+  write("magnitude.nii", [&](const Vec3& X) { return scar(X) ? 800 : X.norm() < 80.0 ? 60 : 5; });
+  write("offset.nii", [&](const Vec3& X) {
+    return 2048 + (scar(X) ? 800 : X.norm() < 80.0 ? 60 : 5);
+  });
+  job::Case c;
+  c.file = folder / "case.toml";
+  c.scar.source = InfarctSource::lge;
+  c.scar.lge.threshold = mesh::ScarThreshold::fwhm;
+  const auto volume = [&](const std::string& image) {
+    c.scar.lge.image = image;
+    return mesh::infarct_volumes(wall, job::infarct_extent(c, {}, wall).part).infarct;
+  };
+  const double expected = volume("magnitude.nii");
+  CHECK_THROWS_WITH(volume("offset.nii"),
+                    Catch::Matchers::Contains("the image has an offset") &&
+                        Catch::Matchers::Contains("Set infarct.lge.zero") &&
+                        Catch::Matchers::Contains("the edge of the image is 2053"));
+  c.scar.lge.zero = 2048.0;
+  c.origin["infarct.lge.zero"] = "case.toml:3";
+  CHECK(volume("offset.nii") == Approx(expected).epsilon(1e-6));
+  c.scar.lge.zero = 5000.0;
+  CHECK_THROWS_WITH(volume("offset.nii"), Catch::Matchers::Contains("is brighter than 5000"));
+}
+
+TEST_CASE("a scar of more than half of the wall is asked about, and each remote segment told",
+          "[unit][job]") {
+  const mesh::Mesh wall = test::ellipsoid_mesh({}, 5.0);
+  const test::TemporaryFolder folder;
+  test::write_bytes(folder / "lge.nii",
+                    test::nifti_bytes(test::label_map(
+                        {60, 60, 60}, Mat3::Identity(), Vec3(2.0, 2.0, 2.0),
+                        Vec3(-59.0, -59.0, -100.0), [](const Vec3& X) {
+                          return X.x() < -15.0 ? 10 + static_cast<int>(std::abs(X.y())) % 3 : 200;
+                        })));
+  job::Case c;
+  c.file = folder / "case.toml";
+  c.scar.source = InfarctSource::lge;
+  c.scar.lge.image = "lge.nii";
+  c.scar.lge.threshold = mesh::ScarThreshold::fwhm;
+  c.scar.lge.fill_no_reflow = false;
+  CHECK_THROWS_WITH(job::infarct_extent(c, {}, wall),
+                    Catch::Matchers::Contains("% of the wall is scar") &&
+                        Catch::Matchers::Contains("raise infarct.lge.largest_part"));
+  c.scar.lge.largest_part = 0.9;
+  CHECK_NOTHROW(job::infarct_extent(c, {}, wall));
+  c.scar.lge.threshold = mesh::ScarThreshold::sd;
+  CHECK_THROWS_WITH(job::infarct_extent(c, {}, wall),
+                    Catch::Matchers::Contains("one segment as remote would make is 1: ") &&
+                        Catch::Matchers::Contains(", 17: "));
+}
+
 TEST_CASE("slices of a late-enhancement image are moved onto the wall", "[unit][job]") {
   const geometry::Ellipsoid ellipsoid;
   const mesh::Mesh wall = test::ellipsoid_mesh(ellipsoid, 3.0);

@@ -2,7 +2,9 @@
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
+#include <zlib.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -38,18 +40,26 @@ void number(std::string& bytes, int group, int element, int value) {
 }
 
 /// The preamble and what says how the rest is written.
-std::string dicom_begin(const char* storage, const DicomSpec& s) {
+std::string dicom_meta(const char* storage, const DicomSpec& s, const char* syntax) {
   std::string meta;
   text(meta, 2, 2, "UI", storage);
   text(meta, 2, 3, "UI", s.instance_uid);
-  text(meta, 2, 0x10, "UI", "1.2.840.10008.1.2.1");
+  text(meta, 2, 0x10, "UI", syntax);
   std::string bytes(128, '\0');
   bytes += "DICM";
   tag(bytes, 2, 0, "UL");
   put(bytes, std::uint16_t{4});
   put(bytes, static_cast<std::uint32_t>(meta.size()));
-  bytes += meta;
-  text(bytes, 8, 8, "CS", "ORIGINAL\\PRIMARY\\M");
+  return bytes + meta;
+}
+
+constexpr const char* classic_storage = "1.2.840.10008.5.1.4.1.1.4";
+constexpr const char* enhanced_storage = "1.2.840.10008.5.1.4.1.1.4.1";
+constexpr const char* little_endian = "1.2.840.10008.1.2.1";
+
+std::string dicom_begin(const char* storage, const DicomSpec& s) {
+  std::string bytes;
+  text(bytes, 8, 8, "CS", "ORIGINAL\\PRIMARY\\" + s.kind);
   text(bytes, 8, 0x16, "UI", storage);
   text(bytes, 8, 0x18, "UI", s.instance_uid);
   text(bytes, 8, 0x60, "CS", "MR");
@@ -121,7 +131,13 @@ std::string frame_groups(const DicomSpec& s) {
   position(place, s.plane);
   orientation(direction, s.plane);
   spacing(measures, s.plane);
-  sequence(bytes, 0x18, 0x9118, {delay});
+  std::string kind;
+  text(kind, 8, 0x9007, "CS", "ORIGINAL\\PRIMARY\\" + s.kind);
+  if (!s.component.empty())
+    text(kind, 8, 0x9208, "CS", s.component);
+  if (s.trigger_ms)
+    sequence(bytes, 0x18, 0x9118, {delay});
+  sequence(bytes, 0x18, 0x9226, {kind});
   sequence(bytes, 0x20, 0x9113, {place});
   sequence(bytes, 0x20, 0x9116, {direction});
   sequence(bytes, 0x28, 0x9110, {measures});
@@ -130,12 +146,17 @@ std::string frame_groups(const DicomSpec& s) {
 
 }  // namespace
 
-std::string dicom_bytes(const DicomSpec& s) {
-  std::string bytes = dicom_begin("1.2.840.10008.5.1.4.1.1.4", s);
+namespace {
+
+/// What follows the meta elements of a classic file.
+std::string classic_elements(const DicomSpec& s) {
+  std::string bytes = dicom_begin(classic_storage, s);
   text(bytes, 0x18, 0x50, "DS", "8");
   if (s.trigger_ms)
     text(bytes, 0x18, 0x1060, "DS", fmt::format("{}", *s.trigger_ms));
   text(bytes, 0x18, 0x1062, "IS", fmt::format("{}", s.rr_ms));
+  if (s.phases > 0)
+    text(bytes, 0x18, 0x1090, "IS", fmt::format("{}", s.phases));
   series(bytes, s);
   position(bytes, s.plane);
   orientation(bytes, s.plane);
@@ -151,9 +172,61 @@ std::string dicom_bytes(const DicomSpec& s) {
   return bytes;
 }
 
+/// Elements of explicit VR without sequences, their numbers turned round.
+std::string turned(const std::string& elements) {
+  std::string bytes = elements;
+  const auto turn = [&](std::size_t at, std::size_t n) {
+    std::reverse(bytes.begin() + static_cast<std::ptrdiff_t>(at),
+                 bytes.begin() + static_cast<std::ptrdiff_t>(at + n));
+  };
+  for (std::size_t at = 0; at < elements.size();) {
+    const bool wide = elements.compare(at + 4, 2, "OW") == 0;
+    const bool shorts = wide || elements.compare(at + 4, 2, "US") == 0;
+    std::uint32_t length = 0;
+    std::memcpy(&length, elements.data() + at + (wide ? 8 : 6), wide ? 4 : 2);
+    turn(at, 2);
+    turn(at + 2, 2);
+    turn(at + (wide ? 8 : 6), wide ? 4 : 2);
+    at += wide ? 12 : 8;
+    for (std::size_t i = 0; shorts && i < length; i += 2)
+      turn(at + i, 2);
+    at += length;
+  }
+  return bytes;
+}
+
+std::string deflated(const std::string& bytes) {
+  z_stream stream{};
+  deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, -MAX_WBITS, 8, Z_DEFAULT_STRATEGY);
+  std::string packed(bytes.size() + 100, '\0');
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
+  stream.avail_in = static_cast<uInt>(bytes.size());
+  stream.next_out = reinterpret_cast<Bytef*>(packed.data());
+  stream.avail_out = static_cast<uInt>(packed.size());
+  deflate(&stream, Z_FINISH);
+  packed.resize(stream.total_out + stream.total_out % 2);
+  deflateEnd(&stream);
+  return packed;
+}
+
+}  // namespace
+
+std::string dicom_bytes(const DicomSpec& s) {
+  return dicom_meta(classic_storage, s, little_endian) + classic_elements(s);
+}
+
+std::string big_endian_dicom_bytes(const DicomSpec& s) {
+  return dicom_meta(classic_storage, s, "1.2.840.10008.1.2.2") + turned(classic_elements(s));
+}
+
+std::string deflated_dicom_bytes(const DicomSpec& s) {
+  return dicom_meta(classic_storage, s, "1.2.840.10008.1.2.1.99") + deflated(classic_elements(s));
+}
+
 std::string enhanced_dicom_bytes(const std::vector<DicomSpec>& frames) {
   const DicomSpec& first = frames.front();
-  std::string bytes = dicom_begin("1.2.840.10008.5.1.4.1.1.4.1", first);
+  std::string bytes = dicom_meta(enhanced_storage, first, little_endian);
+  bytes += dicom_begin(enhanced_storage, first);
   series(bytes, first);
   number(bytes, 0x28, 2, 1);
   text(bytes, 0x28, 4, "CS", "MONOCHROME2");
@@ -198,6 +271,41 @@ void set_qform(const NiftiSpec& s, const Set& set) {
 
 }  // namespace
 
+namespace {
+
+/// A header of NIfTI-1 as NIfTI-2 has it: its numbers wider and elsewhere.
+std::string second_version(const std::string& first) {
+  std::string head(540, '\0');
+  const auto set = [&](std::size_t at, auto value) {
+    std::memcpy(head.data() + at, &value, sizeof(value));
+  };
+  const auto get = [&](std::size_t at, auto value) {
+    std::memcpy(&value, first.data() + at, sizeof(value));
+    return value;
+  };
+  const auto widen = [&](std::size_t from, std::size_t to, int count) {
+    for (int i = 0; i < count; ++i)
+      set(to + 8 * i, static_cast<double>(get(from + 4 * i, float{})));
+  };
+  set(0, std::int32_t{540});
+  head.replace(4, 8, std::string("n+2\0\r\n\032\n", 8));
+  set(12, get(70, std::int16_t{}));
+  set(14, get(72, std::int16_t{}));
+  for (int d = 0; d < 8; ++d)
+    set(16 + 8 * d, static_cast<std::int64_t>(get(40 + 2 * d, std::int16_t{})));
+  widen(76, 104, 8);  // pixdim
+  set(168, std::int64_t{544});
+  widen(112, 176, 2);  // slope, intercept
+  set(344, static_cast<std::int32_t>(get(252, std::int16_t{})));
+  set(348, static_cast<std::int32_t>(get(254, std::int16_t{})));
+  widen(256, 352, 6);   // the qform
+  widen(280, 400, 12);  // the sform
+  set(500, static_cast<std::int32_t>(first[123]));
+  return head;
+}
+
+}  // namespace
+
 std::string nifti_bytes(const NiftiSpec& s) {
   std::string head(348, '\0');
   const auto set = [&](std::size_t at, auto value) {
@@ -218,20 +326,20 @@ std::string nifti_bytes(const NiftiSpec& s) {
     double square = 0.0;
     for (int e = 0; e < 3; ++e)
       square += s.sform[e][d] * s.sform[e][d];
-    set(80 + 4 * d, static_cast<float>(std::sqrt(square)));
+    set(80 + 4 * d, static_cast<float>(s.pixdim ? (*s.pixdim)[d] : std::sqrt(square)));
   }
-  set(92, 0.04F);
+  set(92, static_cast<float>(s.time_step));
   set(108, 352.0F);
   set(112, s.slope);
   set(116, s.intercept);
-  head[123] = 2 | 8;  // mm, s
+  head[123] = static_cast<char>(s.units);
   set(252, static_cast<std::int16_t>(s.qform_code));
   set(254, static_cast<std::int16_t>(s.sform_code));
   for (int d = 0; d < 3; ++d)
     for (int e = 0; e < 4; ++e)
       set(280 + 16 * d + 4 * e, static_cast<float>(s.sform[d][e]));
   head.replace(344, 4, std::string("n+1\0", 4));
-  std::string bytes = head + std::string(4, '\0');
+  std::string bytes = (s.version == 2 ? second_version(head) : head) + std::string(4, '\0');
   for (const double value : s.values)
     if (s.floating)
       put(bytes, static_cast<float>(value));

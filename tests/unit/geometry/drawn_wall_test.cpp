@@ -1,0 +1,107 @@
+#include "lv/geometry/drawn_wall.hpp"
+
+#include "lv/base/check.hpp"
+#include "lv/geometry/long_axis.hpp"
+
+#include "geometry/drawn_ellipsoid.hpp"
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+namespace {
+
+using namespace drawn;
+using Catch::Matchers::Contains;
+using lv::InputError;
+using namespace lv::geometry;
+
+std::string notes(const DrawnWall& wall) {
+  return fmt::format("{}", fmt::join(wall.notes, "|"));
+}
+
+/// Loops alone.
+Drawing short_axis_alone() {
+  Drawing drawing;
+  drawing.frame = oblique_frame();
+  drawing.long_axis = false;
+  return drawing;
+}
+
+/// A ventricle whose apical half turns aside, as far as `radius` [mm] bends it.
+Contours bent(Contours contours, const Frame& frame, double radius) {
+  for (auto* set : {&contours.short_axis, &contours.apex})
+    for (Contour& c : *set)
+      for (Vec3& x : c.points)
+        if (const double depth = -40.0 - frame.to_model(x).z(); depth > 0.0)
+          x += depth * depth / (2.0 * radius) * frame.axes.col(0);
+  return contours;
+}
+
+}  // namespace
+
+TEST_CASE("a base plane in an annulus too far above the slices is laid at the end of the slab",
+          "[unit][geometry]") {
+  const Drawing drawing = short_axis_alone();
+  Contours contours = draw(drawing);
+  for (const double angle : {0.0, 2.0, 4.0})
+    contours.annulus.push_back(
+        drawing.frame.to_image({20.0 * std::cos(angle), 20.0 * std::sin(angle), 70.0}));
+  SplineFitParameters fit;
+  fit.frame.base_at = BaseAt::annulus;
+  const DrawnWall wall = fit_drawn_wall(contours, fit, true);
+  CHECK(wall.base_at == BaseAt::slab);
+  CHECK_THAT(notes(wall), Contains("through the mitral annulus there is no wall"));
+  CHECK(wall.wall.report().base_height == Approx(0.5 * drawing.spacing).margin(0.1));
+  CHECK_THROWS_WITH(fit_drawn_wall(contours, fit, false),
+                    Contains("There is a wall with anatomy.contours.base_at = \"slab\""));
+}
+
+TEST_CASE("slices shifted by the breath bring a proposal to align them, with its numbers",
+          "[unit][geometry]") {
+  const Drawing drawing = short_axis_alone();
+  Contours contours = draw(drawing);
+  CHECK(notes(fit_drawn_wall(contours, {}, true)).empty());
+  shift_slices(contours, drawing.frame, 4.0, 7);
+  const DrawnWall wall = fit_drawn_wall(contours, {}, true);
+  CHECK_THAT(notes(wall), Contains("the slices seem shifted against each other") &&
+                              Contains("anatomy.contours.align_slices = true moves them by up to"));
+  SplineFitParameters aligned;
+  aligned.align_slices = true;
+  const DrawnWall moved = fit_drawn_wall(contours, aligned, true);
+  CHECK(notes(moved).empty());
+  double most = 0.0;
+  for (const auto& image : moved.wall.report().short_axis)
+    most = std::max({most, image.endo->max, image.epi->max});
+  CHECK_THAT(notes(wall), Contains(fmt::format("leaves {:.1f} mm", most)));
+}
+
+TEST_CASE("slices that make no wall as they lie are refused with what aligning them brings",
+          "[unit][geometry]") {
+  const Drawing drawing = short_axis_alone();
+  Contours contours = draw(drawing);
+  for (Contour& c : contours.short_axis)
+    if (c.slice == 8)
+      for (Vec3& x : c.points)
+        x += 14.0 * drawing.frame.axes.col(0);
+  CHECK_THROWS_WITH(fit_drawn_wall(contours, {}, true),
+                    Contains("slice 8") && Contains("There is a wall with "
+                                                    "anatomy.contours.align_slices = true"));
+}
+
+TEST_CASE("the long axis of a ventricle with a bent apex passes within every loop",
+          "[unit][geometry]") {
+  const Drawing drawing = short_axis_alone();
+  for (const double radius : {60.0, 40.0}) {
+    const Contours contours = bent(draw(drawing), drawing.frame, radius);
+    const LongAxis axis = long_axis(contours);
+    for (const Contour* loop : loops_from_base(contours, Side::endo)) {
+      Vec3 middle = Vec3::Zero();
+      double r = 0.0;
+      for (const Vec3& x : loop->points)
+        middle += x / static_cast<double>(loop->points.size());
+      for (const Vec3& x : loop->points)
+        r += (x - middle).norm() / static_cast<double>(loop->points.size());
+      CHECK((middle - axis.point).cross(axis.up).norm() < r);
+    }
+    CHECK_NOTHROW(fit_drawn_wall(contours, {}, true));
+  }
+}
