@@ -181,11 +181,11 @@ TEST_CASE("a checkpoint without the run's state is refused", "[unit][heartbeat]"
 
 TEST_CASE("a checkpoint of a run that cannot be is refused", "[unit][heartbeat]") {
   const auto refused = [](const std::function<void(RunState&)>& change) {
-    RunState run = example({});
+    RunState run = example(phases({}));
     change(run);
     Archive archive;
     store(run, archive);
-    CHECK_THROWS_AS(load_run_state(archive, {}, 2), RunError);
+    CHECK_THROWS_AS(load_run_state(archive, phases({}), 2), RunError);
   };
   refused([](RunState& run) { run.time = std::nan(""); });
   refused([](RunState& run) { run.time = -1.0; });
@@ -193,7 +193,8 @@ TEST_CASE("a checkpoint of a run that cannot be is refused", "[unit][heartbeat]"
   refused([](RunState& run) { run.frames = 4; });
   refused([](RunState& run) { run.frame_times[1] = std::numeric_limits<double>::infinity(); });
   refused([](RunState& run) { run.beat.steps = -1; });
-  refused([](RunState& run) { run.beat.end_diastole = {}; });
-  refused([](RunState& run) { run.beat.end_diastole.positions.resize(3, Vec3::Zero()); });
+  refused([](RunState& run) { run.phase = 2; });
+  refused([](RunState& run) { run.beat.moments.clear(); });
+  refused([](RunState& run) { run.beat.moments[0].wall.positions.resize(3, Vec3::Zero()); });
   refused([](RunState& run) { run.least.tension.resize(7); });
 }
