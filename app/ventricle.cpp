@@ -2,6 +2,7 @@
 #include "lv/base/interrupt.hpp"
 #include "lv/base/launch.hpp"
 #include "lv/base/parallel.hpp"
+#include "lv/base/printable.hpp"
 #include "lv/base/processors.hpp"
 #include "lv/base/table.hpp"
 #include "lv/base/units.hpp"
@@ -75,7 +76,7 @@ void write_new_case(const std::string& file) {
   if (std::filesystem::exists(std::filesystem::symlink_status(file)))
     throw lv::InputError(file, "exists already", "Choose another name");
   lv::write_file(file, lv::job::starter_case(std::filesystem::path(file).stem()));
-  fmt::print("wrote {}; next: ventricle validate {}\n", file, file);
+  lv::print(fmt::format("wrote {}; next: ventricle validate {}\n", file, file));
 }
 
 /// Refuses more ranks than the computation can be divided among, and two answers to how many.
@@ -115,7 +116,7 @@ int bench(const Command& command, int argc, char** argv) {
   const lv::parallel::Session session(&argc, &argv);
   const std::string result = lv::job::bench(command.bench);
   if (lv::parallel::is_root())
-    fmt::print("{}", result);
+    lv::print(result);
   return 0;
 }
 
@@ -133,7 +134,7 @@ int run_parallel(Command& command, int argc, char** argv) {
 
 int validate(const Command& command, int argc, char** argv) {
   const lv::parallel::Session session(&argc, &argv);
-  fmt::print("{}", lv::job::validate(lv::job::read_case(command.case_file)));
+  lv::print(lv::job::validate(lv::job::read_case(command.case_file)));
   return 0;
 }
 
@@ -146,7 +147,7 @@ int measure_strain(Command& command, int argc, char** argv) {
 
 int verify(const Command& command, int argc, char** argv) {
   if (command.list) {
-    fmt::print("{}", lv::verify::list());
+    lv::print(lv::verify::list());
     return 0;
   }
   lv::interrupt::install();
@@ -158,8 +159,8 @@ int verify(const Command& command, int argc, char** argv) {
 
 int phantom(const Command& command) {
   lv::interrupt::install();
-  fmt::print("{}", lv::phantom::write_study(command.ventricle, command.scan, command.study,
-                                            command.folder));
+  lv::print(
+      lv::phantom::write_study(command.ventricle, command.scan, command.study, command.folder));
   return 0;
 }
 
@@ -176,7 +177,7 @@ int write_page(const Command& command, const std::string& name, int argc, char**
   const lv::parallel::Session session(&argc, &argv);
   const std::string file = command.page.empty() ? name + ".html" : command.page;
   lv::job::write_page(command.works, file);
-  fmt::print("wrote {}\n", file);
+  lv::print(fmt::format("wrote {}\n", file));
   return 0;
 }
 
@@ -370,13 +371,13 @@ int dispatch(int argc, char** argv) {
     if (app.got_subcommand(page))
       return write_page(command, page, argc, argv);
   if (app.got_subcommand("images")) {
-    fmt::print("{}", lv::job::list_images(command.images));
+    lv::print(lv::job::list_images(command.images));
     return 0;
   }
   if (app.got_subcommand("verify"))
     return verify(command, argc, argv);
   if (*list)
-    fmt::print("{}", lv::job::manual(command.markdown));
+    lv::print(lv::job::manual(command.markdown));
   return 0;
 }
 
@@ -401,7 +402,7 @@ int fail(const std::string& message, int code, unsigned patience = 2) {
   std::signal(SIGTERM, SIG_DFL);  // from here on mpirun may end this rank
   if (rank != 0)
     sleep(patience);  // the root says it, unless the trouble is this rank's alone
-  fmt::print(stderr, "ventricle: {}\n", message);
+  fmt::print(stderr, "ventricle: {}\n", lv::printable_lines(message));
   std::fflush(nullptr);
   if (parallel)
     size > 1 ? MPI_Abort(MPI_COMM_WORLD, code) : MPI_Finalize();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lv/base/check.hpp"
+#include "lv/base/printable.hpp"
 #include "lv/base/table.hpp"
 
 #include <fmt/format.h>
@@ -20,6 +21,21 @@ auto from_json_file(const std::filesystem::path& file, const Use& use) {
     throw RunError(fmt::format("{} is damaged: {}", file.string(), error.what()),
                    "Delete its folder to make it again");
   }
+}
+
+/// JSON as text, the texts in it made safe to show: they may quote files and names. `indent` is -1
+/// for all in one line.
+template <class Json>
+[[nodiscard]] std::string json_text(Json json, int indent = 2) {
+  const auto make_safe = [](auto& self, Json& value) -> void {
+    if (value.is_string())
+      value = printable_lines(value.template get_ref<const std::string&>());
+    if (value.is_structured())
+      for (Json& part : value)
+        self(self, part);
+  };
+  make_safe(make_safe, json);
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace lv

@@ -1,10 +1,17 @@
 #include "lv/base/lines.hpp"
 
+#include "lv/base/check.hpp"
+#include "lv/base/files.hpp"
 #include "lv/base/table.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdint>
+#include <fstream>
+#include <type_traits>
 
 namespace lv {
 namespace {
@@ -18,6 +25,51 @@ std::size_t take_quoted(std::string_view text, std::string& content) {
     i += text[i] == '"' ? 1 : 0;
   }
   return text.size();
+}
+
+template <class Number>
+std::optional<Number> parsed(std::string_view text) {
+  Number value{};
+  const char* all = text.data() + text.size();
+  const auto [end, error] = std::from_chars(text.data(), all, value);
+  return error == std::errc() && end == all ? std::optional(value) : std::nullopt;
+}
+
+/// A number with an exponent of Fortran's, written as everywhere: "1.5D+01" is 1.5e+01, and of the
+/// form "1.5+101" is 1.5e+101. Other texts are none.
+std::string without_fortran(std::string_view text) {
+  std::string number(text);
+  const auto letter = number.find_first_of("dD");
+  const auto sign = number.find_last_of("+-");
+  constexpr std::size_t digits = 3;
+  if (letter != std::string::npos)
+    number[letter] = 'e';
+  else if (sign != std::string::npos && sign + digits + 1 == number.size() &&
+           number.find('.') < sign)
+    number = fmt::format("{}e{}", text.substr(0, sign), text.substr(sign));
+  return number;
+}
+
+[[noreturn]] void fail_encoding(const std::string& where, const std::string& what) {
+  throw InputError(where, what, "Save it as UTF-8 (a spreadsheet calls this \"CSV UTF-8\")");
+}
+
+void check_mark(const std::string& file, std::string_view text) {
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
+    fail_encoding(file, "is not UTF-8 text but UTF-16 or UTF-32");
+}
+
+/// The lines of Windows (CR LF) and of old Macs (CR) end as those of Unix.
+std::string with_newlines(std::string_view text) {
+  std::string lines;
+  lines.reserve(text.size());
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '\r')
+      lines += text[i];
+    else if (i + 1 == text.size() || text[i + 1] != '\n')
+      lines += '\n';
+  }
+  return lines;
 }
 
 }  // namespace
@@ -56,20 +108,53 @@ std::vector<std::string> csv_fields(std::string_view line) {
   }
 }
 
+template <class Number>
+std::optional<Number> number_of(std::string_view text) {
+  if (text.starts_with('+'))
+    text.remove_prefix(1);
+  const auto number = parsed<Number>(text);
+  if constexpr (std::is_floating_point_v<Number>)
+    return number ? number : parsed<Number>(without_fortran(text));
+  return number;
+}
+template std::optional<int> number_of(std::string_view text);
+template std::optional<std::int64_t> number_of(std::string_view text);
+template std::optional<double> number_of(std::string_view text);
+
+void check_encoding(const std::string& file) {
+  std::array<char, 2> first{};
+  std::ifstream(file, std::ios::binary).read(first.data(), first.size());
+  check_mark(file, {first.data(), first.size()});
+}
+
+std::string read_text(const std::filesystem::path& file) {
+  std::string text = read_file(file);
+  check_mark(file.string(), text);
+  if (text.starts_with("\xEF\xBB\xBF"))
+    text.erase(0, 3);
+  text = with_newlines(text);
+  if (const auto nul = text.find('\0'); nul != std::string::npos) {
+    const auto line =
+        1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(nul), '\n');
+    fail_encoding(fmt::format("{}:{}", file.string(), line),
+                  "is not UTF-8 text: it holds characters NUL, as UTF-16 and damaged files do");
+  }
+  return text;
+}
+
 LineReader::LineReader(const std::filesystem::path& file) : file_(file.string()) {
-  if (why_unreadable(file).empty())
-    stream_.open(file);
+  is_open_ = unreadable(file).empty();
+  if (is_open_)
+    text_ = read_text(file);
 }
 
 bool LineReader::next() {
-  constexpr std::string_view utf8_mark = "\xEF\xBB\xBF";
-  while (std::getline(stream_, text_)) {
+  while (next_ < text_.size()) {
     ++number_;
-    if (number_ == 1 && text_.starts_with(utf8_mark))
-      text_.erase(0, utf8_mark.size());
-    if (text_.ends_with('\r'))
-      text_.pop_back();
-    if (!trimmed(text_).empty())
+    begin_ = next_;
+    end_ = std::min(text_.find('\n', begin_), text_.size());
+    next_ = end_ + 1;
+    if (!trimmed(text()).empty())
       return true;
   }
   return false;

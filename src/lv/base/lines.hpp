@@ -1,7 +1,7 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,25 +19,41 @@ namespace lv {
 /// quotation marks in it stand for one.
 [[nodiscard]] std::vector<std::string> csv_fields(std::string_view line);
 
-/// The lines of a file that are not blank. Ends of lines may be those of Unix or Windows, and a
-/// mark of UTF-8 may stand at the beginning.
+/// The number (int, std::int64_t or double) that a whole text is. Real numbers may have Fortran's
+/// exponents: 1.5D+01, 1.5d1, and 1.5+101, where three digits leave no room for the letter.
+template <class Number>
+[[nodiscard]] std::optional<Number> number_of(std::string_view text);
+
+/// The text of a file, every line of which ends with \n: ends of lines may be those of Unix,
+/// Windows or old Macs, and a mark of UTF-8 may stand at the beginning. Throws InputError when the
+/// file cannot be read, and when it is no text in an encoding that has all of ASCII (UTF-16, NUL).
+[[nodiscard]] std::string read_text(const std::filesystem::path& file);
+
+/// Throws InputError for a file that begins as one in UTF-16 or UTF-32 does.
+void check_encoding(const std::string& file);
+
+/// The lines of a text file (read_text) that are not blank.
 class LineReader {
  public:
+  /// Throws InputError when the file is no text.
   explicit LineReader(const std::filesystem::path& file);
 
   /// Whether the file could be opened.
-  [[nodiscard]] bool is_open() const { return stream_.is_open(); }
+  [[nodiscard]] bool is_open() const { return is_open_; }
   /// Goes on to the next line; false at the end.
   bool next();
   /// The line without its end.
-  [[nodiscard]] std::string_view text() const { return text_; }
+  [[nodiscard]] std::string_view text() const {
+    return std::string_view(text_).substr(begin_, end_ - begin_);
+  }
   [[nodiscard]] int number() const { return number_; }  ///< of the line, from 1
   [[nodiscard]] std::string where() const;              ///< "file:line"
 
  private:
   std::string file_;
-  std::ifstream stream_;
-  std::string text_;
+  bool is_open_ = false;
+  std::string text_;                            ///< of the file
+  std::size_t begin_ = 0, end_ = 0, next_ = 0;  ///< of the line; where the next one begins
   int number_ = 0;
 };
 

@@ -1,7 +1,9 @@
 #include "lv/base/log.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/files.hpp"
 #include "lv/base/parallel.hpp"
+#include "lv/base/printable.hpp"
 #include "lv/base/table.hpp"
 
 #include <spdlog/sinks/basic_file_sink.h>
@@ -38,7 +40,7 @@ void to_file(const std::filesystem::path& file) {
     return;
   const std::filesystem::file_type type = std::filesystem::symlink_status(file).type();
   const bool is_new = type == std::filesystem::file_type::not_found;
-  if (const std::string why = is_new ? "" : why_unreadable(file); !why.empty())
+  if (const std::string why = is_new ? "" : unreadable(file); !why.empty())
     refuse(file, why);
   std::shared_ptr<spdlog::sinks::basic_file_sink_mt> sink;
   try {
@@ -56,10 +58,10 @@ void silence() {
 }
 
 void info(const std::string& line) {
-  logger().info(line);
+  logger().info(printable_lines(line));
 }
 void warn(const std::string& line) {
-  logger().warn(line);
+  logger().warn(printable_lines(line));
 }
 
 std::string duration(double seconds) {

@@ -1,20 +1,21 @@
 #include "lv/base/table.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/files.hpp"
 #include "lv/base/lines.hpp"
+#include "lv/base/memory.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <optional>
 #include <sstream>
 #include <system_error>
 #include <utility>
@@ -54,14 +55,12 @@ std::vector<Number> parsed(const std::vector<std::string>& fields, const std::st
                            Number missing) {
   std::vector<Number> numbers;
   for (const std::string& field : fields) {
-    Number value = missing;
-    const char* all = field.data() + field.size();
-    const auto [end, error] = std::from_chars(field.data(), all, value);
-    if (!field.empty() && (error != std::errc() || end != all))
+    const auto value = field.empty() ? std::optional(missing) : number_of<Number>(field);
+    if (!value)
       throw InputError(fmt::format("column {}", column),
                        fmt::format("\"{}\" is not such a number as this column holds", field),
                        "The table seems to be damaged");
-    numbers.push_back(value);
+    numbers.push_back(*value);
   }
   return numbers;
 }
@@ -129,30 +128,12 @@ void write_file(const std::filesystem::path& file, const std::string& text) {
                    "Check the folder's permissions and the space left on the disk");
 }
 
-std::string why_unreadable(const std::filesystem::path& file) {
-  std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(file, error);
-  if (error)
-    return error.message();
-  if (std::filesystem::is_directory(status))
-    return "it is a folder";
-  if (!std::filesystem::is_regular_file(status))
-    return "it is a pipe, a device or the like, not a file";
-  if (access(file.c_str(), R_OK) != 0)
-    return std::strerror(errno);
-  const auto memory = static_cast<std::uintmax_t>(sysconf(_SC_PHYS_PAGES)) *
-                      static_cast<std::uintmax_t>(sysconf(_SC_PAGESIZE));
-  const std::uintmax_t size = std::filesystem::file_size(file, error);
-  if (!error && size > memory)
-    return fmt::format("it holds {:.1f} GB, more than this machine's memory of {:.1f} GB",
-                       1e-9 * static_cast<double>(size), 1e-9 * static_cast<double>(memory));
-  return "";
-}
-
 std::string read_file(const std::filesystem::path& file) {
   constexpr std::size_t piece = std::size_t{1} << 20U;
-  if (const std::string why = why_unreadable(file); !why.empty())
-    throw InputError(file.string(), "cannot be read: " + why, "Check the path and its permissions");
+  require_readable(file, "Check the path and its permissions");
+  std::error_code error;
+  if (const auto size = std::filesystem::file_size(file, error); !error)
+    require_memory(file.string(), static_cast<double>(size));
   std::ifstream in(file, std::ios::binary);
   std::string text;
   while (in) {

@@ -43,10 +43,6 @@ class Table {
   std::vector<std::vector<std::string>> rows_;
 };
 
-/// Why a file cannot be read, in words ("it is a folder"); empty when it can. Only regular files
-/// can, of at most the machine's memory: a pipe is waited on for ever, and a device never ends.
-[[nodiscard]] std::string why_unreadable(const std::filesystem::path& file);
-
 /// Writes a whole text file under a temporary name and renames it: a half-written file never looks
 /// whole. Throws RunError naming the file when it cannot be written.
 void write_file(const std::filesystem::path& file, const std::string& text);

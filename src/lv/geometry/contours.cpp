@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <string_view>
@@ -92,28 +91,21 @@ class Table {
             lines_.number()};
   }
 
-  template <class Number>
-  static bool parse(std::string_view text, Number& value) {
-    const char* end = text.data() + text.size();
-    const auto result = std::from_chars(text.data(), end, value);
-    return result.ec == std::errc() && result.ptr == end;
-  }
-
   [[nodiscard]] int whole_number(std::string_view text, const char* column) const {
-    int value = 0;
-    if (!parse(text, value))
+    const auto value = number_of<int>(text);
+    if (!value)
       throw InputError(lines_.where(), fmt::format("{} \"{}\" is not a whole number", column, text),
                        "Number slices and points 1, 2, 3 and so on");
-    return value;
+    return *value;
   }
 
   [[nodiscard]] double coordinate(std::string_view text, const char* column) const {
-    double value = 0.0;
-    if (!parse(text, value) || !std::isfinite(value))
+    const auto value = number_of<double>(text);
+    if (!value || !std::isfinite(*value))
       throw InputError(lines_.where(),
                        fmt::format("{} \"{}\" is not a finite number", column, text),
                        "Give the point's position in scanner millimetres or remove the line");
-    return value;
+    return *value;
   }
 
   [[nodiscard]] Side side(std::string_view text) const {

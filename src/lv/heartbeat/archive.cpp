@@ -1,6 +1,7 @@
 #include "lv/heartbeat/archive.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/files.hpp"
 #include "lv/base/table.hpp"
 
 #include <boost/crc.hpp>
@@ -193,8 +194,8 @@ void Archive::write(const std::filesystem::path& file) const {
 }
 
 Archive Archive::read(const std::filesystem::path& file) {
-  if (const std::string why = why_unreadable(file); !why.empty())
-    fail(file, "cannot be read: " + why);
+  if (const std::string why = unreadable(file); !why.empty())
+    fail(file, why);
   const std::string whole = read_file(file);
   const std::size_t header = std::strlen(magic) + sizeof(std::uint32_t);
   if (whole.size() < header || whole.compare(0, std::strlen(magic), magic) != 0)

@@ -4,6 +4,7 @@
 #include "lv/base/files.hpp"
 #include "lv/base/lines.hpp"
 #include "lv/base/memory.hpp"
+#include "lv/base/printable.hpp"
 #include "lv/base/trial.hpp"
 
 #include <fmt/format.h>
@@ -14,7 +15,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <exception>
@@ -48,16 +48,9 @@ void silence() {
   static_cast<void>(once);
 }
 
-std::optional<double> number_of(std::string_view text) {
-  text = trimmed(text);
-  if (text.starts_with('+'))
-    text.remove_prefix(1);
-  double value = 0.0;
-  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (text.empty() || result.ec != std::errc() || result.ptr != text.data() + text.size() ||
-      !std::isfinite(value))
-    return std::nullopt;
-  return value;
+std::optional<double> finite_number_of(std::string_view text) {
+  const auto value = number_of<double>(trimmed(text));
+  return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 /// A data set's values by tag; absent and unreadable values alike are none.
@@ -74,7 +67,7 @@ class Values {
                : std::string_view(value->GetPointer(), value->GetLength());
   }
 
-  [[nodiscard]] std::string text(const Tag& tag) const { return std::string(trimmed(bytes(tag))); }
+  [[nodiscard]] std::string text(const Tag& tag) const { return printable(trimmed(bytes(tag))); }
 
   /// Numbers written as text (DS, IS).
   [[nodiscard]] std::vector<double> numbers(const Tag& tag) const {
@@ -82,7 +75,7 @@ class Values {
     std::string_view rest = bytes(tag);
     while (!rest.empty()) {
       const auto end = rest.find('\\');
-      const auto value = number_of(rest.substr(0, end));
+      const auto value = finite_number_of(rest.substr(0, end));
       if (!value)
         return {};
       values.push_back(*value);

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <set>
@@ -105,13 +104,11 @@ class List {
   }
 
   [[nodiscard]] double number(std::string_view text) const {
-    double value = 0.0;
-    const char* end = text.data() + text.size();
-    const auto result = std::from_chars(text.data(), end, value);
-    if (result.ec != std::errc() || result.ptr != end || !std::isfinite(value))
+    const auto value = number_of<double>(text);
+    if (!value || !std::isfinite(*value))
       throw InputError(lines_.where(), fmt::format("\"{}\" is not a finite number", text),
                        "Give positions in scanner millimetres");
-    return value;
+    return *value;
   }
 
   [[nodiscard]] double coordinate(std::string_view text) const {

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <regex>
@@ -75,22 +74,19 @@ Place place_of(const std::multimap<int, Place>& places, int instance, const fs::
 
 /// Two numbers, separated by blanks or a comma.
 std::optional<Eigen::Vector2d> parse_point(std::string_view line) {
+  constexpr std::string_view separators = " \t,";
   Eigen::Vector2d x;
-  const char* at = line.data();
-  const char* end = line.data() + line.size();
-  const auto skip = [&] {
-    while (at != end && (*at == ' ' || *at == '\t' || *at == ',' || *at == '\r'))
-      ++at;
-  };
   for (const int d : {0, 1}) {
-    skip();
-    const auto result = std::from_chars(at, end, x[d]);
-    if (result.ec != std::errc() || !std::isfinite(x[d]))
+    line.remove_prefix(std::min(line.find_first_not_of(separators), line.size()));
+    const std::string_view word = line.substr(0, line.find_first_of(separators));
+    const auto value = number_of<double>(word);
+    if (!value || !std::isfinite(*value))
       return std::nullopt;
-    at = result.ptr;
+    x[d] = *value;
+    line.remove_prefix(word.size());
   }
-  skip();
-  return at == end ? std::optional(x) : std::nullopt;
+  return line.find_first_not_of(separators) == std::string_view::npos ? std::optional(x)
+                                                                      : std::nullopt;
 }
 
 Contour read_contour(const fs::path& file, const Place& place, Side side, PixelOrigin origin) {

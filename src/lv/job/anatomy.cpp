@@ -1,19 +1,22 @@
 #include "lv/job/anatomy.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/json_file.hpp"
 #include "lv/base/table.hpp"
 #include "lv/geometry/drawn_wall.hpp"
 #include "lv/job/drawn.hpp"
 #include "lv/mesh/abaqus_blocks.hpp"
+#include "lv/mesh/foreign_mesh.hpp"
 #include "lv/mesh/import.hpp"
 #include "lv/mesh/refine.hpp"
 #include "lv/report/fields_vtk.hpp"
 #include "lv/report/tables_csv.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
+#include <array>
 #include <memory>
+#include <utility>
 
 namespace lv::job {
 namespace {
@@ -70,11 +73,23 @@ Shape from_drawn(const Case& c) {
   return shape;
 }
 
+/// Sides and directions of fibres may be files beside the mesh's.
+using ImportName = std::pair<const char*, std::string mesh::ImportParameters::*>;
+constexpr std::array<ImportName, 5> perhaps_files{
+    {{"anatomy.mesh.endo", &mesh::ImportParameters::endo},
+     {"anatomy.mesh.epi", &mesh::ImportParameters::epi},
+     {"anatomy.mesh.base", &mesh::ImportParameters::base},
+     {"anatomy.mesh.fibres", &mesh::ImportParameters::fibres},
+     {"anatomy.mesh.sheets", &mesh::ImportParameters::sheets}}};
+
 Shape from_mesh(const Case& c) {
   mesh::ImportParameters import = c.anatomy.mesh.import;
   if (import.file.empty())
     throw InputError(c.file.string(), "anatomy.mesh.file is not set", "Name the mesh's file");
   import.file = beside(c, import.file).string();
+  for (const auto& [parameter, name] : perhaps_files)
+    if (mesh::names_file(import.*name))
+      import.*name = beside(c, import.*name).string();
   if (c.scar.source == mesh::InfarctSource::elements)
     import.infarct_set = c.scar.set;
   mesh::ImportedMesh imported = mesh::import_mesh(import);
@@ -137,7 +152,7 @@ void write_anatomy(const Shape& shape, const fs::path& folder) {
                                      {"y_axis_in_image_space", numbers(axes.col(1))},
                                      {"z_axis_in_image_space", numbers(axes.col(2))},
                                      {"notes", shape.notes}};
-  write_file(folder / "frame.json", frame.dump(2) + "\n");
+  write_file(folder / "frame.json", json_text(frame) + "\n");
   if (!shape.quality)
     return;
   report::fit_table(shape.quality->fit).write_csv(folder / "fit.csv");
@@ -154,6 +169,9 @@ Ingredients anatomy_files(const Case& c) {
   };
   if (c.anatomy.source == AnatomySource::mesh) {
     add("anatomy.mesh.file", c.anatomy.mesh.import.file);
+    for (const auto& [parameter, name] : perhaps_files)
+      if (const std::string& file = c.anatomy.mesh.import.*name; mesh::names_file(file))
+        add(parameter, file);
     const fs::path file = beside(c, c.anatomy.mesh.import.file);
     if (file.extension() == ".inp" && fs::exists(file))
       for (const std::string& included : mesh::read_abaqus_blocks(file.string()).files)

@@ -132,7 +132,8 @@ void declare_given_mesh(Declarations& d) {
   d.choice("sides", LV_AT(anatomy.mesh.import.sides), {"tags", "geometry"},
            "the sides of the wall are named by the file's tags, or found: the flat opening is the "
            "base, the inner of the other two the endocardium");
-  d.text("endo", LV_AT(anatomy.mesh.import.endo), "tag of the endocardium");
+  d.text("endo", LV_AT(anatomy.mesh.import.endo),
+         "tag of the endocardium; with VTK also the .vtp file of its surface");
   d.text("epi", LV_AT(anatomy.mesh.import.epi), "tag of the epicardium");
   d.text("base", LV_AT(anatomy.mesh.import.base), "tag of the base");
   d.text("side_array", LV_AT(anatomy.mesh.import.side_array),
@@ -144,6 +145,12 @@ void declare_given_mesh(Declarations& d) {
              "largest distance of the base's nodes from their plane");
   d.whole("refinements", LV_AT(anatomy.mesh.refinements), between(0, 3),
           "how often every element is cut into eight");
+  d.text(
+      "fibres", LV_AT(anatomy.mesh.import.fibres),
+      "VTK: array of fibre directions, in cells or at points, or a .vtu file with the same cells "
+      "and such an array (SimVascular's FIB_DIR); empty: the rule of [fibres]");
+  d.text("sheets", LV_AT(anatomy.mesh.import.sheets),
+         "the same of sheet directions across the fibres; empty: the sheet angles of [fibres]");
 }
 
 void declare_mesh(Declarations& d) {

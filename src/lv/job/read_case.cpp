@@ -1,8 +1,9 @@
 #include "lv/job/read_case.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/lines.hpp"
 #include "lv/base/nearest.hpp"
-#include "lv/base/table.hpp"
+#include "lv/base/printable.hpp"
 #include "lv/job/parameters.hpp"
 
 #include <fmt/format.h>
@@ -20,6 +21,7 @@ class CaseReader {
 
   Case read(const toml::table& root) {
     walk(root, "");
+    case_.name = printable(case_.name);
     check_together();
     if (!mistakes_.empty())
       throw InputError(mistakes_.front().first, all_mistakes(), "");
@@ -109,6 +111,7 @@ class CaseReader {
         "is iterative, which does not converge with the linear elements of quasi_static.order = 1");
     rule(p.calcium.Ca_max > p.calcium.Ca_0, "calcium.Ca_max", "must be larger than Ca_0");
     check_contour_files();
+    check_given_fibres();
     check_calibration();
     check_strain_study();
   }
@@ -119,6 +122,18 @@ class CaseReader {
       rule(case_.anatomy.source == AnatomySource::contours || case_.origin.count(parameter) == 0,
            parameter, "is read with anatomy.source = \"contours\" alone; the case has another");
     }
+  }
+
+  void check_given_fibres() {
+    const mesh::ImportParameters& given = case_.anatomy.mesh.import;
+    rule(given.sheets.empty() || !given.fibres.empty(), "anatomy.mesh.sheets",
+         "says nothing without anatomy.mesh.fibres");
+    for (const char* name : {"fibres.helix_endo", "fibres.helix_epi"})
+      rule(given.fibres.empty() || case_.origin.count(name) == 0, name,
+           "says nothing beside anatomy.mesh.fibres, which brings the directions");
+    for (const char* name : {"fibres.sheet_endo", "fibres.sheet_epi"})
+      rule(given.sheets.empty() || case_.origin.count(name) == 0, name,
+           "says nothing beside anatomy.mesh.sheets, which brings the directions");
   }
 
   void check_strain_study() {
@@ -225,7 +240,7 @@ Case parse_case(const std::string& text, const std::filesystem::path& file) {
 }
 
 Case read_case(const std::filesystem::path& file) {
-  return parse_case(read_file(file), file);
+  return parse_case(read_text(file), file);
 }
 
 std::string starter_case(const std::string& name) {

@@ -5,6 +5,7 @@
 #include "lv/base/log.hpp"
 #include "lv/base/nearest.hpp"
 #include "lv/base/parallel.hpp"
+#include "lv/base/printable.hpp"
 #include "lv/base/table.hpp"
 #include "lv/base/units.hpp"
 #include "lv/bench/bench.hpp"
@@ -275,18 +276,18 @@ class Pipeline {
       return;
     const auto stage = static_cast<Stage>(s);
     if (stage == Stage::anatomy && std::filesystem::exists(folder(stage) / "quality.txt"))
-      fmt::print("\n{}\n", read_file(folder(stage) / "quality.txt"));
+      print(fmt::format("\n{}\n", read_file(folder(stage) / "quality.txt")));
     if (stage == Stage::calibrate)
-      fmt::print("\n{}\nparameters in {}\n\n", read_file(folder(stage) / "calibration.txt"),
-                 (folder(stage) / "calibrated.toml").string());
+      print(fmt::format("\n{}\nparameters in {}\n\n", read_file(folder(stage) / "calibration.txt"),
+                        (folder(stage) / "calibrated.toml").string()));
     if (stage == Stage::strain)
-      fmt::print("\n{}\nstrain in {}\n\n", read_file(folder(stage) / "strain.txt"),
-                 folder(stage).string());
+      print(fmt::format("\n{}\nstrain in {}\n\n", read_file(folder(stage) / "strain.txt"),
+                        folder(stage).string()));
     if (stage == Stage::results)
-      fmt::print("\n{}\nresults in {}\n", read_file(folder(stage) / "summary.txt"),
-                 folder(stage).string());
+      print(fmt::format("\n{}\nresults in {}\n", read_file(folder(stage) / "summary.txt"),
+                        folder(stage).string()));
     if (stage == Stage::report)
-      fmt::print("page: {}\n", (folder(stage) / "report.html").string());
+      print(fmt::format("page: {}\n", (folder(stage) / "report.html").string()));
   }
 
   const Case& case_;

@@ -36,6 +36,13 @@ std::vector<double> as_numbers(const std::vector<int>& whole) {
   return {whole.begin(), whole.end()};
 }
 
+std::vector<double> as_numbers(const std::vector<Vec3>& vectors) {
+  std::vector<double> numbers;
+  for (const Vec3& v : vectors)
+    numbers.insert(numbers.end(), v.begin(), v.end());
+  return numbers;
+}
+
 void store(const mesh::Surface& surface, const std::string& name, Archive& archive) {
   archive.set(name + ".nodes_per_face", {static_cast<double>(surface.nodes_per_face)});
   archive.set(name, as_numbers(surface.nodes));
@@ -69,6 +76,24 @@ std::vector<heartbeat::NamedMoment> load_whole_moments(const Archive& archive,
     if (std::none_of(moments.begin(), moments.end(), [&](const auto& m) { return m.name == name; }))
       archive.refuse(fmt::format("it holds a beat without {}", name));
   return moments;
+}
+
+void store(const mesh::GivenFibres& fibres, Archive& archive) {
+  archive.set("fibres.at_nodes", {fibres.at == mesh::GivenFibres::At::nodes ? 1.0 : 0.0});
+  archive.set("fibres.f0", as_numbers(fibres.f0));
+  archive.set("fibres.s0", as_numbers(fibres.s0));
+}
+
+mesh::GivenFibres load_fibres(const Archive& archive, const mesh::Mesh& m) {
+  using At = mesh::GivenFibres::At;
+  const At at = archive.number("fibres.at_nodes") == 0.0 ? At::cells : At::nodes;
+  const std::size_t count =
+      at == At::nodes ? m.nodes.size() : static_cast<std::size_t>(m.cell_count());
+  const auto load = [&](const char* name) {
+    return archive.get(name).empty() ? std::vector<Vec3>{}
+                                     : heartbeat::vectors(archive.get_rows(name, 3, count));
+  };
+  return {at, load("fibres.f0"), load("fibres.s0")};
 }
 
 analysis::FieldAnalysis field_analysis(const Case& c, const mesh::Mesh& m) {
@@ -289,11 +314,12 @@ void write_mesh_result(const MeshResult& result, const std::filesystem::path& fo
   Archive archive;
   archive.set("kind", {m.kind == mesh::CellKind::hexahedron ? 0.0 : 1.0});
   archive.set("order", {static_cast<double>(m.order)});
-  archive.set("nodes", {m.nodes.front().data(), m.nodes.front().data() + 3 * m.nodes.size()});
+  archive.set("nodes", as_numbers(m.nodes));
   archive.set("cells", as_numbers(m.cells));
   archive.set("transmural", m.transmural);
   archive.set("infarct", m.infarct);
   archive.set("infarcted", result.infarcted);
+  store(m.fibres, archive);
   store(m.endo, "endo", archive);
   store(m.epi, "epi", archive);
   store(m.base, "base", archive);
@@ -342,6 +368,7 @@ MeshResult read_mesh_result(const std::filesystem::path& folder) {
   m.epi = load_surface(archive, "epi", nodes);
   m.base = load_surface(archive, "base", nodes);
   const auto cells = static_cast<std::size_t>(m.cell_count());
+  m.fibres = load_fibres(archive, m);
   result.infarcted = archive.get_rows("infarcted", 1, cells, part);
   result.regions = {archive.get_whole("slice", cells, {1.0, mesh::slice_count}),
                     archive.get_whole("sector", cells, {1.0, mesh::sectors_of_slice(1)}),

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <optional>
 
@@ -24,16 +23,6 @@ std::string lower_case(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
-}
-
-template <class Number>
-std::optional<Number> parse(const std::string& text) {
-  Number value{};
-  const char* end = text.data() + text.size();
-  const auto result = std::from_chars(text.data(), end, value);
-  if (result.ec != std::errc() || result.ptr != end)
-    return {};
-  return value;
 }
 
 /// One file, line by line.
@@ -83,7 +72,7 @@ class StrainFile {
       throw InputError(lines_.where(), fmt::format("has {} values instead of 3", fields_.size()),
                        columns_rule);
     StrainTarget target = lower_case(fields_[0]) == "aha" ? aha_segment() : sector();
-    const auto strain = parse<double>(fields_[2]);
+    const auto strain = number_of<double>(fields_[2]);
     if (!strain || !(*strain > least_) || !(*strain < 2.0))
       throw InputError(
           lines_.where(),
@@ -98,7 +87,7 @@ class StrainFile {
   }
 
   StrainTarget aha_segment() {
-    const auto number = parse<int>(fields_[1]);
+    const auto number = number_of<int>(fields_[1]);
     if (!number || *number < 1 || *number > 17)
       throw InputError(lines_.where(), fmt::format("segment \"{}\" is not of 1 to 17", fields_[1]),
                        "The segments of the American Heart Association are numbered 1 to 17");
@@ -110,7 +99,7 @@ class StrainFile {
   }
 
   StrainTarget sector() {
-    const auto slice = parse<int>(fields_[0]);
+    const auto slice = number_of<int>(fields_[0]);
     if (!slice || *slice < 1 || *slice > mesh::slice_count)
       throw InputError(lines_.where(),
                        fmt::format("slice \"{}\" is neither 1 to 7 nor aha", fields_[0]),

@@ -6,6 +6,7 @@
 #include "lv/base/parallel.hpp"
 #include "lv/base/table.hpp"
 #include "lv/base/units.hpp"
+#include "lv/mesh/fibres.hpp"
 #include "lv/mesh/quality.hpp"
 #include "lv/solid/endocardial_surface.hpp"
 #include "lv/solid/interpolate.hpp"
@@ -122,8 +123,9 @@ void make_unloading(const Case& c, const MeshResult& seen, const mesh::Mesh& ele
                             }})
           .value();
   MeshResult result = seen;
-  result.mesh.nodes =
-      c.engine == Engine::quasi_static ? unloaded.nodes : carried(elements, unloaded, seen.mesh);
+  result.mesh = mesh::with_nodes(seen.mesh, c.engine == Engine::quasi_static
+                                                ? unloaded.nodes
+                                                : carried(elements, unloaded, seen.mesh));
   check_elements(result.mesh);
   if (parallel::is_root()) {
     write_mesh_result(result, folder);

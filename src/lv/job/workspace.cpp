@@ -1,6 +1,7 @@
 #include "lv/job/workspace.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/files.hpp"
 #include "lv/base/log.hpp"
 #include "lv/base/table.hpp"
 #include "lv/job/parameters.hpp"
@@ -29,7 +30,7 @@ std::string checksum(const std::string& text) {
 
 /// The recorded ingredients of a folder; empty when there is no readable record.
 Ingredients recorded(const std::filesystem::path& folder) {
-  if (!why_unreadable(folder / record_name).empty())
+  if (!unreadable(folder / record_name).empty())
     return {};
   std::ifstream in(folder / record_name);
   const auto json = nlohmann::json::parse(in, nullptr, false);
@@ -88,7 +89,7 @@ std::string fingerprint(const Ingredients& ingredients) {
 }
 
 std::string fingerprint_of_file(const std::filesystem::path& file) {
-  return why_unreadable(file).empty() ? checksum(read_file(file)) : "absent";
+  return unreadable(file).empty() ? checksum(read_file(file)) : "absent";
 }
 
 StageFolder::StageFolder(const std::filesystem::path& work, const std::string& name,

@@ -1,25 +1,18 @@
 #include "lv/mesh/abaqus_blocks.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/lines.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <fstream>
 
 namespace lv::mesh {
 namespace {
 
 constexpr int deepest_include = 10;
-
-std::string_view trim(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos)
-    return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
 
 std::string_view unquote(std::string_view text) {
   const bool quoted = text.size() >= 2 && text.front() == '"' && text.back() == '"';
@@ -44,10 +37,10 @@ AbaqusBlock parse_keyword(const std::string& text, FileLine at) {
     block.keyword = single_blanks(upper_case(fields.front()));
   for (std::size_t i = 1; i < fields.size(); ++i) {
     const auto equals = fields[i].find('=');
-    const std::string name = upper_case(trim(fields[i].substr(0, equals)));
+    const std::string name = upper_case(trimmed(fields[i].substr(0, equals)));
     const bool valued = equals != std::string_view::npos;
     // a path keeps its letters
-    const std::string_view value = valued ? unquote(trim(fields[i].substr(equals + 1))) : "";
+    const std::string_view value = valued ? unquote(trimmed(fields[i].substr(equals + 1))) : "";
     block.options[name] = name == "INPUT" ? std::string(value) : upper_case(value);
   }
   return block;
@@ -62,32 +55,27 @@ class BlockReader {
 
  private:
   void read_file(const std::string& path, int depth) {
-    std::ifstream stream;
-    if (std::filesystem::is_regular_file(path))  // a device never ends
-      stream.open(path);
-    if (!stream.is_open())
+    LineReader lines(path);
+    if (!lines.is_open())
       throw InputError(path, "cannot be opened", "Check the name and the permission to read");
     const int file = static_cast<int>(result_.files.size());
     result_.files.push_back(path);
-    std::string line;
-    for (int number = 1; std::getline(stream, line); ++number) {
-      const std::string_view text = trim(line);
-      const FileLine at{file, number};
-      if (text.empty() || text.starts_with("**"))
+    while (lines.next()) {
+      const std::string_view text = trimmed(lines.text());
+      const FileLine at{file, lines.number()};
+      if (text.starts_with("**"))
         continue;
       if (text.front() == '*')
-        read_keyword(stream, std::string(text), at, number, depth);
+        read_keyword(lines, at, depth);
       else
         add_data(at, text);
     }
   }
 
-  void read_keyword(std::istream& stream, std::string text, FileLine at, int& number, int depth) {
-    std::string line;
-    while (text.back() == ',' && std::getline(stream, line)) {
-      ++number;
-      text += trim(line);
-    }
+  void read_keyword(LineReader& lines, FileLine at, int depth) {
+    std::string text(trimmed(lines.text()));
+    while (text.back() == ',' && lines.next())
+      text += trimmed(lines.text());
     AbaqusBlock block = parse_keyword(text, at);
     if (block.keyword == "INCLUDE")
       include(block, depth);
@@ -126,13 +114,8 @@ AbaqusFile read_abaqus_blocks(const std::string& file) {
 }
 
 std::vector<std::string_view> abaqus_fields(std::string_view line) {
-  std::vector<std::string_view> fields;
-  for (std::size_t from = 0; from <= line.size();) {
-    const std::size_t to = std::min(line.find(',', from), line.size());
-    fields.push_back(trim(line.substr(from, to - from)));
-    from = to + 1;
-  }
-  if (!fields.empty() && fields.back().empty())
+  std::vector<std::string_view> fields = fields_of(line, ',');
+  if (fields.back().empty())
     fields.pop_back();
   return fields;
 }

@@ -1,14 +1,15 @@
 #include "lv/mesh/abaqus_model.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/lines.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <optional>
 #include <set>
+#include <utility>
 
 namespace lv::mesh {
 namespace {
@@ -19,28 +20,19 @@ using Use = AbaqusElementType::Use;
 constexpr std::size_t most_members = 20'000'000;  // of all sets together
 constexpr int most_nodes = 27;                    // of an element
 
-template <class T>
-std::optional<T> parse(std::string_view field) {
-  if (field.starts_with('+'))
-    field.remove_prefix(1);
-  T value{};
-  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-  if (error != std::errc() || end != field.data() + field.size())
-    return {};
-  return value;
-}
-
-std::string volume_shape(int nodes) {
-  static const std::map<int, std::string> shapes{{4, tetrahedron_name},
-                                                 {5, "pyramid"},
-                                                 {6, "wedge"},
-                                                 {8, hexahedron_name},
-                                                 {10, "quadratic tetrahedron"},
-                                                 {15, "quadratic wedge"},
-                                                 {20, "quadratic hexahedron"},
-                                                 {27, "quadratic hexahedron"}};
+AbaqusElementType volume_type(int nodes) {
+  struct Shape {
+    std::string name;
+    int corners;
+  };
+  static const std::map<int, Shape> shapes{
+      {4, {tetrahedron_name, 4}}, {5, {"pyramid", 5}},         {6, {"wedge", 6}},
+      {8, {hexahedron_name, 8}},  {10, {tetrahedron_name, 4}}, {15, {"quadratic wedge", 6}},
+      {20, {hexahedron_name, 8}}, {27, {hexahedron_name, 8}}};
   const auto found = shapes.find(nodes);
-  return found == shapes.end() ? fmt::format("solid of {} nodes", nodes) : found->second;
+  if (found == shapes.end())
+    return {Use::volume, nodes, fmt::format("solid of {} nodes", nodes), nodes};
+  return {Use::volume, nodes, found->second.name, found->second.corners};
 }
 
 /// The number that follows `prefix` in an element type's name: 8 in C3D8R.
@@ -48,7 +40,7 @@ std::optional<int> digits_after(std::string_view type, std::string_view prefix) 
   if (!type.starts_with(prefix))
     return {};
   type.remove_prefix(prefix.size());
-  const auto nodes = parse<int>(type.substr(0, type.find_first_not_of("0123456789")));
+  const auto nodes = number_of<int>(type.substr(0, type.find_first_not_of("0123456789")));
   return nodes && *nodes <= most_nodes ? nodes : std::nullopt;
 }
 
@@ -63,14 +55,16 @@ bool has_no_volume(const std::string& type) {
 AbaqusElementType element_type(const std::string& type) {
   for (const std::string_view prefix : {"C3D", "DC3D", "AC3D"})
     if (const auto nodes = digits_after(type, prefix))
-      return {Use::volume, *nodes, volume_shape(*nodes)};
+      return volume_type(*nodes);
+  if (type.starts_with("STRI65"))
+    return {Use::surface, 6, "", 3};
   for (const std::string_view prefix :
        {"S", "STRI", "M3D", "SFM3D", "R3D", "CPS", "CPE", "DS", "F3D"})
-    if (const auto nodes = digits_after(type, prefix); nodes == 3 || nodes == 4)
-      return {Use::surface, *nodes, ""};
+    if (const auto nodes = digits_after(type, prefix); nodes && *nodes >= 3 && *nodes <= 9)
+      return {Use::surface, *nodes, "", *nodes == 3 || *nodes == 6 ? 3 : 4};
   if (has_no_volume(type))
     return {};
-  return {Use::volume, 0, "unknown type " + type};
+  return {Use::volume, 0, "unknown type " + type, 0};
 }
 
 class ModelReader {
@@ -103,8 +97,18 @@ class ModelReader {
       read_set(block, model_.element_sets, block.option("ELSET"));
     else if (block.keyword == "SURFACE")
       read_surface(block);
+    else if (block.keyword == "ORIENTATION" || block.keyword == "DISTRIBUTION")
+      note_orientation(block);
     else
       refuse_generated(block);
+  }
+
+  void note_orientation(const AbaqusBlock& block) {
+    if (!std::exchange(is_oriented_, true))
+      model_.notes.push_back(fmt::format(
+          "*{} in line {}, which may hold fibres, is not read: they follow the rule of [fibres], "
+          "or come with a .vtu file",
+          block.keyword, block.at.number));
   }
 
   /// True if the block only opens or closes a part, the assembly or an instance.
@@ -160,7 +164,7 @@ class ModelReader {
                   "The file seems to be truncated or damaged");
     AbaqusModel::Node node{whole_number(fields[0], line.at), Vec3::Zero(), line.at};
     for (int d = 0; d < 3; ++d) {
-      const auto x = parse<double>(fields[1 + d]);
+      const auto x = number_of<double>(fields[1 + d]);
       if (!x)
         model_.fail(line.at, fmt::format("\"{}\" is not a coordinate", fields[1 + d]),
                     "The file seems to be damaged");
@@ -201,7 +205,7 @@ class ModelReader {
                     "Correct the type or the list of nodes");
       if (missing == 0) {
         element.number = numbers[0];
-        element.nodes.assign(numbers.begin() + 1, numbers.end());
+        element.nodes.assign(numbers.begin() + 1, numbers.begin() + 1 + type.corners);
         add_element(element, block.option("ELSET"));
         numbers.clear();
       }
@@ -219,14 +223,16 @@ class ModelReader {
     if (!added)
       fail_repeated(element.at, "element", element.number, model_.elements[entry->second].at);
     model_.elements.push_back(element);
-    if (element.type.use == Use::volume)
+    if (element.type.use == Use::volume) {
       ++model_.volume_shapes[element.type.shape];
+      model_.quadratic += element.type.nodes > element.type.corners ? 1 : 0;
+    }
     if (!set.empty())
       model_.element_sets[set].push_back(element.number);
   }
 
   [[nodiscard]] Number whole_number(std::string_view field, FileLine at) const {
-    const auto number = parse<Number>(field);
+    const auto number = number_of<Number>(field);
     if (!number)
       model_.fail(at, fmt::format("\"{}\" is not a whole number", field),
                   "The file seems to be truncated or damaged");
@@ -305,6 +311,7 @@ class ModelReader {
   Scope scope_ = Scope::model;
   FileLine part_at_;
   std::size_t members_ = 0;  ///< of all sets so far
+  bool is_oriented_ = false;
 };
 
 }  // namespace
@@ -312,7 +319,7 @@ class ModelReader {
 std::vector<Number> AbaqusModel::members(const Sets& sets, const std::string& name,
                                          FileLine at) const {
   const std::string own = upper_case(name.substr(name.rfind('.') + 1));
-  if (const auto number = parse<Number>(own))
+  if (const auto number = number_of<Number>(own))
     return {*number};
   const auto found = sets.find(own);
   if (found == sets.end())

@@ -19,6 +19,7 @@ struct AbaqusElementType {
   } use = Use::other;
   int nodes = 0;      ///< 0 if not known
   std::string shape;  ///< of volume elements, in words
+  int corners = 0;    ///< the first of its nodes; the others lie between them and are not kept
 };
 
 /// The nodes, elements, sets and surfaces of an ABAQUS input file, by the file's own numbers and by
@@ -55,6 +56,7 @@ struct AbaqusModel {
   Sets node_sets, element_sets;
   std::map<std::string, Surface> surfaces;
   std::map<std::string, int> volume_shapes;  ///< how many volume elements of each shape
+  int quadratic = 0;                         ///< how many of those of more nodes than corners
   std::vector<std::string> notes;
 
   /// The number itself, or the members of the set of that name, with or without an instance's name

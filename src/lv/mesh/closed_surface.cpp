@@ -1,22 +1,19 @@
 #include "lv/mesh/closed_surface.hpp"
 
 #include "lv/base/check.hpp"
-#include "lv/mesh/vtk_file.hpp"
+#include "lv/base/log.hpp"
+#include "lv/mesh/polygons.hpp"
+#include "lv/mesh/stated_space.hpp"
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 #include <vtkCellArray.h>
 #include <vtkIdList.h>
 #include <vtkNew.h>
-#include <vtkPLYReader.h>
 #include <vtkPolyData.h>
-#include <vtkPolyDataReader.h>
-#include <vtkSTLReader.h>
 #include <vtkSmartPointer.h>
-#include <vtkXMLPolyDataReader.h>
 
 #include <cmath>
-#include <filesystem>
 #include <map>
 #include <numbers>
 
@@ -54,36 +51,6 @@ void check_closed(const std::vector<Vec3>& nodes, const Surface& triangles,
                   "side, the first at ({:.4g}, {:.4g}, {:.4g}) mm",
                   balance.size(), first.x(), first.y(), first.z()),
       "Close the holes, and turn all normals outwards, in the program that made the surface");
-}
-
-template <class Reader>
-vtkSmartPointer<vtkPolyData> read_with(const std::string& file) {
-  vtkNew<Reader> reader;
-  reader->SetFileName(file.c_str());
-  reader->Update();
-  return reader->GetOutput();
-}
-
-vtkSmartPointer<vtkPolyData> read_polygons(const std::string& file) {
-  const std::string ending = std::filesystem::path(file).extension().string();
-  if (!std::filesystem::is_regular_file(file))
-    throw InputError(file, "there is no such file", "Check the name of the surface");
-  const auto polygons = read_by_vtk(file, [&] {
-    if (ending == ".stl")
-      return read_with<vtkSTLReader>(file);
-    if (ending == ".ply")
-      return read_with<vtkPLYReader>(file);
-    if (ending == ".vtp")
-      return read_with<vtkXMLPolyDataReader>(file);
-    if (ending == ".vtk") {
-      check_legacy_cells(file);
-      return read_with<vtkPolyDataReader>(file);
-    }
-    throw InputError(file, fmt::format("has the unknown ending \"{}\"", ending),
-                     "Surfaces are read from .stl, .ply, .vtp and .vtk (polygons)");
-  });
-  check_cells(file, polygons->GetPolys(), polygons->GetNumberOfPoints());
-  return polygons;
 }
 
 /// The number of each point, the same for points in the same place.
@@ -126,6 +93,10 @@ bool ClosedSurface::contains(const Vec3& x) const {
 
 ClosedSurface read_closed_surface(const std::string& file, double unit) {
   const auto polygons = read_polygons(file);
+  const bool in_ras = says_ras(file, *polygons);
+  if (in_ras)
+    log::info("{} says SPACE=RAS: x and y change their signs", file);
+  const Vec3 scale = unit * (in_ras ? ras_to_lps : Vec3(Vec3::Ones()));
   PointNumbers number;
   Surface triangles{.nodes_per_face = 3, .nodes = {}};
   vtkCellArray& polys = *polygons->GetPolys();
@@ -134,7 +105,7 @@ ClosedSurface read_closed_surface(const std::string& file, double unit) {
     polys.GetCellAtId(p, corners);
     std::vector<int> n;
     for (vtkIdType i = 0; i < corners->GetNumberOfIds(); ++i) {
-      const Vec3 x = unit * Vec3(polygons->GetPoint(corners->GetId(i)));
+      const Vec3 x = scale.cwiseProduct(Vec3(polygons->GetPoint(corners->GetId(i))));
       if (!x.allFinite())
         throw InputError(file, fmt::format("point {} is not a place", corners->GetId(i)),
                          "Repair the coordinates in the file");

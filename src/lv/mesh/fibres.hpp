@@ -4,6 +4,7 @@
 #include "lv/base/units.hpp"
 #include "lv/mesh/mesh.hpp"
 
+#include <span>
 #include <vector>
 
 namespace lv::mesh {
@@ -46,6 +47,29 @@ struct FibreRule {
 
 /// The fibre frame at transmural position t: columns f0, s0, n0.
 [[nodiscard]] Mat3 fibre_frame(const FibreRule& rule, const WallAxes& axes, double t);
+
+/// A point of a cell of the wall.
+struct WallPoint {
+  int cell = 0;
+  std::span<const int> nodes;   ///< of the element that is interpolated in
+  std::span<const double> phi;  ///< its shapes' values
+  WallAxes axes;
+  double t = 0.0;  ///< transmural coordinate
+};
+
+/// The fibre frame at a point: the directions that the mesh brings, if it does, else the rule's.
+/// Directions at nodes are interpolated as lines, whose sign does not count: the mean is the
+/// principal direction of sum phi_a f_a (x) f_a. Without sheets of its own the mesh's fibres get
+/// the rule's.
+[[nodiscard]] Mat3 fibre_frame(const Mesh& mesh, const FibreRule& rule, const WallPoint& point);
+
+/// The principal direction of the sum of w_i d_i (x) d_i; of one direction, that direction.
+[[nodiscard]] Vec3 mean_direction(std::span<const Vec3> directions,
+                                  std::span<const double> weights);
+
+/// The mesh with its nodes elsewhere: the same muscle, so that the directions which it brings turn
+/// with it (f = F f0/|F f0|, F the mean deformation gradient of the cell, or of those at the node).
+[[nodiscard]] Mesh with_nodes(const Mesh& mesh, std::vector<Vec3> nodes);
 
 /// The helix angle of a direction in the paper's sign, in (-pi/2, pi/2].
 [[nodiscard]] double helix_angle(const Vec3& f0, const WallAxes& axes);

@@ -1,6 +1,7 @@
 #include "lv/mesh/foreign_mesh.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/ending.hpp"
 #include "lv/base/nearest.hpp"
 #include "lv/mesh/cell.hpp"
 
@@ -22,6 +23,20 @@ std::string list(std::vector<std::string> names) {
 
 }  // namespace
 
+void ForeignMesh::note_quadratic(int elements) {
+  if (elements > 0)
+    notes.push_back(fmt::format(
+        "{} quadratic elements were read by their corners: curved edges became straight",
+        elements));
+}
+
+void ForeignMesh::note_fields(bool has_fields) {
+  if (has_fields)
+    notes.emplace_back(
+        "the file's data at nodes or in elements is not read: fibres follow the rule of [fibres], "
+        "or come with a .vtu file");
+}
+
 std::string ForeignMesh::where_node(int node) const {
   return node_lines.empty() ? files.front() : format_line(files, node_lines[node]);
 }
@@ -39,12 +54,23 @@ std::string ForeignMesh::name_cell(int cell) const {
 }
 
 std::string ForeignMesh::format_place(const Vec3& place) const {
-  const Vec3 x = place / unit;
+  const Vec3 x = place.cwiseQuotient(scale);
   return fmt::format("({:.4g}, {:.4g}, {:.4g})", x.x(), x.y(), x.z());
 }
 
 std::string format_line(const std::vector<std::string>& files, FileLine line) {
   return fmt::format("{}:{}", files[line.file], line.number);
+}
+
+bool names_file(const std::string& name) {
+  const std::string ending = ending_of(name);
+  return ending == ".vtp" || ending == ".vtk" || ending == ".vtu";
+}
+
+std::string gmsh_shape(const std::string& name) {
+  return name.starts_with("Hexahedron ")    ? hexahedron_name
+         : name.starts_with("Tetrahedron ") ? tetrahedron_name
+                                            : name;
 }
 
 std::array<std::string, 3> side_tags(const ImportParameters& parameters) {
@@ -62,11 +88,10 @@ CellKind only_kind(const std::string& file, const std::map<std::string, int>& co
   std::vector<std::string> found;
   for (const auto& [shape, count] : counts)
     found.push_back(fmt::format("{} of shape {}", count, shape));
-  throw InputError(
-      file,
-      fmt::format("holds volume cells that cannot be used{}: {}",
-                  counts.size() > 1 ? " together" : "", fmt::join(found, ", ")),
-      "Mesh the whole wall with hexahedra of 8 nodes, or the whole wall with tetrahedra of 4");
+  throw InputError(file,
+                   fmt::format("holds volume cells that cannot be used{}: {}",
+                               counts.size() > 1 ? " together" : "", fmt::join(found, ", ")),
+                   "Mesh the whole wall with hexahedra, or the whole wall with tetrahedra");
 }
 
 void fail_missing_tag(const std::string& file, const std::string& what, const std::string& tag,

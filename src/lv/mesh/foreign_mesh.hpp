@@ -26,14 +26,19 @@ struct ForeignSide {
 
 /// A mesh as a file has it, unchecked and in the file's place.
 struct ForeignMesh {
-  Mesh mesh;          ///< kind, nodes, cells, and M(X) if the file has it
-  double unit = 1.0;  ///< length of the file's unit, by which the nodes have been scaled
+  Mesh mesh;                       ///< kind, nodes, cells, and M(X) if the file has it
+  bool in_ras = false;             ///< the file says that it is (stated_space.hpp)
+  Vec3 scale{1, 1, 1};             ///< by which the file's coordinates have been multiplied
   std::vector<ForeignSide> sides;  ///< endocardium, epicardium, base; none if found by geometry
   std::vector<bool> infarcted;     ///< per cell; empty if no set of infarcted cells was asked for
   std::vector<std::int64_t> node_numbers, cell_numbers;  ///< as the file counts
   std::vector<std::string> files;                        ///< the file and those it includes
   std::vector<FileLine> node_lines, cell_lines;          ///< empty where the reader knows none
   std::vector<std::string> notes;                        ///< what the user should know
+
+  /// Notes that elements have been read by their corners, if any; that a Gmsh file has fields.
+  void note_quadratic(int elements);
+  void note_fields(bool has_fields);
 
   /// "file:line" of a node or cell, or the file alone.
   [[nodiscard]] std::string where_node(int node) const;
@@ -50,12 +55,18 @@ struct ForeignMesh {
 /// "file:line"
 [[nodiscard]] std::string format_line(const std::vector<std::string>& files, FileLine line);
 
+/// Whether a side's tag or the name of fibres is that of a file beside the mesh's (.vtp, .vtk,
+/// .vtu), not of something in it.
+[[nodiscard]] bool names_file(const std::string& name);
+
+/// The name of a shape of Gmsh's ("Hexahedron 20") as only_kind knows it.
+[[nodiscard]] std::string gmsh_shape(const std::string& name);
+
 /// The tags of endocardium, epicardium and base, in this order.
 [[nodiscard]] std::array<std::string, 3> side_tags(const ImportParameters& parameters);
 
 /// The kind of all volume cells, from the counts of each shape. Throws InputError if there are
-/// none, several, or others than hexahedra of 8 and tetrahedra of 4 nodes, which count under these
-/// names.
+/// none, several, or others than hexahedra and tetrahedra, which count under these names.
 inline constexpr const char* hexahedron_name = "hexahedron";
 inline constexpr const char* tetrahedron_name = "tetrahedron";
 [[nodiscard]] CellKind only_kind(const std::string& file, const std::map<std::string, int>& counts);

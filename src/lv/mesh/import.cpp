@@ -1,19 +1,21 @@
 #include "lv/mesh/import.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/ending.hpp"
 #include "lv/mesh/cell.hpp"
+#include "lv/mesh/foreign_fibres.hpp"
 #include "lv/mesh/foreign_mesh.hpp"
 #include "lv/mesh/read_abaqus.hpp"
 #include "lv/mesh/read_gmsh.hpp"
 #include "lv/mesh/read_vtk.hpp"
 #include "lv/mesh/sides.hpp"
+#include "lv/mesh/stated_space.hpp"
 #include "lv/mesh/transmural.hpp"
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <numeric>
@@ -28,13 +30,15 @@ ForeignMesh read(const ImportParameters& parameters) {
   const std::filesystem::path path(parameters.file);
   if (!std::filesystem::is_regular_file(path))
     throw InputError(parameters.file, "there is no such file", "Check the name of the mesh");
-  std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (ending == ".inp")
-    return read_abaqus(parameters);
+  const std::string ending = ending_of(path);
   if (ending == ".vtk" || ending == ".vtu")
     return read_vtk(parameters);
+  if (!parameters.fibres.empty() && (ending == ".inp" || ending == ".msh"))
+    throw InputError(parameters.file, "is no file that fibres are read from",
+                     "Convert it to .vtu with the fibres as an array, or leave anatomy.mesh.fibres "
+                     "out: they follow the rule of [fibres]");
+  if (ending == ".inp")
+    return read_abaqus(parameters);
   if (ending == ".msh")
     return read_gmsh(parameters);
   throw InputError(parameters.file, fmt::format("has the unknown ending \"{}\"", ending),
@@ -63,6 +67,10 @@ void drop_unused_nodes(ForeignMesh& foreign) {
   };
   keep(mesh.nodes);
   keep(mesh.infarct);
+  if (mesh.fibres.at == GivenFibres::At::nodes) {
+    keep(mesh.fibres.f0);
+    keep(mesh.fibres.s0);
+  }
   keep(foreign.node_numbers);
   keep(foreign.node_lines);
   for (int& node : mesh.cells)
@@ -90,6 +98,19 @@ void check_coordinates(const ForeignMesh& foreign) {
       throw InputError(foreign.where_node(node),
                        fmt::format("{} is not a place", foreign.name_node(node)),
                        "Repair the coordinates in the file");
+}
+
+/// From the file's unit and space to millimetres in LPS.
+void scale(ForeignMesh& foreign, double unit) {
+  const Vec3 signs = foreign.in_ras ? ras_to_lps : Vec3(Vec3::Ones());
+  foreign.scale = unit * signs;
+  for (Vec3& X : foreign.mesh.nodes)
+    X = X.cwiseProduct(foreign.scale);
+  for (std::vector<Vec3>* directions : {&foreign.mesh.fibres.f0, &foreign.mesh.fibres.s0})
+    for (Vec3& direction : *directions)
+      direction = direction.cwiseProduct(signs);
+  if (foreign.in_ras)
+    foreign.notes.emplace_back("the file says SPACE=RAS: x and y change their signs");
 }
 
 double extent(const std::vector<Vec3>& nodes) {
@@ -325,6 +346,9 @@ ImportedMesh to_model(ForeignMesh&& foreign, const Sides& sides, const Plane& ba
   imported.mesh = std::move(foreign.mesh);
   for (Vec3& X : imported.mesh.nodes)
     X = imported.frame.to_model(X);
+  for (std::vector<Vec3>* directions : {&imported.mesh.fibres.f0, &imported.mesh.fibres.s0})
+    for (Vec3& direction : *directions)
+      direction = imported.frame.axes.transpose() * direction;
   std::tie(imported.mesh.endo, imported.mesh.epi, imported.mesh.base) =
       std::tie(sides[0], sides[1], sides[2]);
   for (const int node : sides[2].nodes)
@@ -343,9 +367,8 @@ ImportedMesh import_mesh(const ImportParameters& parameters) {
   ForeignMesh foreign = read(parameters);
   drop_unused_nodes(foreign);
   check_coordinates(foreign);
-  foreign.unit = parameters.unit;
-  for (Vec3& X : foreign.mesh.nodes)
-    X *= parameters.unit;
+  scale(foreign, parameters.unit);
+  make_orthonormal(foreign);
   check_extent(foreign, parameters);
   check_infarct(foreign);
   check_cells(foreign);

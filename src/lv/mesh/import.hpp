@@ -25,12 +25,14 @@ struct ImportedMesh {
   std::vector<std::string> notes;          ///< what was changed on the way, for the log
 };
 
-/// Reads a mesh of the wall made elsewhere. Nodes that no cell uses are dropped, the order of nodes
-/// is mirrored if all cells are inverted, and the base's nodes are moved onto their plane.
+/// Reads a mesh of the wall made elsewhere. Quadratic elements are read by their corners, a file
+/// that says SPACE=RAS is turned to LPS, directions of fibres are made orthonormal. Nodes that no
+/// cell uses are dropped, the order of nodes is mirrored if all cells are inverted, and the base's
+/// nodes are moved onto their plane.
 ///
 /// Throws InputError where the file cannot be read or the mesh cannot be used: other cells than
 /// hexahedra or tetrahedra, missing tags, sides that overlap or leave gaps, inverted or collapsed
-/// cells, cracks, a base that is not plane, a size that no ventricle has.
+/// cells, cracks, a base that is not plane, a size that no ventricle has, fibres without direction.
 [[nodiscard]] ImportedMesh import_mesh(const ImportParameters& parameters);
 
 }  // namespace lv::mesh

@@ -1,9 +1,11 @@
 #include "lv/mesh/label_volume.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/ending.hpp"
 #include "lv/base/files.hpp"
 #include "lv/base/formats.hpp"
 #include "lv/mesh/foreign_mesh.hpp"
+#include "lv/mesh/stated_space.hpp"
 #include "lv/mesh/vtk_file.hpp"
 
 #include <fmt/format.h>
@@ -46,14 +48,6 @@ vtkSmartPointer<vtkImageData> read_xml(const std::string& file) {
   return reader->GetOutput();
 }
 
-/// The ending of a file's name in small letters.
-std::string ending_of(const std::string& file) {
-  std::string ending = std::filesystem::path(file).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
-}
-
 vtkSmartPointer<vtkImageData> read_image(const std::string& file) {
   require_readable(file, "Check the name of the labelled volume");
   const std::string ending = ending_of(file);
@@ -92,11 +86,11 @@ struct LabelVolume::Image {
   vtkSmartPointer<vtkImageData> data;
   vtkDataArray* labels;
   bool in_cells;
-  double unit;
+  Vec3 scale;  ///< from the file's coordinates to millimetres in LPS
 
   /// The number of the voxel that holds x; -1 outside.
   [[nodiscard]] vtkIdType voxel_at(const Vec3& x) const {
-    const Vec3 in_file = x / unit;
+    const Vec3 in_file = x.cwiseQuotient(scale);
     std::array<double, 3> place{};  // counted in voxels
     data->TransformPhysicalPointToContinuousIndex(in_file.data(), place.data());
     const int* extent = data->GetExtent();
@@ -115,7 +109,7 @@ struct LabelVolume::Image {
 LabelVolume::LabelVolume(const std::string& file, const std::string& array, double unit)
     : image_(std::make_unique<Image>()) {
   image_->data = read_image(file);
-  image_->unit = unit;
+  image_->scale = unit * (says_ras(file, *image_->data) ? ras_to_lps : Vec3(Vec3::Ones()));
   const std::string name = chosen_array(file, *image_->data, array);
   image_->labels = image_->data->GetPointData()->GetArray(name.c_str());
   image_->in_cells = image_->labels == nullptr;
@@ -159,7 +153,8 @@ bool LabelVolume::has(const Vec3& x, const std::vector<int>& labels) const {
 
 Eigen::AlignedBox3d LabelVolume::box() const {
   const double* b = image_->data->GetBounds();
-  return {image_->unit * Vec3(b[0], b[2], b[4]), image_->unit * Vec3(b[1], b[3], b[5])};
+  return bounds(std::array{image_->scale.cwiseProduct(Vec3(b[0], b[2], b[4])).eval(),
+                           image_->scale.cwiseProduct(Vec3(b[1], b[3], b[5])).eval()});
 }
 
 }  // namespace lv::mesh

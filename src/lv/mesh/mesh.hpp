@@ -30,6 +30,14 @@ struct Surface {
   }
 };
 
+/// Directions of the muscle that a file brings: unit vectors, whose signs mean nothing.
+struct GivenFibres {
+  /// Where they stand: one for each cell, or one for each node, between which they turn evenly.
+  enum class At { cells, nodes } at = At::cells;
+  std::vector<Vec3> f0;  ///< along the fibres; empty: fibres and sheets follow a rule
+  std::vector<Vec3> s0;  ///< across the fibres in the sheets; empty: sheets follow a rule
+};
+
 /// The wall of the left ventricle at early diastole in the model frame: z along the long axis, the
 /// base in the plane z = 0, the apex at negative z [mm].
 struct Mesh {
@@ -43,6 +51,7 @@ struct Mesh {
   int order = 1;
   std::vector<double> transmural;  ///< per node: 0 on the endocardium, 1 on the epicardium
   std::vector<double> infarct;     ///< per node: M(X) of (2.11), 0 in healthy muscle
+  GivenFibres fibres;
 
   [[nodiscard]] int cell_count() const {
     return static_cast<int>(cells.size()) / nodes_per_cell(kind);

@@ -31,20 +31,25 @@ enum class SideSource {
 /// What a tag is depends on the file. Gmsh: the name or number of a physical surface. ABAQUS: the
 /// name of a *Surface, of an *Elset of surface elements, or of an *Nset. VTK: with `side_array`, a
 /// number in that cell-data array on the triangles and quadrilaterals stored beside the volume
-/// cells; without, the name of a point array that is 1 on the side's nodes and 0 elsewhere. A face
-/// belongs to a set of nodes if all its nodes do.
+/// cells; without, the name of a point array that is 1 on the side's nodes and 0 elsewhere; or the
+/// .vtp file of the side's surface, as SimVascular writes it. A face belongs to a set of nodes if
+/// all its nodes do; if that makes it part of the base and of another side, it is base.
 struct ImportParameters {
   std::string file;   ///< .inp (ABAQUS), .msh (Gmsh 2.2 or 4.1), .vtk or .vtu
   double unit = 1.0;  ///< length of the file's unit [mm]
   SideSource sides = SideSource::tags;
-  std::string endo = "endo";    ///< tag of the endocardium
-  std::string epi = "epi";      ///< tag of the epicardium
-  std::string base = "base";    ///< tag of the base
-  std::string side_array;       ///< VTK: cell-data array with the sides' numbers
-  std::string infarct_array;    ///< VTK: point array of M(X); empty: "infarct", if the file has it
-  std::string infarct_set;      ///< infarcted elements: an ABAQUS *Elset, the name or number of a
-                                ///< Gmsh physical volume, a VTK cell array that is 1 on them and 0
-                                ///< elsewhere; empty: none are asked for
+  std::string endo = "endo";  ///< tag of the endocardium
+  std::string epi = "epi";    ///< tag of the epicardium
+  std::string base = "base";  ///< tag of the base
+  std::string side_array;     ///< VTK: cell-data array with the sides' numbers
+  std::string infarct_array;  ///< VTK: point array of M(X); empty: "infarct", if the file has it
+  std::string infarct_set;    ///< infarcted elements: an ABAQUS *Elset, the name or number of a
+                              ///< Gmsh physical volume, a VTK cell array that is 1 on them and 0
+                              ///< elsewhere; empty: none are asked for
+  /// VTK: the array, at cells or points, of the fibres' directions (empty: they follow a rule) and
+  /// of the sheets'; or a .vtk or .vtu file with the same cells and such an array, as SimVascular's
+  /// FIB_DIR
+  std::string fibres, sheets;
   double base_tolerance = 0.1;  ///< largest distance of the base's nodes from their plane [mm]
   double shortest = 20.0;       ///< smallest believable extent of a wall [mm]
   double longest = 200.0;       ///< largest believable extent of a wall [mm]

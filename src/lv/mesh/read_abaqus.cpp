@@ -32,6 +32,7 @@ ForeignMesh to_mesh(const AbaqusModel& model) {
   ForeignMesh foreign;
   foreign.files = model.files;
   foreign.notes = model.notes;
+  foreign.note_quadratic(model.quadratic);
   foreign.mesh.kind = only_kind(model.files.front(), model.volume_shapes);
   for (const AbaqusModel::Node& node : model.nodes) {
     foreign.mesh.nodes.push_back(node.X);

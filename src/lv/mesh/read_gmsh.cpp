@@ -1,7 +1,9 @@
 #include "lv/mesh/read_gmsh.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/lines.hpp"
 #include "lv/base/trial.hpp"
+#include "lv/mesh/read_gmsh22.hpp"
 
 #include <fmt/format.h>
 #include <gmsh.h>
@@ -16,9 +18,6 @@ namespace lv::mesh {
 namespace {
 
 using Tags = std::vector<std::size_t>;
-
-constexpr int triangle = 2;
-constexpr int quadrilateral = 3;
 
 /// Gmsh from its start to its end, silent.
 class Gmsh {
@@ -45,8 +44,9 @@ class Gmsh {
   }
 };
 
-/// Gmsh would run a file that it does not recognise as a script.
-void check_format(const std::string& file) {
+/// The version of a file's format. Gmsh would run a file that it does not recognise as a script.
+double format_of(const std::string& file) {
+  check_encoding(file);
   std::ifstream stream(file);
   std::string header;
   double version = 0.0;
@@ -58,6 +58,7 @@ void check_format(const std::string& file) {
     throw InputError(fmt::format("{}:2", file),
                      fmt::format("has Gmsh's mesh format {}, which is not read", version),
                      "Export it as version 4.1 or 2.2");
+  return version;
 }
 
 void open(const std::string& file) {
@@ -74,8 +75,9 @@ void open(const std::string& file) {
 
 /// Elements of one type.
 struct Elements {
-  int type = 0;
+  int dimension = 0;
   int nodes_each = 0;
+  int corners = 0;   ///< the first of the nodes
   std::string name;  ///< "Hexahedron 8"
   Tags tags, nodes;
 };
@@ -87,23 +89,14 @@ std::vector<Elements> elements_of(int dimension, int entity) {
   gmsh::model::mesh::getElements(types, tags, nodes, dimension, entity);
   std::vector<Elements> result;
   for (std::size_t i = 0; i < types.size(); ++i) {
-    Elements e{types[i], 0, "", tags[i], nodes[i]};
+    Elements e{0, 0, 0, "", tags[i], nodes[i]};
     int order = 0;
-    int corners = 0;
     std::vector<double> places;
-    gmsh::model::mesh::getElementProperties(e.type, e.name, dimension, order, e.nodes_each, places,
-                                            corners);
+    gmsh::model::mesh::getElementProperties(types[i], e.name, e.dimension, order, e.nodes_each,
+                                            places, e.corners);
     result.push_back(std::move(e));
   }
   return result;
-}
-
-std::string shape(const std::string& name) {
-  if (name == "Hexahedron 8")
-    return hexahedron_name;
-  if (name == "Tetrahedron 4")
-    return tetrahedron_name;
-  return name;
 }
 
 /// The order of ascending tags: Gmsh gives nodes and elements entity by entity.
@@ -148,14 +141,18 @@ void add_cells(ForeignMesh& foreign, const NodeIndex& index) {
   const auto volumes = elements_of(3, -1);
   std::map<std::string, int> shapes;
   for (const Elements& e : volumes)
-    shapes[shape(e.name)] += static_cast<int>(e.tags.size());
+    shapes[gmsh_shape(e.name)] += static_cast<int>(e.tags.size());
   foreign.mesh.kind = only_kind(foreign.files.front(), shapes);
-  const Elements& cells = volumes.front();
-  for (const std::size_t i : ascending(cells.tags)) {
-    for (int a = 0; a < cells.nodes_each; ++a)
-      foreign.mesh.cells.push_back(index(cells.nodes[i * cells.nodes_each + a]));
-    foreign.cell_numbers.push_back(static_cast<std::int64_t>(cells.tags[i]));
+  int quadratic = 0;
+  for (const Elements& cells : volumes) {
+    quadratic += cells.nodes_each > cells.corners ? static_cast<int>(cells.tags.size()) : 0;
+    for (const std::size_t i : ascending(cells.tags)) {
+      for (int a = 0; a < cells.corners; ++a)
+        foreign.mesh.cells.push_back(index(cells.nodes[i * cells.nodes_each + a]));
+      foreign.cell_numbers.push_back(static_cast<std::int64_t>(cells.tags[i]));
+    }
   }
+  foreign.note_quadratic(quadratic);
 }
 
 /// The entities of the physical group of that name or number. `what` names such a group.
@@ -182,11 +179,11 @@ ForeignSide find_side(const std::string& file, const std::string& tag, const Nod
   ForeignSide side;
   for (const int entity : entities_of_group(file, 2, "physical surface", tag)) {
     for (const Elements& e : elements_of(2, entity)) {
-      if (e.type != triangle && e.type != quadrilateral)
+      if (e.corners != 3 && e.corners != 4)
         continue;
       for (std::size_t first = 0; first < e.nodes.size(); first += e.nodes_each) {
         std::vector<int> face;
-        for (int a = 0; a < e.nodes_each; ++a)
+        for (int a = 0; a < e.corners; ++a)
           face.push_back(index(e.nodes[first + a]));
         side.faces.push_back(face_key(face));
       }
@@ -219,13 +216,17 @@ ForeignMesh read(const ImportParameters& parameters) {
       foreign.sides.push_back(find_side(parameters.file, tag, index));
   if (!parameters.infarct_set.empty())
     foreign.infarcted = find_infarcted(foreign, parameters.infarct_set);
+  std::vector<int> fields;
+  gmsh::view::getTags(fields);
+  foreign.note_fields(!fields.empty());
   return foreign;
 }
 
 }  // namespace
 
 ForeignMesh read_gmsh(const ImportParameters& parameters) {
-  check_format(parameters.file);
+  if (format_of(parameters.file) == 2.2)
+    return read_gmsh22(parameters);
   check_survives(parameters.file, [&] { static_cast<void>(read(parameters)); });
   return read(parameters);
 }

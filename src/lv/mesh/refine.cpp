@@ -1,12 +1,22 @@
 #include "lv/mesh/refine.hpp"
 
 #include "lv/mesh/cell.hpp"
+#include "lv/mesh/fibres.hpp"
 
 #include <algorithm>
 #include <map>
 
 namespace lv::mesh {
 namespace {
+
+/// Every value eight times.
+template <class Value>
+std::vector<Value> eightfold(const std::vector<Value>& cells) {
+  std::vector<Value> fine;
+  for (const Value& value : cells)
+    fine.insert(fine.end(), 8, value);
+  return fine;
+}
 
 /// Makes the nodes in the middle of old nodes, each once.
 class Refiner {
@@ -17,6 +27,11 @@ class Refiner {
     fine_.nodes = coarse.nodes;
     fine_.transmural = coarse.transmural;
     fine_.infarct = coarse.infarct;
+    fine_.fibres = coarse.fibres;
+    if (coarse.fibres.at == GivenFibres::At::cells) {
+      fine_.fibres.f0 = eightfold(coarse.fibres.f0);
+      fine_.fibres.s0 = eightfold(coarse.fibres.s0);
+    }
   }
 
   Mesh refine() {
@@ -57,6 +72,20 @@ class Refiner {
     fine_.nodes.push_back(X / n);
     fine_.transmural.push_back(t / n);
     fine_.infarct.push_back(M / n);
+    if (coarse_.fibres.at == GivenFibres::At::nodes) {
+      add_mean_direction(of, coarse_.fibres.f0, fine_.fibres.f0);
+      add_mean_direction(of, coarse_.fibres.s0, fine_.fibres.s0);
+    }
+  }
+
+  static void add_mean_direction(const std::vector<int>& of, const std::vector<Vec3>& coarse,
+                                 std::vector<Vec3>& fine) {
+    if (coarse.empty())
+      return;
+    std::vector<Vec3> directions;
+    for (const int node : of)
+      directions.push_back(coarse[node]);
+    fine.push_back(mean_direction(directions, std::vector<double>(of.size(), 1.0)));
   }
 
   /// The cell's nodes form a 3 x 3 x 3 lattice; the node at lattice point (i, j, k) is the mean of
@@ -145,15 +174,6 @@ class Refiner {
   Mesh fine_;
   std::map<std::vector<int>, int> middles_;
 };
-
-/// Every value eight times.
-template <class Value>
-std::vector<Value> eightfold(const std::vector<Value>& cells) {
-  std::vector<Value> fine;
-  for (const Value value : cells)
-    fine.insert(fine.end(), 8, value);
-  return fine;
-}
 
 }  // namespace
 

@@ -6,8 +6,9 @@ namespace lv::mesh {
 
 /// Every cell cut into eight by the middles of its edges, faces and (hexahedra) itself. The wall
 /// keeps its shape: old nodes keep their numbers and places, new ones lie on the old faces, and t
-/// and M(X) are interpolated. The octahedron left in the middle of a tetrahedron is cut along its
-/// shortest diagonal. The result is of order 2: its cells hang together as quadratic elements.
+/// and M(X) are interpolated, as directions of fibres are that stand at nodes. The octahedron left
+/// in the middle of a tetrahedron is cut along its shortest diagonal. The result is of order 2: its
+/// cells hang together as quadratic elements.
 [[nodiscard]] Mesh refine(const Mesh& mesh);
 
 /// A flag per cell, handed on to the eight cells that refine() makes of it.

@@ -13,6 +13,7 @@ namespace lv::mesh {
 namespace {
 
 constexpr std::array<const char*, 3> side_names{"endocardium", "epicardium", "base"};
+constexpr int base_side = 2;
 constexpr int nowhere = -1;
 
 [[noreturn]] void fail(const ForeignMesh& foreign, const std::string& what,
@@ -27,10 +28,9 @@ class TaggedFaces {
       : foreign_(foreign), boundary_(boundary), side_(boundary.size(), nowhere) {
     for (int f = 0; f < boundary.size(); ++f)
       face_of_key_[face_key(boundary.face(f))] = f;
-    for (int s = 0; s < 3; ++s) {
+    for (int s = 0; s < 3; ++s)
       mark_faces(s);
-      mark_faces_of_nodes(s);
-    }
+    mark_faces_of_nodes();
     if (overlaps_ > 0)
       fail(foreign_, overlap_, "Every face of the boundary must belong to one side");
     refuse_gaps();
@@ -56,15 +56,30 @@ class TaggedFaces {
            "Tag outer faces of the volume cells, on the same nodes");
   }
 
-  void mark_faces_of_nodes(int s) {
-    std::vector<bool> tagged(foreign_.mesh.nodes.size(), false);
-    for (const int node : foreign_.sides[s].nodes)
-      tagged[node] = true;
+  /// Faces that the file does not tag itself. Sets of nodes meet at the rim, so that a face of the
+  /// base with all its corners there is in two of them: the rim's nodes lie in the base, and so
+  /// does it.
+  void mark_faces_of_nodes() {
+    const std::vector<int> tagged = side_;
+    const std::array<std::vector<bool>, 3> in_set{in_nodes_of(0), in_nodes_of(1), in_nodes_of(2)};
     for (int f = 0; f < boundary_.size(); ++f) {
-      const auto face = boundary_.face(f);
-      if (std::all_of(face.begin(), face.end(), [&](int node) { return tagged[node]; }))
-        mark(f, s);
+      const auto is_in = [&](int s) {
+        const auto face = boundary_.face(f);
+        return std::all_of(face.begin(), face.end(), [&](int node) { return in_set[s][node]; });
+      };
+      if (tagged[f] != nowhere)
+        continue;
+      for (const int s : is_in(base_side) ? std::vector{base_side} : std::vector{0, 1})
+        if (is_in(s))
+          mark(f, s);
     }
+  }
+
+  [[nodiscard]] std::vector<bool> in_nodes_of(int s) const {
+    std::vector<bool> in_set(foreign_.mesh.nodes.size(), false);
+    for (const int node : foreign_.sides[s].nodes)
+      in_set[node] = true;
+    return in_set;
   }
 
   void mark(int f, int s) {

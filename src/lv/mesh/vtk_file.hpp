@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lv/base/check.hpp"
+#include "lv/base/lines.hpp"
 #include "lv/base/trial.hpp"
 #include "lv/mesh/vtk_messages.hpp"
 
@@ -16,6 +17,7 @@ namespace lv::mesh {
 /// for how much it holds, so it is tried first. Throws InputError with what VTK has to say.
 template <class Read>
 auto read_by_vtk(const std::string& file, const Read& read) {
+  check_encoding(file);
   const VtkMessages messages;
   check_survives(file, [&] { static_cast<void>(read()); });
   auto data = read();

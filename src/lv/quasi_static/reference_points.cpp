@@ -38,6 +38,7 @@ std::vector<Point> PointMaker::points(const solid::ShapeTable& shapes, int eleme
   const Eigen::Matrix3Xd X = gather(mesh_.nodes, nodes);
   const Eigen::VectorXd t = gather(mesh_.transmural, nodes);
   const Eigen::VectorXd M = gather(mesh_.infarct, nodes);
+  const int cell = element * (mesh_.order == 2 ? 8 : 1);
   std::vector<Point> result;
   for (int q = 0; q < shapes.points(); ++q) {
     const Eigen::Matrix3Xd to_xi = shapes.gradient[q];
@@ -45,10 +46,12 @@ std::vector<Point> PointMaker::points(const solid::ShapeTable& shapes, int eleme
     const Mat3 dX_dxi = X * to_xi.transpose();
     const double det = dX_dxi.determinant();
     if (!(det > 0.0))
-      mesh::fail_inverted(element * (mesh_.order == 2 ? 8 : 1), det, X * phi);
+      mesh::fail_inverted(cell, det, X * phi);
     const Eigen::Matrix3Xd gradient = dX_dxi.inverse().transpose() * to_xi;
     const Vec3 radial = radial_.empty() ? Vec3(gradient * t) : Vec3(gather(radial_, nodes) * phi);
-    const Mat3 frame = mesh::fibre_frame(fibres_, mesh::wall_axes(radial), phi.dot(t));
+    const Mat3 frame = mesh::fibre_frame(
+        mesh_, fibres_,
+        {cell, nodes, {phi.data(), nodes.size()}, mesh::wall_axes(radial), phi.dot(t)});
     result.push_back(
         {frame.transpose() * gradient, det * shapes.weight[q], std::clamp(phi.dot(M), 0.0, 1.0)});
   }

@@ -50,8 +50,9 @@ struct UnloadRecord {
 /// with the largest beta of 1, 1/2, ... for which the wall is sound, has an equilibrium and |R|
 /// becomes smaller; D_k = R_k when none does. Where the whole pressure fails from the start it is
 /// approached in steps. The fibre rule is applied to the wall without load, whose equilibria they
-/// are: an X that is loaded and unloaded comes back with its fibres. Depth t and M(X) are carried
-/// along with the nodes.
+/// are: an X that is loaded and unloaded comes back with its fibres. Directions that the mesh
+/// brings are those of the given shape and turn with it (mesh::with_nodes). Depth t and M(X) are
+/// carried along with the nodes.
 ///
 /// `start` may be the result for other muscle, from where few steps are needed. Unsolved, with the
 /// distance that is left, when the tolerance is not met. Throws Interrupted. Collective.

@@ -340,8 +340,8 @@ Data case_html(const PageCase& shown, int number) {
     json["pictures"] = fmt::format("case{}-pictures", number);
     arrays.data.more += element(json["pictures"], "application/json", pictures);
   }
-  arrays.data.summary = element(fmt::format("case{}", number), "application/json",
-                                json.dump(-1, ' ', false, Json::error_handler_t::replace));
+  arrays.data.summary =
+      element(fmt::format("case{}", number), "application/json", json_text(std::move(json), -1));
   return arrays.data;
 }
 

@@ -1,7 +1,9 @@
 #include "lv/report/quality_sheet.hpp"
 
+#include "lv/base/json_file.hpp"
+#include "lv/base/printable.hpp"
+
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -145,7 +147,7 @@ std::string quality_json(const QualitySheet& sheet) {
         {"epi", distance_json(together(fit, &ImageReport::epi))}}},
       {"slices", slices},
       {"notes", sheet.notes}};
-  return object.dump(2) + "\n";
+  return json_text(object) + "\n";
 }
 
 std::string quality_text(const QualitySheet& sheet) {
@@ -171,7 +173,7 @@ std::string quality_text(const QualitySheet& sheet) {
       text += fmt::format("  slice {} was moved by {:.1f} mm\n", image.slice, image.shift.norm());
   for (const std::string& note : sheet.notes)
     text += fmt::format("  note: {}\n", note);
-  return text;
+  return printable_lines(text);
 }
 
 }  // namespace lv::report

@@ -1,9 +1,9 @@
 #include "lv/report/summary.hpp"
 
+#include "lv/base/json_file.hpp"
 #include "lv/base/units.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
@@ -212,7 +212,7 @@ std::string summary_json(const RunFacts& facts, const heartbeat::Beat& beat, con
   json["warnings"] = facts.warnings;
   json["parameters"] = pairs(facts.parameters);
   json["set_in_case_file"] = pairs(facts.origins);
-  return json.dump(2) + "\n";
+  return json_text(json) + "\n";
 }
 
 std::string summary_text(const RunFacts& facts, const heartbeat::Beat& beat, const Results& r) {

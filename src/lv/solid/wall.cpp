@@ -141,6 +141,9 @@ class PackedElements final : public Wall::Elements {
   [[nodiscard]] int cell_of(int group, int i) const {
     return std::min(cells_.begin + group * pack_size + i, cells_.end - 1);
   }
+  [[nodiscard]] Mat3 fibre_frame(const ReferencePoint& X, int cell, int q) const {
+    return mesh::fibre_frame(mesh_, fibres_, {cell, mesh_.cell(cell), rule.value[q], X.axes, X.t});
+  }
   void set_point(Point& point, int i, int cell, int q, double weight);
   void set_means(Group& group, int i, int cell, double weight);
   [[nodiscard]] static Nodal gather(const Group& group, std::span<const Vec3> positions);
@@ -204,7 +207,7 @@ void PackedElements<E>::set_point(Point& point, int i, int cell, int q, double w
   const double det = X.dX_dxi.determinant();
   if (!(det > 0.0))
     mesh::fail_inverted(cell, det, X.X);
-  const Mat3 K = X.dX_dxi.inverse() * mesh::fibre_frame(fibres_, X.axes, X.t);
+  const Mat3 K = X.dX_dxi.inverse() * fibre_frame(X, cell, q);
   for (int r = 0; r < 3; ++r)
     for (int c = 0; c < 3; ++c)
       set_lane(point.K(r, c), i, K(r, c));
@@ -457,7 +460,7 @@ PointSample PackedElements<E>::sample_point(int group, int q, int i, const Tenso
   s.transmural = X.t;
   s.infarct = X.M;
   s.axes = X.axes;
-  s.fibre_frame = mesh::fibre_frame(fibres_, X.axes, X.t);
+  s.fibre_frame = fibre_frame(X, s.cell, q);
   s.F = F_fibre * s.fibre_frame.transpose();
   s.stress = material::with_point_law(material_, material_.volumetric, [&](const auto& law) {
     return point_stress(law, F_fibre, tension * law.infarct.active(X.M), X.M);

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
@@ -31,12 +30,11 @@ std::size_t column_of(const std::vector<std::string>& header, const std::string&
 }
 
 double number_in(const std::string& text, const std::string& where) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
+  const auto value = number_of<double>(text);
+  if (!value || !std::isfinite(*value))
     throw InputError(where, fmt::format("\"{}\" is not a finite number", text),
                      "Give the number or remove the line");
-  return value;
+  return *value;
 }
 
 int whole_number_in(const std::string& text, const std::string& where) {

@@ -1,8 +1,11 @@
 #include "lv/base/lines.hpp"
 
+#include "lv/base/check.hpp"
+
 #include "support/temporary_folder.hpp"
 #include <catch2/catch.hpp>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -60,6 +63,7 @@ TEST_CASE("lines of any system are read and counted, blank ones counted alone", 
   CHECK(lines("x,y\r\n\r\n1,2\r\n\r\n3,4") == expected);
   CHECK(lines("\xEF\xBB\xBFx,y\n\n1,2\n\n3,4") == expected);
   CHECK(lines("a\n\xEF\xBB\xBFz") == std::vector<Line>{{1, "a"}, {2, "\xEF\xBB\xBFz"}});
+  CHECK(lines("x,y\r\r1,2\r \t\r3,4\r") == expected);  // an old Mac's
   CHECK(lines("\tb\t") == std::vector<Line>{{1, "\tb\t"}});
   CHECK(lines("").empty());
 }
@@ -68,4 +72,41 @@ TEST_CASE("a file that is not there and a folder cannot be opened", "[unit][base
   const test::TemporaryFolder folder;
   CHECK_FALSE(LineReader(folder / "absent.txt").is_open());
   CHECK_FALSE(LineReader(folder / "").is_open());
+}
+
+TEST_CASE("text in another encoding is refused in words, not read as garbage", "[unit][base]") {
+  using Catch::Matchers::Contains;
+  const test::TemporaryFolder folder;
+  const auto refusal = [&](const std::string& bytes) -> std::string {
+    test::write_bytes(folder / "list.txt", bytes);
+    try {
+      LineReader reader(folder / "list.txt");
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  const auto remedy = Contains("Save it as UTF-8");
+  CHECK_THAT(refusal("\xFF\xFEx\0,\0y\0"s),
+             Contains("list.txt: is not UTF-8 text but UTF-16") && remedy);
+  CHECK_THAT(refusal("\xFE\xFF\0x\0,"s), Contains("UTF-16") && remedy);
+  CHECK_THAT(refusal("\xFF\xFE\0\0x\0\0\0"s), Contains("UTF-32") && remedy);
+  CHECK_THAT(refusal("x\0,\0y\0\n\0"s), Contains("list.txt:1: is not UTF-8 text") && remedy);
+  CHECK_THAT(refusal("x,y\r\n1,2\r\n\0\0"s), Contains("list.txt:3: is not UTF-8 text"));
+  CHECK(refusal("Gr\xFC\xDF,y\n") == "no error");  // Latin-1 has all of ASCII
+}
+
+TEST_CASE("numbers may have exponents of Fortran", "[unit][base]") {
+  for (const char* text : {"15", "+15", "1.5e1", "1.5E+01", "1.5D+01", "1.5d1", "150.D-1"})
+    CHECK(number_of<double>(text) == 15.0);
+  CHECK(number_of<double>("-0.0D+00") == 0.0);
+  CHECK(number_of<double>("1.5-101") == 1.5e-101);
+  CHECK(number_of<double>("1.5+101") == 1.5e+101);
+  for (const char* text : {"", "D", "1D", "D1", "1.5 D1", "12-5", "1.5-1", "15-101", "1,5", "1.5mm",
+                           "1D1D1", "+", "--1", "1.5-101-101"})
+    CHECK_FALSE(number_of<double>(text));
+  CHECK(number_of<int>("+7") == 7);
+  CHECK(number_of<std::int64_t>("5000000000") == 5000000000);
+  for (const char* text : {"7.0", "7D0", "5000000000", ""})
+    CHECK_FALSE(number_of<int>(text));
 }

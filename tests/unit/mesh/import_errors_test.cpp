@@ -16,6 +16,8 @@ using mesh::CellKind;
 using mesh::ImportParameters;
 using mesh::Mesh;
 using test::AbaqusTags;
+using test::by_geometry;
+using test::replaced;
 using test::VtkTags;
 
 /// The error's text after the path of the file.
@@ -41,20 +43,8 @@ std::string abaqus_message(const Mesh& mesh, ImportParameters parameters = {}) {
   return message(".inp", test::abaqus_text(mesh, AbaqusTags::node_sets), std::move(parameters));
 }
 
-ImportParameters by_geometry() {
-  ImportParameters parameters;
-  parameters.sides = mesh::SideSource::geometry;
-  return parameters;
-}
-
 Catch::Matchers::StdString::ContainsMatcher has(const std::string& part) {
   return Catch::Contains(part);
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const auto at = text.find(from);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, from.size(), to);
 }
 
 /// The line of `text` that starts with `start`, from 1.
@@ -149,8 +139,8 @@ TEST_CASE("volume cells of other kinds are counted", "[unit][mesh]") {
                                       "*End Part")),
              has("cannot be used together") && has("1 of shape wedge") &&
                  has(fmt::format("{} of shape hexahedron", hexahedra().cell_count())));
-  CHECK_THAT(message(".inp", "*Element, type=C3D10M\n1, 1,2,3,4,5,6,7,8,9,\n10\n"),
-             has("1 of shape quadratic tetrahedron"));
+  CHECK_THAT(message(".inp", "*Element, type=C3D15\n1, 1,2,3,4,5,6,7,8,9,\n10,11,12,13,14,15\n"),
+             has("1 of shape quadratic wedge"));
   CHECK_THAT(message(".inp", "*Element, type=S4\n1, 1,2,3,4\n"), has("holds no volume cells"));
   CHECK_THAT(message(".vtk",
                      "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\n"

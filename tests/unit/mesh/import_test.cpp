@@ -18,16 +18,11 @@ using mesh::ImportedMesh;
 using mesh::ImportParameters;
 using mesh::Mesh;
 using test::AbaqusTags;
+using test::by_cells;
+using test::by_geometry;
+using test::import_text;
+using test::kinds;
 using test::VtkTags;
-
-const std::vector<CellKind> kinds{CellKind::hexahedron, CellKind::tetrahedron};
-
-ImportedMesh import_text(const std::string& ending, const std::string& text,
-                         ImportParameters parameters = {}) {
-  const test::TemporaryFile file(ending, text);
-  parameters.file = file.path();
-  return mesh::import_mesh(parameters);
-}
 
 /// A mesh with an infarct field, so that round trips can lose it.
 Mesh with_infarct(CellKind kind) {
@@ -71,22 +66,6 @@ Mesh moved(Mesh mesh, const Mat3& rotation, const Vec3& shift) {
 
 const Mat3 rotation = Eigen::AngleAxisd(2.2, Vec3(0.3, -0.8, 0.5).normalized()).toRotationMatrix();
 const Vec3 shift(120.0, -35.0, 410.0);
-
-ImportParameters by_geometry() {
-  ImportParameters parameters;
-  parameters.sides = mesh::SideSource::geometry;
-  return parameters;
-}
-
-ImportParameters by_cells() {
-  const std::array<std::string, 3> numbers{"1", "2", "3"};
-  ImportParameters parameters;
-  parameters.side_array = "side";
-  parameters.endo = numbers[0];
-  parameters.epi = numbers[1];
-  parameters.base = numbers[2];
-  return parameters;
-}
 
 }  // namespace
 

@@ -9,8 +9,12 @@
 #include <fmt/ranges.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
 #include <fstream>
 #include <map>
+#include <stdexcept>
 
 namespace lv::test {
 namespace {
@@ -140,6 +144,15 @@ std::vector<GmshElement> gmsh_elements(const Mesh& mesh, const std::vector<bool>
   return elements;
 }
 
+template <class Number>
+void append(std::string& bytes, Number value, bool swapped) {
+  std::array<char, sizeof(Number)> raw;
+  std::memcpy(raw.data(), &value, sizeof(Number));
+  if (swapped)
+    std::reverse(raw.begin(), raw.end());
+  bytes.append(raw.begin(), raw.end());
+}
+
 constexpr const char* physical_names =
     "$PhysicalNames\n5\n2 1 \"endo\"\n2 2 \"epi\"\n2 3 \"base\"\n3 1 \"wall\"\n3 2 "
     "\"scar\"\n$EndPhysicalNames\n";
@@ -189,6 +202,29 @@ TemporaryFile::TemporaryFile(const std::string& ending, const std::string& text)
 TemporaryFile::~TemporaryFile() {
   std::error_code ignored;
   std::filesystem::remove(path_, ignored);
+}
+
+mesh::ImportedMesh import_text(const std::string& ending, const std::string& text,
+                               mesh::ImportParameters parameters) {
+  const TemporaryFile file(ending, text);
+  parameters.file = file.path();
+  return mesh::import_mesh(parameters);
+}
+
+mesh::ImportParameters by_geometry() {
+  mesh::ImportParameters parameters;
+  parameters.sides = mesh::SideSource::geometry;
+  return parameters;
+}
+
+mesh::ImportParameters by_cells() {
+  const std::array<std::string, 3> numbers{"1", "2", "3"};
+  mesh::ImportParameters parameters;
+  parameters.side_array = "side";
+  parameters.endo = numbers[0];
+  parameters.epi = numbers[1];
+  parameters.base = numbers[2];
+  return parameters;
 }
 
 std::string abaqus_text(const Mesh& mesh, AbaqusTags tags) {
@@ -263,7 +299,8 @@ std::string vtu_text(const Mesh& mesh, VtkTags tags) {
       cell_data);
 }
 
-std::string gmsh22_text(const Mesh& mesh, const std::vector<bool>& scar) {
+std::string gmsh22_text(const Mesh& mesh, const std::vector<bool>& scar,
+                        const std::function<int(int group)>& elementary) {
   std::string text = fmt::format("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n{}$Nodes\n{}\n",
                                  physical_names, mesh.nodes.size());
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i)
@@ -272,8 +309,42 @@ std::string gmsh22_text(const Mesh& mesh, const std::vector<bool>& scar) {
   const auto elements = gmsh_elements(mesh, scar);
   text += fmt::format("$EndNodes\n$Elements\n{}\n", elements.size());
   for (const GmshElement& e : elements)
-    text += fmt::format("{} {} 2 {} {} {}\n", e.number, e.type, e.entity, e.entity, e.nodes);
+    text += fmt::format("{} {} 2 {} {} {}\n", e.number, e.type, e.entity,
+                        elementary ? elementary(e.entity) : e.entity, e.nodes);
   return text + "$EndElements\n";
+}
+
+std::string gmsh22_bytes(const Mesh& mesh, bool swapped) {
+  std::string bytes = "$MeshFormat\n2.2 1 8\n";
+  append(bytes, std::int32_t{1}, swapped);
+  bytes +=
+      "\n$EndMeshFormat\n$PhysicalNames\n3\n2 1 \"endo\"\n2 2 \"epi\"\n2 3 \"base\"\n"
+      "$EndPhysicalNames\n$Nodes\n" +
+      std::to_string(mesh.nodes.size()) + "\n";
+  for (std::size_t a = 0; a < mesh.nodes.size(); ++a) {
+    append(bytes, static_cast<std::int32_t>(a + 1), swapped);
+    for (const double x : mesh.nodes[a])
+      append(bytes, x, swapped);
+  }
+  const int faces = mesh.endo.size() + mesh.epi.size() + mesh.base.size();
+  bytes += fmt::format("\n$EndNodes\n$Elements\n{}\n", faces + mesh.cell_count());
+  std::int32_t number = 0;
+  const auto block = [&](std::int32_t type, int count, int group, const auto& nodes_of) {
+    for (const std::int32_t value : {type, count, 2})
+      append(bytes, value, swapped);
+    for (int i = 0; i < count; ++i) {
+      for (const std::int32_t value : {++number, group, 1})
+        append(bytes, value, swapped);
+      for (const int node : nodes_of(i))
+        append(bytes, static_cast<std::int32_t>(node + 1), swapped);
+    }
+  };
+  const bool hexahedra = mesh.kind == CellKind::hexahedron;
+  for (int s = 0; s < 3; ++s)
+    block(hexahedra ? 3 : 2, sides(mesh)[s]->size(), s + 1,
+          [&](int f) { return sides(mesh)[s]->face(f); });
+  block(hexahedra ? 5 : 4, mesh.cell_count(), 7, [&](int c) { return mesh.cell(c); });
+  return bytes + "\n$EndElements\n";
 }
 
 std::string gmsh41_text(const Mesh& mesh) {
@@ -284,6 +355,71 @@ std::string gmsh41_text(const Mesh& mesh) {
   for (std::size_t i = 1; i <= n; ++i)
     text += fmt::format("{}\n", i);
   return text + points_text(mesh) + "$EndNodes\n" + gmsh41_elements(mesh);
+}
+
+Quadratic quadratic(const Mesh& mesh) {
+  Quadratic result{mesh.nodes, {}};
+  std::map<std::pair<int, int>, int> middles;
+  for (int c = 0; c < mesh.cell_count(); ++c) {
+    std::vector<int> nodes(mesh.cell(c).begin(), mesh.cell(c).end());
+    for (const auto& [a, b] : mesh::cell_edges(mesh.kind)) {
+      const std::pair<int, int> edge = std::minmax(mesh.cell(c)[a], mesh.cell(c)[b]);
+      const auto [entry, added] = middles.emplace(edge, static_cast<int>(result.nodes.size()));
+      if (added)
+        result.nodes.push_back(0.5 * (mesh.nodes[edge.first] + mesh.nodes[edge.second]));
+      nodes.push_back(entry->second);
+    }
+    result.cells.push_back(nodes);
+  }
+  return result;
+}
+
+std::string vtp_text(const Mesh& mesh, const Surface& side, int first) {
+  const std::vector<int> nodes = mesh::surface_nodes(side);
+  std::string points;
+  std::string ids;
+  std::map<int, int> place;
+  for (const int node : nodes) {
+    place[node] = static_cast<int>(place.size());
+    points +=
+        fmt::format("{} {} {}\n", mesh.nodes[node].x(), mesh.nodes[node].y(), mesh.nodes[node].z());
+    ids += fmt::format("{}\n", node + first);
+  }
+  std::string connectivity;
+  std::string offsets;
+  for (int f = 0; f < side.size(); ++f) {
+    for (const int node : side.face(f))
+      connectivity += fmt::format("{} ", place.at(node));
+    offsets += fmt::format("{}\n", (f + 1) * side.nodes_per_face);
+  }
+  const std::string numbers = fmt::format(
+      "<PointData>\n<DataArray type=\"Int32\" Name=\"GlobalNodeID\" format=\"ascii\">\n{}"
+      "</DataArray>\n</PointData>\n",
+      ids);
+  return fmt::format(
+      "<VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\">\n<PolyData>\n"
+      "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
+      "NumberOfPolys=\"{}\">\n{}<Points>\n<DataArray type=\"Float64\" NumberOfComponents=\"3\" "
+      "format=\"ascii\">\n{}</DataArray>\n</Points>\n<Polys>\n"
+      "<DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">\n{}\n</DataArray>\n"
+      "<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">\n{}</DataArray>\n</Polys>\n"
+      "</Piece>\n</PolyData>\n</VTKFile>\n",
+      nodes.size(), side.size(), first < 0 ? "" : numbers, points, connectivity, offsets);
+}
+
+std::string vtu_array(const std::string& name, const std::vector<Vec3>& vectors) {
+  std::string text = fmt::format(
+      "<DataArray type=\"Float64\" Name=\"{}\" NumberOfComponents=\"3\" format=\"ascii\">\n", name);
+  for (const Vec3& v : vectors)
+    text += fmt::format("{} {} {}\n", v.x(), v.y(), v.z());
+  return text + "</DataArray>\n";
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  if (at == std::string::npos)
+    throw std::invalid_argument("the text has no " + from);
+  return text.replace(at, from.size(), to);
 }
 
 }  // namespace lv::test

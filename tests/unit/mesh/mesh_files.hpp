@@ -1,10 +1,13 @@
 #pragma once
 
 #include "lv/geometry/ellipsoid.hpp"
+#include "lv/mesh/import.hpp"
 #include "lv/mesh/mesh.hpp"
 
 #include <filesystem>
+#include <functional>
 #include <string>
+#include <vector>
 
 /// Meshes for tests, and the files of other programs that hold them.
 namespace lv::test {
@@ -30,6 +33,18 @@ class TemporaryFile {
   std::filesystem::path path_;
 };
 
+/// What import_mesh makes of a file that ends in `ending` and holds `text`.
+[[nodiscard]] mesh::ImportedMesh import_text(const std::string& ending, const std::string& text,
+                                             mesh::ImportParameters parameters = {});
+
+/// Sides by geometry; by the numbers 1, 2, 3 in the cell array "side"; else they are "endo", "epi"
+/// and "base".
+[[nodiscard]] mesh::ImportParameters by_geometry();
+[[nodiscard]] mesh::ImportParameters by_cells();
+
+inline const std::vector<mesh::CellKind> kinds{mesh::CellKind::hexahedron,
+                                               mesh::CellKind::tetrahedron};
+
 /// How an ABAQUS file marks the sides ENDO, EPI and BASE.
 enum class AbaqusTags { none, labelled_faces, node_sets, shells };
 [[nodiscard]] std::string abaqus_text(const mesh::Mesh& mesh, AbaqusTags tags);
@@ -41,8 +56,32 @@ enum class VtkTags { none, surface_cells, point_arrays };
 [[nodiscard]] std::string vtu_text(const mesh::Mesh& mesh, VtkTags tags);
 
 /// Gmsh files with the physical surfaces "endo" (1), "epi" (2), "base" (3), and the volumes "wall"
-/// (1) and, for the flagged cells, "scar" (2).
-[[nodiscard]] std::string gmsh22_text(const mesh::Mesh& mesh, const std::vector<bool>& scar = {});
+/// (1) and, for the flagged cells, "scar" (2). Elements of format 2.2 have their group's number as
+/// elementary tag, or that of the function.
+[[nodiscard]] std::string gmsh22_text(const mesh::Mesh& mesh, const std::vector<bool>& scar = {},
+                                      const std::function<int(int group)>& elementary = {});
 [[nodiscard]] std::string gmsh41_text(const mesh::Mesh& mesh);
+
+/// A binary file of format 2.2 with those sides and the volume 7, all of one elementary tag, in
+/// this machine's order of bytes or the other.
+[[nodiscard]] std::string gmsh22_bytes(const mesh::Mesh& mesh, bool swapped);
+
+/// The mesh's elements as quadratic ones: nodes in the middles of edges behind the corners.
+struct Quadratic {
+  std::vector<Vec3> nodes;
+  std::vector<std::vector<int>> cells;
+};
+[[nodiscard]] Quadratic quadratic(const mesh::Mesh& mesh);
+
+/// The surface of a side as a .vtp file; its points are numbered as the mesh's nodes are, plus
+/// `first`, in the array GlobalNodeID; without it if that is negative.
+[[nodiscard]] std::string vtp_text(const mesh::Mesh& mesh, const mesh::Surface& side, int first);
+
+/// A data array of a .vtu file.
+[[nodiscard]] std::string vtu_array(const std::string& name, const std::vector<Vec3>& vectors);
+
+/// The text with the first `from` in it replaced, which must be there.
+[[nodiscard]] std::string replaced(std::string text, const std::string& from,
+                                   const std::string& to);
 
 }  // namespace lv::test

@@ -193,8 +193,31 @@ TEST_CASE("damaged VTK meshes are read or refused", "[unit][mesh][mutations]") {
 TEST_CASE("damaged Gmsh meshes are read or refused", "[unit][mesh][mutations]") {
   const mesh::Mesh hexahedra = smallest(CellKind::hexahedron);
   try_damaged("x.msh", test::gmsh22_text(hexahedra), import_as({}), {.few = 10});
+  try_damaged("x.msh", test::gmsh22_bytes(hexahedra, false), import_as({}), {.few = 10});
   try_damaged("x.msh", test::gmsh41_text(smallest(CellKind::tetrahedron)), import_as({}),
               {.few = 10});
+}
+
+TEST_CASE("damaged surfaces of sides and files of fibres are read or refused",
+          "[unit][mesh][mutations]") {
+  const mesh::Mesh tetrahedra = smallest(CellKind::tetrahedron);
+  const test::TemporaryFile plain(".vtu", vtu_text(tetrahedra, VtkTags::point_arrays));
+  const auto read_with = [&](std::string mesh::ImportParameters::*name) -> test::Read {
+    return [&plain, name](const std::filesystem::path& file) {
+      mesh::ImportParameters parameters;
+      parameters.file = plain.path();
+      parameters.*name = file.string();
+      static_cast<void>(mesh::import_mesh(parameters));
+    };
+  };
+  for (const int first : {0, -1})
+    try_damaged("x.vtp", test::vtp_text(tetrahedra, tetrahedra.endo, first),
+                read_with(&mesh::ImportParameters::endo), {.few = 10});
+  const std::vector<Vec3> directions(tetrahedra.cell_count(), Vec3(0.6, 0.0, 0.8));
+  try_damaged("x.vtu",
+              test::replaced(vtu_text(tetrahedra, VtkTags::none), "<CellData>\n",
+                             "<CellData>\n" + test::vtu_array("FIB_DIR", directions)),
+              read_with(&mesh::ImportParameters::fibres), {.few = 10});
 }
 
 TEST_CASE("damaged surfaces are read or refused", "[unit][mesh][mutations]") {

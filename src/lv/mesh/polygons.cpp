@@ -1,0 +1,53 @@
+#include "lv/mesh/polygons.hpp"
+
+#include "lv/base/check.hpp"
+#include "lv/base/ending.hpp"
+#include "lv/mesh/vtk_file.hpp"
+
+#include <fmt/format.h>
+#include <vtkCellArray.h>
+#include <vtkNew.h>
+#include <vtkPLYReader.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataReader.h>
+#include <vtkSTLReader.h>
+#include <vtkXMLPolyDataReader.h>
+
+#include <filesystem>
+
+namespace lv::mesh {
+namespace {
+
+template <class Reader>
+vtkSmartPointer<vtkPolyData> read_with(const std::string& file) {
+  vtkNew<Reader> reader;
+  reader->SetFileName(file.c_str());
+  reader->Update();
+  return reader->GetOutput();
+}
+
+}  // namespace
+
+vtkSmartPointer<vtkPolyData> read_polygons(const std::string& file) {
+  const std::string ending = ending_of(file);
+  if (!std::filesystem::is_regular_file(file))
+    throw InputError(file, "there is no such file", "Check the name of the surface");
+  const auto polygons = read_by_vtk(file, [&] {
+    if (ending == ".stl")
+      return read_with<vtkSTLReader>(file);
+    if (ending == ".ply")
+      return read_with<vtkPLYReader>(file);
+    if (ending == ".vtp")
+      return read_with<vtkXMLPolyDataReader>(file);
+    if (ending == ".vtk") {
+      check_legacy_cells(file);
+      return read_with<vtkPolyDataReader>(file);
+    }
+    throw InputError(file, fmt::format("has the unknown ending \"{}\"", ending),
+                     "Surfaces are read from .stl, .ply, .vtp and .vtk (polygons)");
+  });
+  check_cells(file, polygons->GetPolys(), polygons->GetNumberOfPoints());
+  return polygons;
+}
+
+}  // namespace lv::mesh
