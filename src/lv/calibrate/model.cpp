@@ -38,7 +38,7 @@ Outcome<double> Ventricle::unloaded_volume(const FitParameters& parameters) {
   unloaded_ = *unloaded;
   unloaded_with_ = parameters;
   engine_.reset();
-  wall_.nodes = unloaded_->nodes;
+  wall_ = mesh::with_nodes(given_, unloaded_->nodes);
   if (known_.empty())
     known_.push_back({{unloading_.pressure, 0.0}, unloaded_->loaded});
   return endocardium_.volume(wall_.nodes);
@@ -48,7 +48,7 @@ void Ventricle::restore(Memory memory) {
   known_ = std::move(memory.known);
   unloaded_ = std::move(memory.unloaded);
   unloaded_with_ = memory.unloaded_with;
-  wall_.nodes = unloaded_ ? unloaded_->nodes : given_.nodes;
+  wall_ = unloaded_ ? mesh::with_nodes(given_, unloaded_->nodes) : given_;
   engine_.reset();
 }
 

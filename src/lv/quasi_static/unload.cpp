@@ -177,7 +177,7 @@ class Unloader {
 
   /// The equilibrium of X; nothing where the wall is turned inside out or has none.
   std::optional<Trial> load(const Eigen::VectorXd& X, const State* near) {
-    const mesh::Mesh wall = mesh::with_nodes(given_, as_shape(X));
+    const mesh::Mesh wall = mesh::with_nodes(given_, as_nodes(X));
     if (!is_sound(wall))
       return {};
     std::optional<State> loaded = next_equilibrium(wall, near);
