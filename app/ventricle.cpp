@@ -9,9 +9,11 @@
 #include "lv/job/list_images.hpp"
 #include "lv/job/read_case.hpp"
 #include "lv/job/run.hpp"
+#include "lv/job/version.hpp"
 #include "lv/phantom/study.hpp"
 #include "lv/verify/run.hpp"
 
+#include "documents.hpp"
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <mpi.h>
@@ -67,7 +69,7 @@ int until_stopped(const Work& work) {
     return 0;
   } catch (const lv::Interrupted& stop) {
     if (lv::parallel::is_root())
-      fmt::print(stderr, "ventricle: {}\n", stop.what());
+      fmt::print(stderr, "ventricle: {}\n", lv::printable_lines(stop.what()));
     return interrupted;
   }
 }
@@ -210,6 +212,11 @@ void add_verify(CLI::App& app, Command& command) {
   verify->add_option(lv::verify::solve_option, command.solve_in)->group("");
 }
 
+void add_documents(CLI::App& app) {
+  app.add_subcommand("man", "print the manual page, for man -l -");
+  app.add_subcommand("completion", "print a script that completes commands and options in bash");
+}
+
 /// Options that say how the phantom's images are made.
 void add_scan_options(CLI::App& app, lv::phantom::Scan& scan) {
   const auto number = [&](const char* name, double& value, const char* help, double low,
@@ -293,12 +300,8 @@ int refuse_ranks(const std::string& command) {
   return wrong_input;
 }
 
-int dispatch(int argc, char** argv) {
-  Command command;
-  CLI::App app{"ventricle: left-ventricular mechanics from cardiac magnetic resonance"};
-  app.require_subcommand(1);
-  app.set_version_flag("--version", "ventricle " + lv::job::version());
-
+/// Commands that take a case file.
+void add_cases(CLI::App& app, Command& command) {
   auto* start = app.add_subcommand("new", "write a commented starter case");
   start->add_option("FILE", command.new_file, "the case file to write")->capture_default_str();
 
@@ -322,17 +325,9 @@ int dispatch(int argc, char** argv) {
   strain->add_option("--work", command.run.work,
                      "work folder (default: the case file's name with .work)");
   strain->add_flag("--explain", command.run.explain, "say why the stage runs or does not");
+}
 
-  add_phantom(app, command);
-  add_verify(app, command);
-  add_images(app, command);
-  add_page(app, command, "report", "write one page that shows a run, finished or not", 1);
-  add_page(app, command, "compare", "write one page that shows two runs side by side", 2);
-
-  auto* list = app.add_subcommand("parameters",
-                                  "list every parameter: default, range, meaning, paper equation");
-  list->add_flag("--markdown", command.markdown, "as the manual page");
-
+void add_bench(CLI::App& app, Command& command) {
   auto* time = app.add_subcommand("bench", "time the kernels of a step on this machine");
   time->add_option("--cells", command.bench.cells, "cells of the box along x, y and z")
       ->expected(3)
@@ -344,41 +339,78 @@ int dispatch(int argc, char** argv) {
   time->add_flag("--quadrature", command.bench.quadrature, "the paper's coupling instead of nodal");
   add_ranks(*time, command);
   time->add_flag("--json", command.bench.json, "one JSON object instead of a table");
+}
 
+/// Every command and option, once: read from the command line, printed by --help, man and
+/// completion.
+void declare(CLI::App& app, Command& command) {
+  app.require_subcommand(1);
+  app.set_version_flag("--version", "ventricle " + lv::job::version());
+  add_cases(app, command);
+  add_phantom(app, command);
+  add_verify(app, command);
+  add_images(app, command);
+  add_page(app, command, "report", "write one page that shows a run, finished or not", 1);
+  add_page(app, command, "compare", "write one page that shows two runs side by side", 2);
+  auto* list = app.add_subcommand("parameters",
+                                  "list every parameter: default, range, meaning, paper equation");
+  list->add_flag("--markdown", command.markdown, "as the manual page");
+  add_bench(app, command);
+  add_documents(app);
+}
+
+/// What a command only prints.
+std::string printed(const CLI::App& app, const Command& command, const std::string& name) {
+  if (name == "images")
+    return lv::job::list_images(command.images);
+  if (name == "parameters")
+    return lv::job::manual(command.markdown);
+  if (name == "man")
+    return man_page(app, lv::job::version(), lv::job::manual(false));
+  return bash_completion(app);
+}
+
+int perform(const CLI::App& app, Command& command, int argc, char** argv) {
+  const std::string name = app.get_subcommands().front()->get_name();
+  const bool divides = name == "run" || name == "calibrate" || name == "strain" ||
+                       name == "bench" || !command.solve_in.empty();
+  if (lv::launch::world_size() > 1 && !divides)
+    return refuse_ranks(name);
+  if (name == "validate")
+    return validate(command, argc, argv);
+  if (name == "strain")
+    return measure_strain(command, argc, argv);
+  if (name == "calibrate")
+    command.until = "calibrate";
+  if (name == "run" || name == "calibrate")
+    return run_parallel(command, argc, argv);
+  if (name == "phantom")
+    return phantom(command);
+  if (name == "bench")
+    return bench(command, argc, argv);
+  if (name == "report" || name == "compare")
+    return write_page(command, name, argc, argv);
+  if (name == "verify")
+    return verify(command, argc, argv);
+  if (name == "new")
+    write_new_case(command.new_file);
+  else
+    lv::print(printed(app, command, name));
+  return 0;
+}
+
+int dispatch(int argc, char** argv) {
+  Command command;
+  CLI::App app{"ventricle: left-ventricular mechanics from cardiac magnetic resonance"};
+  declare(app, command);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0 && lv::launch::world_rank() > 0)
+      return 0;  // help and version are told once
     return app.exit(error) == 0 ? 0 : wrong_input;
   }
-  const bool divides = *run || *fit || *strain || *time || !command.solve_in.empty();
-  if (lv::launch::world_size() > 1 && !divides)
-    return refuse_ranks(app.get_subcommands().front()->get_name());
-  if (*start)
-    write_new_case(command.new_file);
-  if (*check)
-    return validate(command, argc, argv);
-  if (*fit)
-    command.until = "calibrate";
-  if (*strain)
-    return measure_strain(command, argc, argv);
-  if (*run || *fit)
-    return run_parallel(command, argc, argv);
-  if (app.got_subcommand("phantom"))
-    return phantom(command);
-  if (*time)
-    return bench(command, argc, argv);
-  for (const char* page : {"report", "compare"})
-    if (app.got_subcommand(page))
-      return write_page(command, page, argc, argv);
-  if (app.got_subcommand("images")) {
-    lv::print(lv::job::list_images(command.images));
-    return 0;
-  }
-  if (app.got_subcommand("verify"))
-    return verify(command, argc, argv);
-  if (*list)
-    lv::print(lv::job::manual(command.markdown));
-  return 0;
+  return perform(app, command, argc, argv);
 }
 
 constexpr const char* no_memory =

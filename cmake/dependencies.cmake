@@ -41,12 +41,12 @@ target_include_directories(itk SYSTEM INTERFACE ${ITK_INCLUDE_DIRS})
 target_link_libraries(itk INTERFACE ${ITK_LIBRARIES})
 find_package(ZLIB REQUIRED)  # NIfTI images are packed with it
 # ITK brings an older Eigen of its own: the sources that include ITK or GDCM are told to use the system's. ITK's headers also
-# step back from the null pointer of an empty neighbourhood, which is no finding of ours.
+# step back from the null pointer of an empty neighbourhood, which is no finding of ours. So they cannot share the precompiled header.
 function(lv_uses_itk)
   set(options -isystem ${GDCM_INCLUDE_DIRS})
   if(LV_SANITIZE)
     list(APPEND options -fno-sanitize=pointer-overflow)
   endif()
   set_source_files_properties(${ARGN} PROPERTIES
-    COMPILE_DEFINITIONS ITK_USE_SYSTEM_EIGEN COMPILE_OPTIONS "${options}")
+    COMPILE_DEFINITIONS ITK_USE_SYSTEM_EIGEN COMPILE_OPTIONS "${options}" SKIP_PRECOMPILE_HEADERS ON)
 endfunction()

@@ -1,5 +1,6 @@
 # Switches that the presets set, gathered in one interface target that every part of the project links.
-option(LV_NATIVE "Use every instruction of this processor (the program then runs on this kind only)" ON)
+set(LV_ARCH native CACHE STRING
+    "Processors to build for: native (this one's kind only), or x86-64-v2, x86-64-v3, x86-64-v4, and all that know as much")
 option(LV_WERROR "Warnings are errors" OFF)
 option(LV_CHECKS "Keep the development checks (LV_ASSERT) at release speed" OFF)
 set(LV_SANITIZE "" CACHE STRING "Sanitizers, e.g. address,undefined")
@@ -11,9 +12,7 @@ target_compile_options(lv_options INTERFACE
   # false alarms from GCC 12's own AVX-512 headers
   -Wno-uninitialized $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>
   -fno-math-errno -fno-trapping-math)  # sqrt needs no errno; NaN keeps its meaning
-if(LV_NATIVE)
-  target_compile_options(lv_options INTERFACE -march=native)
-endif()
+target_compile_options(lv_options INTERFACE -march=${LV_ARCH})
 if(LV_WERROR)
   target_compile_options(lv_options INTERFACE -Werror)
 endif()

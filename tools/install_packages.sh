@@ -1,10 +1,17 @@
 #!/bin/sh
-# Installs the Debian 12 packages that the program needs to be built and run; with --tests also those of the tests.
+# Installs the Debian 12 packages that the program needs to be built and run; with --tests also those of the tests, with
+# --package also those that make the Debian package.
 set -e
 packages="g++ cmake ninja-build pkg-config openmpi-bin libopenmpi-dev libfftw3-dev libfftw3-mpi-dev
   libeigen3-dev libxsimd-dev libboost-dev libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libspdlog-dev
   libfmt-dev libdeal.ii-dev libpetsc-real-dev libopenblas0-pthread libvtk9-dev libgmsh-dev libinsighttoolkit5-dev libgdcm-dev zlib1g-dev libcairo2-dev fonts-dejavu-core"
-[ "$1" != --tests ] || packages="$packages catch2 libsundials-dev python3 clang-format"
+case "$1" in
+  --tests)
+    packages="$packages catch2 libsundials-dev python3 clang-format clang-tidy chromium man-db"
+    command -v npm >/dev/null || packages="$packages nodejs npm"  # a Node.js from elsewhere brings its own
+    ;;
+  --package) packages="$packages dpkg-dev file" ;;
+esac
 missing=""
 for package in $packages; do
   dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q "install ok installed" || missing="$missing $package"

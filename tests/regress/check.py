@@ -79,6 +79,43 @@ def check_stages(work):
     other.write_text((here / "small.toml").read_text() + '\n[active]\nT_scale = 4\n')
     explained = run(work, 1, other, "--explain", "--until", "mesh").stdout
     check("strength of contraction leaves the mesh alone", explained.count("is up to date") == 2, explained)
+    often = work.parent / "rarely.toml"
+    often.write_text((here / "small.toml").read_text().replace('checkpoint_interval = "1 s"', 'checkpoint_interval = "2 s"'))
+    explained = run(work, 1, often, "--explain", "--until", "beat").stdout
+    check("how often checkpoints are written changes no beat", explained.count("is up to date") == 3, explained)
+
+
+def check_moved(work):
+    """The folder of a study gets another name, and the command is given from elsewhere."""
+    study = work.parent / "anna_example" / "study"
+    study.mkdir(parents=True)
+    case = study / "small.toml"
+    case.write_text((here / "small.toml").read_text())
+    work.rename(study / "small.work")
+    moved = study.rename(study.with_name("moved"))
+    again = subprocess.run([program, "run", "anna_example/moved/small.toml", "--ranks", "1", "--explain"], cwd=work.parent,
+                           capture_output=True, text=True, check=False)
+    check("a study that was moved has nothing to do", again.stdout.count("is up to date") == 5, again.stdout + again.stderr)
+    kept = [moved / "small.work" / name for name in ("log.txt", "04_results/summary.json", "05_report/report.html")]
+    told = [str(file) for file in kept if "anna_example" in file.read_text()]
+    check("no folder is named in what is passed on", not told, told)
+    (moved / "small.work" / "03_beat" / "beat.bin").unlink()
+    again = subprocess.run([program, "run", case.name, "--ranks", "1", "--explain", "--until", "mesh"], cwd=moved,
+                           capture_output=True, text=True, check=False)
+    check("stages before a lost file stay", again.stdout.count("is up to date") == 2, again.stdout + again.stderr)
+    again = subprocess.run([program, "run", case.name, "--ranks", "1", "--explain"], cwd=moved,
+                           capture_output=True, text=True, check=False)
+    check("a beat without its file runs again", "beat runs, because its file beat.bin is gone" in again.stdout, again.stdout)
+
+
+def check_one_rank(folder):
+    """Commands that one rank carries out say so under mpirun, once."""
+    launcher = ["mpirun", "-q", "--allow-run-as-root", "--oversubscribe", "-n", "2", program]
+    for words in (["parameters"], ["phantom", folder / "phantom"], ["report", folder, "--output", folder / "page.html"],
+                  ["validate", here / "small.toml"], ["new", folder / "new.toml"], ["images", folder]):
+        told = subprocess.run([*launcher, *words], capture_output=True, text=True, check=False)
+        check(f"{words[0]} on two ranks is refused in words", told.returncode == 1 and told.stdout == ""
+              and told.stderr.count("runs on one rank. Run it without mpirun") == 1, told.stdout[:200] + told.stderr)
 
 
 def check_unloading(work):
@@ -95,8 +132,9 @@ def check_unloading(work):
     check("frames come as output.frame_interval asks, and at the ends of the phases", len(frames) == 3, len(frames))
     other = work.parent / "other_box.toml"
     other.write_text(case.read_text() + '\n[volumetric]\nbeta_s = "50 kPa"\n')
-    explained = run(work, 1, other, "--explain", "--until", "beat").stdout
-    check("what the engine does not use starts no stage", explained.count("is up to date") == 4, explained)
+    refused = run(work, 1, other)
+    check("what the engine does not use is refused with the reason", refused.returncode == 1
+          and 'volumetric.beta_s does nothing here: it counts only with engine = "immersed"' in refused.stderr, refused.stderr)
 
 
 def different_tables(a, b):
@@ -163,7 +201,9 @@ with tempfile.TemporaryDirectory(prefix="ventricle_regress_") as temporary:
         check_stop_and_resume(undisturbed, folder / "killed", signal.SIGKILL, -signal.SIGKILL)
         check_stop_and_resume(undisturbed, folder / "terminated", signal.SIGTERM, 130)
         check_ranks(undisturbed, folder / "two_ranks")
+        check_one_rank(folder)
         check_stop_and_resume(folder / "two_ranks", folder / "stopped_on_two", signal.SIGINT, 130, ranks=2)
+        check_moved(undisturbed)
     check_refusals(folder)
 print(f"{len(failures)} failed")
 sys.exit(1 if failures else 0)

@@ -81,7 +81,7 @@ function makePages() {
 
 const browser = await playwright.chromium.launch({ executablePath: chromium, args: ["--no-sandbox", "--use-gl=angle",
   "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-background-networking", "--disable-component-update",
-  "--disable-sync", "--no-first-run"] });
+  "--disable-sync", "--disable-quic", "--no-first-run"] });
 
 /** Opens a page and watches what it says and asks for. */
 async function open(file, viewport = { width: 1200, height: 900 }) {

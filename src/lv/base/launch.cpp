@@ -95,22 +95,34 @@ void note(int /*signal*/) {
   times_asked = times_asked + 1;
 }
 
-/// The exit code of a child once it has ended, 128 + signal when it was killed. Once `asked` says
-/// how often this process was asked to stop, the child is told so: at first by SIGUSR1, which
-/// mpirun passes on to its ranks; again and again, since what is just starting does not hear it.
+/// Tells a child to stop: at first by SIGUSR1, which mpirun passes on to its ranks, again and
+/// again, since what is just starting does not hear it. A child that was told twice, or does not
+/// end for long after its ranks should have, is ended. `n` counts pauses since the first request.
+void pass_on(pid_t child, int times, int n) {
+  constexpr int second = 50;  // pauses
+  constexpr int long_after = static_cast<int>(interrupt::patience) + 10;
+  if (n % second != 0)
+    return;
+  if (n > (long_after + 5) * second)
+    kill(child, SIGKILL);
+  else if (times > 1 || n > long_after * second)
+    kill(child, SIGTERM);
+  else
+    kill(child, SIGUSR1);
+}
+
+/// The exit code of a child once it has ended, 128 + signal when it was killed. `asked` says how
+/// often this process was asked to stop.
 template <class Asked>
 int wait_for(pid_t child, const Asked& asked) {
   constexpr useconds_t pause = 20'000;  // [us]
-  constexpr int between = 50;           // pauses
   int status = 0;
-  for (int n = 0;; ++n) {
+  for (int since_asked = 0;;) {
     const pid_t ended = waitpid(child, &status, WNOHANG);
     if (ended == child || (ended < 0 && errno != EINTR))
       break;
-    if (asked() > 1)
-      kill(child, SIGTERM);
-    else if (asked() > 0 && n % between == 0)
-      kill(child, SIGUSR1);
+    if (asked() > 0)
+      pass_on(child, asked(), since_asked++);
     usleep(pause);
   }
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
@@ -134,6 +146,7 @@ constexpr int cannot_start = 127;
 /// Starts a child that `prepare`s itself and then becomes a command.
 template <class Prepare>
 pid_t start(const std::vector<std::string>& command, const Prepare& prepare) {
+  std::signal(SIGCHLD, SIG_DFL);  // whoever started this process may have ignored it
   const pid_t child = fork();
   if (child < 0)
     throw RunError(fmt::format("a process cannot be started: {}", std::strerror(errno)),

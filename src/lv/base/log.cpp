@@ -33,9 +33,27 @@ spdlog::logger& logger() {
                  "Move it away, or name another work folder with --work");
 }
 
+/// The file that lines go to besides, if any.
+struct File {
+  std::shared_ptr<spdlog::logger> logger;
+  NamesAlone names;
+};
+
+File& kept() {
+  static File file;
+  return file;
+}
+
+void write(spdlog::level::level_enum level, const std::string& text) {
+  const std::string line = printable_lines(text);
+  logger().log(level, line);
+  if (kept().logger)
+    kept().logger->log(level, kept().names(line));
+}
+
 }  // namespace
 
-void to_file(const std::filesystem::path& file) {
+void to_file(const std::filesystem::path& file, const NamesAlone& names) {
   if (!parallel::is_root())
     return;
   const std::filesystem::file_type type = std::filesystem::symlink_status(file).type();
@@ -48,8 +66,9 @@ void to_file(const std::filesystem::path& file) {
   } catch (const spdlog::spdlog_ex& error) {
     refuse(file, error.what());
   }
-  sink->set_pattern("[%Y-%m-%d %H:%M:%S] %l %v");
-  logger().sinks().push_back(std::move(sink));
+  kept() = {std::make_shared<spdlog::logger>("file", std::move(sink)), names};
+  kept().logger->set_pattern("[%Y-%m-%d %H:%M:%S] %l %v");
+  kept().logger->flush_on(spdlog::level::info);
 }
 
 void silence() {
@@ -58,10 +77,10 @@ void silence() {
 }
 
 void info(const std::string& line) {
-  logger().info(printable_lines(line));
+  write(spdlog::level::info, line);
 }
 void warn(const std::string& line) {
-  logger().warn(printable_lines(line));
+  write(spdlog::level::warn, line);
 }
 
 std::string duration(double seconds) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "lv/base/names_alone.hpp"
+
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -8,9 +10,9 @@
 /// One line per event, from the root rank, to the terminal and to a log file.
 namespace lv::log {
 
-/// Sends lines to this file too, from now on, adding to what is there. Only the root writes. Throws
-/// RunError there when it cannot.
-void to_file(const std::filesystem::path& file);
+/// Sends lines to this file too, from now on, adding to what is there, without the folders of
+/// `names`: a log is kept and shared. Only the root writes. Throws RunError there when it cannot.
+void to_file(const std::filesystem::path& file, const NamesAlone& names);
 
 /// Keeps quiet on the terminal (for output that a program reads).
 void silence();

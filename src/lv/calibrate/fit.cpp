@@ -84,7 +84,7 @@ class Fitter {
     measure();
     purpose_ = "sensitivity";
     fit_.sensitivity = sensitivity(model_, fit_.parameters, fitted, fit_.observations,
-                                   plan_.edv.volume, ed_loads(), es_loads(), plan_.errors);
+                                   {plan_.edv.volume, ed_loads(), es_loads(), plan_.errors});
     return std::move(fit_);
   }
 

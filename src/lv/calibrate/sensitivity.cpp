@@ -1,8 +1,7 @@
 #include "lv/calibrate/sensitivity.hpp"
 
+#include "lv/base/dense.hpp"
 #include "lv/base/units.hpp"
-
-#include <Eigen/QR>
 
 #include <cmath>
 
@@ -72,17 +71,12 @@ Eigen::MatrixXd below_each_other(const Eigen::MatrixXd& a, const Eigen::MatrixXd
   return both;
 }
 
-/// (J^T J)^-1, or its pseudo-inverse.
-Eigen::MatrixXd inverse_of_normal_matrix(const Eigen::MatrixXd& J) {
-  return (J.transpose() * J).completeOrthogonalDecomposition().pseudoInverse();
-}
-
 }  // namespace
 
 Sensitivity sensitivity(const Model& model, const FitParameters& at,
                         const std::vector<Fitted>& parameters,
-                        const std::vector<ObservedVolume>& observations, double edv,
-                        const solid::Loads& ed, const solid::Loads& es, const Errors& errors) {
+                        const std::vector<ObservedVolume>& observations, const Measured& measured) {
+  const auto& [edv, ed, es, errors] = measured;
   const auto n = static_cast<Eigen::Index>(parameters.size());
   const auto m = static_cast<Eigen::Index>(observations.size());
   Sensitivity s{parameters, Eigen::MatrixXd(m, n), Eigen::VectorXd(m), {}, {}, {}, {}};
@@ -114,8 +108,8 @@ Sensitivity sensitivity(const Model& model, const FitParameters& at,
     by_data = below_each_other(by_data / errors.volume, strain_by_data);
     of_errors = J;
   }
-  s.by_data = J.completeOrthogonalDecomposition().solve(by_data);
-  s.covariance = inverse_of_normal_matrix(of_errors);
+  s.by_data = dense::least_squares(J, by_data);
+  s.covariance = dense::inverse_of_normal_matrix(of_errors);
   const Eigen::VectorXd deviation = s.covariance.diagonal().cwiseSqrt();
   s.correlation = s.covariance.cwiseQuotient(deviation * deviation.transpose());
   return s;

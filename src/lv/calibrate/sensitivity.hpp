@@ -53,12 +53,17 @@ struct Sensitivity {
   Eigen::MatrixXd covariance;
 };
 
-/// `ed` and `es` are the loads between which strains are measured; without `model.strains` they and
-/// `errors` mean nothing.
+/// What was measured besides the observed volumes. Without `Model::strains`, loads and errors mean
+/// nothing.
+struct Measured {
+  double edv = 0.0;     ///< [mm^3]
+  solid::Loads ed, es;  ///< between which strains are measured
+  Errors errors;
+};
+
 [[nodiscard]] Sensitivity sensitivity(const Model& model, const FitParameters& at,
                                       const std::vector<Fitted>& parameters,
-                                      const std::vector<ObservedVolume>& observations, double edv,
-                                      const solid::Loads& ed = {}, const solid::Loads& es = {},
-                                      const Errors& errors = {});
+                                      const std::vector<ObservedVolume>& observations,
+                                      const Measured& measured);
 
 }  // namespace lv::calibrate

@@ -1,10 +1,10 @@
 #include "lv/calibrate/summary.hpp"
 
+#include "lv/base/dense.hpp"
 #include "lv/base/json_file.hpp"
 #include "lv/base/units.hpp"
 #include "lv/calibrate/klotz.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -121,14 +121,14 @@ std::string deviation_rows(const Fit& fit) {
 /// What the data say least about: the direction of the parameters' logarithms with the largest
 /// variance.
 std::string weakest_direction(const Fit& fit) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(covariance(fit));
-  const Eigen::Index last = eigen.eigenvalues().size() - 1;
-  const Eigen::VectorXd v = eigen.eigenvectors().col(last);
+  const dense::Eigenpairs eigen = dense::symmetric_eigenpairs(covariance(fit));
+  const Eigen::Index last = eigen.values.size() - 1;
+  const Eigen::VectorXd v = eigen.vectors.col(last);
   std::string product;
   for (Eigen::Index j = 0; j < v.size(); ++j)
     product += fmt::format("{}{}^{:.2f}", j == 0 ? "" : " ", fit.sensitivity.parameters[j].name,
                            v[0] < 0.0 ? -v[j] : v[j]);
-  const double deviation = std::sqrt(eigen.eigenvalues()[last]);
+  const double deviation = std::sqrt(eigen.values[last]);
   return fmt::format("The data say least about {}: its standard deviation is {:.1f}%{}.", product,
                      100.0 * deviation, deviation > unknown ? ", so they leave it open" : "");
 }

@@ -1,6 +1,6 @@
 #include "lv/geometry/meridian_map.hpp"
 
-#include <Eigen/Cholesky>
+#include "lv/base/dense.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -127,7 +127,7 @@ Vec best_matching(const MeanMeridian& endo, const MeanMeridian& epi) {
       J.col(k) = (crossings(endo, epi, a + probe * Vec::Unit(waves, k)).cosines - r) / probe;
     Eigen::MatrixXd K = J.transpose() * J;
     K.diagonal().array() += penalty + damping;
-    const Vec next = a - K.ldlt().solve(J.transpose() * r + penalty * a);
+    const Vec next = a - dense::solve_symmetric(K, J.transpose() * r + penalty * a);
     const bool better = cost(next) < cost(a);
     damping *= better ? 0.3 : 4.0;
     if (better)

@@ -1,5 +1,7 @@
 #include "lv/geometry/surface_fit.hpp"
 
+#include "lv/base/dense.hpp"
+
 #include <Eigen/Cholesky>
 #include <Eigen/SparseCore>
 
@@ -354,7 +356,7 @@ class Fit {
         add_sample(side, data_.samples[side][i], weights_[side][i] / total, equations);
     }
     const Eigen::MatrixXd K = map_.transpose() * (equations.K * map_);
-    const Eigen::VectorXd x = map_ * K.ldlt().solve(map_.transpose() * equations.f);
+    const Eigen::VectorXd x = map_ * dense::solve_symmetric(K, map_.transpose() * equations.f);
     for (const int side : {0, 1})
       surfaces_[side] = spaces_[side].surface(x.segment(first_[side], spaces_[side].size()));
     double change = 0.0;

@@ -197,10 +197,10 @@ void drop_strays(Contours& contours, std::vector<std::string>& notes) {
     }
     if (strays.empty())
       first = loop.where();
-    strays.push_back(
-        fmt::format("slice {}: the outer contour lies off the heart, its middle {:.0f} mm from that "
-                    "of the inner one",
-                    loop.slice, middle_distance(*endo, loop)));
+    strays.push_back(fmt::format(
+        "slice {}: the outer contour lies off the heart, its middle {:.0f} mm from that "
+        "of the inner one",
+        loop.slice, middle_distance(*endo, loop)));
   }
   contours.short_axis = std::move(kept);
   if (!strays.empty() && outer_loops() == 0)

@@ -16,8 +16,8 @@ namespace lv::image {
 void close_walls(geometry::Contours& contours, double least, std::vector<std::string>& notes);
 
 /// Leaves out, with a note each, outer contours that are drawn somewhere else than round the inner
-/// ones: they do not enclose the middle of the endocardium, or lie off it by more than half of their
-/// mean radius. @throws InputError if all are.
+/// ones: they do not enclose the middle of the endocardium, or lie off it by more than half of
+/// their mean radius. @throws InputError if all are.
 void drop_strays(geometry::Contours& contours, std::vector<std::string>& notes);
 
 /// Leaves out the most basal slices, endocardium and epicardium, that muscle surrounds over less

@@ -60,47 +60,40 @@ bool has_length(std::span<const char> bytes, std::int32_t length, bool swapped) 
          Numbers(bytes, swapped).at<std::int32_t>(0) == length;
 }
 
-NiftiHeader parse_1(std::span<const char> bytes, bool swapped) {
-  const Numbers n(bytes, swapped);
-  NiftiHeader header;
-  header.length = length_1;
-  header.swapped = swapped;
-  header.beside = stands_at(bytes, 344, "ni1");
-  header.dim = n.row<std::int16_t, 8>(40);
-  header.datatype = n.at<std::int16_t>(70);
-  header.bits = n.at<std::int16_t>(72);
-  header.pixdim = n.row<float, 8>(76);
-  header.voxels_begin = n.at<float>(108);
-  header.slope = n.at<float>(112);
-  header.intercept = n.at<float>(116);
-  header.units = n.at<std::uint8_t>(123);
-  header.qform_code = n.at<std::int16_t>(252);
-  header.sform_code = n.at<std::int16_t>(254);
-  header.quaternion = n.vector<float>(256);
-  header.offset = n.vector<float>(268);
-  header.rows = n.matrix<float>(280);
-  return header;
-}
+/// Where the numbers of a header stand.
+struct Places {
+  std::int32_t length;
+  std::size_t magic, datatype, bits, dim, pixdim, voxels_begin, slope, intercept, units, qform_code,
+      sform_code, quaternion, offset, rows;
+};
 
-NiftiHeader parse_2(std::span<const char> bytes, bool swapped) {
+constexpr Places places_1{length_1, 344, 70,  72,  40,  76,  108, 112,
+                          116,      123, 252, 254, 256, 268, 280};
+constexpr Places places_2{length_2, 4,   12,  14,  16,  104, 168, 176,
+                          184,      500, 344, 348, 352, 376, 400};
+
+/// `Size` is the type of dim, `Begin` that of vox_offset, `Real` that of other real numbers,
+/// `Units` and `Code` those of xyzt_units and of the codes of sform and qform.
+template <class Size, class Begin, class Real, class Units, class Code>
+NiftiHeader parse(std::span<const char> bytes, bool swapped, const Places& at) {
   const Numbers n(bytes, swapped);
   NiftiHeader header;
-  header.length = length_2;
+  header.length = static_cast<std::size_t>(at.length);
   header.swapped = swapped;
-  header.beside = stands_at(bytes, 4, "ni2");
-  header.datatype = n.at<std::int16_t>(12);
-  header.bits = n.at<std::int16_t>(14);
-  header.dim = n.row<std::int64_t, 8>(16);
-  header.pixdim = n.row<double, 8>(104);
-  header.voxels_begin = static_cast<double>(n.at<std::int64_t>(168));
-  header.slope = n.at<double>(176);
-  header.intercept = n.at<double>(184);
-  header.qform_code = n.at<std::int32_t>(344);
-  header.sform_code = n.at<std::int32_t>(348);
-  header.quaternion = n.vector<double>(352);
-  header.offset = n.vector<double>(376);
-  header.rows = n.matrix<double>(400);
-  header.units = n.at<std::int32_t>(500);
+  header.beside = stands_at(bytes, at.magic, "ni");
+  header.dim = n.row<Size, 8>(at.dim);
+  header.datatype = n.at<std::int16_t>(at.datatype);
+  header.bits = n.at<std::int16_t>(at.bits);
+  header.pixdim = n.row<Real, 8>(at.pixdim);
+  header.voxels_begin = static_cast<double>(n.at<Begin>(at.voxels_begin));
+  header.slope = n.at<Real>(at.slope);
+  header.intercept = n.at<Real>(at.intercept);
+  header.units = n.at<Units>(at.units);
+  header.qform_code = n.at<Code>(at.qform_code);
+  header.sform_code = n.at<Code>(at.sform_code);
+  header.quaternion = n.vector<Real>(at.quaternion);
+  header.offset = n.vector<Real>(at.offset);
+  header.rows = n.matrix<Real>(at.rows);
   return header;
 }
 
@@ -110,10 +103,12 @@ std::optional<NiftiHeader> parse_nifti_header(std::span<const char> bytes) {
   for (const bool swapped : {false, true}) {
     if (has_length(bytes, length_1, swapped) &&
         (stands_at(bytes, 344, "n+1") || stands_at(bytes, 344, "ni1")))
-      return parse_1(bytes, swapped);
+      return parse<std::int16_t, float, float, std::uint8_t, std::int16_t>(bytes, swapped,
+                                                                           places_1);
     if (has_length(bytes, length_2, swapped) &&
         (stands_at(bytes, 4, "n+2") || stands_at(bytes, 4, "ni2")))
-      return parse_2(bytes, swapped);
+      return parse<std::int64_t, std::int64_t, double, std::int32_t, std::int32_t>(bytes, swapped,
+                                                                                   places_2);
   }
   return std::nullopt;
 }

@@ -97,8 +97,8 @@ const QuadratureCoupling::Rule& QuadratureCoupling::rule(const std::array<int, 3
 /// Products of Gauss rules; on tetrahedra collapsed onto the simplex, (r, s(1-r), t(1-r)(1-s)).
 QuadratureCoupling::Rule QuadratureCoupling::make_rule(const std::array<int, 3>& points) const {
   Rule rule;
-  for (const auto& [r, wr] : gauss_rule(points[0])) {
-    for (const auto& [s, ws] : gauss_rule(points[1])) {
+  for (const auto& [r, wr] : gauss_rule(points[0]))
+    for (const auto& [s, ws] : gauss_rule(points[1]))
       for (const auto& [t, wt] : gauss_rule(points[2])) {
         ReferencePoint point{};
         if (mesh_.kind == mesh::CellKind::hexahedron) {
@@ -110,8 +110,6 @@ QuadratureCoupling::Rule QuadratureCoupling::make_rule(const std::array<int, 3>&
         }
         rule.push_back(point);
       }
-    }
-  }
   return rule;
 }
 

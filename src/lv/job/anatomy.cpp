@@ -5,7 +5,7 @@
 #include "lv/base/table.hpp"
 #include "lv/geometry/drawn_wall.hpp"
 #include "lv/job/drawn.hpp"
-#include "lv/mesh/abaqus_blocks.hpp"
+#include "lv/job/parameters.hpp"
 #include "lv/mesh/foreign_mesh.hpp"
 #include "lv/mesh/import.hpp"
 #include "lv/mesh/refine.hpp"
@@ -16,7 +16,6 @@
 
 #include <array>
 #include <memory>
-#include <utility>
 
 namespace lv::job {
 namespace {
@@ -74,20 +73,16 @@ Shape from_drawn(const Case& c) {
 }
 
 /// Sides and directions of fibres may be files beside the mesh's.
-using ImportName = std::pair<const char*, std::string mesh::ImportParameters::*>;
-constexpr std::array<ImportName, 5> perhaps_files{
-    {{"anatomy.mesh.endo", &mesh::ImportParameters::endo},
-     {"anatomy.mesh.epi", &mesh::ImportParameters::epi},
-     {"anatomy.mesh.base", &mesh::ImportParameters::base},
-     {"anatomy.mesh.fibres", &mesh::ImportParameters::fibres},
-     {"anatomy.mesh.sheets", &mesh::ImportParameters::sheets}}};
+constexpr std::array perhaps_files{&mesh::ImportParameters::endo, &mesh::ImportParameters::epi,
+                                   &mesh::ImportParameters::base, &mesh::ImportParameters::fibres,
+                                   &mesh::ImportParameters::sheets};
 
 Shape from_mesh(const Case& c) {
   mesh::ImportParameters import = c.anatomy.mesh.import;
   if (import.file.empty())
     throw InputError(c.file.string(), "anatomy.mesh.file is not set", "Name the mesh's file");
   import.file = beside(c, import.file).string();
-  for (const auto& [parameter, name] : perhaps_files)
+  for (const auto name : perhaps_files)
     if (mesh::names_file(import.*name))
       import.*name = beside(c, import.*name).string();
   if (c.scar.source == mesh::InfarctSource::elements)
@@ -105,27 +100,7 @@ Shape from_mesh(const Case& c) {
   return shape;
 }
 
-std::vector<double> numbers(const Vec3& v) {
-  return {v.x(), v.y(), v.z()};
-}
-
-}  // namespace
-
-std::string septum_note(const Case& c) {
-  const bool said = c.origin.contains("regions.septum_angle") ||
-                    c.origin.contains("anatomy.contours.septum_point") ||
-                    !c.anatomy.labels.right_ventricle.empty();
-  if (said || c.anatomy.source == AnatomySource::ellipsoid)
-    return "";
-  if (c.anatomy.source == AnatomySource::guide_points)
-    return "";  // the list may show it: see the notes of the anatomy
-  return is_drawn(c)
-             ? assumed_septum
-             : "the septum is assumed on the mesh's x axis: regions bear the wrong names if it is "
-               "elsewhere (set regions.septum_angle)";
-}
-
-Shape make_anatomy(const Case& c) {
+Shape read_shape(const Case& c) {
   if (is_drawn(c))
     return from_drawn(c);
   if (c.anatomy.source == AnatomySource::mesh) {
@@ -138,6 +113,36 @@ Shape make_anatomy(const Case& c) {
   shape.wall = [e = c.anatomy.ellipsoid](double u, double theta, double t) {
     return e.point(u, theta, t);
   };
+  return shape;
+}
+
+std::vector<double> numbers(const Vec3& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
+}  // namespace
+
+std::string septum_note(const Case& c) {
+  const bool said = c.origin.contains("regions.septum_angle") ||
+                    c.anatomy.contours.fit.frame.septum ||
+                    !c.anatomy.labels.right_ventricle.empty();
+  if (said || c.anatomy.source == AnatomySource::ellipsoid)
+    return "";
+  if (c.anatomy.source == AnatomySource::guide_points)
+    return "";  // the list may show it: see the notes of the anatomy
+  return is_drawn(c)
+             ? assumed_septum
+             : "the septum is assumed on the mesh's x axis: regions bear the wrong names if it is "
+               "elsewhere (set regions.septum_angle)";
+}
+
+Shape make_anatomy(const Case& c) {
+  Shape shape = read_shape(c);
+  const NamesAlone names = names_alone(c);  // notes may name files: they are kept and shown
+  for (std::string& note : shape.notes)
+    note = names(note);
+  if (shape.quality)
+    shape.quality->notes = shape.notes;
   return shape;
 }
 
@@ -159,25 +164,6 @@ void write_anatomy(const Shape& shape, const fs::path& folder) {
   report::quality_table(*shape.quality).write_csv(folder / "quality.csv");
   write_file(folder / "quality.json", report::quality_json(*shape.quality));
   write_file(folder / "quality.txt", report::quality_text(*shape.quality));
-}
-
-Ingredients anatomy_files(const Case& c) {
-  Ingredients files = drawn_files(c);
-  const auto add = [&](const std::string& parameter, const std::string& name) {
-    if (!name.empty())
-      files["contents of " + parameter] = fingerprint_of_file(beside(c, name));
-  };
-  if (c.anatomy.source == AnatomySource::mesh) {
-    add("anatomy.mesh.file", c.anatomy.mesh.import.file);
-    for (const auto& [parameter, name] : perhaps_files)
-      if (const std::string& file = c.anatomy.mesh.import.*name; mesh::names_file(file))
-        add(parameter, file);
-    const fs::path file = beside(c, c.anatomy.mesh.import.file);
-    if (file.extension() == ".inp" && fs::exists(file))
-      for (const std::string& included : mesh::read_abaqus_blocks(file.string()).files)
-        files["contents of " + included] = fingerprint_of_file(included);
-  }
-  return files;
 }
 
 }  // namespace lv::job

@@ -3,7 +3,6 @@
 #include "lv/geometry/frame.hpp"
 #include "lv/geometry/spline_wall.hpp"
 #include "lv/job/case.hpp"
-#include "lv/job/workspace.hpp"
 #include "lv/mesh/wall_mesh.hpp"
 #include "lv/report/quality_sheet.hpp"
 
@@ -32,8 +31,5 @@ struct Shape {
 /// Writes surfaces.vtu (in the model frame), frame.json and, for a drawn wall, fit.csv with the
 /// residual distances per image and the quality sheet as quality.csv, .json and .txt.
 void write_anatomy(const Shape& shape, const std::filesystem::path& folder);
-
-/// The files that a case's anatomy is read from, by parameter, with what stands for their contents.
-[[nodiscard]] Ingredients anatomy_files(const Case& c);
 
 }  // namespace lv::job

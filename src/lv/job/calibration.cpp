@@ -1,5 +1,6 @@
 #include "lv/job/calibration.hpp"
 
+#include "lv/base/dense.hpp"
 #include "lv/base/json_file.hpp"
 #include "lv/base/log.hpp"
 #include "lv/base/parallel.hpp"
@@ -11,7 +12,6 @@
 #include "lv/job/strain_targets.hpp"
 #include "lv/job/unloading.hpp"
 
-#include <Eigen/LU>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -78,12 +78,13 @@ std::string fragment(const Case& fitted) {
   for (const Parameter& p : parameters()) {
     if (std::find(names.begin(), names.end(), p.name) == names.end())
       continue;
-    const auto dot = p.name.rfind('.');
-    if (p.name.substr(0, dot) != table) {
-      table = p.name.substr(0, dot);
+    const std::string name = p.name;
+    const auto dot = name.rfind('.');
+    if (name.substr(0, dot) != table) {
+      table = name.substr(0, dot);
       text += fmt::format("\n[{}]\n", table);
     }
-    text += fmt::format("{} = {}\n", p.name.substr(dot + 1), p.get(fitted));
+    text += fmt::format("{} = {}\n", name.substr(dot + 1), p.get(fitted));
   }
   return text;
 }
@@ -126,7 +127,7 @@ Json corrected(const Json& calibration, Json parameters, const Json& rows) {
                 calibration.at("parameters").at(names[j]).get<double>();
     ++k;
   }
-  const Eigen::VectorXd change = J.partialPivLu().solve(missing);
+  const Eigen::VectorXd change = dense::solve(J, missing);
   for (Eigen::Index j = 0; j < n; ++j)
     parameters[names[j]] = parameters.at(names[j]).get<double>() * std::exp(change[j]);
   return parameters;

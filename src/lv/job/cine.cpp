@@ -10,6 +10,7 @@
 #include "lv/image/dicom_study.hpp"
 #include "lv/image/nifti.hpp"
 #include "lv/image/sunnybrook.hpp"
+#include "lv/job/parameters.hpp"
 
 #include <fmt/format.h>
 
@@ -255,6 +256,9 @@ CineStudy read_cine_study(const Case& c) {
     check_stack(c, study);
     study.shift_of = breath_hold_shifts(c, study);
   }
+  const NamesAlone names = names_alone(c);  // notes may name files: they are kept and shown
+  for (std::string& note : study.notes)
+    note = names(note);
   return study;
 }
 

@@ -1,7 +1,6 @@
 #include "lv/job/drawn.hpp"
 
 #include "lv/base/check.hpp"
-#include "lv/base/files.hpp"
 #include "lv/geometry/contour_checks.hpp"
 #include "lv/geometry/contour_measures.hpp"
 #include "lv/geometry/fit_report.hpp"
@@ -47,7 +46,7 @@ geometry::ContourFiles contour_files(const Case& c) {
 Drawn from_csv(const Case& c) {
   Drawn drawn;
   drawn.contours = geometry::read_contours(contour_files(c));
-  drawn.source = fmt::format("contours of {}", c.anatomy.contours.short_axis);
+  drawn.source = "contours";
   return drawn;
 }
 
@@ -104,7 +103,7 @@ Drawn from_labels(const Case& c) {
       image::trace_labels(volume, {a.cavity, a.muscle, a.right_ventricle}, frame);
   Drawn drawn;
   drawn.contours = std::move(traced.contours);
-  drawn.source = fmt::format("labels of {}, frame {}", a.file, frame + 1);
+  drawn.source = fmt::format("labels, frame {}", frame + 1);
   drawn.label_cavity = traced.cavity;
   drawn.label_muscle = traced.muscle;
   drawn.septum = traced.septum;
@@ -131,7 +130,7 @@ Drawn from_sunnybrook(const Case& c) {
                      "Choose a phase, counted from 1 in order of time");
   Drawn drawn;
   drawn.contours = std::move(read.phases.at(a.phase));
-  drawn.source = fmt::format("contours of {}, phase {}", a.contours, a.phase);
+  drawn.source = fmt::format("contours in pixels, phase {}", a.phase);
   drawn.usual_base = geometry::BaseAt::slab;
   drawn.notes = image::remarks(stack);
   drawn.notes.insert(drawn.notes.end(), read.notes.begin(), read.notes.end());
@@ -145,7 +144,7 @@ Drawn from_guide_points(const Case& c) {
                                a.frame < 0 ? std::nullopt : std::optional(a.frame), a.apex_point);
   Drawn drawn;
   drawn.contours = std::move(read.contours);
-  drawn.source = fmt::format("guide points of {}", a.file);
+  drawn.source = "guide points";
   drawn.septum = read.septum;
   drawn.usual_base =
       drawn.contours.annulus.empty() ? geometry::BaseAt::slab : geometry::BaseAt::annulus;
@@ -175,11 +174,6 @@ double volume_of(const geometry::Contours& contours) {
 
 }  // namespace
 
-void add_folder(const fs::path& folder, Ingredients& files) {
-  for (const fs::path& file : files_in(folder, true).files)
-    files["contents of " + file.string()] = fingerprint_of_file(file);
-}
-
 bool is_drawn(const Case& c) {
   return c.anatomy.source != AnatomySource::ellipsoid && c.anatomy.source != AnatomySource::mesh;
 }
@@ -195,35 +189,6 @@ Drawn read_drawn(const Case& c) {
     image::close_walls(drawn.contours, thinnest, drawn.notes);
   geometry::check_contours(drawn.contours);
   return drawn;
-}
-
-Ingredients drawn_files(const Case& c) {
-  Ingredients files;
-  const auto add = [&](const std::string& parameter, const std::string& name) {
-    if (!name.empty())
-      files["contents of " + parameter] = fingerprint_of_file(beside(c, name));
-  };
-  switch (c.anatomy.source) {
-    case AnatomySource::contours:
-      add("anatomy.contours.short_axis", c.anatomy.contours.short_axis);
-      add("anatomy.contours.long_axis", c.anatomy.contours.long_axis);
-      add("anatomy.contours.apex_endo", c.anatomy.contours.apex_endo);
-      add("anatomy.contours.apex_epi", c.anatomy.contours.apex_epi);
-      break;
-    case AnatomySource::labels:
-      add("anatomy.labels.file", c.anatomy.labels.file);
-      break;
-    case AnatomySource::guide_points:
-      add("anatomy.guide_points.file", c.anatomy.guide_points.file);
-      break;
-    case AnatomySource::sunnybrook:
-      add_folder(beside(c, c.anatomy.sunnybrook.contours), files);
-      add_folder(beside(c, c.anatomy.sunnybrook.dicom), files);
-      break;
-    default:
-      break;
-  }
-  return files;
 }
 
 std::string describe_phases(const std::map<int, geometry::Contours>& phases) {

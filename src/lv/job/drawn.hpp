@@ -2,9 +2,9 @@
 
 #include "lv/geometry/contours.hpp"
 #include "lv/job/case.hpp"
-#include "lv/job/workspace.hpp"
 
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,12 +28,6 @@ struct Drawn {
 /// Reads what the case names. Throws InputError naming file, slice and remedy; where a choice is
 /// missing (labels, frame, phase), with what there is to choose from.
 [[nodiscard]] Drawn read_drawn(const Case& c);
-
-/// The files that this reads, with what stands for their contents.
-[[nodiscard]] Ingredients drawn_files(const Case& c);
-
-/// All files of a folder, with what stands for their contents.
-void add_folder(const std::filesystem::path& folder, Ingredients& files);
 
 /// "phase 1: 9 endo, 0 epi, 141.30 ml" and so on, a line each, with a proposal of phases.
 [[nodiscard]] std::string describe_phases(const std::map<int, geometry::Contours>& phases);

@@ -5,7 +5,6 @@
 #include "lv/image/dicom_study.hpp"
 #include "lv/image/lookup.hpp"
 #include "lv/image/nifti.hpp"
-#include "lv/job/drawn.hpp"
 #include "lv/job/scar_threshold.hpp"
 #include "lv/job/slice_moves.hpp"
 #include "lv/mesh/cell.hpp"
@@ -20,7 +19,6 @@
 #include <array>
 #include <cmath>
 #include <optional>
-#include <system_error>
 
 namespace lv::job {
 namespace {
@@ -354,27 +352,6 @@ InfarctExtent infarct_extent(const Case& c, const Shape& shape, const Mesh& mesh
   ask_if_large(c, mesh, infarct);
   return {mesh::infarct_field(mesh, infarct.elements, c.scar.border), std::move(infarct.part),
           std::move(infarct.slice_moves)};
-}
-
-Ingredients infarct_files(const Case& c) {
-  Ingredients files;
-  const auto add = [&](const std::string& parameter, const std::string& name) {
-    if (!name.empty())
-      files["contents of " + parameter] = fingerprint_of_file(beside(c, name));
-  };
-  if (c.scar.source == InfarctSource::surface)
-    add("infarct.surface.file", c.scar.surface);
-  if (c.scar.source == InfarctSource::labels)
-    add("infarct.labels.file", c.scar.labels);
-  if (c.scar.source == InfarctSource::lge && !c.scar.lge.image.empty()) {
-    const auto place = beside(c, c.scar.lge.image);
-    std::error_code failed;
-    if (std::filesystem::is_directory(place, failed))
-      add_folder(place, files);
-    else
-      add("infarct.lge.image", c.scar.lge.image);
-  }
-  return files;
 }
 
 Table infarct_table(const Case& c, const MeshResult& wall) {

@@ -24,9 +24,6 @@ struct InfarctExtent {
 [[nodiscard]] InfarctExtent infarct_extent(const Case& c, const Shape& shape,
                                            const mesh::Mesh& mesh);
 
-/// The files that the infarct is read from, by parameter, with what stands for their contents.
-[[nodiscard]] Ingredients infarct_files(const Case& c);
-
 /// infarct.csv: per AHA segment the infarct's volume, mass (with the density of the case), part of
 /// the segment and transmurality (see mesh::infarct_by_segment).
 [[nodiscard]] Table infarct_table(const Case& c, const MeshResult& wall);

@@ -1,621 +1,1031 @@
 #include "lv/job/parameters.hpp"
 
+#include "lv/job/conditions.hpp"
 #include "lv/job/declarations.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <span>
+
 namespace lv::job {
 namespace {
 
-// A parameter's place in the case, as a function that returns a reference to the member.
-#define LV_AT(member)     \
-  [](Case & c) -> auto& { \
-    return c.member;      \
-  }
+using namespace conditions;
 
-void declare_anatomy(Declarations& d) {
-  d.stage = Stage::results;
-  d.table = "";
-  d.text("name", LV_AT(name), "name of the subject or case, for reports");
-  d.stage = Stage::mesh;
-  d.choice(
-      "engine", LV_AT(engine), {"immersed", "quasi_static"},
-      "the dynamic immersed boundary model, or equilibrium without inertia and blood: the answer "
-      "of slow loads, in seconds");
-  d.stage = Stage::anatomy;
-  d.table = "anatomy";
-  d.choice("source", LV_AT(anatomy.source),
-           {"ellipsoid", "contours", "mesh", "labels", "sunnybrook", "guide_points"},
-           "where the shape of the wall at early diastole comes from", "2.2");
-  d.table = "anatomy.ellipsoid";
-  const Range size = between(1.0, 200.0);
-  d.quantity("endo_radius", LV_AT(anatomy.ellipsoid.endo_radius), "mm", size,
-             "semi-axis of the endocardium across the long axis");
-  d.quantity("endo_length", LV_AT(anatomy.ellipsoid.endo_length), "mm", size,
-             "semi-axis of the endocardium along the long axis");
-  d.quantity("epi_radius", LV_AT(anatomy.ellipsoid.epi_radius), "mm", size,
-             "semi-axis of the epicardium across the long axis");
-  d.quantity("epi_length", LV_AT(anatomy.ellipsoid.epi_length), "mm", size,
-             "semi-axis of the epicardium along the long axis");
-  d.quantity("base_height", LV_AT(anatomy.ellipsoid.base_height), "mm", between(-100.0, 200.0),
-             "height of the basal plane above the widest section");
+constexpr Stages meshing(Stage::mesh, Stage::calibrate, Stage::unload);
+constexpr Stages mechanics(Stage::calibrate, Stage::unload, Stage::beat);
+
+constexpr Group of_anatomy[]{
+    {Stages(Stage::results),
+     {},
+     {
+         value("name", LV_AT(name), "name of the subject or case, for reports"),
+     }},
+    {Stages(Stage::mesh, Stage::unload, Stage::beat),
+     {},
+     {
+         choice("engine", LV_AT(engine), "immersed quasi_static",
+                "the dynamic immersed boundary model, or equilibrium without inertia and blood: "
+                "the answer of slow loads, in seconds"),
+     }},
+    {Stages(Stage::anatomy, Stage::mesh, Stage::calibrate, Stage::unload),
+     {},
+     {
+         choice("anatomy.source", LV_AT(anatomy.source),
+                "ellipsoid contours mesh labels sunnybrook guide_points",
+                "where the shape of the wall at early diastole comes from", "2.2"),
+     }},
+    {Stages(Stage::anatomy),
+     {&ellipsoid},
+     {
+         number("anatomy.ellipsoid.endo_radius", LV_AT(anatomy.ellipsoid.endo_radius), "mm",
+                between(1.0, 200.0), "semi-axis of the endocardium across the long axis"),
+         number("anatomy.ellipsoid.endo_length", LV_AT(anatomy.ellipsoid.endo_length), "mm",
+                between(1.0, 200.0), "semi-axis of the endocardium along the long axis"),
+         number("anatomy.ellipsoid.epi_radius", LV_AT(anatomy.ellipsoid.epi_radius), "mm",
+                between(1.0, 200.0), "semi-axis of the epicardium across the long axis"),
+         number("anatomy.ellipsoid.epi_length", LV_AT(anatomy.ellipsoid.epi_length), "mm",
+                between(1.0, 200.0), "semi-axis of the epicardium along the long axis"),
+         number("anatomy.ellipsoid.base_height", LV_AT(anatomy.ellipsoid.base_height), "mm",
+                between(-100.0, 200.0), "height of the basal plane above the widest section"),
+     }},
+    {Stages(Stage::anatomy),
+     {&from_contours},
+     {
+         path("anatomy.contours.short_axis", LV_AT(anatomy.contours.short_axis),
+              "CSV of short-axis loops with columns slice, contour (endo or epi), point, x_mm, "
+              "y_mm, z_mm in scanner coordinates; names are relative to the case file"),
+         path("anatomy.contours.long_axis", LV_AT(anatomy.contours.long_axis),
+              "CSV of open curves on long-axis images, same columns; may be left out"),
+         path("anatomy.contours.apex_endo", LV_AT(anatomy.contours.apex_endo),
+              "CSV of points at the tip of the endocardium, same columns; may be left out"),
+         path("anatomy.contours.apex_epi", LV_AT(anatomy.contours.apex_epi),
+              "CSV of points at the tip of the epicardium, same columns; may be left out"),
+     }},
+    {Stages(Stage::strain, Stage::anatomy),
+     {&fitted},
+     {
+         choice("anatomy.contours.base_plane", LV_AT(anatomy.contours.fit.frame.base_plane),
+                "long_axis basal_slice",
+                "the base plane through the centre of the most basal endocardial loop is normal "
+                "to the long axis, or the plane of that loop",
+                "2.2"),
+     }},
+    {Stages(Stage::anatomy),
+     {&drawn},
+     {
+         choice("anatomy.contours.base_at", LV_AT(anatomy.contours.base_at),
+                "automatic slice slab annulus",
+                "the base plane lies in the most basal endocardial loop, half a slice spacing "
+                "above it where the slab of the slice ends, or at the mitral annulus (guide "
+                "points, ends of long-axis curves); automatic: slice for contours, slab for "
+                "labels and sunnybrook, annulus for guide_points that show it, slab where that "
+                "makes no wall"),
+     }},
+    {Stages(Stage::strain, Stage::anatomy),
+     {&septum_shown},
+     {
+         number("anatomy.contours.septum_point", LV_AT(anatomy.contours.fit.frame.septum), "mm",
+                any,
+                "a point of the middle of the septum in scanner coordinates: "
+                "the model's x direction, from which regions are counted"),
+     }},
+    {Stages(Stage::strain, Stage::anatomy),
+     {&fitted},
+     {
+         number("anatomy.contours.intervals_around", LV_AT(anatomy.contours.fit.around), "",
+                between(6, 64), "spline intervals about the long axis", "2.2"),
+         number("anatomy.contours.intervals_along", LV_AT(anatomy.contours.fit.along), "",
+                between(4, 64), "spline intervals from the apex to above the base", "2.2"),
+         number("anatomy.contours.smoothing_length", LV_AT(anatomy.contours.fit.smoothing_length),
+                "mm", between(0.0, 50.0),
+                "ripples of 2 pi times this wave length are halved; 0: none"),
+         number("anatomy.contours.margin", LV_AT(anatomy.contours.fit.margin), "mm",
+                between(0.0, 50.0), "contour points up to this height above the base plane count"),
+         value("anatomy.contours.correct_shifts", LV_AT(anatomy.contours.fit.correct_shifts),
+               "move short-axis slices in their planes to agree with the long-axis "
+               "contours (different breath-holds)"),
+         value("anatomy.contours.align_slices", LV_AT(anatomy.contours.fit.align_slices),
+               "without two long-axis images, move short-axis slices in their planes to "
+               "make the wall smooth; a tilt of the whole stack cannot be seen in this way "
+               "and stays"),
+     }},
+    {Stages(Stage::strain, Stage::anatomy, Stage::mesh, Stage::calibrate, Stage::unload),
+     {&fitted_or_moved},
+     {
+         number("anatomy.contours.largest_shift", LV_AT(anatomy.contours.fit.largest_shift), "mm",
+                between(0.0, 50.0), "a slice that would have to move farther is an error"),
+     }},
+    {Stages(Stage::anatomy),
+     {&drawn},
+     {
+         number("anatomy.contours.thinnest_wall", LV_AT(anatomy.contours.fit.thinnest_wall), "mm",
+                between(0.1, 20.0), "a thinner wall is an error"),
+     }},
+    {Stages(Stage::anatomy),
+     {&from_labels},
+     {
+         path("anatomy.labels.file", LV_AT(anatomy.labels.file),
+              "NIfTI label map, of one or more times; names are relative to the case file"),
+         value("anatomy.labels.cavity", LV_AT(anatomy.labels.cavity),
+               "labels of the left ventricle's blood (with those of papillary muscles, if "
+               "labelled)"),
+         value("anatomy.labels.muscle", LV_AT(anatomy.labels.muscle),
+               "labels of the left ventricle's muscle"),
+         value("anatomy.labels.right_ventricle", LV_AT(anatomy.labels.right_ventricle),
+               "labels of the right ventricle: where the septum is; may be left out"),
+         number("anatomy.labels.frame", LV_AT(anatomy.labels.frame), "", between(0, 10000),
+                "time of a map of several, counted from 1; 0: the only one"),
+     }},
+    {Stages(Stage::anatomy),
+     {&from_sunnybrook},
+     {
+         path("anatomy.sunnybrook.contours", LV_AT(anatomy.sunnybrook.contours),
+              "folder of text contours IM-0001-0059-icontour-manual.txt and so on, in pixels"),
+         path("anatomy.sunnybrook.dicom", LV_AT(anatomy.sunnybrook.dicom),
+              "folder of the DICOM files they were drawn on"),
+         value("anatomy.sunnybrook.series", LV_AT(anatomy.sunnybrook.series),
+               "series to use: number, description or SeriesInstanceUID, as `ventricle images` "
+               "lists them; may be left out if there is one"),
+         number(
+             "anatomy.sunnybrook.phase", LV_AT(anatomy.sunnybrook.phase), "", between(0, 10000),
+             "phase to use, counted from 1 in order of time among the DICOM files; 0: not chosen"),
+         choice("anatomy.sunnybrook.pixel_origin", LV_AT(anatomy.sunnybrook.pixel_origin),
+                "corner centre",
+                "pixel coordinates (0, 0) are the image's outer corner, or the centre of its "
+                "first pixel"),
+         choice("anatomy.sunnybrook.drawn", LV_AT(anatomy.sunnybrook.drawn_by), "manual auto",
+                "which contours to use, as the file names say"),
+     }},
+    {Stages(Stage::anatomy),
+     {&from_guide_points},
+     {
+         path("anatomy.guide_points.file", LV_AT(anatomy.guide_points.file),
+              "tab-separated list with columns x, y, z, contour type, slice and time frame"),
+         number("anatomy.guide_points.frame", LV_AT(anatomy.guide_points.frame), "",
+                between(-1, 100000), "time frame to use; -1: the only one"),
+         choice("anatomy.guide_points.apex_point", LV_AT(anatomy.guide_points.apex_point),
+                "endo epi", "the surface whose tip a point of type APEX_POINT is"),
+     }},
+    {Stages(Stage::anatomy),
+     {&from_mesh},
+     {
+         path("anatomy.mesh.file", LV_AT(anatomy.mesh.import.file),
+              "mesh of hexahedra or tetrahedra: ABAQUS .inp, Gmsh .msh, .vtk or .vtu; names are "
+              "relative to the case file"),
+         number("anatomy.mesh.length_unit", LV_AT(anatomy.mesh.import.unit), "mm", positive,
+                "length of the file's unit"),
+         choice("anatomy.mesh.sides", LV_AT(anatomy.mesh.import.sides), "tags geometry",
+                "the sides of the wall are named by the file's tags, or found: the flat opening "
+                "is the base, the inner of the other two the endocardium"),
+     }},
+    {Stages(Stage::anatomy),
+     {&from_mesh, &tagged},
+     {
+         perhaps_path("anatomy.mesh.endo", LV_AT(anatomy.mesh.import.endo),
+                      "tag of the endocardium; with VTK also the .vtp file of its surface"),
+         perhaps_path("anatomy.mesh.epi", LV_AT(anatomy.mesh.import.epi), "tag of the epicardium"),
+         perhaps_path("anatomy.mesh.base", LV_AT(anatomy.mesh.import.base), "tag of the base"),
+         value("anatomy.mesh.side_array", LV_AT(anatomy.mesh.import.side_array),
+               "VTK: cell array with the sides' numbers on surface cells; empty: "
+               "the tags name point arrays that are 1 on a side"),
+     }},
+    {Stages(Stage::anatomy),
+     {&from_mesh, &infarct_of_mesh},
+     {
+         value("anatomy.mesh.infarct_array", LV_AT(anatomy.mesh.import.infarct_array),
+               "VTK: point array of M(X); empty: infarct, if the file has it"),
+     }},
+    {Stages(Stage::anatomy),
+     {&from_mesh},
+     {
+         number("anatomy.mesh.base_tolerance", LV_AT(anatomy.mesh.import.base_tolerance), "mm",
+                between(0.0, 10.0), "largest distance of the base's nodes from their plane"),
+         number("anatomy.mesh.refinements", LV_AT(anatomy.mesh.refinements), "", between(0, 3),
+                "how often every element is cut into eight"),
+         perhaps_path(
+             "anatomy.mesh.fibres", LV_AT(anatomy.mesh.import.fibres),
+             "VTK: array of fibre directions, in cells or at points, or a .vtu file with the same "
+             "cells and such an array (SimVascular's FIB_DIR); empty: the rule of [fibres]"),
+     }},
+    {Stages(Stage::anatomy),
+     {&from_mesh, &fibres_given},
+     {
+         perhaps_path(
+             "anatomy.mesh.sheets", LV_AT(anatomy.mesh.import.sheets),
+             "the same of sheet directions across the fibres; empty: the sheet angles of [fibres]"),
+     }},
+};
+
+constexpr Group of_mesh[]{
+    {meshing,
+     {&meshed_here, &linear_elements},
+     {
+         number("mesh.edge_length", LV_AT(mesh.edge_length), "mm", between(0.2, 10.0),
+                "target length of element edges; below the box's mesh width for nodal coupling",
+                "2.5"),
+         number("mesh.layers", LV_AT(mesh.layers), "", between(0, 40),
+                "elements through the wall; 0: as edge_length asks"),
+     }},
+    {meshing,
+     {&static_engine},
+     {
+         number("quasi_static.order", LV_AT(quasi_static.order), "", between(1, 2),
+                "2: quadratic elements, on a mesh of their own; 1: linear hexahedra on the "
+                "immersed engine's mesh"),
+     }},
+    {meshing,
+     {&static_engine, &meshed_here, &quadratic_elements},
+     {
+         number("quasi_static.edge_length", LV_AT(quasi_static.edge_length), "mm",
+                between(0.5, 20.0), "target length of the edges of quadratic elements"),
+         number("quasi_static.layers", LV_AT(quasi_static.layers), "", between(0, 20),
+                "quadratic elements through the wall; 0: as edge_length asks"),
+         number("quasi_static.apex", LV_AT(quasi_static.apex), "", between(0.1, 1.0),
+                "length along the wall of quadratic elements next to the apex, as a "
+                "fraction of that in an even mesh of as many elements; others are longer"),
+         number("quasi_static.endocardium", LV_AT(quasi_static.endocardium), "", between(0.1, 1.0),
+                "the same through the wall, next to the endocardium"),
+     }},
+    {Stages(Stage::mesh, Stage::calibrate, Stage::unload, Stage::beat),
+     {&fibres_by_rule},
+     {
+         number("fibres.helix_endo", LV_AT(fibres.helix_endo), "deg", between(-90.0, 90.0),
+                "helix angle at the endocardium; negative is a right-handed helix (the paper's "
+                "sign)",
+                "2.2"),
+         number("fibres.helix_epi", LV_AT(fibres.helix_epi), "deg", between(-90.0, 90.0),
+                "helix angle at the epicardium", "2.2"),
+     }},
+    {Stages(Stage::mesh, Stage::calibrate, Stage::unload, Stage::beat),
+     {&sheets_by_rule},
+     {
+         number("fibres.sheet_endo", LV_AT(fibres.sheet_endo), "deg", between(-90.0, 90.0),
+                "sheet angle at the endocardium", "2.2"),
+         number("fibres.sheet_epi", LV_AT(fibres.sheet_epi), "deg", between(-90.0, 90.0),
+                "sheet angle at the epicardium", "2.2"),
+     }},
+    {Stages(Stage::anatomy, Stage::mesh, Stage::calibrate, Stage::unload),
+     {},
+     {
+         whether_set(number("regions.septum_angle", LV_AT(regions.septum_angle), "deg",
+                            between(-360.0, 360.0),
+                            "direction of the middle of the septum about the long axis, from "
+                            "the model's x axis towards y",
+                            "Fig. 3")),
+     }},
+    {meshing,
+     {},
+     {
+         number("regions.slice_spacing", LV_AT(regions.slice_spacing), "mm", between(0.0, 50.0),
+                "spacing of the seven slice planes from the base on; 0: the wall's length / 6.5",
+                "Fig. 3"),
+     }},
+    {mechanics,
+     {&static_engine},
+     {
+         number("quasi_static.stabilisation", LV_AT(quasi_static.stabilisation.beta_s), "kPa",
+                not_negative,
+                "volumetric stiffness at every quadrature point, which keeps elements from "
+                "buckling inside; zero at J = 1"),
+         number("quasi_static.first_step", LV_AT(quasi_static.solver.first_step), "",
+                between(1e-3, 1.0), "first load step, as a share of the whole load"),
+         choice("quasi_static.linear_solver", LV_AT(quasi_static.solver.newton.linear.method),
+                "direct iterative",
+                "how the linear equations are solved: by MUMPS, or by GMRES with multigrid, for "
+                "meshes whose factors do not fit into memory (quadratic elements alone)"),
+     }},
+    {mechanics,
+     {&static_engine, &iterative},
+     {
+         number("quasi_static.linear_tolerance", LV_AT(quasi_static.solver.newton.linear.tolerance),
+                "", between(1e-14, 1e-2), "of the iterative solver: residual over right-hand side"),
+     }},
+    {mechanics,
+     {&static_engine},
+     {
+         number("quasi_static.tolerance", LV_AT(quasi_static.solver.newton.tolerance), "mm",
+                between(1e-12, 0.1),
+                "Newton's method ends when its correction moves the wall by less, rms"),
+     }},
+};
+
+constexpr Group of_infarct[]{
+    {Stages(Stage::anatomy, Stage::mesh, Stage::calibrate, Stage::unload),
+     {},
+     {
+         choice("infarct.source", LV_AT(scar.source),
+                "mesh none described elements surface labels lge",
+                "where the infarct comes from: the mesh file's point array of M (no infarct if "
+                "it has none), nowhere, or one of the tables below; an element is infarcted if "
+                "its centre is",
+                "2.11"),
+     }},
+    {meshing,
+     {&infarct_laid_on},
+     {
+         number("infarct.border", LV_AT(scar.border), "mm", above_up_to(0.0, 100.0),
+                "width of the border zone, over which M falls from 1 to 0", "2.11"),
+     }},
+    {meshing,
+     {&infarct_without_unit},
+     {
+         number("infarct.length_unit", LV_AT(scar.length_unit), "mm", positive,
+                "length of the unit of surface.file or labels.file"),
+     }},
+    {meshing,
+     {&infarct_of_images},
+     {
+         number("infarct.shift", LV_AT(scar.shift), "mm", between(-50.0, 50.0),
+                "by which the labels or the late-enhancement image are moved in scanner "
+                "coordinates before they are laid on the wall"),
+     }},
+    {meshing,
+     {&infarct_described},
+     {
+         number("infarct.described.angle", LV_AT(scar.described.angle), "deg",
+                between(-360.0, 360.0),
+                "direction of the sector's middle about the long axis, from the middle of the "
+                "septum towards the anterior wall; 30 deg is antero-septal",
+                "2.2"),
+         number("infarct.described.width", LV_AT(scar.described.width), "deg", between(0.0, 360.0),
+                "angle that the sector spans"),
+         number("infarct.described.bottom", LV_AT(scar.described.bottom), "", between(0.0, 1.0),
+                "height at which the sector begins, from 0 at the apex to 1 at the base"),
+         number("infarct.described.top", LV_AT(scar.described.top), "", between(0.0, 1.0),
+                "height at which the sector ends"),
+         number("infarct.described.apex", LV_AT(scar.described.apex), "", between(0.0, 1.0),
+                "below this height the wall is infarcted all round"),
+         number("infarct.described.transmurality", LV_AT(scar.described.transmurality), "",
+                above_up_to(0.0, 1.0),
+                "part of the wall's thickness that is infarcted, from the endocardium"),
+     }},
+    {Stages(Stage::anatomy, Stage::mesh, Stage::calibrate, Stage::unload),
+     {&infarct_of_elements},
+     {
+         value(
+             "infarct.elements.set", LV_AT(scar.set),
+             "set of elements in anatomy.mesh.file: an ABAQUS *Elset, the name or number of a "
+             "Gmsh physical volume, or a VTK cell array that is 1 in the infarct and 0 elsewhere"),
+     }},
+    {meshing,
+     {&infarct_of_surface},
+     {
+         path("infarct.surface.file", LV_AT(scar.surface),
+              "closed surface in image space (a mesh's own coordinates): .stl, .ply, .vtp or "
+              ".vtk; names are relative to the case file"),
+     }},
+    {meshing,
+     {&infarct_of_labels},
+     {
+         path("infarct.labels.file", LV_AT(scar.labels),
+              "labelled volume in image space: NIfTI (.nii, .nii.gz, .hdr with .img), .vti or .vtk "
+              "(structured points)"),
+     }},
+    {meshing,
+     {&infarct_of_labels, &labels_in_vtk},
+     {
+         value("infarct.labels.array", LV_AT(scar.array),
+               "array of labels, at points (centres of voxels) or in cells; "
+               "empty: the only one"),
+     }},
+    {meshing,
+     {&infarct_of_labels},
+     {
+         filled_list("infarct.labels.scar", LV_AT(scar.scar), "the labels that mean scar"),
+     }},
+    {meshing,
+     {&infarct_of_labels, &labels_in_nifti},
+     {
+         number("infarct.labels.frame", LV_AT(scar.frame), "", between(0, 10000),
+                "time of a map of several, counted from 1; 0: the only one that shows scar"),
+     }},
+    {meshing,
+     {&infarct_of_labels},
+     {
+         value("infarct.labels.no_reflow", LV_AT(scar.no_reflow),
+               "the labels of the scar's dark core, which is infarct too"),
+     }},
+    {meshing,
+     {&infarct_of_labels, &moved_labels},
+     {
+         value("infarct.labels.muscle", LV_AT(scar.muscle),
+               "the labels of the other muscle, for in_plane"),
+     }},
+    {meshing,
+     {&infarct_of_labels, &labels_in_nifti},
+     {
+         value("infarct.labels.in_plane", LV_AT(scar.in_plane),
+               "NIfTI: move each slice in its plane until the middle of its muscle and "
+               "scar lies on that of the wall there (another breath-hold)"),
+     }},
+    {meshing,
+     {&infarct_of_lge},
+     {
+         path("infarct.lge.image", LV_AT(scar.lge.image),
+              "late-enhancement image: a NIfTI file or a folder of DICOM files; linear between "
+              "pixels and between slices"),
+     }},
+    {meshing,
+     {&infarct_of_lge, &lge_in_dicom},
+     {
+         value("infarct.lge.series", LV_AT(scar.lge.series),
+               "DICOM series to use, as `ventricle images` lists them; may be "
+               "left out if there is one"),
+     }},
+    {meshing,
+     {&infarct_of_lge},
+     {
+         choice("infarct.lge.threshold", LV_AT(scar.lge.threshold), "sd fwhm",
+                "scar is brighter than remote muscle by so many standard deviations, or than half "
+                "way from no signal to the brightest in the wall"),
+     }},
+    {meshing,
+     {&infarct_of_lge, &threshold_sd},
+     {
+         number("infarct.lge.deviations", LV_AT(scar.lge.deviations), "", positive,
+                "standard deviations above the mean of remote muscle (threshold = \"sd\")"),
+         value("infarct.lge.remote", LV_AT(scar.lge.remote),
+               "AHA segments (1 to 17) of remote, healthy muscle (threshold = \"sd\")"),
+     }},
+    {meshing,
+     {&infarct_of_lge, &threshold_fwhm},
+     {
+         whether_set(number("infarct.lge.zero", LV_AT(scar.lge.zero), "", any,
+                            "grey value of no signal (threshold = \"fwhm\"): that of air, where "
+                            "the image has an offset, as phase-sensitive reconstructions do")),
+     }},
+    {meshing,
+     {&infarct_of_lge},
+     {
+         number("infarct.lge.largest_part", LV_AT(scar.lge.largest_part), "", between(0.0, 1.0),
+                "of the wall that may be scar; more is refused, for it is rarely meant"),
+         value("infarct.lge.fill_no_reflow", LV_AT(scar.lge.fill_no_reflow),
+               "dark parts of the wall that the scar shuts off from epicardium and base count to "
+               "it"),
+         value("infarct.lge.in_plane", LV_AT(scar.lge.in_plane),
+               "move each slice in its plane to where its grey values fit best to cavity, wall "
+               "and surroundings (another breath-hold); where they do not show that clearly it "
+               "stays, with a warning"),
+     }},
+    {meshing,
+     {&infarct_of_lge, &moved_lge},
+     {
+         number("infarct.lge.largest_shift", LV_AT(scar.lge.largest_shift), "mm",
+                above_up_to(0.0, 50.0), "moves up to this one are tried (in_plane)"),
+     }},
+    {mechanics,
+     {&infarcted},
+     {
+         number("infarct.stiffening", LV_AT(infarct.stiffening), "", not_negative,
+                "an infarct of extent M is (1 + stiffening M) times as stiff", "2.23"),
+     }},
+};
+
+constexpr Group of_muscle[]{
+    {mechanics,
+     {},
+     {
+         choice("passive.law", LV_AT(passive.law), "holzapfel_ogden guccione neo_hookean",
+                "passive law of the muscle", "2.14"),
+     }},
+    {mechanics,
+     {&holzapfel_ogden},
+     {
+         number("passive.C_a", LV_AT(passive.C_a), "", positive, "factor of a_f, a_s and a_fs",
+                "2.25"),
+     }},
+    {mechanics,
+     {&holzapfel_ogden},
+     {
+         number("passive.holzapfel_ogden.a", LV_AT(passive.holzapfel_ogden.a), "kPa", positive,
+                "isotropic stiffness", "2.14"),
+         number("passive.holzapfel_ogden.b", LV_AT(passive.holzapfel_ogden.b), "", positive,
+                "isotropic exponent", "2.14"),
+         number("passive.holzapfel_ogden.a_f", LV_AT(passive.holzapfel_ogden.a_f), "kPa",
+                not_negative, "fibre stiffness", "2.14"),
+         number("passive.holzapfel_ogden.b_f", LV_AT(passive.holzapfel_ogden.b_f), "", positive,
+                "fibre exponent", "2.14"),
+         number("passive.holzapfel_ogden.a_s", LV_AT(passive.holzapfel_ogden.a_s), "kPa",
+                not_negative, "sheet stiffness", "2.14"),
+         number("passive.holzapfel_ogden.b_s", LV_AT(passive.holzapfel_ogden.b_s), "", positive,
+                "sheet exponent", "2.14"),
+         number("passive.holzapfel_ogden.a_fs", LV_AT(passive.holzapfel_ogden.a_fs), "kPa",
+                not_negative, "fibre-sheet shear stiffness", "2.14"),
+         number("passive.holzapfel_ogden.b_fs", LV_AT(passive.holzapfel_ogden.b_fs), "", positive,
+                "fibre-sheet shear exponent", "2.14"),
+     }},
+    {mechanics,
+     {&guccione},
+     {
+         number("passive.guccione.C", LV_AT(passive.guccione.C), "kPa", positive,
+                "overall stiffness"),
+         number("passive.guccione.b_f", LV_AT(passive.guccione.b_f), "", not_negative,
+                "exponent along the fibre"),
+         number("passive.guccione.b_t", LV_AT(passive.guccione.b_t), "", not_negative,
+                "exponent across the fibre"),
+         number("passive.guccione.b_fs", LV_AT(passive.guccione.b_fs), "", not_negative,
+                "exponent of fibre-cross-fibre shear"),
+     }},
+    {mechanics,
+     {&neo_hookean},
+     {
+         number("passive.neo_hookean.mu", LV_AT(passive.neo_hookean.mu), "kPa", positive,
+                "shear modulus"),
+     }},
+    {Stages(Stage::beat),
+     {&immersed_engine},
+     {
+         number("volumetric.beta_s", LV_AT(volumetric.beta_s), "kPa", not_negative,
+                "penalty that reinforces incompressibility; the paper: 100 kPa", "2.20"),
+         choice("volumetric.points", LV_AT(volumetric_points), "full mean",
+                "where the penalty is integrated: at all points of an element, or from mean "
+                "dilatations (of a hexahedron, around a node of tetrahedra), which do not lock",
+                "2.20"),
+     }},
+    {mechanics,
+     {},
+     {
+         choice("active.law", LV_AT(active_form), "niederer second_piola cauchy",
+                "active tension of Niederer, Hunter and Smith, J T F f0 (x) f0; or a prescribed "
+                "tension as the second Piola-Kirchhoff stress T f0 (x) f0, or as the Cauchy "
+                "stress T along the fibre",
+                "2.21"),
+     }},
+    {mechanics,
+     {&prescribed_tension},
+     {
+         number("active.tension", LV_AT(prescribed_tension), "kPa", not_negative,
+                "prescribed tension at end-systole (laws second_piola and cauchy)"),
+     }},
+    {mechanics,
+     {&niederer},
+     {
+         number("active.T_scale", LV_AT(active.T_scale), "", not_negative,
+                "strength of contraction, T_ref = T_scale x T_ref_unscaled", "A"),
+         number("active.T_ref_unscaled", LV_AT(active.T_ref_unscaled), "kPa", positive,
+                "tension at full activation and resting length for T_scale = 1", "A"),
+     }},
+    {mechanics,
+     {&niederer, &moving_fibres},
+     {
+         number("active.a", LV_AT(active.a), "", not_negative,
+                "curvature of the force-velocity relation", "A.10"),
+     }},
+    {Stages(Stage::beat),
+     {&niederer, &moving_fibres},
+     {
+         number("active.A_1", LV_AT(active.A[0]), "", any, "weight of a fading memory", "A.11"),
+         number("active.alpha_1", LV_AT(active.alpha[0]), "1/s", positive,
+                "rate of a fading memory", "A.11"),
+         number("active.A_2", LV_AT(active.A[1]), "", any, "weight of a fading memory", "A.11"),
+         number("active.alpha_2", LV_AT(active.alpha[1]), "1/s", positive,
+                "rate of a fading memory", "A.11"),
+         number("active.A_3", LV_AT(active.A[2]), "", any, "weight of a fading memory", "A.11"),
+         number("active.alpha_3", LV_AT(active.alpha[2]), "1/s", positive,
+                "rate of a fading memory", "A.11"),
+     }},
+    {mechanics,
+     {&niederer},
+     {
+         number("active.alpha_0", LV_AT(active.alpha_0), "1/s", positive,
+                "rate of activation of actin sites", "A.4"),
+         number("active.alpha_r1", LV_AT(active.alpha_r1), "1/s", positive,
+                "slow rate of relaxation", "A.4"),
+         number("active.alpha_r2", LV_AT(active.alpha_r2), "1/s", positive,
+                "fast rate of relaxation", "A.4"),
+         number("active.beta_0", LV_AT(active.beta_0), "", any,
+                "dependence of the isometric tension on stretch", "A.6"),
+         number("active.beta_1", LV_AT(active.beta_1), "", any,
+                "dependence of the calcium sensitivity on stretch", "A.5"),
+         number("active.Ca_50ref", LV_AT(active.Ca_50ref), "uM", positive,
+                "calcium at half activation at resting length", "A.5"),
+         number("active.Ca_trpn_max", LV_AT(active.Ca_trpn_max), "uM", positive,
+                "binding sites on troponin", "A.2"),
+         number("active.gamma", LV_AT(active.gamma), "", positive,
+                "how much tension slows unbinding", "A.3"),
+         number("active.k_on", LV_AT(active.k_on), "1/(uM s)", positive, "rate of binding", "A.2"),
+         number("active.k_off_ref", LV_AT(active.k_off_ref), "1/s", positive,
+                "rate of unbinding without tension", "A.3"),
+         number("active.K_z", LV_AT(active.K_z), "", positive, "half point of fast relaxation",
+                "A.4"),
+         number("active.z_p", LV_AT(active.z_p), "", positive,
+                "point of linearisation of fast relaxation", "A.8"),
+         number("active.stretch_min", LV_AT(active.stretch_min), "", between(0.1, 1.0),
+                "guard: smallest stretch that (A.5)-(A.7) are given", "A.5"),
+         number("active.stretch_max", LV_AT(active.stretch_max), "", between(1.0, 1.24),
+                "guard: largest stretch that (A.5)-(A.7) are given", "A.5"),
+         number("active.unbinding_min", LV_AT(active.unbinding_min), "", between(0.0, 1.0),
+                "guard: least value of the bracket in (A.3)", "A.3"),
+     }},
+    {Stages(Stage::beat),
+     {&immersed_engine},
+     {
+         choice("calcium.mode", LV_AT(protocol.calcium.mode), "hold transient",
+                "calcium stays at its peak until the ventricle is steady, or decays as (A.1) says",
+                "A.1"),
+     }},
+    {mechanics,
+     {&calcium_counts},
+     {
+         number("calcium.Ca_0", LV_AT(protocol.calcium.Ca_0), "uM", not_negative, "resting calcium",
+                "A.1"),
+         number("calcium.Ca_max", LV_AT(protocol.calcium.Ca_max), "uM", positive, "peak calcium",
+                "A.1"),
+     }},
+    {Stages(Stage::beat),
+     {&immersed_engine},
+     {
+         number("calcium.tau", LV_AT(protocol.calcium.tau), "s", positive, "time to the peak",
+                "A.1"),
+     }},
+};
+
+constexpr Group of_blood_and_base[]{
+    {Stages(Stage::mesh, Stage::unload, Stage::beat),
+     {&mass_counts},
+     {
+         number("blood.density", LV_AT(blood.density), "g/ml", positive,
+                "density of blood and muscle", "2.1"),
+     }},
+    {Stages(Stage::beat),
+     {&immersed_engine},
+     {
+         number("blood.viscosity", LV_AT(blood.viscosity), "cP", not_negative,
+                "viscosity of blood and muscle; the paper prints 0.04 cP, a slip for 0.04 P",
+                "2.1"),
+     }},
+    {Stages(Stage::beat),
+     {&immersed_engine},
+     {
+         number("box.size", LV_AT(box.size), "mm", between(10.0, 1000.0),
+                "size of the box around the ventricle", "2.5"),
+         number("box.cells", LV_AT(box.cells), "", between(8, 2048),
+                "cells of the box along x, y and z", "2.5"),
+     }},
+    {Stages(Stage::beat),
+     {&immersed_engine},
+     {
+         choice("coupling.kind", LV_AT(coupling.kind), "nodal quadrature",
+                "forces and velocities pass between wall and grid at the nodes, or at Gauss "
+                "points made anew every step (the paper's scheme, several times slower)",
+                "2.9"),
+         choice("coupling.kernel", LV_AT(coupling.kernel), "peskin4 composite_bspline",
+                "regularised delta function: the paper's 4-point kernel, or B-splines that keep "
+                "the wall's velocity divergence-free",
+                "2.5"),
+     }},
+    {Stages(Stage::beat),
+     {&immersed_engine, &quadrature},
+     {
+         number("coupling.points_per_cell", LV_AT(coupling.points_per_cell), "", between(0.5, 8.0),
+                "Gauss points per mesh width (quadrature coupling)", "2.5"),
+     }},
+    {mechanics,
+     {},
+     {
+         choice("base.support", LV_AT(base.kind), "sliding fixed",
+                "the basal plane is held along the axis and around it and moves freely "
+                "outwards, or is held altogether",
+                "2.4"),
+     }},
+    {Stages(Stage::beat),
+     {&immersed_engine},
+     {
+         number("base.stiffness", LV_AT(base.stiffness), "kPa/mm", positive,
+                "springs per area that hold the basal plane (immersed engine; the quasi-static "
+                "engine holds it rigidly)",
+                "2.4"),
+     }},
+};
+
+constexpr Group of_measurements[]{
+    {mechanics,
+     {},
+     {
+         choice("calibrate.passive", LV_AT(calibration.passive),
+                "none C_a scale scale_and_exponent",
+                "what is fitted to edv: C_a; a factor of a, a_f, a_s and a_fs; or that and a "
+                "factor of the exponents b, to the Klotz curve besides",
+                "2.25"),
+         value("calibrate.active", LV_AT(calibration.active),
+               "whether active.T_scale is fitted to esv"),
+     }},
+    {Stages(Stage::calibrate),
+     {&passive_fit},
+     {
+         number("calibrate.edv", LV_AT(calibration.edv), "ml", between(0.0, 2000.0),
+                "measured volume at protocol.ed_pressure; 0: none", "3.1"),
+     }},
+    {Stages(Stage::calibrate),
+     {&active_fit},
+     {
+         number("calibrate.esv", LV_AT(calibration.esv), "ml", between(0.0, 2000.0),
+                "measured volume at protocol.es_pressure; 0: none", "3.1"),
+     }},
+    {Stages(Stage::calibrate, Stage::beat),
+     {&fit},
+     {
+         number("calibrate.tolerance", LV_AT(calibration.tolerance), "", between(1e-5, 0.5),
+                "volumes of the fitted model are right within this fraction; the paper: 0.05",
+                "3.1"),
+     }},
+    {Stages(Stage::calibrate),
+     {&passive_fit},
+     {
+         number("calibrate.stiffness_min", LV_AT(calibration.stiffness.low), "", positive,
+                "least C_a or factor"),
+         number("calibrate.stiffness_max", LV_AT(calibration.stiffness.high), "", positive,
+                "largest C_a or factor"),
+     }},
+    {Stages(Stage::calibrate),
+     {&exponent_fit},
+     {
+         number("calibrate.exponent_min", LV_AT(calibration.exponent.low), "", positive,
+                "least factor of the b"),
+         number("calibrate.exponent_max", LV_AT(calibration.exponent.high), "", positive,
+                "largest factor of the b"),
+     }},
+    {Stages(Stage::calibrate),
+     {&active_fit},
+     {
+         number("calibrate.T_scale_min", LV_AT(calibration.T_scale.low), "", positive,
+                "least T_scale"),
+         number("calibrate.T_scale_max", LV_AT(calibration.T_scale.high), "", positive,
+                "largest T_scale"),
+         path("calibrate.strains", LV_AT(calibration.strains),
+              "CSV of circumferential strains at end-systole from end-diastole, fitted to "
+              "besides the volumes, with columns slice (1 at the base to 7, or aha), segment "
+              "(ant, antsept, ..., or 1 to 17) and strain; empty: none"),
+     }},
+    {Stages(Stage::calibrate),
+     {&strains_given},
+     {
+         choice("calibrate.strain_measure", LV_AT(calibration.strain_measure),
+                "green_lagrange engineering",
+                "what that file holds: (lambda^2 - 1)/2 or lambda - 1"),
+         number("calibrate.strain_error", LV_AT(calibration.errors.strain), "",
+                above_up_to(0.0, 1.0),
+                "standard deviation of those strains: each weighs 1/strain_error"),
+         number("calibrate.volume_error", LV_AT(calibration.errors.volume), "",
+                above_up_to(0.0, 1.0),
+                "standard deviation of the volumes, as a fraction, where "
+                "strains are fitted besides"),
+     }},
+    {Stages(Stage::beat),
+     {&fit, &immersed_engine},
+     {
+         value("calibrate.confirm", LV_AT(calibration.confirm),
+               "if the immersed engine's volumes are off by more than the tolerance, correct "
+               "the parameters and run the beat again, at most twice"),
+     }},
+    {mechanics,
+     {},
+     {
+         number("unloaded.pressure", LV_AT(unloaded.pressure), "mmHg", between(0.0, 100.0),
+                "pressure under which the shape of the anatomy was seen; the wall without load is "
+                "found from it before the beat. 0: that shape is free of stress, as in the paper",
+                "4"),
+     }},
+    {Stages(Stage::calibrate, Stage::unload),
+     {&loaded},
+     {
+         number("unloaded.tolerance", LV_AT(unloaded.tolerance), "mm", above_up_to(0.0, 5.0),
+                "largest distance of a node of the wall, loaded again, from where it was seen"),
+         number("unloaded.iterations", LV_AT(unloaded.iterations), "", between(1, 1000),
+                "equilibria after which the search gives up"),
+     }},
+    {Stages(Stage::strain),
+     {},
+     {
+         path("strain.cine", LV_AT(strain.cine),
+              "short-axis cine that strain is measured from: a folder of DICOM files or a NIfTI "
+              "file over time; names are relative to the case file"),
+     }},
+    {Stages(Stage::strain),
+     {&cine},
+     {
+         value("strain.series", LV_AT(strain.series),
+               "DICOM: number, UID or description of the series; may be left out if "
+               "there is one"),
+         path("strain.contours", LV_AT(strain.contours),
+              "loops of endocardium and epicardium drawn on the cine at "
+              "end-diastole: a CSV file in the form of anatomy.contours.short_axis, "
+              "or a folder of text contours in the Sunnybrook form"),
+         path("strain.long_axis", LV_AT(strain.long_axis),
+              "CSV of curves on long-axis images at end-diastole, for the place of "
+              "the apex and to follow long_axis_cine; may be left out"),
+         perhaps_path("strain.long_axis_cine", LV_AT(strain.long_axis_cine),
+                      "long-axis cines that show how far muscle moves through the short-axis "
+                      "planes, with the curves of long_axis: NIfTI files, or series of the "
+                      "DICOM folder cine; [] leaves that motion unseen"),
+         path("strain.es_contours", LV_AT(strain.es_contours),
+              "CSV of loops drawn at end-systole, which the carried contours are "
+              "compared with; may be left out"),
+         number("strain.end_diastole", LV_AT(strain.end_diastole), "", between(1, 1000),
+                "which image of every slice, in order of time, the contours are drawn on"),
+         number("strain.end_systole", LV_AT(strain.end_systole), "", between(0, 1000),
+                "which image is end-systole; 0: the one with the smallest cavity"),
+         number("strain.septum_point", LV_AT(strain.septum_point), "mm", any,
+                "a point of the middle of the septum in scanner coordinates; none: "
+                "that of anatomy.contours"),
+         choice("strain.scheme", LV_AT(strain.registration.scheme), "direct incremental",
+                "every image is matched with end-diastole, or with the one before it"),
+         number("strain.knot_spacing", LV_AT(strain.registration.knot_spacing), "mm",
+                between(2.0, 50.0), "of the B-spline map"),
+         number("strain.bending", LV_AT(strain.registration.bending), "mm^2", between(0.0, 1e5),
+                "weight of the map's bending energy against the images' difference"),
+         number("strain.smoothing", LV_AT(strain.registration.smoothing), "mm", between(0.0, 10.0),
+                "standard deviation of the Gaussian that images are smoothed with"),
+         number("strain.margin", LV_AT(strain.registration.margin), "mm", between(0.0, 40.0),
+                "pixels up to this distance outside the epicardium count"),
+     }},
+    {Stages(Stage::results),
+     {},
+     {
+         path("strain.measured", LV_AT(strain.measured),
+              "CSV of measured strains to compare with, instead of images: slice (1 at the "
+              "base, one per slice of the model), component (cir or rad), segment, and a column "
+              "per image"),
+     }},
+    {Stages(Stage::results),
+     {&measured},
+     {
+         value("strain.measured_column", LV_AT(strain.measured_column),
+               "the column of measured to take"),
+         choice("strain.measured_kind", LV_AT(strain.measured_kind), "green_lagrange engineering",
+                "which strain measured holds: (l^2/L^2 - 1)/2 or l/L - 1"),
+     }},
+};
+
+constexpr Group of_protocol[]{
+    {Stages(Stage::calibrate, Stage::beat),
+     {},
+     {
+         number("protocol.ed_pressure", LV_AT(protocol.ed_pressure), "mmHg", between(-50.0, 500.0),
+                "end-diastolic pressure", "2.4"),
+         number("protocol.es_pressure", LV_AT(protocol.es_pressure), "mmHg", between(-50.0, 500.0),
+                "end-systolic pressure", "2.4"),
+     }},
+    {Stages(Stage::beat),
+     {},
+     {
+         number("protocol.filling_ramp", LV_AT(protocol.filling_ramp), "s", above_up_to(0.0, 100.0),
+                "time in which the pressure rises to ed_pressure"),
+     }},
+    {Stages(Stage::beat),
+     {&immersed_engine},
+     {
+         number("protocol.filling_tolerance", LV_AT(protocol.filling_tolerance), "",
+                between(1e-6, 0.5),
+                "filling ends when the volume has varied by less than "
+                "this fraction of itself over filling_window"),
+         number("protocol.filling_window", LV_AT(protocol.filling_window), "s",
+                above_up_to(0.0, 100.0), "see filling_tolerance"),
+         number("protocol.filling_longest", LV_AT(protocol.filling_longest), "s",
+                above_up_to(0.0, 100.0),
+                "filling ends after this time at the latest, with a warning"),
+         number("protocol.filling_drag", LV_AT(protocol.filling_drag), "1/s", not_negative,
+                "uniform resistance to the velocity once the pressure is constant; stops "
+                "the ringing, moves no equilibrium"),
+     }},
+    {Stages(Stage::beat),
+     {},
+     {
+         number("protocol.contraction_ramp", LV_AT(protocol.contraction_ramp), "s",
+                above_up_to(0.0, 100.0),
+                "time in which the pressure rises from ed_pressure to es_pressure"),
+     }},
+    {Stages(Stage::beat),
+     {&immersed_engine, &held_calcium},
+     {
+         number("protocol.contraction_tolerance", LV_AT(protocol.contraction_tolerance), "",
+                between(1e-6, 0.5),
+                "with calcium held, contraction ends when the volume has varied by "
+                "less than this fraction over contraction_window"),
+         number("protocol.contraction_window", LV_AT(protocol.contraction_window), "s",
+                above_up_to(0.0, 100.0), "see contraction_tolerance"),
+     }},
+    {Stages(Stage::beat),
+     {&immersed_engine},
+     {
+         number("protocol.contraction_longest", LV_AT(protocol.contraction_longest), "s",
+                above_up_to(0.0, 100.0),
+                "contraction ends after this time at the latest, with a warning"),
+     }},
+    {Stages(Stage::beat),
+     {&immersed_engine, &held_calcium},
+     {
+         number("protocol.contraction_drag", LV_AT(protocol.contraction_drag), "1/s", not_negative,
+                "like filling_drag, once pressure and calcium are constant"),
+     }},
+    {Stages(Stage::beat),
+     {&immersed_engine},
+     {
+         number("time.longest_step", LV_AT(time.longest), "s", above_up_to(0.0, 0.01),
+                "the time step, unless stability asks for less", "2.5"),
+         number("time.courant", LV_AT(time.courant), "", between(0.01, 1.0),
+                "largest blood velocity x step / mesh width"),
+         number("time.velocity_limit", LV_AT(time.velocity_limit), "m/s", positive,
+                "a step that makes the wall or the blood faster than this is taken back and "
+                "repeated smaller"),
+         number("time.halvings", LV_AT(time.halvings), "", between(0, heartbeat::most_halvings),
+                "how often the step may be halved before the run gives up"),
+     }},
+    {Stages(Stage::beat),
+     {},
+     {
+         number("output.frame_interval", LV_AT(output.frame_interval), "s", positive,
+                "simulated time between fields of wall and blood"),
+     }},
+    {Stages(Stage::beat),
+     {&immersed_engine},
+     {
+         number("output.curve_interval", LV_AT(output.curve_interval), "s", positive,
+                "simulated time between rows of the curves"),
+         value("output.blood", LV_AT(output.blood),
+               "whether frames contain velocity and pressure of the blood"),
+     }},
+    {Stages(Stage::beat),
+     {},
+     {
+         same_results(when(immersed_engine,
+                           number("output.checkpoint_interval", LV_AT(output.checkpoint_interval),
+                                  "s", positive, "wall-clock time between checkpoints"))),
+     }},
+};
+
+std::vector<Parameter> rows_of_all() {
+  std::vector<Parameter> rows;
+  for (const std::span<const Group> groups :
+       {std::span<const Group>(of_anatomy), std::span<const Group>(of_mesh),
+        std::span<const Group>(of_infarct), std::span<const Group>(of_muscle),
+        std::span<const Group>(of_blood_and_base), std::span<const Group>(of_measurements),
+        std::span<const Group>(of_protocol)})
+    for (const Group& group : groups)
+      for (const Parameter& row : group.rows)
+        rows.push_back(in_group(group, row));
+  return rows;
 }
 
-void declare_contours(Declarations& d) {
-  d.table = "anatomy.contours";
-  d.text("short_axis", LV_AT(anatomy.contours.short_axis),
-         "CSV of short-axis loops with columns slice, contour (endo or epi), point, x_mm, y_mm, "
-         "z_mm in scanner coordinates; names are relative to the case file");
-  d.text("long_axis", LV_AT(anatomy.contours.long_axis),
-         "CSV of open curves on long-axis images, same columns; may be left out");
-  d.text("apex_endo", LV_AT(anatomy.contours.apex_endo),
-         "CSV of points at the tip of the endocardium, same columns; may be left out");
-  d.text("apex_epi", LV_AT(anatomy.contours.apex_epi),
-         "CSV of points at the tip of the epicardium, same columns; may be left out");
-  d.choice("base_plane", LV_AT(anatomy.contours.fit.frame.base_plane), {"long_axis", "basal_slice"},
-           "the base plane through the centre of the most basal endocardial loop is normal to the "
-           "long axis, or the plane of that loop",
-           "2.2");
-  d.choice("base_at", LV_AT(anatomy.contours.base_at), {"automatic", "slice", "slab", "annulus"},
-           "the base plane lies in the most basal endocardial loop, half a slice spacing above it "
-           "where the slab of the slice ends, or at the mitral annulus (guide points, ends of "
-           "long-axis curves); automatic: slice for contours, slab for labels and sunnybrook, "
-           "annulus for guide_points that show it, slab where that makes no wall");
-  d.optional_point("septum_point", LV_AT(anatomy.contours.fit.frame.septum), "mm",
-                   "a point of the middle of the septum in scanner coordinates: the model's x "
-                   "direction, from which regions are counted");
-  d.whole("intervals_around", LV_AT(anatomy.contours.fit.around), between(6, 64),
-          "spline intervals about the long axis", "2.2");
-  d.whole("intervals_along", LV_AT(anatomy.contours.fit.along), between(4, 64),
-          "spline intervals from the apex to above the base", "2.2");
-  d.quantity("smoothing_length", LV_AT(anatomy.contours.fit.smoothing_length), "mm",
-             between(0.0, 50.0), "ripples of 2 pi times this wave length are halved; 0: none");
-  d.quantity("margin", LV_AT(anatomy.contours.fit.margin), "mm", between(0.0, 50.0),
-             "contour points up to this height above the base plane count");
-  d.flag("correct_shifts", LV_AT(anatomy.contours.fit.correct_shifts),
-         "move short-axis slices in their planes to agree with the long-axis contours (different "
-         "breath-holds)");
-  d.flag("align_slices", LV_AT(anatomy.contours.fit.align_slices),
-         "without two long-axis images, move short-axis slices in their planes to make the wall "
-         "smooth; a tilt of the whole stack cannot be seen in this way and stays");
-  d.quantity("largest_shift", LV_AT(anatomy.contours.fit.largest_shift), "mm", between(0.0, 50.0),
-             "a slice that would have to move farther is an error");
-  d.quantity("thinnest_wall", LV_AT(anatomy.contours.fit.thinnest_wall), "mm", between(0.1, 20.0),
-             "a thinner wall is an error");
-}
-
-void declare_images(Declarations& d) {
-  d.table = "anatomy.labels";
-  d.text("file", LV_AT(anatomy.labels.file),
-         "NIfTI label map, of one or more times; names are relative to the case file");
-  d.whole_list(
-      "cavity", LV_AT(anatomy.labels.cavity),
-      "labels of the left ventricle's blood (with those of papillary muscles, if labelled)", true);
-  d.whole_list("muscle", LV_AT(anatomy.labels.muscle), "labels of the left ventricle's muscle",
-               true);
-  d.whole_list("right_ventricle", LV_AT(anatomy.labels.right_ventricle),
-               "labels of the right ventricle: where the septum is; may be left out", true);
-  d.whole("frame", LV_AT(anatomy.labels.frame), between(0, 10000),
-          "time of a map of several, counted from 1; 0: the only one");
-  d.table = "anatomy.sunnybrook";
-  d.text("contours", LV_AT(anatomy.sunnybrook.contours),
-         "folder of text contours IM-0001-0059-icontour-manual.txt and so on, in pixels");
-  d.text("dicom", LV_AT(anatomy.sunnybrook.dicom), "folder of the DICOM files they were drawn on");
-  d.text_list(
-      "series", LV_AT(anatomy.sunnybrook.series),
-      "series to use: number, description or SeriesInstanceUID, as `ventricle images` lists "
-      "them; may be left out if there is one");
-  d.whole("phase", LV_AT(anatomy.sunnybrook.phase), between(0, 10000),
-          "phase to use, counted from 1 in order of time among the DICOM files; 0: not chosen");
-  d.choice(
-      "pixel_origin", LV_AT(anatomy.sunnybrook.pixel_origin), {"corner", "centre"},
-      "pixel coordinates (0, 0) are the image's outer corner, or the centre of its first pixel");
-  d.choice("drawn", LV_AT(anatomy.sunnybrook.drawn_by), {"manual", "auto"},
-           "which contours to use, as the file names say");
-  d.table = "anatomy.guide_points";
-  d.text("file", LV_AT(anatomy.guide_points.file),
-         "tab-separated list with columns x, y, z, contour type, slice and time frame");
-  d.whole("frame", LV_AT(anatomy.guide_points.frame), between(-1, 100000),
-          "time frame to use; -1: the only one");
-  d.choice("apex_point", LV_AT(anatomy.guide_points.apex_point), {"endo", "epi"},
-           "the surface whose tip a point of type APEX_POINT is");
-}
-
-void declare_given_mesh(Declarations& d) {
-  d.table = "anatomy.mesh";
-  d.text(
-      "file", LV_AT(anatomy.mesh.import.file),
-      "mesh of hexahedra or tetrahedra: ABAQUS .inp, Gmsh .msh, .vtk or .vtu; names are relative "
-      "to the case file");
-  d.quantity("length_unit", LV_AT(anatomy.mesh.import.unit), "mm", positive,
-             "length of the file's unit");
-  d.choice("sides", LV_AT(anatomy.mesh.import.sides), {"tags", "geometry"},
-           "the sides of the wall are named by the file's tags, or found: the flat opening is the "
-           "base, the inner of the other two the endocardium");
-  d.text("endo", LV_AT(anatomy.mesh.import.endo),
-         "tag of the endocardium; with VTK also the .vtp file of its surface");
-  d.text("epi", LV_AT(anatomy.mesh.import.epi), "tag of the epicardium");
-  d.text("base", LV_AT(anatomy.mesh.import.base), "tag of the base");
-  d.text("side_array", LV_AT(anatomy.mesh.import.side_array),
-         "VTK: cell array with the sides' numbers on surface cells; empty: the tags name point "
-         "arrays that are 1 on a side");
-  d.text("infarct_array", LV_AT(anatomy.mesh.import.infarct_array),
-         "VTK: point array of M(X); empty: infarct, if the file has it");
-  d.quantity("base_tolerance", LV_AT(anatomy.mesh.import.base_tolerance), "mm", between(0.0, 10.0),
-             "largest distance of the base's nodes from their plane");
-  d.whole("refinements", LV_AT(anatomy.mesh.refinements), between(0, 3),
-          "how often every element is cut into eight");
-  d.text(
-      "fibres", LV_AT(anatomy.mesh.import.fibres),
-      "VTK: array of fibre directions, in cells or at points, or a .vtu file with the same cells "
-      "and such an array (SimVascular's FIB_DIR); empty: the rule of [fibres]");
-  d.text("sheets", LV_AT(anatomy.mesh.import.sheets),
-         "the same of sheet directions across the fibres; empty: the sheet angles of [fibres]");
-}
-
-void declare_mesh(Declarations& d) {
-  d.stage = Stage::mesh;
-  d.table = "mesh";
-  d.quantity("edge_length", LV_AT(mesh.edge_length), "mm", between(0.2, 10.0),
-             "target length of element edges; below the box's mesh width for nodal coupling",
-             "2.5");
-  d.whole("layers", LV_AT(mesh.layers), between(0, 40),
-          "elements through the wall; 0: as edge_length asks");
-  d.table = "quasi_static";
-  d.whole(
-      "order", LV_AT(quasi_static.order), between(1, 2),
-      "2: quadratic elements, on a mesh of their own; 1: linear hexahedra on the immersed engine's "
-      "mesh");
-  d.quantity("edge_length", LV_AT(quasi_static.edge_length), "mm", between(0.5, 20.0),
-             "target length of the edges of quadratic elements");
-  d.whole("layers", LV_AT(quasi_static.layers), between(0, 20),
-          "quadratic elements through the wall; 0: as edge_length asks");
-  d.number("apex", LV_AT(quasi_static.apex), between(0.1, 1.0),
-           "length along the wall of quadratic elements next to the apex, as a fraction of that in "
-           "an even mesh of as many elements; others are longer");
-  d.number("endocardium", LV_AT(quasi_static.endocardium), between(0.1, 1.0),
-           "the same through the wall, next to the endocardium");
-  d.table = "fibres";
-  const Range angle = between(-90.0, 90.0);
-  d.quantity("helix_endo", LV_AT(fibres.helix_endo), "deg", angle,
-             "helix angle at the endocardium; negative is a right-handed helix (the paper's sign)",
-             "2.2");
-  d.quantity("helix_epi", LV_AT(fibres.helix_epi), "deg", angle, "helix angle at the epicardium",
-             "2.2");
-  d.quantity("sheet_endo", LV_AT(fibres.sheet_endo), "deg", angle, "sheet angle at the endocardium",
-             "2.2");
-  d.quantity("sheet_epi", LV_AT(fibres.sheet_epi), "deg", angle, "sheet angle at the epicardium",
-             "2.2");
-  d.table = "regions";
-  d.quantity("septum_angle", LV_AT(regions.septum_angle), "deg", between(-360.0, 360.0),
-             "direction of the middle of the septum about the long axis, from the model's x axis "
-             "towards y",
-             "Fig. 3");
-  d.quantity("slice_spacing", LV_AT(regions.slice_spacing), "mm", between(0.0, 50.0),
-             "spacing of the seven slice planes from the base on; 0: the wall's length / 6.5",
-             "Fig. 3");
-}
-
-void declare_infarct(Declarations& d) {
-  d.table = "infarct";
-  d.choice("source", LV_AT(scar.source),
-           {"mesh", "none", "described", "elements", "surface", "labels", "lge"},
-           "where the infarct comes from: the mesh file's point array of M (no infarct if it has "
-           "none), nowhere, or one of the tables below; an element is infarcted if its centre is",
-           "2.11");
-  d.quantity("border", LV_AT(scar.border), "mm", {.low = 0.0, .high = 100.0, .low_included = false},
-             "width of the border zone, over which M falls from 1 to 0", "2.11");
-  d.quantity("length_unit", LV_AT(scar.length_unit), "mm", positive,
-             "length of the unit of surface.file or labels.file");
-  d.quantity_triple("shift", LV_AT(scar.shift), "mm", between(-50.0, 50.0),
-                    "by which the labels or the late-enhancement image are moved in scanner "
-                    "coordinates before they are laid on the wall");
-  d.table = "infarct.described";
-  const Range height = between(0.0, 1.0);
-  d.quantity("angle", LV_AT(scar.described.angle), "deg", between(-360.0, 360.0),
-             "direction of the sector's middle about the long axis, from the middle of the septum "
-             "towards the anterior wall; 30 deg is antero-septal",
-             "2.2");
-  d.quantity("width", LV_AT(scar.described.width), "deg", between(0.0, 360.0),
-             "angle that the sector spans");
-  d.number("bottom", LV_AT(scar.described.bottom), height,
-           "height at which the sector begins, from 0 at the apex to 1 at the base");
-  d.number("top", LV_AT(scar.described.top), height, "height at which the sector ends");
-  d.number("apex", LV_AT(scar.described.apex), height,
-           "below this height the wall is infarcted all round");
-  d.number("transmurality", LV_AT(scar.described.transmurality),
-           {.low = 0.0, .high = 1.0, .low_included = false},
-           "part of the wall's thickness that is infarcted, from the endocardium");
-  d.table = "infarct.elements";
-  d.text("set", LV_AT(scar.set),
-         "set of elements in anatomy.mesh.file: an ABAQUS *Elset, the name or number of a Gmsh "
-         "physical volume, or a VTK cell array that is 1 in the infarct and 0 elsewhere");
-  d.table = "infarct.surface";
-  d.text(
-      "file", LV_AT(scar.surface),
-      "closed surface in image space (a mesh's own coordinates): .stl, .ply, .vtp or .vtk; names "
-      "are relative to the case file");
-  d.table = "infarct.labels";
-  d.text("file", LV_AT(scar.labels),
-         "labelled volume in image space: NIfTI (.nii, .nii.gz, .hdr with .img), .vti or .vtk "
-         "(structured points)");
-  d.text("array", LV_AT(scar.array),
-         "array of labels, at points (centres of voxels) or in cells; empty: the only one");
-  d.whole_list("scar", LV_AT(scar.scar), "the labels that mean scar");
-  d.whole("frame", LV_AT(scar.frame), between(0, 10000),
-          "time of a map of several, counted from 1; 0: the only one that shows scar");
-  d.whole_list("no_reflow", LV_AT(scar.no_reflow),
-               "the labels of the scar's dark core, which is infarct too", true);
-  d.whole_list("muscle", LV_AT(scar.muscle), "the labels of the other muscle, for in_plane", true);
-  d.flag("in_plane", LV_AT(scar.in_plane),
-         "NIfTI: move each slice in its plane until the middle of its muscle and scar lies on that "
-         "of the wall there (another breath-hold)");
-  d.table = "infarct.lge";
-  d.text(
-      "image", LV_AT(scar.lge.image),
-      "late-enhancement image: a NIfTI file or a folder of DICOM files; linear between pixels and "
-      "between slices");
-  d.text_list("series", LV_AT(scar.lge.series),
-              "DICOM series to use, as `ventricle images` lists them; may be left out if there is "
-              "one");
-  d.choice(
-      "threshold", LV_AT(scar.lge.threshold), {"sd", "fwhm"},
-      "scar is brighter than remote muscle by so many standard deviations, or than half way from "
-      "no signal to the brightest in the wall");
-  d.number("deviations", LV_AT(scar.lge.deviations), positive,
-           "standard deviations above the mean of remote muscle (threshold = \"sd\")");
-  d.whole_list("remote", LV_AT(scar.lge.remote),
-               "AHA segments (1 to 17) of remote, healthy muscle (threshold = \"sd\")", true);
-  d.number("zero", LV_AT(scar.lge.zero), {},
-           "grey value of no signal (threshold = \"fwhm\"): that of air, where the image has an "
-           "offset, as phase-sensitive reconstructions do");
-  d.number("largest_part", LV_AT(scar.lge.largest_part), between(0.0, 1.0),
-           "of the wall that may be scar; more is refused, for it is rarely meant");
-  d.flag("fill_no_reflow", LV_AT(scar.lge.fill_no_reflow),
-         "dark parts of the wall that the scar shuts off from epicardium and base count to it");
-  d.flag("in_plane", LV_AT(scar.lge.in_plane),
-         "move each slice in its plane to where its grey values fit best to cavity, wall and "
-         "surroundings (another breath-hold); where they do not show that clearly it stays, with a "
-         "warning");
-  d.quantity("largest_shift", LV_AT(scar.lge.largest_shift), "mm",
-             {.low = 0.0, .high = 50.0, .low_included = false},
-             "moves up to this one are tried (in_plane)");
-  d.stage = Stage::calibrate;
-  d.table = "infarct";
-  d.number("stiffening", LV_AT(infarct.stiffening), not_negative,
-           "an infarct of extent M is (1 + stiffening M) times as stiff", "2.23");
-}
-
-void declare_passive(Declarations& d) {
-  d.table = "passive";
-  d.choice("law", LV_AT(passive.law), {"holzapfel_ogden", "guccione", "neo_hookean"},
-           "passive law of the muscle", "2.14");
-  d.number("C_a", LV_AT(passive.C_a), positive, "factor of a_f, a_s and a_fs", "2.25");
-  d.table = "passive.holzapfel_ogden";
-  d.quantity("a", LV_AT(passive.holzapfel_ogden.a), "kPa", positive, "isotropic stiffness", "2.14");
-  d.number("b", LV_AT(passive.holzapfel_ogden.b), positive, "isotropic exponent", "2.14");
-  d.quantity("a_f", LV_AT(passive.holzapfel_ogden.a_f), "kPa", not_negative, "fibre stiffness",
-             "2.14");
-  d.number("b_f", LV_AT(passive.holzapfel_ogden.b_f), positive, "fibre exponent", "2.14");
-  d.quantity("a_s", LV_AT(passive.holzapfel_ogden.a_s), "kPa", not_negative, "sheet stiffness",
-             "2.14");
-  d.number("b_s", LV_AT(passive.holzapfel_ogden.b_s), positive, "sheet exponent", "2.14");
-  d.quantity("a_fs", LV_AT(passive.holzapfel_ogden.a_fs), "kPa", not_negative,
-             "fibre-sheet shear stiffness", "2.14");
-  d.number("b_fs", LV_AT(passive.holzapfel_ogden.b_fs), positive, "fibre-sheet shear exponent",
-           "2.14");
-  d.table = "passive.guccione";
-  d.quantity("C", LV_AT(passive.guccione.C), "kPa", positive, "overall stiffness");
-  d.number("b_f", LV_AT(passive.guccione.b_f), not_negative, "exponent along the fibre");
-  d.number("b_t", LV_AT(passive.guccione.b_t), not_negative, "exponent across the fibre");
-  d.number("b_fs", LV_AT(passive.guccione.b_fs), not_negative,
-           "exponent of fibre-cross-fibre shear");
-  d.table = "passive.neo_hookean";
-  d.quantity("mu", LV_AT(passive.neo_hookean.mu), "kPa", positive, "shear modulus");
-  d.stage = Stage::beat;  // the fits' walls are incompressible
-  d.table = "volumetric";
-  d.quantity("beta_s", LV_AT(volumetric.beta_s), "kPa", not_negative,
-             "penalty that reinforces incompressibility; the paper: 100 kPa", "2.20");
-  d.choice("points", LV_AT(volumetric_points), {"full", "mean"},
-           "where the penalty is integrated: at all points of an element, or from mean dilatations "
-           "(of a hexahedron, around a node of tetrahedra), which do not lock",
-           "2.20");
-}
-
-void declare_active(Declarations& d) {
-  d.stage = Stage::calibrate;
-  d.table = "active";
-  d.choice(
-      "law", LV_AT(active_form), {"niederer", "second_piola", "cauchy"},
-      "active tension of Niederer, Hunter and Smith, J T F f0 (x) f0; or a prescribed tension as "
-      "the second Piola-Kirchhoff stress T f0 (x) f0, or as the Cauchy stress T along the fibre",
-      "2.21");
-  d.quantity("tension", LV_AT(prescribed_tension), "kPa", not_negative,
-             "prescribed tension at end-systole (laws second_piola and cauchy)");
-  d.number("T_scale", LV_AT(active.T_scale), not_negative,
-           "strength of contraction, T_ref = T_scale x T_ref_unscaled", "A");
-  d.quantity("T_ref_unscaled", LV_AT(active.T_ref_unscaled), "kPa", positive,
-             "tension at full activation and resting length for T_scale = 1", "A");
-  d.number("a", LV_AT(active.a), not_negative, "curvature of the force-velocity relation", "A.10");
-  for (int i = 0; i < 3; ++i) {
-    d.number(
-        fmt::format("A_{}", i + 1), [i](Case & c) -> auto& { return c.active.A[i]; }, any,
-        "weight of a fading memory", "A.11");
-    d.quantity(
-        fmt::format("alpha_{}", i + 1), [i](Case & c) -> auto& { return c.active.alpha[i]; }, "1/s",
-        positive, "rate of a fading memory", "A.11");
-  }
-  d.quantity("alpha_0", LV_AT(active.alpha_0), "1/s", positive, "rate of activation of actin sites",
-             "A.4");
-  d.quantity("alpha_r1", LV_AT(active.alpha_r1), "1/s", positive, "slow rate of relaxation", "A.4");
-  d.quantity("alpha_r2", LV_AT(active.alpha_r2), "1/s", positive, "fast rate of relaxation", "A.4");
-  d.number("beta_0", LV_AT(active.beta_0), any, "dependence of the isometric tension on stretch",
-           "A.6");
-  d.number("beta_1", LV_AT(active.beta_1), any, "dependence of the calcium sensitivity on stretch",
-           "A.5");
-  d.quantity("Ca_50ref", LV_AT(active.Ca_50ref), "uM", positive,
-             "calcium at half activation at resting length", "A.5");
-  d.quantity("Ca_trpn_max", LV_AT(active.Ca_trpn_max), "uM", positive, "binding sites on troponin",
-             "A.2");
-  d.number("gamma", LV_AT(active.gamma), positive, "how much tension slows unbinding", "A.3");
-  d.quantity("k_on", LV_AT(active.k_on), "1/(uM s)", positive, "rate of binding", "A.2");
-  d.quantity("k_off_ref", LV_AT(active.k_off_ref), "1/s", positive,
-             "rate of unbinding without tension", "A.3");
-  d.number("K_z", LV_AT(active.K_z), positive, "half point of fast relaxation", "A.4");
-  d.number("z_p", LV_AT(active.z_p), positive, "point of linearisation of fast relaxation", "A.8");
-  d.number("stretch_min", LV_AT(active.stretch_min), between(0.1, 1.0),
-           "guard: smallest stretch that (A.5)-(A.7) are given", "A.5");
-  d.number("stretch_max", LV_AT(active.stretch_max), between(1.0, 1.24),
-           "guard: largest stretch that (A.5)-(A.7) are given", "A.5");
-  d.number("unbinding_min", LV_AT(active.unbinding_min), between(0.0, 1.0),
-           "guard: least value of the bracket in (A.3)", "A.3");
-  d.table = "calcium";
-  d.choice("mode", LV_AT(protocol.calcium.mode), {"hold", "transient"},
-           "calcium stays at its peak until the ventricle is steady, or decays as (A.1) says",
-           "A.1");
-  d.quantity("Ca_0", LV_AT(protocol.calcium.Ca_0), "uM", not_negative, "resting calcium", "A.1");
-  d.quantity("Ca_max", LV_AT(protocol.calcium.Ca_max), "uM", positive, "peak calcium", "A.1");
-  d.quantity("tau", LV_AT(protocol.calcium.tau), "s", positive, "time to the peak", "A.1");
-}
-
-void declare_engine(Declarations& d) {
-  d.table = "blood";
-  d.quantity("density", LV_AT(blood.density), "g/ml", positive, "density of blood and muscle",
-             "2.1");
-  d.quantity("viscosity", LV_AT(blood.viscosity), "cP", not_negative,
-             "viscosity of blood and muscle; the paper prints 0.04 cP, a slip for 0.04 P", "2.1");
-  d.table = "box";
-  d.quantity_triple("size", LV_AT(box.size), "mm", between(10.0, 1000.0),
-                    "size of the box around the ventricle", "2.5");
-  d.whole_triple("cells", LV_AT(box.cells), between(8, 2048), "cells of the box along x, y and z",
-                 "2.5");
-  d.table = "coupling";
-  d.choice("kind", LV_AT(coupling.kind), {"nodal", "quadrature"},
-           "forces and velocities pass between wall and grid at the nodes, or at Gauss points made "
-           "anew every step (the "
-           "paper's scheme, several times slower)",
-           "2.9");
-  d.choice("kernel", LV_AT(coupling.kernel), {"peskin4", "composite_bspline"},
-           "regularised delta function: the paper's 4-point kernel, or B-splines that keep the "
-           "wall's velocity divergence-free",
-           "2.5");
-  d.number("points_per_cell", LV_AT(coupling.points_per_cell), between(0.5, 8.0),
-           "Gauss points per mesh width (quadrature coupling)", "2.5");
-  d.stage = Stage::calibrate;
-  d.table = "quasi_static";
-  d.quantity(
-      "stabilisation", LV_AT(quasi_static.stabilisation.beta_s), "kPa", not_negative,
-      "volumetric stiffness at every quadrature point, which keeps elements from buckling inside; "
-      "zero at J = 1");
-  d.number("first_step", LV_AT(quasi_static.solver.first_step), between(1e-3, 1.0),
-           "first load step, as a share of the whole load");
-  d.choice(
-      "linear_solver", LV_AT(quasi_static.solver.newton.linear.method), {"direct", "iterative"},
-      "how the linear equations are solved: by MUMPS, or by GMRES with multigrid, for meshes whose "
-      "factors do not fit into memory (quadratic elements alone)");
-  d.number("linear_tolerance", LV_AT(quasi_static.solver.newton.linear.tolerance),
-           between(1e-14, 1e-2), "of the iterative solver: residual over right-hand side");
-  d.quantity("tolerance", LV_AT(quasi_static.solver.newton.tolerance), "mm", between(1e-12, 0.1),
-             "Newton's method ends when its correction moves the wall by less, rms");
-  d.table = "base";
-  d.choice(
-      "support", LV_AT(base.kind), {"sliding", "fixed"},
-      "the basal plane is held along the axis and around it and moves freely outwards, or is held "
-      "altogether",
-      "2.4");
-  d.stage = Stage::beat;
-  d.quantity("stiffness", LV_AT(base.stiffness), "kPa/mm", positive,
-             "springs per area that hold the basal plane (immersed engine; the quasi-static engine "
-             "holds it rigidly)",
-             "2.4");
-}
-
-void declare_calibration(Declarations& d) {
-  d.table = "calibrate";
-  d.choice("passive", LV_AT(calibration.passive), {"none", "C_a", "scale", "scale_and_exponent"},
-           "what is fitted to edv: C_a; a factor of a, a_f, a_s and a_fs; or that and a factor of "
-           "the exponents b, to the Klotz curve besides",
-           "2.25");
-  d.flag("active", LV_AT(calibration.active), "whether active.T_scale is fitted to esv");
-  const Range volume = between(0.0, 2000.0);
-  d.quantity("edv", LV_AT(calibration.edv), "ml", volume,
-             "measured volume at protocol.ed_pressure; 0: none", "3.1");
-  d.quantity("esv", LV_AT(calibration.esv), "ml", volume,
-             "measured volume at protocol.es_pressure; 0: none", "3.1");
-  d.number("tolerance", LV_AT(calibration.tolerance), between(1e-5, 0.5),
-           "volumes of the fitted model are right within this fraction; the paper: 0.05", "3.1");
-  d.number("stiffness_min", LV_AT(calibration.stiffness.low), positive, "least C_a or factor");
-  d.number("stiffness_max", LV_AT(calibration.stiffness.high), positive, "largest C_a or factor");
-  d.number("exponent_min", LV_AT(calibration.exponent.low), positive, "least factor of the b");
-  d.number("exponent_max", LV_AT(calibration.exponent.high), positive, "largest factor of the b");
-  d.number("T_scale_min", LV_AT(calibration.T_scale.low), positive, "least T_scale");
-  d.number("T_scale_max", LV_AT(calibration.T_scale.high), positive, "largest T_scale");
-  d.text("strains", LV_AT(calibration.strains),
-         "CSV of circumferential strains at end-systole from end-diastole, fitted to besides the "
-         "volumes, with columns slice (1 at the base to 7, or aha), segment (ant, antsept, ..., or "
-         "1 to 17) and strain; empty: none");
-  d.choice("strain_measure", LV_AT(calibration.strain_measure), {"green_lagrange", "engineering"},
-           "what that file holds: (lambda^2 - 1)/2 or lambda - 1");
-  d.number("strain_error", LV_AT(calibration.errors.strain),
-           {.low = 0.0, .high = 1.0, .low_included = false},
-           "standard deviation of those strains: each weighs 1/strain_error");
-  d.number("volume_error", LV_AT(calibration.errors.volume),
-           {.low = 0.0, .high = 1.0, .low_included = false},
-           "standard deviation of the volumes, as a fraction, where strains are fitted besides");
-  d.stage = Stage::beat;
-  d.flag("confirm", LV_AT(calibration.confirm),
-         "if the immersed engine's volumes are off by more than the tolerance, correct the "
-         "parameters and run the beat again, at most twice");
-}
-
-void declare_unloading(Declarations& d) {
-  d.stage = Stage::calibrate;
-  d.table = "unloaded";
-  d.quantity("pressure", LV_AT(unloaded.pressure), "mmHg", between(0.0, 100.0),
-             "pressure under which the shape of the anatomy was seen; the wall without load is "
-             "found from it before the beat. 0: that shape is free of stress, as in the paper",
-             "4");
-  d.quantity("tolerance", LV_AT(unloaded.tolerance), "mm",
-             {.low = 0.0, .high = 5.0, .low_included = false},
-             "largest distance of a node of the wall, loaded again, from where it was seen");
-  d.whole("iterations", LV_AT(unloaded.iterations), between(1, 1000),
-          "equilibria after which the search gives up");
-}
-
-void declare_strain(Declarations& d) {
-  d.stage = Stage::strain;
-  d.table = "strain";
-  d.text("cine", LV_AT(strain.cine),
-         "short-axis cine that strain is measured from: a folder of DICOM files or a NIfTI file "
-         "over time; names are relative to the case file");
-  d.text("series", LV_AT(strain.series),
-         "DICOM: number, UID or description of the series; may be left out if there is one");
-  d.text(
-      "contours", LV_AT(strain.contours),
-      "loops of endocardium and epicardium drawn on the cine at end-diastole: a CSV file in the "
-      "form of anatomy.contours.short_axis, or a folder of text contours in the Sunnybrook form");
-  d.text(
-      "long_axis", LV_AT(strain.long_axis),
-      "CSV of curves on long-axis images at end-diastole, for the place of the apex and to follow "
-      "long_axis_cine; may be left out");
-  d.text_list("long_axis_cine", LV_AT(strain.long_axis_cine),
-              "long-axis cines that show how far muscle moves through the short-axis planes, with "
-              "the curves of long_axis: NIfTI files, or series of the DICOM folder cine; [] leaves "
-              "that motion unseen");
-  d.text("es_contours", LV_AT(strain.es_contours),
-         "CSV of loops drawn at end-systole, which the carried contours are compared with; may be "
-         "left out");
-  d.whole("end_diastole", LV_AT(strain.end_diastole), between(1, 1000),
-          "which image of every slice, in order of time, the contours are drawn on");
-  d.whole("end_systole", LV_AT(strain.end_systole), between(0, 1000),
-          "which image is end-systole; 0: the one with the smallest cavity");
-  d.optional_point("septum_point", LV_AT(strain.septum_point), "mm",
-                   "a point of the middle of the septum in scanner coordinates; none: that of "
-                   "anatomy.contours");
-  d.choice("scheme", LV_AT(strain.registration.scheme), {"direct", "incremental"},
-           "every image is matched with end-diastole, or with the one before it");
-  d.quantity("knot_spacing", LV_AT(strain.registration.knot_spacing), "mm", between(2.0, 50.0),
-             "of the B-spline map");
-  d.quantity("bending", LV_AT(strain.registration.bending), "mm^2", between(0.0, 1e5),
-             "weight of the map's bending energy against the images' difference");
-  d.quantity("smoothing", LV_AT(strain.registration.smoothing), "mm", between(0.0, 10.0),
-             "standard deviation of the Gaussian that images are smoothed with");
-  d.quantity("margin", LV_AT(strain.registration.margin), "mm", between(0.0, 40.0),
-             "pixels up to this distance outside the epicardium count");
-  d.stage = Stage::results;
-  d.text("measured", LV_AT(strain.measured),
-         "CSV of measured strains to compare with, instead of images: slice (1 at the base, one "
-         "per slice of the model), component (cir or rad), segment, and a column per image");
-  d.text("measured_column", LV_AT(strain.measured_column), "the column of measured to take");
-  d.choice("measured_kind", LV_AT(strain.measured_kind), {"green_lagrange", "engineering"},
-           "which strain measured holds: (l^2/L^2 - 1)/2 or l/L - 1");
-}
-
-void declare_protocol(Declarations& d) {
-  d.table = "protocol";
-  const Range pressure = between(-50.0, 500.0);
-  d.stage = Stage::calibrate;
-  const Range seconds{.low = 0.0, .high = 100.0, .low_included = false};
-  d.quantity("ed_pressure", LV_AT(protocol.ed_pressure), "mmHg", pressure, "end-diastolic pressure",
-             "2.4");
-  d.quantity("es_pressure", LV_AT(protocol.es_pressure), "mmHg", pressure, "end-systolic pressure",
-             "2.4");
-  d.stage = Stage::beat;
-  d.quantity("filling_ramp", LV_AT(protocol.filling_ramp), "s", seconds,
-             "time in which the pressure rises to ed_pressure");
-  d.number("filling_tolerance", LV_AT(protocol.filling_tolerance), between(1e-6, 0.5),
-           "filling ends when the volume has varied by less than this fraction of itself over "
-           "filling_window");
-  d.quantity("filling_window", LV_AT(protocol.filling_window), "s", seconds,
-             "see filling_tolerance");
-  d.quantity("filling_longest", LV_AT(protocol.filling_longest), "s", seconds,
-             "filling ends after this time at the latest, with a warning");
-  d.quantity("filling_drag", LV_AT(protocol.filling_drag), "1/s", not_negative,
-             "uniform resistance to the velocity once the pressure is constant; stops the ringing, "
-             "moves no equilibrium");
-  d.quantity("contraction_ramp", LV_AT(protocol.contraction_ramp), "s", seconds,
-             "time in which the pressure rises from ed_pressure to es_pressure");
-  d.number("contraction_tolerance", LV_AT(protocol.contraction_tolerance), between(1e-6, 0.5),
-           "with calcium held, contraction ends when the volume has varied by less than this "
-           "fraction over contraction_window");
-  d.quantity("contraction_window", LV_AT(protocol.contraction_window), "s", seconds,
-             "see contraction_tolerance");
-  d.quantity("contraction_longest", LV_AT(protocol.contraction_longest), "s", seconds,
-             "contraction ends after this time at the latest, with a warning");
-  d.quantity("contraction_drag", LV_AT(protocol.contraction_drag), "1/s", not_negative,
-             "like filling_drag, once pressure and calcium are constant");
-  d.table = "time";
-  d.quantity("longest_step", LV_AT(time.longest), "s",
-             {.low = 0.0, .high = 0.01, .low_included = false},
-             "the time step, unless stability asks for less", "2.5");
-  d.number("courant", LV_AT(time.courant), between(0.01, 1.0),
-           "largest blood velocity x step / mesh width");
-  d.quantity("velocity_limit", LV_AT(time.velocity_limit), "m/s", positive,
-             "a step that makes the wall or the blood faster than this is taken back and repeated "
-             "smaller");
-  d.whole("halvings", LV_AT(time.halvings), between(0, heartbeat::most_halvings),
-          "how often the step may be halved before the run gives up");
-}
-
-void declare_output(Declarations& d) {
-  d.table = "output";
-  const Range seconds{.low = 0.0, .low_included = false};
-  d.quantity("frame_interval", LV_AT(output.frame_interval), "s", seconds,
-             "simulated time between fields of wall and blood");
-  d.quantity("curve_interval", LV_AT(output.curve_interval), "s", seconds,
-             "simulated time between rows of the curves");
-  d.flag("blood", LV_AT(output.blood), "whether frames contain velocity and pressure of the blood");
-  d.stage = Stage::results;  // changes no beat
-  d.quantity("checkpoint_interval", LV_AT(output.checkpoint_interval), "s", seconds,
-             "wall-clock time between checkpoints");
-}
-
-#undef LV_AT
-
-std::vector<Parameter> declare_all() {
-  Declarations d;
-  declare_anatomy(d);
-  declare_contours(d);
-  declare_images(d);
-  declare_given_mesh(d);
-  declare_mesh(d);
-  declare_infarct(d);
-  declare_passive(d);
-  declare_active(d);
-  declare_unloading(d);
-  declare_calibration(d);
-  declare_strain(d);
-  d.stage = Stage::beat;
-  declare_engine(d);
-  declare_protocol(d);
-  declare_output(d);
-  return std::move(d.list);
+/// The conditions of a parameter that do not hold in a stage.
+std::vector<const Condition*> missing(const Parameter& p, const Case& c, Stage stage) {
+  std::vector<const Condition*> all;
+  for (const Condition* condition : p.conditions)
+    if (condition != nullptr && !condition->holds(c, stage))
+      all.push_back(condition);
+  return all;
 }
 
 }  // namespace
 
+bool has_stage(const Case& c, Stage stage) {
+  switch (stage) {
+    case Stage::strain:
+      return c.strain.asked();
+    case Stage::calibrate:
+      return c.calibration.asked();
+    case Stage::unload:
+      return is_loaded(c);
+    default:
+      return true;
+  }
+}
+
+bool counts(const Parameter& p, const Case& c, Stage stage) {
+  return p.read_by.contains(stage) && has_stage(c, stage) && missing(p, c, stage).empty();
+}
+
+std::string counts_only(const Parameter& p, const Case& c) {
+  std::optional<std::vector<const Condition*>> least;  // of the stages that the case has, if any
+  bool present = false;
+  for (const Stage stage : all_stages) {
+    const bool has = has_stage(c, stage);
+    if (!p.read_by.contains(stage) || (present && !has))
+      continue;
+    const std::vector<const Condition*> now = missing(p, c, stage);
+    if (now.empty() && has)
+      return "";
+    if (!least || has > present || now.size() < least->size())
+      least = now;
+    present = has;
+  }
+  std::vector<std::string> words;
+  for (const Condition* condition : least.value_or(std::vector<const Condition*>{}))
+    words.emplace_back(condition->words);
+  return fmt::format("{}", fmt::join(words, " and "));
+}
+
+const Parameter* find_parameter(const std::string& name) {
+  const auto& all = parameters();
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const Parameter& p) { return p.name == name; });
+  return found == all.end() ? nullptr : &*found;
+}
+
 const std::vector<Parameter>& parameters() {
-  static const std::vector<Parameter> all = declare_all();
+  static const std::vector<Parameter> all = rows_of_all();
   return all;
 }
 

@@ -4,7 +4,7 @@
 #include "lv/base/lines.hpp"
 #include "lv/base/nearest.hpp"
 #include "lv/base/printable.hpp"
-#include "lv/job/parameters.hpp"
+#include "lv/job/parameter_values.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -23,6 +23,7 @@ class CaseReader {
     walk(root, "");
     case_.name = printable(case_.name);
     check_together();
+    check_that_all_count();
     if (!mistakes_.empty())
       throw InputError(mistakes_.front().first, all_mistakes(), "");
     return std::move(case_);
@@ -34,20 +35,13 @@ class CaseReader {
       const std::string name =
           prefix.empty() ? std::string(key.str()) : prefix + "." + std::string(key.str());
       const auto line = fmt::format("{}:{}", file_.string(), key.source().begin.line);
-      if (const auto* parameter = find(name))
+      if (const auto* parameter = find_parameter(name))
         set(*parameter, node, line);
       else if (node.is_table() && is_section(name))
         walk(*node.as_table(), name);
       else
         mistakes_.emplace_back(line, unknown(name, node.is_table()));
     }
-  }
-
-  static const Parameter* find(const std::string& name) {
-    const auto& all = parameters();
-    const auto found =
-        std::find_if(all.begin(), all.end(), [&](const auto& p) { return p.name == name; });
-    return found == all.end() ? nullptr : &*found;
   }
 
   static bool is_section(const std::string& name) {
@@ -58,7 +52,7 @@ class CaseReader {
   static std::string unknown(const std::string& name, bool table) {
     std::vector<std::string> known;
     for (const Parameter& p : parameters())
-      known.push_back(p.name);
+      known.emplace_back(p.name);
     for (const Section& s : sections())
       if (table && !s.name.empty())
         known.push_back(s.name);
@@ -70,7 +64,7 @@ class CaseReader {
 
   void set(const Parameter& parameter, const toml::node& node, const std::string& line) {
     try {
-      parameter.set(case_, node);
+      job::set(parameter, case_, node);
       case_.origin[parameter.name] = line;
     } catch (const std::invalid_argument& mistake) {
       mistakes_.emplace_back(line, fmt::format("{} {}", parameter.name, mistake.what()));
@@ -86,8 +80,6 @@ class CaseReader {
          "must be larger than endo_length");
     rule(std::abs(e.base_height) < e.endo_length, "anatomy.ellipsoid.base_height",
          "must be between -endo_length and endo_length");
-    rule(case_.passive.law == PassiveLaw::holzapfel_ogden || case_.origin.count("passive.C_a") == 0,
-         "passive.C_a", "scales the Holzapfel-Ogden law alone; passive.law is another");
     const mesh::InfarctParameters& scar = case_.scar;
     rule(scar.described.bottom <= scar.described.top, "infarct.described.bottom",
          "must not be larger than top");
@@ -110,57 +102,27 @@ class CaseReader {
         "quasi_static.linear_solver",
         "is iterative, which does not converge with the linear elements of quasi_static.order = 1");
     rule(p.calcium.Ca_max > p.calcium.Ca_0, "calcium.Ca_max", "must be larger than Ca_0");
-    check_contour_files();
-    check_given_fibres();
     check_calibration();
-    check_strain_study();
-  }
-
-  void check_contour_files() {
-    for (const char* name : {"short_axis", "long_axis", "apex_endo", "apex_epi"}) {
-      const std::string parameter = fmt::format("anatomy.contours.{}", name);
-      rule(case_.anatomy.source == AnatomySource::contours || case_.origin.count(parameter) == 0,
-           parameter, "is read with anatomy.source = \"contours\" alone; the case has another");
-    }
-  }
-
-  void check_given_fibres() {
-    const mesh::ImportParameters& given = case_.anatomy.mesh.import;
-    rule(given.sheets.empty() || !given.fibres.empty(), "anatomy.mesh.sheets",
-         "says nothing without anatomy.mesh.fibres");
-    for (const char* name : {"fibres.helix_endo", "fibres.helix_epi"})
-      rule(given.fibres.empty() || case_.origin.count(name) == 0, name,
-           "says nothing beside anatomy.mesh.fibres, which brings the directions");
-    for (const char* name : {"fibres.sheet_endo", "fibres.sheet_epi"})
-      rule(given.sheets.empty() || case_.origin.count(name) == 0, name,
-           "says nothing beside anatomy.mesh.sheets, which brings the directions");
-  }
-
-  void check_strain_study() {
-    const StrainStudy& s = case_.strain;
-    for (const auto& [name, place] : case_.origin)
-      if (name.starts_with("strain.") && !name.starts_with("strain.measured"))
-        rule(s.asked(), name, "says nothing without the images of strain.cine");
-    for (const char* name : {"strain.measured_column", "strain.measured_kind"})
-      rule(!s.measured.empty() || case_.origin.count(name) == 0, name,
-           "says nothing without strain.measured");
-    rule(s.measured.empty() || !s.measured_column.empty(), "strain.measured",
+    const StrainStudy& study = case_.strain;
+    rule(study.measured.empty() || !study.measured_column.empty(), "strain.measured",
          "needs strain.measured_column, the name of the column that holds end-systole");
+  }
+
+  /// What is set and does nothing would be taken for something that it is not.
+  void check_that_all_count() {
+    for (const auto& [name, place] : case_.origin)
+      if (const std::string where = counts_only(*find_parameter(name), case_); !where.empty())
+        mistakes_.emplace_back(
+            place, fmt::format("{} does nothing here: it counts only {}. Remove this line, or make "
+                               "it a comment, if the case is meant to be another",
+                               name, where));
   }
 
   void check_calibration() {
     const Calibration& k = case_.calibration;
     const bool passive = k.passive != calibrate::FittedPassive::none;
-    for (const char* name :
-         {"calibrate.edv", "calibrate.esv", "calibrate.strains", "calibrate.confirm"})
-      rule(k.asked() || case_.origin.count(name) == 0, name,
-           "says nothing without a fit; set calibrate.passive or calibrate.active");
     rule(!passive || k.edv > 0.0, "calibrate.passive", "needs the measured volume calibrate.edv");
     rule(!k.active || k.esv > 0.0, "calibrate.active", "needs the measured volume calibrate.esv");
-    rule(passive || k.edv == 0.0 || !k.asked(), "calibrate.edv",
-         "is fitted by nothing; set calibrate.passive");
-    rule(k.active || k.esv == 0.0 || !k.asked(), "calibrate.esv",
-         "is fitted by nothing; set calibrate.active = true");
     rule(k.edv == 0.0 || k.esv < k.edv, "calibrate.esv", "must be less than edv");
     rule(!passive || case_.passive.law == PassiveLaw::holzapfel_ogden, "calibrate.passive",
          "fits the Holzapfel-Ogden law alone; passive.law is another");
@@ -168,12 +130,6 @@ class CaseReader {
          "must be above zero for a passive fit");
     rule(!k.active || case_.active_form == material::ActiveForm::niederer, "calibrate.active",
          "fits T_scale of active.law = \"niederer\"; the case has another");
-    rule(k.strains.empty() || k.active || !k.asked(), "calibrate.strains",
-         "are of end-systole, which needs calibrate.active = true and calibrate.esv");
-    for (const char* name :
-         {"calibrate.strain_measure", "calibrate.strain_error", "calibrate.volume_error"})
-      rule(!k.strains.empty() || case_.origin.count(name) == 0, name,
-           "says nothing without calibrate.strains");
     rule(
         !is_loaded(case_) || !passive ||
             case_.unloaded.pressure < 0.95 * case_.protocol.ed_pressure,
@@ -181,8 +137,6 @@ class CaseReader {
         "is (nearly) protocol.ed_pressure: the wall then fills to the shape that was seen whatever "
         "its stiffness, and edv says nothing about calibrate.passive; give the pressure of early "
         "diastole, with its shape");
-    rule(!k.confirm || case_.engine == Engine::immersed, "calibrate.confirm",
-         "is done with engine = \"immersed\"; the case has the engine that the fit uses");
     rule(k.stiffness.low < k.stiffness.high, "calibrate.stiffness_max",
          "must be larger than stiffness_min");
     rule(k.exponent.low < k.exponent.high, "calibrate.exponent_max",
@@ -191,12 +145,10 @@ class CaseReader {
          "must be larger than T_scale_min");
   }
 
+  /// A rule of a parameter that does not count says nothing.
   void rule(bool holds, const std::string& name, const std::string& what) {
-    if (holds)
-      return;
-    const auto set_at = case_.origin.find(name);
-    mistakes_.emplace_back(set_at == case_.origin.end() ? file_.string() : set_at->second,
-                           fmt::format("{} {}", name, what));
+    if (!holds && counts_only(*find_parameter(name), case_).empty())
+      mistakes_.emplace_back(place_of(case_, name), fmt::format("{} {}", name, what));
   }
 
   [[nodiscard]] std::string all_mistakes() const {
@@ -222,7 +174,17 @@ std::string key_of(const std::string& name) {
 }
 
 std::string where_in_paper(const Parameter& p) {
-  return p.equation.empty() ? "" : fmt::format(" ({})", p.equation);
+  return *p.equation == '\0' ? "" : fmt::format(" ({})", p.equation);
+}
+
+/// What a parameter means and where it counts.
+std::string meaning(const Parameter& p) {
+  std::vector<std::string> conditions;
+  for (const Condition* condition : p.conditions)
+    if (condition != nullptr)
+      conditions.emplace_back(condition->words);
+  return conditions.empty() ? p.help
+                            : fmt::format("{} (only {})", p.help, fmt::join(conditions, " and "));
 }
 
 }  // namespace
@@ -284,7 +246,8 @@ std::string starter_case(const std::string& name) {
         if (s.name == table)
           text += fmt::format("\n# {}\n[{}]\n", s.help, table);
     }
-    text += fmt::format("{} = {}  # {}; {}\n", key_of(p.name), p.get(defaults), p.help, p.rule);
+    text +=
+        fmt::format("{} = {}  # {}; {}\n", key_of(p.name), p.get(defaults), meaning(p), p.rule());
   }
   return text;
 }
@@ -294,7 +257,9 @@ std::string manual(bool markdown) {
   std::string text =
       markdown
           ? "# Parameters\n\nPrinted by `ventricle parameters --markdown`. Any unit of the same "
-            "dimension may be written. The last column names the paper's equation or section.\n"
+            "dimension may be written. A parameter that is set where it does not count is refused. "
+            "The "
+            "last column names the paper's equation or section.\n"
           : "";
   for (const Section& s : sections()) {
     const std::string title = s.name.empty() ? "top level" : fmt::format("[{}]", s.name);
@@ -307,9 +272,9 @@ std::string manual(bool markdown) {
       if (table_of(p.name) != s.name)
         continue;
       text += markdown ? fmt::format("| `{}` | `{}` | {} | {} | {} |\n", key_of(p.name),
-                                     p.get(defaults), p.rule, p.help, p.equation)
+                                     p.get(defaults), p.rule(), meaning(p), p.equation)
                        : fmt::format("  {} = {}\n      {}{}; {}\n", key_of(p.name), p.get(defaults),
-                                     p.help, where_in_paper(p), p.rule);
+                                     meaning(p), where_in_paper(p), p.rule());
     }
   }
   return text;

@@ -11,11 +11,13 @@
 #include "lv/bench/bench.hpp"
 #include "lv/job/calibration.hpp"
 #include "lv/job/infarct.hpp"
+#include "lv/job/ingredients.hpp"
 #include "lv/job/parameters.hpp"
 #include "lv/job/stages.hpp"
 #include "lv/job/strain.hpp"
 #include "lv/job/strain_targets.hpp"
 #include "lv/job/unloading.hpp"
+#include "lv/job/version.hpp"
 #include "lv/job/workspace.hpp"
 #include "lv/mesh/quality.hpp"
 #include "lv/report/page.hpp"
@@ -35,31 +37,6 @@ namespace {
 using parallel::on_root;
 using parallel::root_says;
 
-/// Whether a parameter changes what the engines of the case compute.
-bool is_used(const Case& c, const std::string& name) {
-  const auto in = [&](std::initializer_list<std::string_view> tables) {
-    return std::any_of(tables.begin(), tables.end(),
-                       [&](const auto& table) { return name.starts_with(table); });
-  };
-  if (c.engine == Engine::quasi_static)
-    return !in({"volumetric.", "box.", "coupling.", "time.", "base.stiffness", "blood.viscosity"});
-  return c.calibration.asked() || is_loaded(c) || !in({"quasi_static."});
-}
-
-/// Parameters of one stage, with the program's version. The results name all, used or not.
-Ingredients own_ingredients(const Case& c, Stage stage) {
-  Ingredients ingredients{{"program version", version()}};
-  for (const Parameter& p : parameters()) {
-    const bool used = is_used(c, p.name);
-    if (p.stage == stage ? used || stage > Stage::beat : stage == Stage::results && !used)
-      ingredients[p.name] = p.get(c);
-  }
-  if (stage == Stage::calibrate && !c.calibration.strains.empty())
-    ingredients["contents of calibrate.strains"] =
-        fingerprint_of_file(beside(c, c.calibration.strains));
-  return ingredients;
-}
-
 constexpr const char* no_parameters =
     "the case file sets no parameter: this is the default case, the idealised healthy ventricle";
 
@@ -71,55 +48,28 @@ class Pipeline {
         options_(options),
         work_(options.work.empty() ? c.file.parent_path() / (c.file.stem().string() + ".work")
                                    : options.work),
-        last_(last_stage()) {}
+        last_(last_stage()),
+        files_({work_, c.file}) {}
 
   void run() {
     std::optional<WorkLock> lock;
     on_root([&] { lock.emplace(work_); });
-    on_root([&] { log::to_file(work_ / "log.txt"); });
+    on_root([&] { log::to_file(work_ / "log.txt", names_alone(case_, work_)); });
     log::info("{}: ventricle {} on {} rank{}, results in {}", case_.name, version(),
               parallel::size(), parallel::size() == 1 ? "" : "s", work_.string());
     if (case_.origin.empty())
       log::warn("{}: {}", case_.file.string(), no_parameters);
     if (!case_.strain.measured.empty())  // a mistake there must not come up after the beat
       on_root([&] { static_cast<void>(measured_strains(case_)); });
-    Ingredients carried = anatomy_files(case_);  // to the next stage that runs
-    Ingredients measured;                        // which the results are compared with
-    if (case_.strain.asked()) {
-      Ingredients ingredients = own_ingredients(case_, Stage::strain);
-      ingredients.merge(strain_files(case_));
-      measured["result of strain"] = fingerprint(ingredients);
-      run_stage(static_cast<std::size_t>(Stage::strain), std::move(ingredients));
-    }
-    for (auto s = static_cast<std::size_t>(Stage::anatomy); s <= last_; ++s) {
-      Ingredients ingredients = own_ingredients(case_, static_cast<Stage>(s));
-      if (static_cast<Stage>(s) == Stage::results)
-        ingredients.insert(measured.begin(), measured.end());
-      if (static_cast<Stage>(s) == Stage::results && !case_.strain.measured.empty())
-        ingredients["contents of strain.measured"] =
-            fingerprint_of_file(beside(case_, case_.strain.measured));
-      ingredients.merge(carried);
-      if (static_cast<Stage>(s) == Stage::mesh)
-        ingredients.merge(infarct_files(case_));
-      if (static_cast<Stage>(s) == Stage::calibrate && !case_.calibration.asked()) {
-        std::erase_if(ingredients, [](const auto& i) { return i.first.starts_with("calibrate."); });
-        carried = std::move(ingredients);
-        continue;
-      }
-      if (static_cast<Stage>(s) == Stage::unload && !is_loaded(case_)) {
-        std::erase_if(ingredients, [](const auto& i) { return i.first.starts_with("unloaded."); });
-        carried = std::move(ingredients);
-        continue;
-      }
-      carried = {{"result of " + stage_names[s], fingerprint(ingredients)}};
-      run_stage(s, std::move(ingredients));
-    }
+    for (const Stage stage : all_stages)
+      if (stage <= last_ && has_stage(case_, stage))
+        run_stage(stage);
   }
 
  private:
-  [[nodiscard]] std::size_t last_stage() const {
+  [[nodiscard]] Stage last_stage() const {
     if (!options_.until)
-      return stage_names.size() - 1;
+      return all_stages.back();
     if (*options_.until == "strain" && !case_.strain.asked())
       throw InputError(case_.file.string(), "has no cine images",
                        "Name them with strain.cine, and the contours with strain.contours");
@@ -136,46 +86,70 @@ class Pipeline {
                        fmt::format("The stages are {}{}", fmt::join(stage_names, ", "),
                                    nearest.empty() ? "" : "; did you mean " + nearest + "?"));
     }
-    return static_cast<std::size_t>(found - stage_names.begin());
+    return static_cast<Stage>(found - stage_names.begin());
   }
 
   [[nodiscard]] std::filesystem::path folder(Stage stage) const {
     return work_ / stage_folder(static_cast<std::size_t>(stage));
   }
 
-  void run_stage(std::size_t s, Ingredients ingredients) {
+  /// With those of the stages whose results it takes: all before it but strain, which the results
+  /// alone look at. Known to the root.
+  Ingredients ingredients_of(Stage stage) {
+    Ingredients all;
+    on_root([&] { all = ingredients(case_, stage, files_); });
+    if (stage != Stage::strain && !before_.empty())
+      all["result of " + name_of(last_made_)] = before_;
+    if (stage == Stage::results && !strain_.empty())
+      all["result of " + name_of(Stage::strain)] = strain_;
+    (stage == Stage::strain ? strain_ : before_) = fingerprint(all);
+    if (stage != Stage::strain)
+      last_made_ = stage;
+    return all;
+  }
+
+  static const std::string& name_of(Stage stage) {
+    return stage_names.at(static_cast<std::size_t>(stage));
+  }
+
+  void run_stage(Stage s) {
     interrupt::check_together();
-    const StageFolder stage(work_, stage_folder(s), std::move(ingredients));
+    const StageFolder stage(work_, folder(s).filename().string(), ingredients_of(s));
     if (root_says(stage.up_to_date())) {
       if (options_.explain)
-        log::info("{} is up to date: nothing it depends on has changed", stage_names[s]);
+        log::info("{} is up to date: nothing it depends on has changed", name_of(s));
       show(s);
       return;
     }
     if (options_.explain)
-      log::info("{} runs, because {}", stage_names[s], stage.reason());
+      log::info("{} runs, because {}", name_of(s), stage.reason());
     else
-      log::info("{} ...", stage_names[s]);
+      log::info("{} ...", name_of(s));
     on_root([&] { static_cast<void>(stage.begin()); });
-    make(s, stage.unfinished());
+    make(s, stage_view(case_, s), stage.unfinished());
     on_root([&] { stage.finish(); });
     show(s);
   }
 
-  void make(std::size_t s, const std::filesystem::path& part) {
-    switch (static_cast<Stage>(s)) {
+  /// `c` is the case as the stage sees it.
+  void make(Stage s, const Case& c, const std::filesystem::path& part) {
+    switch (s) {
       case Stage::strain:
-        on_root([&] { make_strain(case_, part); });
+        on_root([&] { make_strain(c, part); });
         break;
       case Stage::anatomy:
         on_root([&] { write_anatomy(shape(), part); });
         break;
       case Stage::mesh:
-        on_root([&] { write_mesh_result(make_mesh(case_, shape()), part); });
-        show_mesh(read_mesh_result(part), case_, part);
+        on_root([&] {
+          const MeshResult mesh = make_mesh(c, shape());
+          check_room(case_, mesh.mesh);  // before a fit takes its time
+          write_mesh_result(mesh, part);
+        });
+        show_mesh(read_mesh_result(part), c, part);
         break;
       case Stage::calibrate: {
-        const Case fitting = for_calibration(case_);
+        const Case fitting = for_calibration(c);
         on_root([&] { write_mesh_result(make_mesh(fitting, shape()), part); });
         make_calibration(fitting, read_mesh_result(part), part);
         break;
@@ -184,20 +158,20 @@ class Pipeline {
         const auto elements = part / elements_name;
         on_root([&] {
           std::filesystem::create_directories(elements);
-          write_mesh_result(make_mesh(for_calibration(case_), shape()), elements);
+          write_mesh_result(make_mesh(for_calibration(c), shape()), elements);
         });
         unload(part, elements);
         break;
       }
       case Stage::beat:
-        run_beat(part);
+        run_beat(c, part);
         break;
       case Stage::results: {
         const auto beat = folder(Stage::beat);
         const auto wall = wall_of(beat);
         const MeshResult mesh = read_mesh_result(wall);
-        text_ = make_results(fitted_case(beat), mesh, read_beat(beat, mesh.mesh),
-                             fitted_volumes(case_, beat), unloaded_shape(wall), part);
+        text_ = make_results(fitted(c, beat), mesh, read_beat(beat, mesh.mesh),
+                             fitted_volumes(c, beat), unloaded_shape(wall), part);
         on_root([&] { write_file(part / "summary.txt", text_); });
         break;
       }
@@ -212,22 +186,24 @@ class Pipeline {
     }
   }
 
-  void run_beat(const std::filesystem::path& part) {
+  void run_beat(const Case& c, const std::filesystem::path& part) {
     if (root_says(std::filesystem::exists(part / beat_name))) {
       // finished, but the folder had not got its name yet
       on_root([&] { std::filesystem::remove(part / heartbeat::checkpoint_name); });
       return;
     }
+    on_root(
+        [&] { check_room(case_, read_mesh_result(wall_of(part)).mesh); });  // the box may be new
     heartbeat::Beat beat;
     bool again = false;
     do {
       if (is_loaded(case_) && root_says(std::filesystem::exists(part / confirmation_name)))
         unload(part, folder(Stage::unload) / elements_name);  // with corrected parameters
       const MeshResult mesh = read_mesh_result(wall_of(part));
-      beat = make_beat(fitted_case(part), mesh, part);
+      beat = make_beat(fitted(c, part), mesh, part);
       log::info("beat: {} steps in {}", beat.steps, log::duration(beat.wall_clock));
       on_root([&] {
-        again = case_.calibration.asked() && correct(case_, calibration(), beat, part);
+        again = c.calibration.asked() && correct(c, calibration(), beat, part);
         if (again)
           std::filesystem::remove_all(part / "fields");  // the next beat may have fewer
       });
@@ -240,8 +216,10 @@ class Pipeline {
 
   /// The wall without load for the parameters in use, into a folder.
   void unload(const std::filesystem::path& part, const std::filesystem::path& elements) const {
-    make_unloading(fitted_case(part), read_mesh_result(folder(Stage::mesh)),
-                   read_mesh_result(elements).mesh, part, calibration() / unloaded_shape_name);
+    make_unloading(
+        fitted(stage_view(case_, Stage::unload), part), read_mesh_result(folder(Stage::mesh)),
+        read_mesh_result(elements).mesh, part,
+        case_.calibration.asked() ? calibration() / unloaded_shape_name : std::filesystem::path());
   }
 
   /// Where the stress-free wall of a beat is.
@@ -254,27 +232,26 @@ class Pipeline {
   /// Made once, by the first stage that needs it; of the root alone.
   const Shape& shape() {
     if (!shape_)
-      shape_ = make_anatomy(case_);
+      shape_ = make_anatomy(stage_view(case_, Stage::anatomy));
     return *shape_;
   }
 
   [[nodiscard]] std::filesystem::path calibration() const { return folder(Stage::calibrate); }
 
-  /// The case with the parameters in use: its own, a calibration's, or those of a beat that
-  /// corrects it.
-  [[nodiscard]] Case fitted_case(const std::filesystem::path& beat) const {
-    if (!case_.calibration.asked())
-      return case_;
+  /// A case with the parameters in use: its own, a calibration's, or those of a beat that corrects
+  /// it.
+  [[nodiscard]] Case fitted(const Case& c, const std::filesystem::path& beat) const {
+    if (!c.calibration.asked())
+      return c;
     const auto corrected = beat / confirmation_name;
     return calibrated(
-        case_, std::filesystem::exists(corrected) ? corrected : calibration() / calibration_name);
+        c, std::filesystem::exists(corrected) ? corrected : calibration() / calibration_name);
   }
 
   /// What a user looks at first.
-  void show(std::size_t s) const {
+  void show(Stage stage) const {
     if (!parallel::is_root())
       return;
-    const auto stage = static_cast<Stage>(s);
     if (stage == Stage::anatomy && std::filesystem::exists(folder(stage) / "quality.txt"))
       print(fmt::format("\n{}\n", read_file(folder(stage) / "quality.txt")));
     if (stage == Stage::calibrate)
@@ -293,7 +270,10 @@ class Pipeline {
   const Case& case_;
   RunOptions options_;
   std::filesystem::path work_;
-  std::size_t last_;
+  Stage last_;
+  FileContents files_;
+  Stage last_made_ = Stage::strain;  ///< of those that lead to the results
+  std::string before_, strain_;      ///< what stands for its result, and for that of strain
   std::string text_;
   std::optional<Shape> shape_;
   static constexpr const char* elements_name = "quasi_static";  ///< folder of the mesh for fits
@@ -360,6 +340,7 @@ std::string validate(const Case& c) {
   const Shape shape = make_anatomy(c);
   const MeshResult result = make_mesh(c, shape);
   const mesh::Mesh& m = result.mesh;
+  check_room(c, m);
   const mesh::Quality q = mesh::quality(m);
   std::string text = fmt::format(
       "{}: valid\n"
@@ -401,13 +382,10 @@ std::string bench(const BenchOptions& options) {
   if (options.quadrature)
     c.coupling.kind = immersed::CouplingKind::quadrature;
   const MeshResult result = make_mesh(c, make_anatomy(c));
+  check_room(c, result.mesh);
   const lv::bench::Bench measured =
       lv::bench::measure(result.mesh, model_parameters(c, result.mesh), myocardium(c));
   return options.json ? lv::bench::json(measured) : lv::bench::text(measured);
-}
-
-std::string version() {
-  return LV_VERSION;
 }
 
 }  // namespace lv::job

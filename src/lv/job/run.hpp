@@ -51,7 +51,4 @@ struct BenchOptions {
 };
 [[nodiscard]] std::string bench(const BenchOptions& options);
 
-/// The program's version.
-[[nodiscard]] std::string version();
-
 }  // namespace lv::job

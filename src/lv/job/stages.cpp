@@ -10,8 +10,8 @@
 #include "lv/heartbeat/quasi_static_beat.hpp"
 #include "lv/job/infarct.hpp"
 #include "lv/job/parameters.hpp"
-#include "lv/job/run.hpp"
 #include "lv/job/strain.hpp"
+#include "lv/job/version.hpp"
 #include "lv/job/workspace.hpp"
 #include "lv/mesh/infarct.hpp"
 #include "lv/mesh/quality.hpp"
@@ -48,6 +48,27 @@ void store(const mesh::Surface& surface, const std::string& name, Archive& archi
   archive.set(name, as_numbers(surface.nodes));
 }
 
+void store(const mesh::GivenFibres& fibres, Archive& archive) {
+  archive.set("fibres.at_nodes", {fibres.at == mesh::GivenFibres::At::nodes ? 1.0 : 0.0});
+  archive.set("fibres.f0", as_numbers(fibres.f0));
+  archive.set("fibres.s0", as_numbers(fibres.s0));
+}
+
+mesh::GivenFibres load_fibres(const Archive& archive, const mesh::Mesh& m) {
+  using At = mesh::GivenFibres::At;
+  const At at = archive.whole_number(archive.number("fibres.at_nodes"), {0.0, 1.0}) == 0
+                    ? At::cells
+                    : At::nodes;
+  const std::size_t count =
+      at == At::nodes ? m.nodes.size() : static_cast<std::size_t>(m.cell_count());
+  constexpr heartbeat::Range unit{-1.0 - 1e-6, 1.0 + 1e-6};
+  const auto load = [&](const char* name) {
+    return archive.get(name).empty() ? std::vector<Vec3>{}
+                                     : heartbeat::vectors(archive.get_rows(name, 3, count, unit));
+  };
+  return {at, load("fibres.f0"), load("fibres.s0")};
+}
+
 /// Nodes of cells or faces, `each` of one, of those that a wall has.
 std::vector<int> load_nodes(const Archive& archive, const std::string& name, std::size_t each,
                             std::size_t nodes) {
@@ -76,24 +97,6 @@ std::vector<heartbeat::NamedMoment> load_whole_moments(const Archive& archive,
     if (std::none_of(moments.begin(), moments.end(), [&](const auto& m) { return m.name == name; }))
       archive.refuse(fmt::format("it holds a beat without {}", name));
   return moments;
-}
-
-void store(const mesh::GivenFibres& fibres, Archive& archive) {
-  archive.set("fibres.at_nodes", {fibres.at == mesh::GivenFibres::At::nodes ? 1.0 : 0.0});
-  archive.set("fibres.f0", as_numbers(fibres.f0));
-  archive.set("fibres.s0", as_numbers(fibres.s0));
-}
-
-mesh::GivenFibres load_fibres(const Archive& archive, const mesh::Mesh& m) {
-  using At = mesh::GivenFibres::At;
-  const At at = archive.number("fibres.at_nodes") == 0.0 ? At::cells : At::nodes;
-  const std::size_t count =
-      at == At::nodes ? m.nodes.size() : static_cast<std::size_t>(m.cell_count());
-  const auto load = [&](const char* name) {
-    return archive.get(name).empty() ? std::vector<Vec3>{}
-                                     : heartbeat::vectors(archive.get_rows(name, 3, count));
-  };
-  return {at, load("fibres.f0"), load("fibres.s0")};
 }
 
 analysis::FieldAnalysis field_analysis(const Case& c, const mesh::Mesh& m) {
@@ -189,8 +192,9 @@ report::RunFacts run_facts(const Case& c, const MeshResult& mesh, const BeatResu
   }
   facts.wall_clock = beat.beat.wall_clock;
   for (const Parameter& p : parameters())
-    facts.parameters.emplace_back(p.name, p.get(c));
-  facts.origins.assign(c.origin.begin(), c.origin.end());
+    facts.parameters.emplace_back(p.name, p.shown(c));
+  for (const auto& [name, place] : c.origin)
+    facts.origins.emplace_back(name, std::filesystem::path(place).filename().string());
   if (const std::string note = septum_note(c); !note.empty())
     facts.warnings.push_back(note);
   for (const heartbeat::NamedMoment& m : beat.beat.moments)
@@ -289,6 +293,13 @@ std::string write_results(const Case& c, const MeshResult& mesh, const BeatResul
 
 }  // namespace
 
+void check_room(const Case& c, const mesh::Mesh& mesh) {
+  if (c.engine != Engine::immersed)
+    return;
+  check_box(c, mesh);
+  check_spacing(c, mesh);
+}
+
 MeshResult make_mesh(const Case& c, const Shape& shape) {
   MeshResult result;
   result.mesh = shape.given ? *shape.given : mesh::wall_mesh(shape.wall, mesh_parameters(c));
@@ -298,8 +309,6 @@ MeshResult make_mesh(const Case& c, const Shape& shape) {
   result.slice_moves = std::move(infarct.slice_moves);
   if (c.engine == Engine::immersed) {
     result.mesh.order = 1;  // the parts of a refined given mesh are its elements
-    check_box(c, result.mesh);
-    check_spacing(c, result.mesh);
   } else if (c.quasi_static.order == 2 && result.mesh.order == 1) {
     // each element of a given mesh becomes a quadratic one
     result.mesh = mesh::refine(result.mesh);
@@ -333,7 +342,7 @@ void write_mesh_result(const MeshResult& result, const std::filesystem::path& fo
 
 void show_mesh(const MeshResult& result, const Case& c, const std::filesystem::path& folder) {
   const mesh::Mesh& m = result.mesh;
-  const auto undeformed = field_analysis(c, m).at_rest();
+  const auto undeformed = analysis::FieldAnalysis(m, {c.fibres, {}, {}}).at_rest();  // directions
   parallel::on_root([&] {
     report::write_mesh(folder / "mesh.vtu", m, result.regions, undeformed);
     report::quality_table(mesh::quality(m)).write_csv(folder / "quality.csv");
@@ -368,8 +377,8 @@ MeshResult read_mesh_result(const std::filesystem::path& folder) {
   m.epi = load_surface(archive, "epi", nodes);
   m.base = load_surface(archive, "base", nodes);
   const auto cells = static_cast<std::size_t>(m.cell_count());
-  m.fibres = load_fibres(archive, m);
   result.infarcted = archive.get_rows("infarcted", 1, cells, part);
+  m.fibres = load_fibres(archive, m);
   result.regions = {archive.get_whole("slice", cells, {1.0, mesh::slice_count}),
                     archive.get_whole("sector", cells, {1.0, mesh::sectors_of_slice(1)}),
                     archive.get_whole("aha", cells, {1.0, 17.0})};
@@ -387,8 +396,6 @@ heartbeat::Beat make_beat(const Case& c, const MeshResult& mesh,
     return heartbeat::run_quasi_static_beat(
         {mesh.mesh, static_model(c), c.quasi_static.solver, c.protocol, c.output.frame_interval},
         observers);
-  check_box(c, mesh.mesh);  // the grid may have changed since the mesh was made
-  check_spacing(c, mesh.mesh);
   const heartbeat::BeatSetup setup{mesh.mesh,  cardiac_model(c), model_parameters(c, mesh.mesh),
                                    c.protocol, c.time,           c.output};
   return heartbeat::run_immersed_beat(setup, folder, observers);

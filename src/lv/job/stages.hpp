@@ -20,7 +20,10 @@ struct MeshResult {
   std::optional<Table> slice_moves = {};
 };
 
-/// Throws InputError when the mesh is too coarse for the grid.
+/// Throws InputError when the immersed engine has no room for the wall in its box, or when the mesh
+/// is too coarse for the grid.
+void check_room(const Case& c, const mesh::Mesh& mesh);
+
 [[nodiscard]] MeshResult make_mesh(const Case& c, const Shape& shape);
 
 void write_mesh_result(const MeshResult& result, const std::filesystem::path& folder);

@@ -5,9 +5,7 @@
 #include "lv/base/table.hpp"
 #include "lv/base/units.hpp"
 #include "lv/geometry/contour_measures.hpp"
-#include "lv/image/nifti.hpp"
 #include "lv/job/cine.hpp"
-#include "lv/job/drawn.hpp"
 #include "lv/job/through_plane.hpp"
 #include "lv/report/overlay.hpp"
 #include "lv/strain/measures.hpp"
@@ -231,31 +229,6 @@ std::string words(const CineStudy& study, const std::vector<TrackedSlice>& slice
 }
 
 }  // namespace
-
-Ingredients strain_files(const Case& c) {
-  Ingredients files;
-  const auto add = [&](const std::string& parameter, const std::string& name) {
-    if (name.empty())
-      return;
-    const fs::path path = beside(c, name);
-    std::error_code failed;
-    if (!fs::is_directory(path, failed)) {
-      files["contents of " + parameter] = fingerprint_of_file(path);
-      return;
-    }
-    Ingredients inside;
-    add_folder(path, inside);
-    files["contents of " + parameter] = fingerprint(inside);
-  };
-  add("strain.cine", c.strain.cine);
-  add("strain.contours", c.strain.contours);
-  add("strain.long_axis", c.strain.long_axis);
-  add("strain.es_contours", c.strain.es_contours);
-  for (const std::string& name : c.strain.long_axis_cine)
-    if (image::is_nifti_name(name))
-      add("strain.long_axis_cine " + name, name);
-  return files;
-}
 
 std::string check_strain(const Case& c) {
   std::string text;

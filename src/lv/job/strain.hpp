@@ -4,7 +4,6 @@
 #include "lv/geometry/frame.hpp"
 #include "lv/job/case.hpp"
 #include "lv/job/stages.hpp"
-#include "lv/job/workspace.hpp"
 #include "lv/strain/agreement.hpp"
 
 #include <filesystem>
@@ -12,9 +11,6 @@
 #include <vector>
 
 namespace lv::job {
-
-/// The files that strain is measured from, by parameter, with what stands for their contents.
-[[nodiscard]] Ingredients strain_files(const Case& c);
 
 /// The table strain.measured. Throws InputError where it is no such table or has no line that the
 /// model's regions can be compared with.

@@ -23,12 +23,17 @@ using Ingredients = std::map<std::string, std::string>;
 /// A short text that stands for all ingredients.
 [[nodiscard]] std::string fingerprint(const Ingredients& ingredients);
 
-/// A short text that stands for the contents of a file; "absent" when it cannot be read.
+/// A short text that stands for the contents of a file; "absent" when it is no file that can be
+/// read.
 [[nodiscard]] std::string fingerprint_of_file(const std::filesystem::path& file);
 
 /// One stage's folder in a case's work folder. Results are made in `NAME.part` and become `NAME`
-/// when they are complete, with a record of the ingredients; a stage whose record equals its
-/// ingredients is not run again.
+/// when they are complete and on the disk, with a record of the ingredients and of all files with
+/// their sizes; a stage whose record equals its ingredients, and whose files are there, is not run
+/// again. Sizes tell a file that is gone or cut short at the cost of a look; a checksum of all
+/// would read gigabytes at every start, and the files that a run goes on from (mesh.bin, beat.bin)
+/// hold their own. An unfinished run is never deleted: one with other ingredients is kept as
+/// `NAME.other`, `NAME.other2` and so on, and taken up again when its ingredients come back.
 class StageFolder {
  public:
   StageFolder(const std::filesystem::path& work, const std::string& name, Ingredients ingredients);
@@ -38,8 +43,8 @@ class StageFolder {
   /// Why the stage must run, in words: "mesh.edge_length has changed from ... to ...".
   [[nodiscard]] std::string reason() const;
 
-  /// Makes the unfinished folder and returns it. What an earlier run with the same ingredients left
-  /// there stays.
+  /// Makes the unfinished folder and returns it, with what an earlier run with the same ingredients
+  /// left.
   [[nodiscard]] std::filesystem::path begin() const;
 
   /// The unfinished folder becomes the stage's folder.
@@ -51,6 +56,11 @@ class StageFolder {
   [[nodiscard]] std::filesystem::path unfinished() const;
 
  private:
+  [[nodiscard]] std::vector<std::filesystem::path> kept() const;
+  [[nodiscard]] std::filesystem::path free_name() const;
+  void set_aside(const std::filesystem::path& part) const;
+  void take_up(const std::filesystem::path& part) const;
+
   std::filesystem::path folder_;
   Ingredients ingredients_;
 };

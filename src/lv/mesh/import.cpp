@@ -2,6 +2,8 @@
 
 #include "lv/base/check.hpp"
 #include "lv/base/ending.hpp"
+#include "lv/base/files.hpp"
+#include "lv/base/formats.hpp"
 #include "lv/mesh/cell.hpp"
 #include "lv/mesh/foreign_fibres.hpp"
 #include "lv/mesh/foreign_mesh.hpp"
@@ -28,21 +30,20 @@ constexpr double same_place = 1e-5;  ///< relative to the wall's extent
 
 ForeignMesh read(const ImportParameters& parameters) {
   const std::filesystem::path path(parameters.file);
-  if (!std::filesystem::is_regular_file(path))
-    throw InputError(parameters.file, "there is no such file", "Check the name of the mesh");
+  require_readable(path, "Check the name of the mesh");
   const std::string ending = ending_of(path);
   if (ending == ".vtk" || ending == ".vtu")
     return read_vtk(parameters);
-  if (!parameters.fibres.empty() && (ending == ".inp" || ending == ".msh"))
+  if (ending != ".inp" && ending != ".msh")
+    throw InputError(parameters.file, fmt::format("has the unknown ending \"{}\"", ending),
+                     fmt::format("Meshes are read from {}", formats::meshes));
+  if (!parameters.fibres.empty())
     throw InputError(parameters.file, "is no file that fibres are read from",
                      "Convert it to .vtu with the fibres as an array, or leave anatomy.mesh.fibres "
                      "out: they follow the rule of [fibres]");
-  if (ending == ".inp")
-    return read_abaqus(parameters);
-  if (ending == ".msh")
-    return read_gmsh(parameters);
-  throw InputError(parameters.file, fmt::format("has the unknown ending \"{}\"", ending),
-                   "Meshes are read from .inp (ABAQUS), .vtk, .vtu (VTK) and .msh (Gmsh)");
+  ForeignMesh foreign = ending == ".inp" ? read_abaqus(parameters) : read_gmsh(parameters);
+  foreign.in_ras = says_ras(parameters.file);
+  return foreign;
 }
 
 /// Drops the nodes that no cell uses; whatever referred to them then refers to node -2, which no

@@ -2,6 +2,8 @@
 
 #include "lv/base/check.hpp"
 #include "lv/base/ending.hpp"
+#include "lv/base/files.hpp"
+#include "lv/base/formats.hpp"
 #include "lv/mesh/vtk_file.hpp"
 
 #include <fmt/format.h>
@@ -12,8 +14,6 @@
 #include <vtkPolyDataReader.h>
 #include <vtkSTLReader.h>
 #include <vtkXMLPolyDataReader.h>
-
-#include <filesystem>
 
 namespace lv::mesh {
 namespace {
@@ -30,8 +30,7 @@ vtkSmartPointer<vtkPolyData> read_with(const std::string& file) {
 
 vtkSmartPointer<vtkPolyData> read_polygons(const std::string& file) {
   const std::string ending = ending_of(file);
-  if (!std::filesystem::is_regular_file(file))
-    throw InputError(file, "there is no such file", "Check the name of the surface");
+  require_readable(file, "Check the name of the surface");
   const auto polygons = read_by_vtk(file, [&] {
     if (ending == ".stl")
       return read_with<vtkSTLReader>(file);
@@ -44,7 +43,7 @@ vtkSmartPointer<vtkPolyData> read_polygons(const std::string& file) {
       return read_with<vtkPolyDataReader>(file);
     }
     throw InputError(file, fmt::format("has the unknown ending \"{}\"", ending),
-                     "Surfaces are read from .stl, .ply, .vtp and .vtk (polygons)");
+                     fmt::format("Surfaces are read from {}", formats::surfaces));
   });
   check_cells(file, polygons->GetPolys(), polygons->GetNumberOfPoints());
   return polygons;

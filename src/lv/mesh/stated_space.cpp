@@ -73,7 +73,8 @@ bool says_ras(const std::string& file, vtkDataObject& data) {
       data.GetFieldData() == nullptr ? nullptr : data.GetFieldData()->GetAbstractArray(key.data()));
   if (array == nullptr || array->GetNumberOfValues() == 0)
     return says_ras(file);
-  return is_ras(file, space_in(fmt::format("{}={}", key, array->GetValue(0))));
+  const std::string said = array->GetValue(0);
+  return is_ras(file, space_in(fmt::format("{}={}", key, said)));
 }
 
 }  // namespace lv::mesh

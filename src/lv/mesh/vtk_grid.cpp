@@ -2,6 +2,7 @@
 
 #include "lv/base/check.hpp"
 #include "lv/base/ending.hpp"
+#include "lv/base/files.hpp"
 #include "lv/mesh/foreign_mesh.hpp"
 #include "lv/mesh/vtk_file.hpp"
 
@@ -16,8 +17,6 @@
 #include <vtkUnstructuredGrid.h>
 #include <vtkUnstructuredGridReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
-
-#include <filesystem>
 
 namespace lv::mesh {
 namespace {
@@ -54,8 +53,7 @@ vtkSmartPointer<vtkUnstructuredGrid> read_xml(const std::string& file) {
 }  // namespace
 
 vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::string& file) {
-  if (!std::filesystem::is_regular_file(file))
-    throw InputError(file, "there is no such file", "Check its name");
+  require_readable(file, "Check its name");
   const auto grid =
       read_by_vtk(file, [&] { return is_legacy(file) ? read_legacy(file) : read_xml(file); });
   const vtkUnsignedCharArray* types = grid->GetCellTypesArray();

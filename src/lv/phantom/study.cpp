@@ -128,10 +128,12 @@ std::string infarct_of_case(const Scan& scan, const StudyFiles& files, const Tru
     return "";
   if (files.nifti)
     return fmt::format(
-        "\n[infarct]\nsource = \"labels\"\n\n[infarct.labels]\n"
-        "file = \"nifti/late_enhancement_labels.nii.gz\"\n"
-        "scar = [{}]\nmuscle = [{}]\nin_plane = {}\n",
-        static_cast<int>(scar), static_cast<int>(muscle), scan.shift > 0.0);
+               "\n[infarct]\nsource = \"labels\"\n\n[infarct.labels]\n"
+               "file = \"nifti/late_enhancement_labels.nii.gz\"\nscar = [{}]\n",
+               static_cast<int>(scar)) +
+           (scan.shift > 0.0
+                ? fmt::format("muscle = [{}]\nin_plane = true\n", static_cast<int>(muscle))
+                : "");
   return fmt::format(
       "\n[infarct]\nsource = \"lge\"\n\n[infarct.lge]\nimage = \"dicom\"\n"
       "series = [\"late_enhancement_short_axis\"]\nthreshold = \"fwhm\"\nin_plane = {}\n",

@@ -4,12 +4,15 @@
 
 #include <cairo-svg.h>
 #include <cairo.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <memory>
+#include <string_view>
 
 namespace lv::report {
 namespace {
@@ -39,6 +42,32 @@ void draw_page(cairo_surface_t* surface, double pixels_per_point, const Draw& dr
   Canvas canvas(context.get(), pixels_per_point);
   draw(canvas);
   require(cairo_status(context.get()));
+}
+
+/// Cairo numbers the parts of its drawings through the life of a process. Numbered anew, in the
+/// order in which they are named, they are the same in a process that draws the same after other
+/// things.
+std::string with_own_numbers(const std::string& svg) {
+  static constexpr std::array<std::string_view, 3> before{"id=\"", "href=\"#", "url(#"};
+  const std::string_view all = svg;
+  std::map<std::string_view, std::string> numbers;
+  std::string text;
+  for (std::size_t at = 0; at < all.size();) {
+    const auto* marker = std::find_if(before.begin(), before.end(), [&](std::string_view word) {
+      return all.substr(at, word.size()) == word;
+    });
+    if (marker == before.end()) {
+      text += all[at++];
+      continue;
+    }
+    const std::size_t first = at + marker->size();
+    at = std::min(all.find_first_of("\")", first), all.size());
+    text += *marker;
+    text +=
+        numbers.emplace(all.substr(first, at - first), fmt::format("part{}", numbers.size() + 1))
+            .first->second;
+  }
+  return text;
 }
 
 }  // namespace
@@ -197,7 +226,7 @@ std::string svg(double width, double height, double pixels_per_point, const Draw
   draw_page(surface.get(), pixels_per_point, draw);
   cairo_surface_finish(surface.get());
   require(cairo_surface_status(surface.get()));
-  return bytes;
+  return with_own_numbers(bytes);
 }
 
 std::string grey_png(int columns, int rows, const std::vector<unsigned char>& levels) {

@@ -1,6 +1,6 @@
 #include "lv/report/modes.hpp"
 
-#include <Eigen/Eigenvalues>
+#include "lv/base/dense.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -24,8 +24,7 @@ double largest(const Field& field) {
 
 /// Courses as columns, the most important first, each at most 1.
 Eigen::MatrixXd courses_of(const Field& field) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(field * field.transpose());
-  return solver.eigenvectors().rowwise().reverse();
+  return dense::symmetric_eigenpairs(field * field.transpose()).vectors.rowwise().reverse();
 }
 
 }  // namespace

@@ -317,11 +317,12 @@ std::vector<TimedFrame> wall_frames(const fs::path& work) {
   return frames;
 }
 
-Data case_html(const PageCase& shown, int number) {
+/// A page is passed on, and the name of a folder may be that of a patient.
+Data case_html(const PageCase& shown, int number, std::size_t count) {
+  static constexpr std::array<const char*, 2> folders{"the first work folder",
+                                                      "the second work folder"};
   Arrays arrays(number);
-  const fs::path folder = fs::absolute(shown.work).lexically_normal();
-  Json json{{"folder", folder.filename().empty() ? folder.parent_path().filename().string()
-                                                 : folder.filename().string()},
+  Json json{{"folder", count < 2 ? "the work folder" : folders.at(number)},
             {"complete", shown.complete},
             {"state", shown.state},
             {"files", files_json(shown.work)}};
@@ -358,7 +359,7 @@ std::string page(const std::vector<PageCase>& cases, const std::string& version)
                     Json{{"version", version}, {"cases", cases.size()}}.dump()),
             "", ""};
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    const Data one = case_html(cases[i], static_cast<int>(i));
+    const Data one = case_html(cases[i], static_cast<int>(i), cases.size());
     data.summary += one.summary;
     data.wall += one.wall;
     data.more += one.more;

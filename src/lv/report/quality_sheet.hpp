@@ -12,7 +12,7 @@ namespace lv::report {
 /// How well the fitted wall shows what was drawn or labelled.
 struct QualitySheet {
   geometry::FitReport fit;
-  std::string source;                                ///< "labels of FILE, frame 1", for the head
+  std::string source;                                ///< "labels, frame 1", for the head
   std::string base_rule;                             ///< where the base plane was laid, in words
   std::optional<double> label_cavity, label_muscle;  ///< volumes of voxels [mm^3]
   std::vector<std::string> notes;                    ///< what was assumed, filled, left out

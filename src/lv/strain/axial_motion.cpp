@@ -1,6 +1,6 @@
 #include "lv/strain/axial_motion.hpp"
 
-#include <Eigen/QR>
+#include "lv/base/dense.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -112,7 +112,7 @@ AxialMotion::AxialMotion(const std::vector<LongAxisTask>& views, const geometry:
     for (const Vec3& X : view.X)
       A.row(row++) = terms_at(frame, X);
   }
-  coefficients_ = A.completeOrthogonalDecomposition().solve(u);
+  coefficients_ = dense::least_squares(A, u);
   const Eigen::MatrixXd left = A * coefficients_ - u;
   for (Eigen::Index k = 0; k < images; ++k)
     residuals_.push_back(std::sqrt(left.col(k).squaredNorm() / static_cast<double>(rows)));

@@ -1,11 +1,11 @@
 #include "lv/strain/warp.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/dense.hpp"
 #include "lv/base/interrupt.hpp"
 #include "lv/geometry/polygon.hpp"
 #include "lv/strain/grey_image.hpp"
 
-#include <Eigen/Cholesky>
 #include <fmt/format.h>
 #include <itkBSplineTransform.h>
 
@@ -323,7 +323,7 @@ class Tracker::Implementation {
       A.bottomRightCorner(n, n) += stiffness_ * bending_;
       A.diagonal().array() *= 1.0 + damping;
       A.diagonal().array() += 1e-9;  // splines that no sample touches
-      const VectorXd step = A.ldlt().solve(-(normal.b + bent(p)));
+      const VectorXd step = dense::solve_symmetric(A, -(normal.b + bent(p)));
       const VectorXd q = p + step;
       const double value = linearised(image, values, q, false).value;
       const double next = value + q.dot(bent(q));

@@ -23,6 +23,7 @@ Problem nightly(const char* name, Solve solve, const char* proves, const Ranks& 
 
 }  // namespace
 
+// NOLINTNEXTLINE(readability-function-size): a table
 std::span<const Problem> problems() {
   static const std::vector<Problem> all{
       brief("holzapfel_ogden_curves", holzapfel_ogden_curves,

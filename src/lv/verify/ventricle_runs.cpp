@@ -37,16 +37,23 @@ double rms_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
   return std::sqrt(sum / static_cast<double>(a.size()));
 }
 
-void compare(const std::string& where, const Beat& beat, const Beat& with, double volume_bound,
-             double rms_bound, double largest_bound, Findings& found) {
+/// Of the difference of two beats.
+struct Bounds {
+  double volume = 0.0;   ///< as a fraction
+  double rms = 0.0;      ///< of displacements [mm]
+  double largest = 0.0;  ///< [mm]
+};
+
+void compare(const std::string& where, const Beat& beat, const Beat& with, const Bounds& bounds,
+             Findings& found) {
   const auto state = [&](const char* name, const heartbeat::Snapshot& a,
                          const heartbeat::Snapshot& b) {
     found.add_error(fmt::format("{}: volume difference, {}", name, where),
-                    std::abs(a.volume / b.volume - 1.0), volume_bound);
+                    std::abs(a.volume / b.volume - 1.0), bounds.volume);
     found.add_error(fmt::format("{}: largest displacement difference, {}", name, where),
-                    largest_distance(a.positions, b.positions), largest_bound, "mm");
+                    largest_distance(a.positions, b.positions), bounds.largest, "mm");
     found.add_error(fmt::format("{}: rms displacement difference, {}", name, where),
-                    rms_distance(a.positions, b.positions), rms_bound, "mm");
+                    rms_distance(a.positions, b.positions), bounds.rms, "mm");
   };
   state("end-diastole", beat.at(heartbeat::end_diastole), with.at(heartbeat::end_diastole));
   state("end-systole", beat.at(heartbeat::end_systole), with.at(heartbeat::end_systole));
@@ -62,8 +69,8 @@ void grid_convergence(Findings& found) {
   const Beat coarse = run(mesh, {40, 40, 53}, 2e-4, found);
   const Beat middle = run(mesh, {48, 48, 64}, 2e-4, found);
   const Beat fine = run(mesh, {56, 56, 75}, 2e-4, found);
-  compare("3.75 and 3.13 mm", coarse, middle, 0.06, 1.0, 1.0, found);
-  compare("3.13 and 2.68 mm", middle, fine, 0.06, 1.0, 1.0, found);
+  compare("3.75 and 3.13 mm", coarse, middle, {0.06, 1.0, 1.0}, found);
+  compare("3.13 and 2.68 mm", middle, fine, {0.06, 1.0, 1.0}, found);
 }
 
 void time_step(Findings& found) {

@@ -225,6 +225,29 @@ TEST_CASE("NIfTI-2, capital endings and packed files of any name are read alike"
                         Contains("NIfTI (.nii, .nii.gz, or .hdr with .img)"));
 }
 
+TEST_CASE("a file in the other byte order is read alike", "[unit][image]") {
+  test::NiftiSpec spec = small(oblique());
+  spec.floating = true;
+  std::string bytes = test::nifti_bytes(spec);
+  const auto turn = [&](std::size_t from, std::size_t to, std::size_t width) {
+    for (std::size_t at = from; at < to; at += width)
+      std::reverse(bytes.begin() + static_cast<std::ptrdiff_t>(at),
+                   bytes.begin() + static_cast<std::ptrdiff_t>(at + width));
+  };
+  turn(0, 4, 4);
+  turn(40, 56, 2);  // dim
+  turn(70, 74, 2);
+  turn(76, 120, 4);
+  turn(252, 256, 2);
+  turn(256, 328, 4);
+  turn(352, bytes.size(), 4);
+  const test::TemporaryFolder folder;
+  test::write_bytes(folder / "x.nii", bytes);
+  const Volume v = read_nifti(folder / "x.nii");
+  CHECK(v.values == read(spec).values);
+  CHECK((v.directions - oblique()).norm() < 1e-5);
+}
+
 TEST_CASE("header and voxels of a pair are found from either, in any case of their endings",
           "[unit][image]") {
   const std::string whole = test::nifti_bytes(small(oblique()));

@@ -1,6 +1,7 @@
 #include "lv/job/infarct.hpp"
 
 #include "lv/geometry/contours.hpp"
+#include "lv/job/ingredients.hpp"
 #include "lv/mesh/infarct.hpp"
 
 #include "mesh/mesh_files.hpp"
@@ -150,6 +151,43 @@ TEST_CASE("a NIfTI map and the brightness of an image mean the region that they 
   CHECK_THROWS_WITH(furthest(), Catch::Matchers::Contains("shows nothing of the wall"));
 }
 
+TEST_CASE("of a scar map of several frames one is meant: the chosen, or the only one with scar",
+          "[unit][job]") {
+  const mesh::Mesh wall = test::ellipsoid_mesh({}, 6.0);
+  const test::TemporaryFolder folder;
+  test::NiftiSpec map =
+      test::label_map({40, 40, 40}, Mat3::Identity(), Vec3(4, 4, 4), Vec3(40.0, -115.0, 330.0),
+                      [](const Vec3& x) { return in_box(x) ? 2 : 0; });
+  const std::vector<double> scar = map.values;
+  const std::size_t n = scar.size();
+  map.size[3] = 3;
+  map.values.assign(3 * n, 0.0);
+  std::copy(scar.begin(), scar.end(), map.values.begin() + static_cast<std::ptrdiff_t>(n));
+  job::Case c;
+  c.file = folder / "case.toml";
+  job::Shape shape;
+  shape.frame = frame;
+  c.scar.source = InfarctSource::labels;
+  c.scar.labels = "map.nii";
+  c.scar.scar = {2};
+  const auto scar_volume = [&] {
+    test::write_bytes(folder / "map.nii", test::nifti_bytes(map));
+    double V = 0.0;
+    for (const double part : job::infarct_extent(c, shape, wall).part)
+      V += part;
+    return V;
+  };
+  const double only = scar_volume();
+  CHECK(only > 0.0);
+  c.scar.frame = 2;
+  CHECK(scar_volume() == only);
+  c.scar.frame = 4;
+  CHECK_THROWS_WITH(scar_volume(), Catch::Matchers::Contains("there is no frame 4"));
+  c.scar.frame = 0;
+  map.values.back() = 2.0;
+  CHECK_THROWS_WITH(scar_volume(), Catch::Matchers::Contains("there is scar in the frames 2, 3"));
+}
+
 TEST_CASE("half of the brightest is taken from the grey value of no signal", "[unit][job]") {
   const mesh::Mesh wall = test::ellipsoid_mesh({}, 5.0);
   const test::TemporaryFolder folder;
@@ -278,11 +316,16 @@ TEST_CASE("the infarct's file is among what the mesh depends on", "[unit][job]")
   job::Case c;
   c.file = folder / "case.toml";
   c.scar.surface = "surface.vtk";
-  CHECK(job::infarct_files(c).empty());  // the source is the mesh
+  const auto has_contents = [&] {
+    job::FileContents files;
+    return job::ingredients(c, job::Stage::mesh, files);
+  };
+  CHECK_FALSE(has_contents().contains("contents of infarct.surface.file"));  // the source: the mesh
   c.scar.source = InfarctSource::surface;
-  const auto before = job::infarct_files(c);
+  const auto before = has_contents();
+  CHECK(before.contains("contents of infarct.surface.file"));
   test::write_bytes(folder / "surface.vtk", "two");
-  CHECK(before != job::infarct_files(c));
+  CHECK(before != has_contents());
 }
 
 TEST_CASE("without an infarct nothing is said of it", "[unit][job]") {

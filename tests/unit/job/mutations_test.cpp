@@ -55,8 +55,8 @@ solid::CellStress zero_stress() {
 TEST_CASE("damaged case files are read or refused", "[unit][job][mutations][records]") {
   std::string text = job::starter_case("a case");
   text +=
-      "\n[anatomy.labels]\nfile = \"labels.nii.gz\"\ncavity = [1, 2]\n"
-      "\n[infarct]\nshift = [\"1 mm\", \"-2.5 mm\", \"0 cm\"]\n"
+      "\n[infarct]\nsource = \"labels\"\nshift = [\"1 mm\", \"-2.5 mm\", \"0 cm\"]\n"
+      "\n[infarct.labels]\nfile = \"labels.nii.gz\"\nscar = [1, 2]\n"
       "\n[calibrate]\npassive = \"C_a\"\nedv = \"1.2e2 ml\"\n";
   try_damaged("case.toml", text, read_case);
 }
@@ -121,7 +121,9 @@ TEST_CASE("damaged records of earlier stages are read or refused",
     static_cast<void>(stage.up_to_date());
     static_cast<void>(stage.reason());
   };
-  try_damaged("stage.json", "{\n \"mesh.edge_length\": \"1.4 mm\",\n \"version\": \"0.1\"\n}\n",
+  try_damaged("stage.json",
+              "{\n \"ingredients\": {\n  \"mesh.edge_length\": \"1.4 mm\"\n },\n"
+              " \"bytes\": {\n  \"mesh.bin\": 1200\n }\n}\n",
               record);
   const auto fit = [](const std::filesystem::path& file) {
     static_cast<void>(job::calibrated({}, file));

@@ -351,6 +351,16 @@ TEST_CASE("a labelled volume scaled by its unit keeps its labels in their places
              Catch::Contains("has no array \"tisue\"; it has tissue. Did you mean \"tissue\"?"));
 }
 
+TEST_CASE("several numbers a voxel are no labels", "[unit][mesh]") {
+  const test::TemporaryFile file(
+      ".VTK",
+      "# vtk DataFile Version 3.0\npair\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 2 1 1\n"
+      "ORIGIN 0 0 0\nSPACING 1 1 1\nPOINT_DATA 2\nSCALARS tissue int 2\nLOOKUP_TABLE default\n"
+      "0 7 0 7\n");
+  CHECK_THAT(message([&] { mesh::LabelVolume(file.path(), "", 1.0); }),
+             Catch::Contains("array \"tissue\" has 2 numbers for each voxel"));
+}
+
 TEST_CASE("an imported mesh knows its set of infarcted elements", "[unit][mesh]") {
   for (const auto kind : kinds) {
     const Mesh mesh = test::coarse_mesh(kind);

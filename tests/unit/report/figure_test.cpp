@@ -185,6 +185,25 @@ TEST_CASE("in SVG charts and bull's-eyes are vectors, scenes are bitmaps", "[uni
   CHECK(has_bitmap({.content = triangle()}));
 }
 
+TEST_CASE("an SVG figure is the same bytes whatever was drawn before it", "[unit][report]") {
+  const Figure figure = of({.content = bulls_eye(missing),
+                            .colour_bar = ColourBar{"stress [kPa]", {sequential(), 0.0, 10.0}}});
+  const std::string first = svg(figure);
+  static_cast<void>(svg(of({.content = triangle()})));
+  CHECK(svg(figure) == first);
+  CHECK(first.find("id=\"part1\"") != std::string::npos);
+  std::set<std::string> ids;  // every part that is named is there, once
+  for (std::size_t at = first.find("id=\""); at != std::string::npos;
+       at = first.find("id=\"", at + 4))
+    CHECK(ids.insert(first.substr(at + 4, first.find('"', at + 4) - at - 4)).second);
+  for (const char* use : {"href=\"#", "url(#"}) {
+    const std::size_t length = std::string(use).size();
+    for (std::size_t at = first.find(use); at != std::string::npos; at = first.find(use, at + 1))
+      CHECK(ids.contains(
+          first.substr(at + length, first.find_first_of("\")", at + length) - at - length)));
+  }
+}
+
 TEST_CASE("a figure that cannot be written names its file", "[unit][report]") {
   const std::filesystem::path file = "/no/such/folder/figure.png";
   CHECK_THROWS_AS(write(of({.content = triangle()}), file), lv::RunError);

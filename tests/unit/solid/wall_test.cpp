@@ -170,8 +170,8 @@ TEST_CASE("a uniform deformation is in equilibrium inside a distorted wall", "[u
 
 TEST_CASE("the wall's force is minus the derivative of its energy", "[unit][solid]") {
   test::RandomValues random(5);
-  for (const CellKind kind : kinds) {
-    for (const VolumetricPoints points : volumetric_points) {
+  for (const CellKind kind : kinds)
+    for (const VolumetricPoints points : volumetric_points)
       for (const material::AnyPassiveLaw& law :
            {material::AnyPassiveLaw(material::Guccione{}),
             material::AnyPassiveLaw(material::NeoHookean{5.0})}) {
@@ -195,8 +195,6 @@ TEST_CASE("the wall's force is minus the derivative of its energy", "[unit][soli
                 Approx(-derivative).epsilon(1e-7).margin(1e-8 * test::magnitude(forces)));
         }
       }
-    }
-  }
 }
 
 TEST_CASE("the wall's force does the work of the stresses it reports", "[unit][solid]") {

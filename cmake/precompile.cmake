@@ -1,0 +1,10 @@
+# What almost every source includes, parsed once per target. Only headers of others: a change of ours rebuilds no more than without.
+# No JSON: its inline functions would be instantiated again in every file.
+function(lv_precompile target)
+  target_precompile_headers(${target} PRIVATE
+    <algorithm> <array> <charconv> <chrono> <cmath> <cstdint> <filesystem> <fstream> <functional> <limits> <map> <memory> <numbers>
+    <numeric> <optional> <set> <span> <sstream> <string> <string_view> <utility> <variant> <vector>
+    <Eigen/Dense> <fmt/format.h> <xsimd/xsimd.hpp> ${ARGN})
+  # compiler caches look through a precompiled header only with it
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
+endfunction()

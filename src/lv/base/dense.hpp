@@ -1,0 +1,30 @@
+#pragma once
+
+#include <Eigen/Core>
+
+/// Solutions of small dense problems. Eigen's decompositions are templates that take a compiler
+/// seconds each; those of matrices of any size stand compiled here, once.
+namespace lv::dense {
+
+/// X that makes |A X - B| smallest, and of all such the shortest.
+[[nodiscard]] Eigen::MatrixXd least_squares(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
+
+/// (J^T J)^-1, or the pseudo-inverse where the columns of J depend on each other.
+[[nodiscard]] Eigen::MatrixXd inverse_of_normal_matrix(const Eigen::MatrixXd& J);
+
+/// x of K x = f for a symmetric, semidefinite K.
+[[nodiscard]] Eigen::VectorXd solve_symmetric(const Eigen::MatrixXd& K, const Eigen::VectorXd& f);
+
+/// x of A x = b for an invertible A.
+[[nodiscard]] Eigen::VectorXd solve(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
+
+/// A = V diag(values) V^T.
+struct Eigenpairs {
+  Eigen::VectorXd values;   ///< ascending
+  Eigen::MatrixXd vectors;  ///< as columns, of unit length
+};
+
+/// Eigenvalues and eigenvectors of a symmetric A.
+[[nodiscard]] Eigenpairs symmetric_eigenpairs(const Eigen::MatrixXd& A);
+
+}  // namespace lv::dense
