@@ -150,8 +150,8 @@ void make_calibration(const Case& c, const MeshResult& mesh, const std::filesyst
   AnswerRecord record(ventricle, mesh.mesh.nodes.size(), folder / answers_name);
   const auto number = [&](const std::function<Outcome<double>()>& ask) -> Outcome<double> {
     const auto answer = record.answer([&]() -> Outcome<Numbers> {
-      const auto number = ask();
-      return number ? Outcome<Numbers>(Numbers{*number}) : number.why();
+      const auto found = ask();
+      return found ? Outcome<Numbers>(Numbers{*found}) : found.why();
     });
     return answer ? Outcome<double>(answer->front()) : answer.why();
   };
