@@ -29,20 +29,16 @@ pressure = "2 mmHg"
 [calibrate]
 passive = "scale"
 edv = "105 ml"
-confirm = false
 
 [quasi_static]
 edge_length = "14 mm"
 layers = 1
 first_step = 1
-
-[output]
-frame_interval = "0.01 s"
-checkpoint_interval = "0.05 s"
 """
+frames = 'output.frame_interval = "0.01 s"\n'
 engines = {
-    "quasi_static": 'engine = "quasi_static"\n' + common,
-    "immersed": 'engine = "immersed"\n' + common + """
+    "quasi_static": 'engine = "quasi_static"\n' + frames + common,
+    "immersed": 'engine = "immersed"\n' + frames + 'output.checkpoint_interval = "0.05 s"\n' + common + """
 [mesh]
 edge_length = "4.5 mm"
 

@@ -42,7 +42,7 @@ const ventricle = (...args) => execFileSync(program, args, { cwd: folder, stdio:
 function runImages() {
   ventricle("phantom", "study", "--phases", "6", "--field-of-view", "150", "--shortening", "0.12", "--nifti", "true");
   const file = join(folder, "study/coarse.toml");
-  writeFileSync(file, `engine = "quasi_static"\n${readFileSync(join(folder, "study/case.toml"), "utf8")}\n[mesh]\nedge_length = "7 mm"\n`);
+  writeFileSync(file, `engine = "quasi_static"\n${readFileSync(join(folder, "study/case.toml"), "utf8")}`);
   ventricle("run", file, "--work", images, "--ranks", "1");
 }
 
@@ -391,7 +391,7 @@ async function checkRealVentricle() {
   const file = (name) => JSON.stringify(join(data, name));
   writeFileSync(join(folder, "hv01.toml"), ["name = 'HV01'", "engine = 'quasi_static'", "[anatomy]", "source = 'contours'", "[anatomy.contours]",
     `short_axis = ${file("contours_sa_aligned_long_axis.csv")}`, `long_axis = ${file("contours_la.csv")}`, `apex_endo = ${file("apex_endo.csv")}`,
-    `apex_epi = ${file("apex_epi.csv")}`, "septum_point = ['37.1 mm', '0.8 mm', '-4.5 mm']", "[mesh]", "edge_length = '7 mm'", "[calibrate]", "passive = 'scale'",
+    `apex_epi = ${file("apex_epi.csv")}`, "septum_point = ['37.1 mm', '0.8 mm', '-4.5 mm']", "[calibrate]", "passive = 'scale'",
     "edv = '142.6 ml'", "[active]", "T_scale = 3.0", "[strain]", `measured = ${file("segmental_strain_from_cine.csv")}`, "measured_column = 'frame10'"].join("\n"));
   ventricle("run", "hv01.toml", "--ranks", "1");
   const { page, said, close: done } = await open(join("hv01.work", "05_report/report.html"));

@@ -4,9 +4,11 @@
 #include <catch2/catch.hpp>
 #include <sched.h>
 
+#include <algorithm>
 #include <atomic>
 #include <stdexcept>
 #include <thread>
+#include <vector>
 
 namespace {
 
