@@ -15,6 +15,9 @@ namespace lv::job {
 /// that was moved is the same study. Each is read once.
 class FileContents {
  public:
+  /// `own`: what the program itself has written or reads otherwise, which is left out of folders.
+  explicit FileContents(std::vector<std::filesystem::path> own = {}) : own_(std::move(own)) {}
+
   /// Of a file with those that belong to it (the .img of a .hdr), or of all files below a folder;
   /// "absent" when there is none.
   [[nodiscard]] const std::string& of(const std::filesystem::path& path);
