@@ -234,9 +234,6 @@ export class Case {
     const value = this.summary?.parameters?.[name];
     return value === undefined ? undefined : String(value).replace(/^"|"$/g, "");
   }
-
-  /** The number in front of its unit. */
-  number(name: string): number { return parseFloat(this.parameter(name) ?? "NaN"); }
 }
 
 export function csv(text: string | undefined): Row[] {

@@ -265,6 +265,14 @@ std::string beside_measured(const Case& c, const MeshResult& mesh, const BeatRes
   return "\n" + compare_strain(c, {mesh, beat.beat, fields, make_anatomy(c).frame}, strain, folder);
 }
 
+/// The case's passive muscle and what it is compared with.
+std::vector<material::StressStretch> muscles(const Case& c) {
+  auto curves = material::published_muscles();
+  curves.insert(curves.begin(),
+                material::pulled_along_fibre("this case", cardiac_model(c).myocardium.passive));
+  return curves;
+}
+
 /// The root's part of make_results.
 std::string write_results(const Case& c, const MeshResult& mesh, const BeatResult& beat,
                           const report::RunFacts& facts, const analysis::BeatFields& fields,
@@ -275,6 +283,7 @@ std::string write_results(const Case& c, const MeshResult& mesh, const BeatResul
     infarct_table(c, mesh).write_csv(folder / "infarct.csv");
   report::regions_table(results).write_csv(folder / "regions.csv");
   report::rotation_table(results).write_csv(folder / "rotation.csv");
+  report::stress_stretch_table(muscles(c)).write_csv(folder / "stress_stretch.csv");
   report::curves_table(beat.beat.curves).write_csv(folder / "curves.csv");
   for (const auto& [name, cells] : fields.moments)
     report::write_wall(folder / (name + ".vtu"), mesh.mesh, mesh.regions, beat.beat.at(name), cells,

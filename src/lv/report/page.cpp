@@ -262,11 +262,12 @@ struct PageFile {
   const char* name;
 };
 
-constexpr std::array<PageFile, 17> page_files{{
+constexpr std::array<PageFile, 18> page_files{{
     {"results", "summary.json", "summary.json"},
     {"results", "regions.csv", "regions.csv"},
     {"results", "rotation.csv", "rotation.csv"},
     {"results", "infarct.csv", "infarct.csv"},
+    {"results", "stress_stretch.csv", "stress_stretch.csv"},
     {"results", "strain_comparison_circumferential.csv", "strain_comparison_circumferential.csv"},
     {"results", "strain_comparison_radial.csv", "strain_comparison_radial.csv"},
     {"results", "strain_agreement.json", "strain_agreement.json"},

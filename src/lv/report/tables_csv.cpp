@@ -50,6 +50,15 @@ Table rotation_table(const analysis::Results& results) {
   return table;
 }
 
+Table stress_stretch_table(const std::vector<material::StressStretch>& curves) {
+  Table table({"muscle", "published", "fibre_stretch", "cauchy_stress_kPa"});
+  for (const material::StressStretch& curve : curves)
+    for (std::size_t i = 0; i < curve.stretch.size(); ++i)
+      table.add_row({curve.muscle, curve.is_published ? "yes" : "no", number(curve.stretch[i]),
+                     number(curve.stress[i])});
+  return table;
+}
+
 Table quality_table(const mesh::Quality& quality) {
   Table table({"quantity", "value", "unit"});
   for (const mesh::QualityRow& row : mesh::table(quality))

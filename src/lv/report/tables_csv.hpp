@@ -3,6 +3,7 @@
 #include "lv/analysis/results.hpp"
 #include "lv/base/table.hpp"
 #include "lv/geometry/fit_report.hpp"
+#include "lv/material/stress_stretch.hpp"
 #include "lv/mesh/quality.hpp"
 
 namespace lv::report {
@@ -18,6 +19,9 @@ namespace lv::report {
 
 /// rotation.csv: one row per slice, in degrees, anticlockwise seen from the apex positive.
 [[nodiscard]] Table rotation_table(const analysis::Results& results);
+
+/// stress_stretch.csv: one row per point of the curves, muscle after muscle.
+[[nodiscard]] Table stress_stretch_table(const std::vector<material::StressStretch>& curves);
 
 /// quality.csv: the mesh's figures, one per row, the worst element named.
 [[nodiscard]] Table quality_table(const mesh::Quality& quality);
