@@ -23,6 +23,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 
 namespace lv::job {
@@ -62,9 +63,9 @@ class BeatWriter {
 
   void frame(const heartbeat::Frame& f) {
     const auto cells = analysis_.fields(f.wall);
-    const auto& ed = f.run.beat.end_diastole;
-    if (!ed.positions.empty() && !end_diastole_)
-      end_diastole_ = analysis_.fields(ed);
+    const auto* ed = f.run.beat.find(heartbeat::end_diastole);
+    if (ed != nullptr && !end_diastole_)
+      end_diastole_ = analysis_.fields(ed->wall);
     if (parallel::is_root())
       report::write_wall(folder_ / wall_file(f.number), mesh_.mesh, mesh_.regions, f.wall, cells,
                          end_diastole_.value_or(std::vector<analysis::CellFields>{}));
@@ -78,8 +79,10 @@ class BeatWriter {
   }
 
   void curves(const heartbeat::RunState& run) const {
-    if (parallel::is_root())
-      report::curves_table(run.beat.curves).write_csv(folder_ / "curves.csv");
+    if (!parallel::is_root())
+      return;
+    report::curves_table(run.beat.curves).write_csv(folder_ / "curves.csv");
+    report::moments_table(run.beat.moments).write_csv(folder_ / "moments.csv");
   }
 
  private:
@@ -124,12 +127,10 @@ report::RunFacts run_facts(const Case& c, const MeshResult& mesh, const BeatResu
     facts.parameters.emplace_back(p.name, p.shown(c));
   for (const auto& [name, place] : c.origin)
     facts.origins.emplace_back(name, std::filesystem::path(place).filename().string());
-  if (!beat.beat.filling_was_steady)
-    facts.warnings.push_back(
-        "filling ended at protocol.filling_longest before the volume was steady");
-  if (!beat.beat.contraction_was_steady)
-    facts.warnings.push_back(
-        "contraction ended at protocol.contraction_longest before its criterion was met");
+  for (const heartbeat::NamedMoment& m : beat.beat.moments)
+    if (!m.by_criterion)
+      facts.warnings.push_back(
+          fmt::format("{0} ended at protocol.{0}_longest before its criterion was met", m.phase));
   if (beat.beat.retries > 0)
     facts.warnings.push_back(
         fmt::format("{} steps were taken back and repeated smaller", beat.beat.retries));
@@ -201,6 +202,14 @@ std::string beside_measured(const Case& c, const MeshResult& mesh, const BeatRes
   return "\n" + compare_strain(c, {mesh, beat.beat, fields, make_anatomy(c).frame}, strain, folder);
 }
 
+/// The case's passive muscle and what it is compared with.
+std::vector<material::StressStretch> muscles(const Case& c) {
+  auto curves = material::published_muscles();
+  curves.insert(curves.begin(),
+                material::pulled_along_fibre("this case", cardiac_model(c).myocardium.passive));
+  return curves;
+}
+
 /// The root's part of make_results.
 std::string write_results(const Case& c, const MeshResult& mesh, const BeatResult& beat,
                           const report::RunFacts& facts, const analysis::BeatFields& fields,
@@ -211,11 +220,11 @@ std::string write_results(const Case& c, const MeshResult& mesh, const BeatResul
     infarct_table(c, mesh).write_csv(folder / "infarct.csv");
   report::regions_table(results).write_csv(folder / "regions.csv");
   report::rotation_table(results).write_csv(folder / "rotation.csv");
+  report::stress_stretch_table(muscles(c)).write_csv(folder / "stress_stretch.csv");
   report::curves_table(beat.beat.curves).write_csv(folder / "curves.csv");
-  report::write_wall(folder / "end_diastole.vtu", mesh.mesh, mesh.regions, beat.beat.end_diastole,
-                     fields.end_diastole, fields.end_diastole);
-  report::write_wall(folder / "end_systole.vtu", mesh.mesh, mesh.regions, beat.beat.end_systole,
-                     fields.end_systole, fields.end_diastole);
+  for (const auto& [name, cells] : fields.moments)
+    report::write_wall(folder / (name + ".vtu"), mesh.mesh, mesh.regions, beat.beat.at(name), cells,
+                       fields.at(heartbeat::end_diastole));
   draw(mesh.mesh, beat.beat, fields, results, folder);
   return report::summary_text(facts, beat.beat, results) +
          beside_measured(c, mesh, beat, fields, folder);
@@ -286,8 +295,9 @@ std::string make_results(const Case& c, const MeshResult& mesh, const BeatResult
                          const std::optional<report::UnloadedShape>& unloaded,
                          const std::filesystem::path& folder) {
   const analysis::FieldAnalysis analysis = field_analysis(c, mesh.mesh);
-  const analysis::BeatFields fields{analysis.at_rest(), analysis.fields(beat.beat.end_diastole),
-                                    analysis.fields(beat.beat.end_systole)};
+  analysis::BeatFields fields{analysis.at_rest(), {}};
+  for (const heartbeat::NamedMoment& m : beat.beat.moments)
+    fields.moments.push_back({m.name, analysis.fields(m.wall)});
   std::string text;
   parallel::on_root([&] {
     report::RunFacts facts = run_facts(c, mesh, beat);
