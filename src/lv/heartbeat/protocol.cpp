@@ -32,7 +32,7 @@ double drag(const Protocol& p, Phase phase, double time) {
 bool loads_are_final(const Protocol& p, Phase phase, double time) {
   if (phase == Phase::filling)
     return time >= p.filling_ramp;
-  return time >= std::max(p.contraction_ramp, p.calcium.tau);
+  return time >= std::max(p.contraction_ramp, p.calcium.peak_time());
 }
 
 void SteadyVolume::record(double time, double volume) {

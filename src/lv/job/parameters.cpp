@@ -547,10 +547,11 @@ constexpr Group of_muscle[]{
     {mechanics,
      {},
      {
-         choice("active.law", LV_AT(active_form), "niederer second_piola cauchy",
-                "active tension of Niederer, Hunter and Smith, J T F f0 (x) f0; or a prescribed "
-                "tension as the second Piola-Kirchhoff stress T f0 (x) f0, or as the Cauchy "
-                "stress T along the fibre",
+         choice("active.law", LV_AT(active_law), "niederer second_piola cauchy land2017",
+                "active tension of Niederer, Hunter and Smith (rat, room temperature) or of Land "
+                "et al. 2017 (human, 37 degrees), J T F f0 (x) f0; or a prescribed tension as the "
+                "second Piola-Kirchhoff stress T f0 (x) f0, or as the Cauchy stress T along the "
+                "fibre",
                 "2.21"),
      }},
     {mechanics,
@@ -619,12 +620,56 @@ constexpr Group of_muscle[]{
          number("active.unbinding_min", LV_AT(active.unbinding_min), "", between(0.0, 1.0),
                 "guard: least value of the bracket in (A.3)", "A.3"),
      }},
+    {mechanics,
+     {&land2017},
+     {
+         number("active.land2017.T_ref", LV_AT(land2017.T_ref), "kPa", not_negative,
+                "tension at full activation and resting length"),
+         number("active.land2017.Ca_50ref", LV_AT(land2017.Ca_50ref), "uM", positive,
+                "calcium at half saturation of troponin at resting length"),
+         number("active.land2017.beta_0", LV_AT(land2017.beta_0), "", not_negative,
+                "dependence of the overlap on stretch"),
+         number("active.land2017.beta_1", LV_AT(land2017.beta_1), "uM", any,
+                "change of the calcium at half saturation with stretch"),
+         number("active.land2017.TRPN_50", LV_AT(land2017.TRPN_50), "", between(0.01, 1.0),
+                "share of troponin with calcium at which half of the sites are blocked"),
+         number("active.land2017.r_s", LV_AT(land2017.r_s), "", between(0.01, 0.99),
+                "share of cross-bridges after the power stroke at full activation"),
+         number("active.land2017.r_w", LV_AT(land2017.r_w), "", between(0.01, 0.99),
+                "share of the other cross-bridges that is before it"),
+     }},
+    {Stages(Stage::beat),
+     {&land2017, &moving_fibres},
+     {
+         number("active.land2017.k_TRPN", LV_AT(land2017.k_TRPN), "1/s", positive,
+                "rate of calcium's binding to troponin"),
+         number("active.land2017.k_u", LV_AT(land2017.k_u), "1/s", positive,
+                "rate of unblocking of actin sites"),
+         number("active.land2017.k_uw", LV_AT(land2017.k_uw), "1/s", positive,
+                "rate from unbound to before the power stroke"),
+         number("active.land2017.k_ws", LV_AT(land2017.k_ws), "1/s", positive,
+                "rate of the power stroke"),
+         number("active.land2017.gamma_s", LV_AT(land2017.gamma_s), "1/s", not_negative,
+                "distortion unbinds cross-bridges after the power stroke"),
+         number("active.land2017.gamma_w", LV_AT(land2017.gamma_w), "1/s", not_negative,
+                "distortion unbinds cross-bridges before it"),
+         number("active.land2017.phi", LV_AT(land2017.phi), "", positive,
+                "how fast distortion decays"),
+         number("active.land2017.A_eff", LV_AT(land2017.A_eff), "", not_negative,
+                "distortion per stretch"),
+     }},
     {Stages(Stage::beat),
      {&immersed_engine},
      {
          choice("calcium.mode", LV_AT(protocol.calcium.mode), "hold transient",
-                "calcium stays at its peak until the ventricle is steady, or decays as (A.1) says",
+                "calcium stays at its peak until the ventricle is steady, or decays as its shape "
+                "says",
                 "A.1"),
+         choice(
+             "calcium.shape", LV_AT(protocol.calcium.shape), "alpha_function double_exponential",
+             "Ca_0 + (Ca_max - Ca_0) times t/tau exp(1 - t/tau), or a difference of exponentials "
+             "with time constants t_1 and t_2, as human transients have been described",
+             "A.1"),
      }},
     {mechanics,
      {&calcium_counts},
@@ -635,10 +680,18 @@ constexpr Group of_muscle[]{
                 "A.1"),
      }},
     {Stages(Stage::beat),
-     {&immersed_engine},
+     {&immersed_engine, &alpha_function},
      {
          number("calcium.tau", LV_AT(protocol.calcium.tau), "s", positive, "time to the peak",
                 "A.1"),
+     }},
+    {Stages(Stage::beat),
+     {&immersed_engine, &double_exponential},
+     {
+         number("calcium.t_1", LV_AT(protocol.calcium.t_1), "s", positive,
+                "time constant of the rise"),
+         number("calcium.t_2", LV_AT(protocol.calcium.t_2), "s", positive,
+                "time constant of the decay, longer than t_1"),
      }},
 };
 
@@ -1068,6 +1121,10 @@ const std::vector<Section>& sections() {
       {"infarct.lge", "A late-enhancement image with a threshold (source = \"lge\")"},
       {"active",
        "Active tension; all but law and tension belong to the law of Niederer, Hunter and Smith"},
+      {"active.land2017",
+       "The law of Land et al. (J. Mol. Cell. Cardiol. 106:68, 2017) with its whole-organ "
+       "constants "
+       "(law = \"land2017\")"},
       {"calcium", "Intracellular calcium, the same everywhere"},
       {"blood", "Blood and muscle share density and viscosity"},
       {"box", "The box of blood around the ventricle and its grid"},

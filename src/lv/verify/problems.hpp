@@ -11,6 +11,9 @@ void holzapfel_ogden_curves(Findings& found);
 void niederer_steady(Findings& found);
 void niederer_twitch(Findings& found);
 void niederer_release(Findings& found);
+void land2017_steady(Findings& found);
+void land2017_twitch(Findings& found);
+void land2017_ramp(Findings& found);
 void tangent_is_derivative(Findings& found);
 
 // blood alone
