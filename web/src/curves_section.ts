@@ -4,7 +4,7 @@ import { lineColours } from "./colours.ts";
 import { type Case, type Row, value } from "./data.ts";
 import { el, figure, fileName, missing, section, table } from "./dom.ts";
 import { curve, lawOf, type NamedLaw, publishedLaws } from "./muscle.ts";
-import { shown } from "./quantities.ts";
+import { shown, stateTitle } from "./quantities.ts";
 import type { Shared, Timeline } from "./shared.ts";
 
 const joined = (cases: Case[]) => cases.map((c) => c.name).join("-");
@@ -26,8 +26,8 @@ export function curvesSection(cases: Case[], shared: Shared, time: Timeline): HT
   const make = (x: string, xTitle: string, y: string, yTitle: string) => {
     const chart: Chart = { x: xTitle, y: yTitle, zero: true,
       lines: shownCases.map(({ c, rows }, i): Line => ({ label: c.name, colour: lineColours[i], x: column(rows, x), y: column(rows, y) })) };
-    if (x === "time_s" && cases.length === 1 && cases[0].json.end_diastole_s !== undefined)
-      chart.marks = [{ x: cases[0].json.end_diastole_s, label: "end-diastole" }];
+    if (x === "time_s" && cases.length === 1)
+      chart.marks = cases[0].moments.map((m) => ({ x: m.time, label: stateTitle(m.name) }));
     const one = drawChart(chart);
     drawn.push({ chart: one, x, y });
     return figure(`${yTitle} against ${xTitle}`, fileName(joined(cases), y, "against", x), one.figure);

@@ -24,6 +24,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 
 namespace lv::job {
@@ -73,17 +74,22 @@ mesh::Surface load_surface(const Archive& archive, const std::string& name, std:
   return {each, load_nodes(archive, name, static_cast<std::size_t>(each), nodes)};
 }
 
-/// A snapshot that an engine has taken of a wall: with the stress of every element, or the tension
-/// at every node.
-heartbeat::Snapshot load_whole_snapshot(const Archive& archive, const std::string& name,
-                                        const mesh::Mesh& mesh) {
-  heartbeat::Snapshot snapshot = heartbeat::load_snapshot(archive, name, mesh.nodes.size());
-  const bool fits = snapshot.stress.empty()
-                        ? snapshot.tension.size() == mesh.nodes.size()
-                        : snapshot.stress.size() == static_cast<std::size_t>(mesh.cell_count());
-  if (!fits || snapshot.positions.empty())
-    archive.refuse(fmt::format("'{}' is of another wall", name));
-  return snapshot;
+/// The moments of a whole beat as an engine has taken them of a wall: with the stress of every
+/// element, or the tension at every node.
+std::vector<heartbeat::NamedMoment> load_whole_moments(const Archive& archive,
+                                                       const mesh::Mesh& mesh) {
+  auto moments = heartbeat::load_moments(archive, mesh.nodes.size());
+  for (const auto& [name, phase, by_criterion, wall] : moments) {
+    const bool fits = wall.stress.empty()
+                          ? wall.tension.size() == mesh.nodes.size()
+                          : wall.stress.size() == static_cast<std::size_t>(mesh.cell_count());
+    if (!fits || wall.positions.empty())
+      archive.refuse(fmt::format("'{}' is of another wall", name));
+  }
+  for (const char* name : {heartbeat::end_diastole, heartbeat::end_systole})
+    if (std::none_of(moments.begin(), moments.end(), [&](const auto& m) { return m.name == name; }))
+      archive.refuse(fmt::format("it holds a beat without {}", name));
+  return moments;
 }
 
 analysis::FieldAnalysis field_analysis(const Case& c, const mesh::Mesh& m) {
@@ -120,9 +126,9 @@ class BeatWriter {
 
   void frame(const heartbeat::Frame& f) {
     const auto cells = analysis_.fields(f.wall);
-    const auto& ed = f.run.beat.end_diastole;
-    if (!ed.positions.empty() && !end_diastole_)
-      end_diastole_ = analysis_.fields(ed);
+    const auto* ed = f.run.beat.find(heartbeat::end_diastole);
+    if (ed != nullptr && !end_diastole_)
+      end_diastole_ = analysis_.fields(ed->wall);
     if (parallel::is_root())
       report::write_wall(folder_ / wall_file(f.number), mesh_.mesh, mesh_.regions, f.wall, cells,
                          end_diastole_.value_or(std::vector<analysis::CellFields>{}));
@@ -136,8 +142,10 @@ class BeatWriter {
   }
 
   void curves(const heartbeat::RunState& run) const {
-    if (parallel::is_root())
-      report::curves_table(run.beat.curves).write_csv(folder_ / "curves.csv");
+    if (!parallel::is_root())
+      return;
+    report::curves_table(run.beat.curves).write_csv(folder_ / "curves.csv");
+    report::moments_table(run.beat.moments).write_csv(folder_ / "moments.csv");
   }
 
  private:
@@ -182,12 +190,10 @@ report::RunFacts run_facts(const Case& c, const MeshResult& mesh, const BeatResu
     facts.parameters.emplace_back(p.name, p.shown(c));
   for (const auto& [name, place] : c.origin)
     facts.origins.emplace_back(name, std::filesystem::path(place).filename().string());
-  if (!beat.beat.filling_was_steady)
-    facts.warnings.push_back(
-        "filling ended at protocol.filling_longest before the volume was steady");
-  if (!beat.beat.contraction_was_steady)
-    facts.warnings.push_back(
-        "contraction ended at protocol.contraction_longest before its criterion was met");
+  for (const heartbeat::NamedMoment& m : beat.beat.moments)
+    if (!m.by_criterion)
+      facts.warnings.push_back(
+          fmt::format("{0} ended at protocol.{0}_longest before its criterion was met", m.phase));
   if (beat.beat.retries > 0)
     facts.warnings.push_back(
         fmt::format("{} steps were taken back and repeated smaller", beat.beat.retries));
@@ -270,10 +276,9 @@ std::string write_results(const Case& c, const MeshResult& mesh, const BeatResul
   report::regions_table(results).write_csv(folder / "regions.csv");
   report::rotation_table(results).write_csv(folder / "rotation.csv");
   report::curves_table(beat.beat.curves).write_csv(folder / "curves.csv");
-  report::write_wall(folder / "end_diastole.vtu", mesh.mesh, mesh.regions, beat.beat.end_diastole,
-                     fields.end_diastole, fields.end_diastole);
-  report::write_wall(folder / "end_systole.vtu", mesh.mesh, mesh.regions, beat.beat.end_systole,
-                     fields.end_systole, fields.end_diastole);
+  for (const auto& [name, cells] : fields.moments)
+    report::write_wall(folder / (name + ".vtu"), mesh.mesh, mesh.regions, beat.beat.at(name), cells,
+                       fields.at(heartbeat::end_diastole));
   draw(mesh.mesh, beat.beat, fields, results, folder);
   return report::summary_text(facts, beat.beat, results) +
          beside_measured(c, mesh, beat, fields, folder);
@@ -392,28 +397,22 @@ heartbeat::Beat make_beat(const Case& c, const MeshResult& mesh,
 void write_beat(const heartbeat::Beat& beat, const std::filesystem::path& folder) {
   Archive archive;
   heartbeat::store(beat.curves, archive);
-  heartbeat::store(beat.end_diastole, "end_diastole", archive);
-  heartbeat::store(beat.end_systole, "end_systole", archive);
-  archive.set("facts",
-              {beat.filling_was_steady ? 1.0 : 0.0, beat.contraction_was_steady ? 1.0 : 0.0,
-               static_cast<double>(beat.steps), static_cast<double>(beat.retries), beat.wall_clock,
-               static_cast<double>(parallel::size())});
+  heartbeat::store(beat.moments, archive);
+  archive.set("facts", {static_cast<double>(beat.steps), static_cast<double>(beat.retries),
+                        beat.wall_clock, static_cast<double>(parallel::size())});
   archive.write(folder / beat_name);
 }
 
 BeatResult read_beat(const std::filesystem::path& folder, const mesh::Mesh& mesh) {
   const Archive archive = Archive::read(folder / beat_name);
-  const auto& facts = archive.get_rows("facts", 6, 1, heartbeat::not_negative);
+  const auto& facts = archive.get_rows("facts", 4, 1, heartbeat::not_negative);
   BeatResult result;
   result.beat.curves = heartbeat::load_curves(archive);
-  result.beat.end_diastole = load_whole_snapshot(archive, "end_diastole", mesh);
-  result.beat.end_systole = load_whole_snapshot(archive, "end_systole", mesh);
-  result.beat.filling_was_steady = facts[0] != 0.0;
-  result.beat.contraction_was_steady = facts[1] != 0.0;
-  result.beat.steps = archive.whole_number(facts[2]);
-  result.beat.retries = archive.whole_number(facts[3]);
-  result.beat.wall_clock = facts[4];
-  result.ranks = archive.whole_number(facts[5]);
+  result.beat.moments = load_whole_moments(archive, mesh);
+  result.beat.steps = archive.whole_number(facts[0]);
+  result.beat.retries = archive.whole_number(facts[1]);
+  result.beat.wall_clock = facts[2];
+  result.ranks = archive.whole_number(facts[3]);
   return result;
 }
 
@@ -422,8 +421,9 @@ std::string make_results(const Case& c, const MeshResult& mesh, const BeatResult
                          const std::optional<report::UnloadedShape>& unloaded,
                          const std::filesystem::path& folder) {
   const analysis::FieldAnalysis analysis = field_analysis(c, mesh.mesh);
-  const analysis::BeatFields fields{analysis.at_rest(), analysis.fields(beat.beat.end_diastole),
-                                    analysis.fields(beat.beat.end_systole)};
+  analysis::BeatFields fields{analysis.at_rest(), {}};
+  for (const heartbeat::NamedMoment& m : beat.beat.moments)
+    fields.moments.push_back({m.name, analysis.fields(m.wall)});
   std::string text;
   parallel::on_root([&] {
     report::RunFacts facts = run_facts(c, mesh, beat);

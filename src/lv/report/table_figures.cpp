@@ -2,6 +2,7 @@
 
 #include "lv/base/json_file.hpp"
 #include "lv/base/tensor.hpp"
+#include "lv/heartbeat/beat.hpp"
 #include "lv/material/guccione.hpp"
 #include "lv/material/holzapfel_ogden.hpp"
 #include "lv/material/neo_hookean.hpp"
@@ -14,6 +15,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <set>
 
 namespace lv::report {
 namespace {
@@ -37,7 +39,7 @@ bool is_strain(const std::string& quantity) {
 
 // ---- curves ----
 
-/// Filling and contraction as curves.csv has them.
+/// The phases as curves.csv has them.
 std::vector<Phase> phases_of(const Table& curves) {
   const auto time = curves.numbers("time_s");
   const auto name = curves.words("phase");
@@ -110,7 +112,7 @@ Panel bulls_eye_panel(const std::string& title, const std::vector<double>& value
 
 /// The value of every AHA segment at end-systole.
 Panel segment_panel(const Table& regions, const std::string& quantity, int digits) {
-  const RegionalMeans found = means(regions, quantity, "end_systole", "aha17");
+  const RegionalMeans found = means(regions, quantity, heartbeat::end_systole, "aha17");
   return bulls_eye_panel(with_unit(quantity, found.unit), found.values,
                          scale_of(found.values, quantity), digits);
 }
@@ -223,13 +225,15 @@ class FigureFolder {
     const auto table = table_of(work_, "results", "regions.csv");
     if (!table)
       return;
+    const auto states = table->words("state");
+    const std::set<std::string> moments(states.begin(), states.end());
     for (const char* quantity :
          {"active_tension", "fibre_stress", "fibre_stress_passive", "fibre_strain",
           "circumferential_strain", "radial_strain", "longitudinal_strain", "J"})
-      for (const char* state : {"end_diastole", "end_systole"})
-        if (!means(*table, quantity, state, "aha17").values.empty())
-          write(bulls_eyes_figure(*table, quantity, state),
-                fmt::format("bulls_eyes_{}_{}", quantity, state));
+      for (const std::string& moment : moments)
+        if (!means(*table, quantity, moment, "aha17").values.empty())
+          write(bulls_eyes_figure(*table, quantity, moment),
+                fmt::format("bulls_eyes_{}_{}", quantity, moment));
   }
 
   void rotation() const {
@@ -316,12 +320,13 @@ Figure bulls_eyes_figure(const Table& regions, const std::string& quantity,
   const ColourScale scale = scale_of(all, quantity);
   const int digits = decimals(scale);
   const std::string label = with_unit(quantity, segments.unit);
-  const std::string strain = fmt::format(
-      "Green-Lagrange strain from {}", state == "end_systole" ? "end-diastole" : "early diastole");
+  const std::string strain =
+      fmt::format("Green-Lagrange strain from {}", state == heartbeat::end_diastole
+                                                       ? "early diastole"
+                                                       : heartbeat::title(heartbeat::end_diastole));
   return {.panels = {bulls_eye_panel("seven slices", slices.values, scale, digits),
                      bulls_eye_panel("17 segments (AHA)", segments.values, scale, digits)},
-          .title = fmt::format("{}, mean at {}", label,
-                               state == "end_systole" ? "end-systole" : "end-diastole"),
+          .title = fmt::format("{}, mean at {}", label, heartbeat::title(state)),
           .footnote = is_strain(quantity) ? strain : "",
           .colour_bar = ColourBar{label, scale}};
 }

@@ -10,6 +10,9 @@ namespace lv::report {
 /// curves.csv: one row per recorded time, with units in the column names.
 [[nodiscard]] Table curves_table(const std::vector<heartbeat::CurveRow>& curves);
 
+/// moments.csv: one row per moment that the beat has come to, with the phase that it ends.
+[[nodiscard]] Table moments_table(const std::vector<heartbeat::NamedMoment>& moments);
+
 /// regions.csv: one row per state, region and quantity: mean, standard deviation and percentiles.
 [[nodiscard]] Table regions_table(const analysis::Results& results);
 

@@ -102,8 +102,10 @@ TEST_CASE("outlines on a long axis are the ventricle's, beside those on short ax
   const auto wall = [](double u, double theta, double t) { return ellipsoid.point(u, theta, t); };
   const job::MeshResult mesh{mesh::wall_mesh(wall, {.edge_length = 6.0}), {}, {}};
   heartbeat::Beat beat;
-  beat.end_diastole.positions = mesh.mesh.nodes;
-  beat.end_systole.positions = mesh.mesh.nodes;
+  for (const char* name : {heartbeat::end_diastole, heartbeat::end_systole}) {
+    beat.moments.push_back({.name = name});
+    beat.moments.back().wall.positions = mesh.mesh.nodes;
+  }
   const analysis::BeatFields fields;
   const std::string words = job::write_outlines({mesh, beat, fields, frame}, study(), 9, 3, folder);
   CHECK(words.find("at end_diastole") != std::string::npos);
