@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lv/calibrate/fit.hpp"
+#include "lv/circulation/parameters.hpp"
 #include "lv/geometry/ellipsoid.hpp"
 #include "lv/geometry/parameters.hpp"
 #include "lv/heartbeat/parameters.hpp"
@@ -167,6 +168,7 @@ struct Case {
   quasi_static::UnloadParameters unloaded{.tolerance = 0.05};
   Calibration calibration;
   StrainStudy strain;
+  circulation::Parameters circulation;
   heartbeat::Protocol protocol;
   heartbeat::StepControl time;
   heartbeat::OutputSchedule output;

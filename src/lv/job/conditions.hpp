@@ -148,6 +148,16 @@ LV_CONDITION(double_exponential, !has_alpha_function(c),
 LV_CONDITION(mass_counts, s == Stage::beat ? c.engine == Engine::immersed : may_have_infarct(c),
              "with engine = \"immersed\", or with an infarct (infarct.source), whose mass it gives")
 
+// circulation
+LV_CONDITION(circuit, c.circulation.asked(),
+             "with circulation.kind = \"windkessel\" or \"closed_loop\"")
+LV_CONDITION(windkessel, c.circulation.kind == circulation::Kind::windkessel,
+             "with circulation.kind = \"windkessel\"")
+LV_CONDITION(closed_loop, c.circulation.kind == circulation::Kind::closed_loop,
+             "with circulation.kind = \"closed_loop\"")
+LV_CONDITION(quadratic_valves, c.circulation.valves.law == circulation::ValveLaw::quadratic,
+             "with circulation.valves.law = \"quadratic\"")
+
 // measurements
 LV_CONDITION(fit, c.calibration.asked(), "with a fit: set calibrate.passive or calibrate.active")
 LV_CONDITION(passive_fit, has_passive_fit(c), "with a passive fit: set calibrate.passive")

@@ -1009,13 +1009,207 @@ constexpr Group of_protocol[]{
      }},
 };
 
+constexpr Range of_resistance = above_up_to(0.0, 1e6);
+constexpr Range of_compliance = above_up_to(0.0, 1e4);
+constexpr Range of_elastance = between(0.0, 100.0);
+
+constexpr Group of_circulation[]{
+    {Stages(Stage::circulation),
+     {},
+     {
+         choice("circulation.kind", LV_AT(circulation.kind), "none windkessel closed_loop",
+                "three elements with a venous source, or the closed loop of Regazzoni et al. "
+                "(J. Comput. Phys. 457:111083, 2022); run by itself, with an elastance for the "
+                "left ventricle"),
+     }},
+    {Stages(Stage::circulation),
+     {&circuit},
+     {
+         number("circulation.period", LV_AT(circulation.period), "s", between(0.2, 3.0),
+                "length of a beat, RR"),
+         number("circulation.step", LV_AT(circulation.step), "s", above_up_to(0.0, 0.02),
+                "of time"),
+         number("circulation.beats", LV_AT(circulation.beats), "", between(1, 10000),
+                "beats at most"),
+         number("circulation.tolerance", LV_AT(circulation.tolerance), "", not_negative,
+                "beats end when the last has changed no state by more than this part of itself; 0: "
+                "never"),
+         choice(
+             "circulation.valves.law", LV_AT(circulation.valves.law), "quadratic arctangent",
+             "a parabola between closed and open, which is monotone and smooth, or the published "
+             "closed loop's arctangent of the logarithm of the resistance"),
+         number("circulation.valves.closed_resistance", LV_AT(circulation.valves.closed_resistance),
+                "mmHg s/ml", of_resistance, "of a closed valve"),
+     }},
+    {Stages(Stage::circulation),
+     {&circuit, &quadratic_valves},
+     {
+         number("circulation.valves.smoothing", LV_AT(circulation.valves.smoothing), "mmHg",
+                above_up_to(0.0, 10.0), "range of the pressure across a valve in which it opens"),
+     }},
+    {Stages(Stage::circulation),
+     {&circuit},
+     {
+         number("circulation.left_ventricle.E_A", LV_AT(circulation.left_ventricle.E_A), "mmHg/ml",
+                of_elastance,
+                "active elastance of the left ventricle, p = (E_B + E_A e(t)) (V - V_0)"),
+         number("circulation.left_ventricle.E_B", LV_AT(circulation.left_ventricle.E_B), "mmHg/ml",
+                above_up_to(0.0, 100.0), "passive elastance"),
+         number("circulation.left_ventricle.T_C", LV_AT(circulation.left_ventricle.T_C), "s",
+                above_up_to(0.0, 3.0), "duration of contraction"),
+         number("circulation.left_ventricle.T_R", LV_AT(circulation.left_ventricle.T_R), "s",
+                above_up_to(0.0, 3.0), "duration of relaxation"),
+         number("circulation.left_ventricle.t_C", LV_AT(circulation.left_ventricle.t_C), "s",
+                between(0.0, 3.0), "when contraction begins"),
+         number("circulation.left_ventricle.V_0", LV_AT(circulation.left_ventricle.V_0), "ml",
+                between(0.0, 1000.0), "volume without pressure"),
+         number("circulation.start.V_lv", LV_AT(circulation.start.V_lv), "ml", between(0.0, 2000.0),
+                "left ventricular volume"),
+         number("circulation.start.p_ar_sys", LV_AT(circulation.start.p_ar_sys), "mmHg",
+                between(0.0, 500.0), "pressure of the arterial compliance"),
+     }},
+    {Stages(Stage::circulation),
+     {&windkessel},
+     {
+         number("circulation.windkessel.R_mv", LV_AT(circulation.windkessel.R_mv), "mmHg s/ml",
+                of_resistance, "open mitral valve"),
+         number("circulation.windkessel.R_ao", LV_AT(circulation.windkessel.R_ao), "mmHg s/ml",
+                of_resistance, "open aortic valve"),
+         number("circulation.windkessel.R_c", LV_AT(circulation.windkessel.R_c), "mmHg s/ml",
+                of_resistance, "characteristic resistance of the aorta"),
+         number("circulation.windkessel.R_p", LV_AT(circulation.windkessel.R_p), "mmHg s/ml",
+                of_resistance, "peripheral resistance"),
+         number("circulation.windkessel.C", LV_AT(circulation.windkessel.C), "ml/mmHg",
+                of_compliance, "arterial compliance"),
+         number("circulation.windkessel.p_ven", LV_AT(circulation.windkessel.p_ven), "mmHg",
+                between(0.0, 100.0), "pressure of the venous source"),
+     }},
+    {Stages(Stage::circulation),
+     {&closed_loop},
+     {
+         number("circulation.closed_loop.valve_resistance",
+                LV_AT(circulation.closed_loop.valve_resistance), "mmHg s/ml", of_resistance,
+                "of an open valve"),
+         number("circulation.closed_loop.systemic.R_ar",
+                LV_AT(circulation.closed_loop.systemic.R_ar), "mmHg s/ml", of_resistance,
+                "resistance of the arteries of the body"),
+         number("circulation.closed_loop.systemic.C_ar",
+                LV_AT(circulation.closed_loop.systemic.C_ar), "ml/mmHg", of_compliance,
+                "compliance of the arteries"),
+         number("circulation.closed_loop.systemic.L_ar",
+                LV_AT(circulation.closed_loop.systemic.L_ar), "mmHg s^2/ml", of_resistance,
+                "inertance of the arteries"),
+         number("circulation.closed_loop.systemic.R_ven",
+                LV_AT(circulation.closed_loop.systemic.R_ven), "mmHg s/ml", of_resistance,
+                "resistance of the veins"),
+         number("circulation.closed_loop.systemic.C_ven",
+                LV_AT(circulation.closed_loop.systemic.C_ven), "ml/mmHg", of_compliance,
+                "compliance of the veins"),
+         number("circulation.closed_loop.systemic.L_ven",
+                LV_AT(circulation.closed_loop.systemic.L_ven), "mmHg s^2/ml", of_resistance,
+                "inertance of the veins"),
+         number("circulation.closed_loop.pulmonary.R_ar",
+                LV_AT(circulation.closed_loop.pulmonary.R_ar), "mmHg s/ml", of_resistance,
+                "resistance of the arteries of the lungs"),
+         number("circulation.closed_loop.pulmonary.C_ar",
+                LV_AT(circulation.closed_loop.pulmonary.C_ar), "ml/mmHg", of_compliance,
+                "compliance of the arteries"),
+         number("circulation.closed_loop.pulmonary.L_ar",
+                LV_AT(circulation.closed_loop.pulmonary.L_ar), "mmHg s^2/ml", of_resistance,
+                "inertance of the arteries"),
+         number("circulation.closed_loop.pulmonary.R_ven",
+                LV_AT(circulation.closed_loop.pulmonary.R_ven), "mmHg s/ml", of_resistance,
+                "resistance of the veins"),
+         number("circulation.closed_loop.pulmonary.C_ven",
+                LV_AT(circulation.closed_loop.pulmonary.C_ven), "ml/mmHg", of_compliance,
+                "compliance of the veins"),
+         number("circulation.closed_loop.pulmonary.L_ven",
+                LV_AT(circulation.closed_loop.pulmonary.L_ven), "mmHg s^2/ml", of_resistance,
+                "inertance of the veins"),
+         number("circulation.closed_loop.left_atrium.E_A",
+                LV_AT(circulation.closed_loop.left_atrium.E_A), "mmHg/ml", of_elastance,
+                "active elastance of the left atrium"),
+         number("circulation.closed_loop.left_atrium.E_B",
+                LV_AT(circulation.closed_loop.left_atrium.E_B), "mmHg/ml", above_up_to(0.0, 100.0),
+                "passive elastance"),
+         number("circulation.closed_loop.left_atrium.T_C",
+                LV_AT(circulation.closed_loop.left_atrium.T_C), "s", above_up_to(0.0, 3.0),
+                "duration of contraction"),
+         number("circulation.closed_loop.left_atrium.T_R",
+                LV_AT(circulation.closed_loop.left_atrium.T_R), "s", above_up_to(0.0, 3.0),
+                "duration of relaxation"),
+         number("circulation.closed_loop.left_atrium.t_C",
+                LV_AT(circulation.closed_loop.left_atrium.t_C), "s", between(0.0, 3.0),
+                "when contraction begins"),
+         number("circulation.closed_loop.left_atrium.V_0",
+                LV_AT(circulation.closed_loop.left_atrium.V_0), "ml", between(0.0, 1000.0),
+                "volume without pressure"),
+         number("circulation.closed_loop.right_atrium.E_A",
+                LV_AT(circulation.closed_loop.right_atrium.E_A), "mmHg/ml", of_elastance,
+                "active elastance of the right atrium"),
+         number("circulation.closed_loop.right_atrium.E_B",
+                LV_AT(circulation.closed_loop.right_atrium.E_B), "mmHg/ml", above_up_to(0.0, 100.0),
+                "passive elastance"),
+         number("circulation.closed_loop.right_atrium.T_C",
+                LV_AT(circulation.closed_loop.right_atrium.T_C), "s", above_up_to(0.0, 3.0),
+                "duration of contraction"),
+         number("circulation.closed_loop.right_atrium.T_R",
+                LV_AT(circulation.closed_loop.right_atrium.T_R), "s", above_up_to(0.0, 3.0),
+                "duration of relaxation"),
+         number("circulation.closed_loop.right_atrium.t_C",
+                LV_AT(circulation.closed_loop.right_atrium.t_C), "s", between(0.0, 3.0),
+                "when contraction begins"),
+         number("circulation.closed_loop.right_atrium.V_0",
+                LV_AT(circulation.closed_loop.right_atrium.V_0), "ml", between(0.0, 1000.0),
+                "volume without pressure"),
+         number("circulation.closed_loop.right_ventricle.E_A",
+                LV_AT(circulation.closed_loop.right_ventricle.E_A), "mmHg/ml", of_elastance,
+                "active elastance of the right ventricle"),
+         number("circulation.closed_loop.right_ventricle.E_B",
+                LV_AT(circulation.closed_loop.right_ventricle.E_B), "mmHg/ml",
+                above_up_to(0.0, 100.0), "passive elastance"),
+         number("circulation.closed_loop.right_ventricle.T_C",
+                LV_AT(circulation.closed_loop.right_ventricle.T_C), "s", above_up_to(0.0, 3.0),
+                "duration of contraction"),
+         number("circulation.closed_loop.right_ventricle.T_R",
+                LV_AT(circulation.closed_loop.right_ventricle.T_R), "s", above_up_to(0.0, 3.0),
+                "duration of relaxation"),
+         number("circulation.closed_loop.right_ventricle.t_C",
+                LV_AT(circulation.closed_loop.right_ventricle.t_C), "s", between(0.0, 3.0),
+                "when contraction begins"),
+         number("circulation.closed_loop.right_ventricle.V_0",
+                LV_AT(circulation.closed_loop.right_ventricle.V_0), "ml", between(0.0, 1000.0),
+                "volume without pressure"),
+         number("circulation.start.V_la", LV_AT(circulation.start.V_la), "ml", between(0.0, 2000.0),
+                "left atrial volume"),
+         number("circulation.start.V_ra", LV_AT(circulation.start.V_ra), "ml", between(0.0, 2000.0),
+                "right atrial volume"),
+         number("circulation.start.V_rv", LV_AT(circulation.start.V_rv), "ml", between(0.0, 2000.0),
+                "right ventricular volume"),
+         number("circulation.start.p_ven_sys", LV_AT(circulation.start.p_ven_sys), "mmHg",
+                between(0.0, 500.0), "pressure of the veins of the body"),
+         number("circulation.start.p_ar_pul", LV_AT(circulation.start.p_ar_pul), "mmHg",
+                between(0.0, 500.0), "pressure of the arteries of the lungs"),
+         number("circulation.start.p_ven_pul", LV_AT(circulation.start.p_ven_pul), "mmHg",
+                between(0.0, 500.0), "pressure of the veins of the lungs"),
+         number("circulation.start.Q_ar_sys", LV_AT(circulation.start.Q_ar_sys), "ml/s", any,
+                "flow through the arteries of the body"),
+         number("circulation.start.Q_ven_sys", LV_AT(circulation.start.Q_ven_sys), "ml/s", any,
+                "flow through its veins"),
+         number("circulation.start.Q_ar_pul", LV_AT(circulation.start.Q_ar_pul), "ml/s", any,
+                "flow through the arteries of the lungs"),
+         number("circulation.start.Q_ven_pul", LV_AT(circulation.start.Q_ven_pul), "ml/s", any,
+                "flow through their veins"),
+     }},
+};
+
 std::vector<Parameter> rows_of_all() {
   std::vector<Parameter> rows;
   for (const std::span<const Group> groups :
        {std::span<const Group>(of_anatomy), std::span<const Group>(of_mesh),
         std::span<const Group>(of_infarct), std::span<const Group>(of_muscle),
         std::span<const Group>(of_blood_and_base), std::span<const Group>(of_measurements),
-        std::span<const Group>(of_protocol)})
+        std::span<const Group>(of_circulation), std::span<const Group>(of_protocol)})
     for (const Group& group : groups)
       for (const Parameter& row : group.rows)
         rows.push_back(in_group(group, row));
@@ -1035,6 +1229,8 @@ std::vector<const Condition*> missing(const Parameter& p, const Case& c, Stage s
 
 bool has_stage(const Case& c, Stage stage) {
   switch (stage) {
+    case Stage::circulation:
+      return c.circulation.asked();
     case Stage::strain:
       return c.strain.asked();
     case Stage::calibrate:
@@ -1082,6 +1278,7 @@ const std::vector<Parameter>& parameters() {
   return all;
 }
 
+// NOLINTNEXTLINE(readability-function-size): a table
 const std::vector<Section>& sections() {
   static const std::vector<Section> all{
       {"", "The case"},
@@ -1135,6 +1332,21 @@ const std::vector<Section>& sections() {
        "Fitting of passive and active parameters to measured volumes and strains, with the "
        "quasi-static engine"},
       {"strain", "Strain measured from cine images, and what the model's is compared with"},
+      {"circulation", "The circulation by itself (`ventricle circulation`)"},
+      {"circulation.valves", "What all valves have in common"},
+      {"circulation.left_ventricle",
+       "The elastance that stands for the left ventricle; contraction follows half a cosine, and "
+       "so "
+       "does relaxation"},
+      {"circulation.start",
+       "Where the circulation starts; a closed loop keeps the blood that it starts with"},
+      {"circulation.windkessel", "Three elements and a venous source (kind = \"windkessel\")"},
+      {"circulation.closed_loop", "Four chambers, body and lungs (kind = \"closed_loop\")"},
+      {"circulation.closed_loop.systemic", "Arteries and veins of the body"},
+      {"circulation.closed_loop.pulmonary", "Arteries and veins of the lungs"},
+      {"circulation.closed_loop.left_atrium", "An elastance"},
+      {"circulation.closed_loop.right_atrium", "An elastance"},
+      {"circulation.closed_loop.right_ventricle", "An elastance"},
       {"protocol", "Pressures, timings and the ends of the phases"},
       {"time", "Time steps"},
       {"output", "What is kept, and how often"}};

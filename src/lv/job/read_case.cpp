@@ -113,6 +113,7 @@ class CaseReader {
     rule(p.calcium.t_2 > p.calcium.t_1, "calcium.t_2", "must be longer than t_1");
     check_land2017();
     check_calibration();
+    check_circulation();
     const StrainStudy& study = case_.strain;
     rule(study.measured.empty() || !study.measured_column.empty(), "strain.measured",
          "needs strain.measured_column, the name of the column that holds end-systole");
@@ -174,6 +175,25 @@ class CaseReader {
          "must be larger than exponent_min");
     rule(k.T_scale.low < k.T_scale.high, "calibrate.T_scale_max",
          "must be larger than T_scale_min");
+  }
+
+  void check_circulation() {
+    const circulation::Parameters& p = case_.circulation;
+    rule(p.step <= 0.05 * p.period, "circulation.step",
+         "must be at most a twentieth of the period");
+    rule(p.valves.closed_resistance >=
+             100.0 * std::max({p.windkessel.R_mv, p.windkessel.R_ao + p.windkessel.R_c,
+                               p.closed_loop.valve_resistance}),
+         "circulation.valves.closed_resistance",
+         "must be at least a hundred times that of every open valve");
+    const auto fits = [&](const circulation::ElastanceParameters& e, const std::string& chamber) {
+      rule(e.T_C + e.T_R <= p.period, "circulation." + chamber + ".T_R",
+           "and T_C take longer together than a beat (circulation.period)");
+    };
+    fits(p.left_ventricle, "left_ventricle");
+    fits(p.closed_loop.left_atrium, "closed_loop.left_atrium");
+    fits(p.closed_loop.right_atrium, "closed_loop.right_atrium");
+    fits(p.closed_loop.right_ventricle, "closed_loop.right_ventricle");
   }
 
   /// A rule of a parameter that does not count says nothing.

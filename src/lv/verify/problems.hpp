@@ -16,6 +16,10 @@ void land2017_twitch(Findings& found);
 void land2017_ramp(Findings& found);
 void tangent_is_derivative(Findings& found);
 
+// circulation alone
+void circulation_windkessel(Findings& found);
+void circulation_closed_loop(Findings& found);
+
 // blood alone
 void stokes_modes(Findings& found);
 void stokes_order(Findings& found);
