@@ -31,8 +31,9 @@ void spread_interpolate_adjoint(Findings& found);
 void force_and_torque_conserved(Findings& found);
 void thick_sphere_at_rest(Findings& found);
 
-// equilibrium without time
+// equilibrium without time, and through it
 void thick_sphere_static(Findings& found);
+void coupled_sphere(Findings& found);
 void no_locking(Findings& found);
 void land2015_problem1(Findings& found);
 void land2015_problem2(Findings& found);

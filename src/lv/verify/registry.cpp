@@ -63,6 +63,9 @@ std::span<const Problem> problems() {
       brief("thick_sphere_static", thick_sphere_static,
             "an inflated shell of incompressible rubber, exact solution (quasi-static engine)",
             {1, 2}),
+      brief("coupled_sphere", coupled_sphere,
+            "a sphere of rubber empties through a resistance, its pressure the multiplier of its "
+            "volume"),
       brief("no_locking", no_locking,
             "incompressible elements of every kind are not too stiff on coarse meshes", {2}),
       brief("land2015_problem1", land2015_problem1,

@@ -62,9 +62,9 @@ TEST_CASE("an implicit step knows how its volume follows the ventricle's pressur
     return implicit_step<2>(rates, backward_difference(history, 1e-3), p, history.now);
   };
   for (const double p : {5.0 * mmHg, 40.0 * mmHg, 100.0 * mmHg}) {
-    const double h = 1e-5;
+    const double h = 1e-2;  // the flow is linear in the pressure away from the valves' events
     const double slope = (step(p + h).y[0] - step(p - h).y[0]) / (2 * h);
-    CHECK(step(p).dy_dp[0] == Approx(slope).epsilon(1e-5).margin(1e-9));
+    CHECK(step(p).dy_dp[0] == Approx(slope).epsilon(1e-5).margin(1e-7));
     CHECK(step(p).dy_dp[0] < 0.0);  // more pressure, less volume
   }
 }

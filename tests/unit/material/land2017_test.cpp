@@ -23,8 +23,9 @@ TEST_CASE("a steady state of human muscle stays as it is, whatever the step", "[
         law.advance(state, 1.07, Ca, Ca, dt);
       CHECK(state.CaTRPN == Approx(steady.CaTRPN).epsilon(1e-11));
       CHECK(state.B == Approx(steady.B).epsilon(1e-11));
-      CHECK(state.W == Approx(steady.W).epsilon(1e-11));
-      CHECK(state.tension == Approx(steady.tension).epsilon(1e-11));
+      // down to 2e-6, what is left of sites that are not blocked
+      CHECK(state.W == Approx(steady.W).epsilon(1e-9));
+      CHECK(state.tension == Approx(steady.tension).epsilon(1e-9));
     }
 }
 
@@ -57,14 +58,16 @@ TEST_CASE("human muscle resists a sudden stretch by A h (S + W) T_ref/r_s", "[un
         Approx(10.0 * law.overlap_tension(0.86) * (steady.S + steady.W)));
 }
 
-TEST_CASE("calcium never binds to more troponin than there is", "[unit][material]") {
+TEST_CASE("calcium never binds to more troponin than there is, nor do sites become fewer than none",
+          "[unit][material]") {
   const Land2017 law;
   State state = law.steady_state(0.1, 1.0);
-  for (int i = 0; i < 20; ++i) {
-    law.advance(state, 1.0, 100.0, 100.0, 0.01);
+  for (int i = 0; i < 100; ++i) {
+    law.advance(state, 1.0, 100.0, 100.0, 1e-3);
     CHECK(state.CaTRPN <= 1.0);
-    CHECK(state.S >= 0.0);
     CHECK(state.B >= 0.0);
+    CHECK(state.W >= 0.0);
+    CHECK(state.S >= 0.0);
   }
 }
 
