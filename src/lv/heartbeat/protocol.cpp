@@ -43,7 +43,7 @@ Phase contraction(const Protocol& p) {
                                     p.calcium.at(time)};
               },
           .ramp = p.contraction_ramp,
-          .settled = std::max(p.contraction_ramp, p.calcium.tau),
+          .settled = std::max(p.contraction_ramp, p.calcium.peak_time()),
           .drag = transient ? 0.0 : p.contraction_drag,
           .end = transient ? Phase::End::refilling : Phase::End::steady,
           .tolerance = p.contraction_tolerance,
