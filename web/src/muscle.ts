@@ -22,9 +22,9 @@ export interface NamedLaw { label: string; law: Law }
 
 /** Published laws that can be drawn from their published parameters. */
 export const publishedLaws: NamedLaw[] = [
+  { label: "Holzapfel & Ogden 2009, excised pig muscle", law: holzapfelOgden(0.059, 8.023, 18.472, 16.026) },
   { label: "Gao et al. 2014, healthy subject", law: holzapfelOgden(0.24, 5.08, 1.46, 4.15) },
   { label: "Gao et al. 2014, patient's remote muscle", law: holzapfelOgden(0.24, 5.08, 7.5 * 1.46, 4.15) },
-  { label: "Holzapfel & Ogden 2009, excised pig muscle", law: holzapfelOgden(0.059, 8.023, 18.472, 16.026) },
 ];
 
 /** The law that a case's summary names; undefined when there is no summary. */

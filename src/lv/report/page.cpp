@@ -197,7 +197,7 @@ Json wall_json(const WallSeries& wall, Arrays& arrays) {
     const Range range = range_of(series);
     if (series.size() != wall.times.size() || !(range.max > range.min))
       continue;
-    arrays.is_first = name == "active_tension";  // the page opens with it
+    arrays.is_first = name == "circumferential_strain";  // the page opens with it
     json["quantities"][name] =
         modes_json(modes(series, quantity_tolerance * (range.max - range.min)), arrays);
     json["quantities"][name]["min"] = rounded(range.min);
@@ -261,7 +261,7 @@ struct PageFile {
   const char* name;
 };
 
-constexpr std::array<PageFile, 16> page_files{{
+constexpr std::array<PageFile, 17> page_files{{
     {"results", "summary.json", "summary.json"},
     {"results", "regions.csv", "regions.csv"},
     {"results", "rotation.csv", "rotation.csv"},
@@ -276,6 +276,7 @@ constexpr std::array<PageFile, 16> page_files{{
     {"mesh", "quality.csv", "quality.csv"},
     {"anatomy", "quality.csv", "anatomy_quality.csv"},
     {"anatomy", "fit.csv", "fit.csv"},
+    {"anatomy", "frame.json", "frame.json"},
     {"strain", "slices.csv", "strain_slices.csv"},
     {"strain", "rotation.csv", "strain_rotation.csv"},
 }};
@@ -287,6 +288,24 @@ Json files_json(const fs::path& work) {
     if (const fs::path path = file_of(work, stage, file); !path.empty())
       json[name] = read_file(path);
   return json;
+}
+
+/// What the mesh was made with, as its record tells: where the septum is, and the engine.
+void add_mesh_facts(Json& json, const fs::path& work) {
+  const fs::path record = file_of(work, "mesh", "stage.json");
+  if (record.empty())
+    return;
+  const Json ingredients =
+      from_json_file(record, [](const Json& all) -> Json { return all.at("ingredients"); });
+  const auto words = [&](const char* name) {
+    const std::string quoted = ingredients.value(name, "");
+    return quoted.substr(std::min<std::size_t>(1, quoted.size()),
+                         quoted.size() < 2 ? 0 : quoted.size() - 2);
+  };
+  if (const std::string angle = words("regions.septum_angle"); !angle.empty())
+    json["septum_deg"] = std::stod(angle);  // printed in degrees
+  if (const std::string engine = words("engine"); !engine.empty())
+    json["engine"] = engine;
 }
 
 /// The time of the last row of a curves.csv in the filling phase, if contraction follows [s].
@@ -326,6 +345,7 @@ Data case_html(const PageCase& shown, int number, std::size_t count) {
             {"complete", shown.complete},
             {"state", shown.state},
             {"files", files_json(shown.work)}};
+  add_mesh_facts(json, shown.work);
   const double ed = end_diastole(shown.work);
   if (std::isfinite(ed))
     json["end_diastole_s"] = ed;
