@@ -197,6 +197,10 @@ export class FlowView {
   private arrows(frame: FlowFrame, values: Float32Array, what: FlowQuantity, scale: Scale, fastest: number): void {
     const { flow, every } = this;
     const [nx, nz] = flow.cells;
+    this.context.save();
+    this.context.beginPath();
+    this.context.rect(0, this.head, this.canvas.width, this.canvas.height);
+    this.context.clip();
     for (let k = every >> 1; k < nz; k += every)
       for (let i = every >> 1; i < nx; i += every) {
         if (!isBlood(flow, frame, i, k)) continue;
@@ -207,6 +211,7 @@ export class FlowView {
         const dark = what === "pressure" || (values[cell] - scale.min) / (scale.max - scale.min) > 0.55;
         this.arrow(this.px(centreX(flow, i)), this.py(flow.lower[1] + (k + 0.5) * flow.spacing[1]), length, Math.atan2(-w, u), dark ? "#111" : "#fff");
       }
+    this.context.restore();
   }
 
   private arrow(x: number, y: number, length: number, angle: number, colour: string): void {
