@@ -1,21 +1,21 @@
-// Curves against time, the pressure-volume loop, rotation, the muscle's law.
+// Curves against time, the pressure-volume path, rotation, passive muscle.
 import { type Chart, drawChart, type DrawnChart, type Line } from "./chart.ts";
 import { lineColours } from "./colours.ts";
 import { type Case, type Row, value } from "./data.ts";
 import { rowAt } from "./wall_section.ts";
 import { el, figure, fileName, folded, missing, paperSwitch, section, table } from "./dom.ts";
-import { curve, lawOf, type NamedLaw, publishedLaws } from "./muscle.ts";
-import { shown } from "./quantities.ts";
+import { shown, stateMark } from "./quantities.ts";
 import type { Shared, Timeline } from "./shared.ts";
 
 const joined = (cases: Case[]) => cases.map((c) => c.name).join("-");
 const column = (rows: Row[], name: string) => rows.map((row) => value(row[name]));
 
-/** Where a case is at end-diastole and end-systole. */
+/** Where a case is at its named moments. */
 function states(c: Case): { x: number; y: number; label: string; time: number }[] {
-  return ([["ED", "end_diastole"], ["ES", "end_systole"]] as const).flatMap(([label, name]) => {
-    const s = c.summary?.[name];
-    return s ? [{ label, time: s.time_s, x: s.cavity_volume_ml, y: s.pressure_mmHg }] : [];
+  const rows = c.table("curves.csv");
+  return c.moments.map(({ name, time }) => {
+    const row = rowAt(rows, time);
+    return { time, label: stateMark(name).label, x: value(row?.cavity_volume_ml), y: value(row?.pressure_mmHg) };
   });
 }
 
@@ -88,14 +88,20 @@ function turnDifference(found: { c: Case; rows: Row[] }[]): HTMLElement[] {
 }
 
 export function muscleSection(cases: Case[]): HTMLElement {
-  const help = "Passive muscle pulled along the fibre with free sides: Cauchy stress against stretch, computed " +
-    "here from the law and the parameters in summary.json. Excised muscle (Holzapfel & Ogden's fit) is far stiffer than what images of living hearts lead to.";
-  const own = cases.map((c): Partial<NamedLaw> => ({ label: `${c.name} (this case)`, law: lawOf(c) }));
-  const found = own.filter((law): law is NamedLaw => law.law !== undefined);
-  const lines = [...found, ...publishedLaws].map(({ label, law }, i): Line =>
-    ({ label, colour: lineColours[i], dashed: i >= found.length, ofPaper: label.startsWith("Gao"), ...curve(law) }));
+  const title = "Passive muscle";
+  const none = "stress_stretch.csv is missing: there are no results yet.";
+  const found = cases.map((c) => ({ c, rows: c.table("stress_stretch.csv") })).filter(({ rows }) => rows.length);
+  if (!found.length) return folded("muscle", title, none);
+  const help = "Passive muscle pulled along the fibre with free sides: Cauchy stress against stretch of this case's muscle and of published ones, from " +
+    "stress_stretch.csv. Excised muscle (Holzapfel & Ogden's fit) is far stiffer than what images of living hearts lead to.";
+  const absent = cases.filter((c) => !found.some((one) => one.c === c)).map((c) => missing(`${c.name}: ${none}`));
+  const own = found.map(({ c, rows }) => ({ label: `${c.name} (this case)`, dashed: false, ofPaper: false, rows: rows.filter((r) => r.published === "no") }));
+  const published = found[0].rows.filter((r) => r.published === "yes");
+  const others = [...new Set(published.map((r) => r.muscle))].map((label) => ({ label, dashed: true, ofPaper: label.startsWith("Gao"),
+    rows: published.filter((r) => r.muscle === label) })).sort((a, b) => Number(a.ofPaper) - Number(b.ofPaper));  // what is hidden stands last in the legend
+  const lines = [...own, ...others].map(({ rows, ...line }, i): Line =>
+    ({ ...line, colour: lineColours[i], x: column(rows, "fibre_stretch"), y: column(rows, "cauchy_stress_kPa") }));
   const chart = drawChart({ x: "fibre stretch", y: "Cauchy stress (kPa)", lines, zero: true, width: 640, height: 380 });
-  return section("muscle", "Passive muscle", help, paperSwitch(),
-    ...own.filter(({ law }) => !law).map(({ label }) => missing(`${label}: no summary.json, so the law's parameters are not known.`)),
+  return section("muscle", title, help, paperSwitch(), ...absent,
     el("div", { class: "figures" }, figure("Stress against stretch along the fibre", fileName(joined(cases), "stress-stretch"), chart.figure)));
 }

@@ -14,7 +14,7 @@ export function flowSection(cases: Case[]): HTMLElement {
   const whole = section("flow", "Flow in a long-axis plane",
     "Blood in the plane y = 0 through the long axis, within the wall and, above the base, in line with its inner rim; letters name the walls on both " +
     "sides. Colours: speed with all three components, or pressure. Arrows: velocity in the plane, to the scale of the arrow at the lower " +
-    "right, which is set by the fastest blood of the moment. It opens at the moment of contraction with the fastest blood among those the " +
+    "right, which is set by the fastest blood of the moment. It opens at the moment after end-diastole with the fastest blood among those the " +
     "run wrote. There are no valves and no atrium: blood passes freely through the open base, so the pattern there is not physiological.", place);
   // drawn when it comes near the screen: the first view does not wait for it
   const observer = new IntersectionObserver((entries) => {
@@ -31,7 +31,7 @@ async function fill(cases: Case[], place: HTMLElement): Promise<void> {
   const found: Shown[] = [];
   for (const c of cases) {
     if (!c.flow || !c.wall) continue;
-    const frame = await fastestFrame(c.flow, c.json.end_diastole_s);
+    const frame = await fastestFrame(c.flow, c.timeOf("end_diastole"));
     const view = new FlowView(c.flow, heartOf(c));
     view.canvas.className = "flow";
     view.canvas.setAttribute("role", "img");
@@ -42,7 +42,7 @@ async function fill(cases: Case[], place: HTMLElement): Promise<void> {
     const scale = flowScale(found.map(({ c, data }) => ({ flow: c.flow!, frame: data })), what);
     for (const { c, frame, data, view } of found) {
       const t = c.flow!.times[frame];
-      const caption = `${c.name}, ${t > (c.json.end_diastole_s ?? Infinity) ? "contraction" : "filling"}, ${t.toFixed(3)} s`;
+      const caption = `${c.name}, ${c.words(t)}, ${t.toFixed(3)} s`;
       view.show(data, what, scale, caption);
       view.canvas.setAttribute("aria-label", `${what} and velocity in the long-axis plane: ${caption}`);
     }

@@ -74,12 +74,12 @@ export async function readFlow(flow: FlowJson, frame: number, wall: Wall): Promi
   return { velocity, pressure: Float32Array.from(p, (n) => (n * flow.pressure.step) / kPaPerMmHg), section, sides, cavity: cavityOf(flow, section, sides) };
 }
 
-/** The frame of contraction with the fastest blood; of filling when there is no contraction. */
+/** The frame after end-diastole with the fastest blood; of all when there is none. */
 export async function fastestFrame(flow: FlowJson, endDiastole: number | undefined): Promise<number> {
   const all = flow.times.map((_, i) => i);
-  const contraction = all.filter((i) => flow.times[i] > (endDiastole ?? Infinity));
+  const later = all.filter((i) => flow.times[i] > (endDiastole ?? Infinity));
   let best = { frame: 0, speed: -1 };
-  for (const frame of contraction.length ? contraction : all) {
+  for (const frame of later.length ? later : all) {
     const speed = speeds(await velocityOf(flow, frame)).reduce((a, b) => Math.max(a, b), 0);
     if (speed > best.speed) best = { frame, speed };
   }

@@ -40,7 +40,12 @@ export function quantity(name: string): Quantity {
 
 export const label = (q: Quantity) => (q.unit === "1" ? q.title : `${q.title} (${q.unit})`);
 
-export const stateTitle: Record<string, string> = { end_diastole: "end-diastole", end_systole: "end-systole" };
+/** A moment's name for readers: "end-diastole". */
+export const stateTitle = (name: string) => name.replaceAll("_", " ").replace(/^end /, "end-");
+
+/** A moment's short name for axes and sliders, "ED" for end_diastole, and its name. */
+export const stateMark = (name: string) => ({ title: stateTitle(name),
+  label: name.startsWith("end_") ? name.split("_").map((word) => word[0].toUpperCase()).join("") : stateTitle(name) });
 
 /** Below this a number is the rounding of zero, in any unit of the page. */
 const rounding = 1e-9;

@@ -6,10 +6,9 @@ import { Case, type Scheme, value } from "./data.ts";
 import { el, figure, fileName, folded, missing, section } from "./dom.ts";
 import { heartOf } from "./orientation.ts";
 import { label, type Quantity, quantity, shown, stateTitle } from "./quantities.ts";
-import { Shared } from "./shared.ts";
+import { Shared, statesOf } from "./shared.ts";
 import { regionName } from "./wall_section.ts";
 
-const states = ["end_diastole", "end_systole"];
 const schemeTitle: Record<Scheme, string> = { aha17: "17 segments (AHA)", sector: "seven slices" };
 
 /** Bull's-eyes and the region that is marked in all of them. */
@@ -42,6 +41,7 @@ function means(c: Case, q: Quantity, state: string, scheme: Scheme) {
 /** The second case less the first, per AHA segment. */
 function difference(cases: Case[], q: Quantity, marks: Marked): HTMLElement | undefined {
   if (cases.length < 2 || cases.some((c) => !c.regions.length)) return undefined;
+  const states = statesOf(cases).filter((state) => cases.every((c) => c.states.includes(state)));
   const all = states.map((state) => {
     const [a, b] = cases.map((c) => means(c, q, state, "aha17").values);
     return b.map((x, i) => x - a[i]);
@@ -51,7 +51,7 @@ function difference(cases: Case[], q: Quantity, marks: Marked): HTMLElement | un
   const [a, b] = cases.map((c) => c.name);
   return el("div", { class: "differences" }, el("h3", {}, `Difference, ${b} − ${a}`), colourBar(scale, `${label(q)}, ${b} − ${a}`),
     el("div", { class: "pair" }, ...states.map((state, s) => marks.draw(cases[1], "aha17", all[s], all[s].map((x) => shown(x)), scale,
-      `${q.title} at ${stateTitle[state]}, ${b} − ${a}`, fileName(b, "minus", a, q.name, state)))));
+      `${q.title} at ${stateTitle(state)}, ${b} − ${a}`, fileName(b, "minus", a, q.name, state)))));
 }
 
 function readOut(cases: Case[], shared: Shared): string {
@@ -60,9 +60,9 @@ function readOut(cases: Case[], shared: Shared): string {
   const q = quantity(shared.state.quantity);
   return cases.map((c) => {
     const name = regionName(c, selection.scheme, selection.index);
-    return `${c.name}, ${name}: ` + states.map((state) => {
+    return `${c.name}, ${name}: ` + c.states.map((state) => {
       const row = c.row(state, selection.scheme, name, q.name);
-      return `${stateTitle[state]} ${shown(value(row?.mean))} ± ${shown(value(row?.sd))} ` +
+      return `${stateTitle(state)} ${shown(value(row?.mean))} ± ${shown(value(row?.sd))} ` +
         `(1% ${shown(value(row?.p1))}, median ${shown(value(row?.p50))}, 99% ${shown(value(row?.p99))})`;
     }).join("; ");
   }).join(" | ");
@@ -83,7 +83,7 @@ export function bullsEyeSection(cases: Case[], shared: Shared, scaleNow: () => S
   const pair = (c: Case, q: Quantity, state: string, scale: Scale) => c.regions.length
     ? el("div", { class: "pair" }, ...(["aha17", "sector"] as const).map((scheme) => {
       const { values, details } = means(c, q, state, scheme);
-      return marks.draw(c, scheme, values, details, scale, `${c.name}: ${q.title} at ${stateTitle[state]}, ${schemeTitle[scheme]}`,
+      return marks.draw(c, scheme, values, details, scale, `${c.name}: ${q.title} at ${stateTitle(state)}, ${schemeTitle[scheme]}`,
         fileName(c.name, q.name, state, scheme));
     }))
     : missing(`${c.name}: regions.csv is missing, so there are no regional means.`);
@@ -95,7 +95,7 @@ export function bullsEyeSection(cases: Case[], shared: Shared, scaleNow: () => S
       return;
     }
     const scale = scaleNow();
-    place.replaceChildren(...states.map((state) => el("div", { class: "state-of" }, el("h3", {}, `${label(q)} at ${stateTitle[state]}`),
+    place.replaceChildren(...statesOf(cases).map((state) => el("div", { class: "state-of" }, el("h3", {}, `${label(q)} at ${stateTitle(state)}`),
       colourBar(scale, `${label(q)}, mean of the region`), el("div", { class: "cases" }, ...cases.map((c) => pair(c, q, state, scale))))),
       ...[difference(cases, q, marks)].filter((part) => part !== undefined));
     mark();

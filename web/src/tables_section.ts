@@ -6,7 +6,7 @@ import { judgements, rangeOf } from "./first_section.ts";
 import { transmurality } from "./regions_section.ts";
 import type { Shared } from "./shared.ts";
 import { healthyAdults, healthySubject, type MeanSd, paper, patient, volunteers } from "./published.ts";
-import { label, quantities, quantity, shown } from "./quantities.ts";
+import { label, quantities, quantity, shown, stateTitle } from "./quantities.ts";
 
 const perCase = (cases: Case[], content: (c: Case) => (Node | undefined)[]) =>
   el("div", { class: "cases" }, ...cases.map((c) => el("div", { class: "panel" },
@@ -16,9 +16,16 @@ const pm = (x: MeanSd | undefined) => (x ? `${shown(x.mean)} ± ${shown(x.sd, 2)
 const printed = (x: MeanSd | undefined) => (x ? `${x.mean} ± ${x.sd}`.replace("-", "−") : "–");
 const ofRow = (row: Row | undefined): string => (row && row.mean !== "" ? pm({ mean: value(row.mean), sd: value(row.sd) }) : "–");
 
-const known = new Set(["case", "program", "resolution", "early_diastole", "end_diastole", "end_systole", "edv_ml", "esv_ml", "stroke_volume_ml", "mass_g",
-  "ejection_fraction_percent", "filling_was_steady", "contraction_was_steady", "strain", "whole_wall", "fibre_shortening_percent",
-  "rotation", "plausibility", "calibration", "zones", "infarct", "infarct_segments", "assumptions", "warnings", "marks", "parameters", "set_in_case_file"]);
+const known = ["case", "program", "resolution", "early_diastole", "edv_ml", "esv_ml", "stroke_volume_ml", "mass_g",
+  "ejection_fraction_percent", "strain", "whole_wall", "fibre_shortening_percent",
+  "rotation", "plausibility", "calibration", "zones", "infarct", "infarct_segments", "assumptions", "warnings", "marks", "parameters", "set_in_case_file"];
+
+/** After the name of a phase. */
+const endedSteady = "_was_steady";
+const steadyKeys = (c: Case) => Object.keys(c.summary).filter((key) => key.endsWith(endedSteady));
+
+/** The moments that summary.json tells of. */
+const momentsOf = (c: Case) => Object.keys(c.summary.whole_wall ?? {});
 
 /** Entries of a JSON value as rows: "calibration.passive.value", 1.2. */
 function flat(json: any, prefix: string): [string, string][] {
@@ -31,11 +38,12 @@ function flat(json: any, prefix: string): [string, string][] {
 const marks = (c: Case, ...paths: string[]) => [...new Set(paths.map((path) => c.mark(path)).filter(Boolean))].join(" / ") || "–";
 
 function stateTable(c: Case): HTMLElement {
-  const names = ["early_diastole", "end_diastole", "end_systole"];
+  const moments = momentsOf(c);
+  const names = ["early_diastole", ...moments];
   const row = (title: string, key: string, digits = 4) => [title, ...names.map((name) => shown(c.summary[name]?.[key], digits)),
     marks(c, ...names.map((name) => `${name}.${key}`))];
-  const measured = ["EDV", "ESV"].map((name) => shown(measuredVolume(c, name), 4));
-  return table(fileName(c.name, "states"), ["", "early diastole", "end-diastole", "end-systole", "origin"], [
+  const measured = moments.map((name) => shown(measuredVolume(c, ({ end_diastole: "EDV", end_systole: "ESV" } as Record<string, string>)[name]), 4));
+  return table(fileName(c.name, "states"), ["", ...names.map(stateTitle), "origin"], [
     row(c.isLoaded ? "load (no time)" : "time (s)", "time_s"), row("endocardial pressure (mmHg)", "pressure_mmHg"), row("cavity volume (ml)", "cavity_volume_ml"),
     ["measured cavity volume (ml)", "–", ...measured, "measured"],
     row("wall volume (ml)", "wall_volume_ml"), row("endocardial apex z (mm)", "apex_endo_z_mm"),
@@ -57,7 +65,7 @@ function runTable(c: Case): HTMLElement {
     ["wall", `${r.elements ?? "–"} elements, ${r.nodes ?? "–"} nodes`], ["grid of the box", r.grid ?? "–"],
     ["mesh width (mm)", shown(r.mesh_width_mm, 4)], ["steps", `${r.steps ?? "–"} (${r.retries ?? "–"} taken back)`],
     ["time of the beat", r.wall_clock_s === undefined ? "–" : `${shown(r.wall_clock_s / 60)} min on ${r.ranks} rank${r.ranks === 1 ? "" : "s"}`],
-    ["filling ended steady", s.filling_was_steady ? "yes" : "NO"], ["contraction ended steady", s.contraction_was_steady ? "yes" : "NO"]]);
+    ...steadyKeys(c).map((key) => [`${key.slice(0, -endedSteady.length)} ended steady`, s[key] ? "yes" : "NO"])]);
 }
 
 function detailsOf(c: Case): (Node | undefined)[] {
@@ -67,11 +75,11 @@ function detailsOf(c: Case): (Node | undefined)[] {
     stateTable(c), ...calibration(c),
     el("h3", {}, "Does it look like a heart?"), plausibilityTable(c),
     el("h3", {}, "Whole wall, mean ± standard deviation"),
-    table(fileName(c.name, "whole-wall"), ["quantity", "end-diastole", "end-systole", "origin"], quantities.map((q) => [label(q),
-      ...["end_diastole", "end_systole"].map((state) => pm(s.whole_wall?.[state]?.[q.name])), marks(c, "whole_wall")])),
+    table(fileName(c.name, "whole-wall"), ["quantity", ...momentsOf(c).map(stateTitle), "origin"], quantities.map((q) => [label(q),
+      ...momentsOf(c).map((state) => pm(s.whole_wall?.[state]?.[q.name])), marks(c, "whole_wall")])),
     el("p", { class: "help" }, `Strain: ${s.strain ?? "not stated"}.`),
     el("h3", {}, "Run"), runTable(c),
-    ...Object.keys(s).filter((key) => !known.has(key)).map((key) =>
+    ...Object.keys(s).filter((key) => ![...known, ...momentsOf(c), ...steadyKeys(c)].includes(key)).map((key) =>
       el("div", {}, el("h3", {}, key.replaceAll("_", " ")), table(fileName(c.name, key), ["", "value"], flat(s[key], "")))),
   ];
 }

@@ -102,12 +102,8 @@ class Panel {
 
   /** "end-systole, 150 mmHg, 59.5 ml" */
   private moment(t: number): string {
-    const near = (mark: number | undefined) => mark !== undefined && Math.abs(t - mark) < 1e-5;
-    const { end_diastole_s: ed } = this.c.json;
-    const phase = near(ed) ? "end-diastole" : near(this.c.summary?.end_systole?.time_s) ? "end-systole"
-      : t < (ed ?? Infinity) ? "filling" : "contraction";
     const row = rowAt(this.curves, t);
-    return [phase, this.c.isLoaded ? "" : `${t.toFixed(3)} s`, row && `${shown(value(row.pressure_mmHg))} mmHg`,
+    return [this.c.words(t), this.c.isLoaded ? "" : `${t.toFixed(3)} s`, row && `${shown(value(row.pressure_mmHg))} mmHg`,
       row && `${shown(value(row.cavity_volume_ml))} ml`].filter(Boolean).join(", ");
   }
 

@@ -7,7 +7,6 @@
 #include "lv/base/table.hpp"
 #include "lv/job/case_lines.hpp"
 #include "lv/job/parameter_values.hpp"
-#include "lv/job/propose_case.hpp"
 
 #include <fmt/format.h>
 

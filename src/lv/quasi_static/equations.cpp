@@ -2,6 +2,7 @@
 
 #include "lv/base/check.hpp"
 #include "lv/base/parallel.hpp"
+#include "lv/material/tangent_algebra.hpp"
 #include "lv/mesh/shapes.hpp"
 #include "lv/quasi_static/constitution.hpp"
 

@@ -410,12 +410,13 @@ Numbers immersed_beat_of(const Case& c) {
   add_muscle(c, numbers);
   numbers.push_back(job::myocardium(c).volumetric.beta_s);
   const heartbeat::Protocol& p = c.protocol;
-  for (const auto phase : {heartbeat::Phase::filling, heartbeat::Phase::contraction})
+  for (const heartbeat::Phase& phase : heartbeat::phases(p)) {
+    numbers.insert(numbers.end(), {phase.drag, phase.settled});
     for (const double time : {0.01, 0.05, 0.15, 1.0}) {
-      const solid::Loads loads = heartbeat::loads(p, phase, time);
-      numbers.insert(numbers.end(), {loads.pressure, loads.calcium, loads.activation,
-                                     heartbeat::drag(p, phase, time)});
+      const solid::Loads loads = phase.loads(time);
+      numbers.insert(numbers.end(), {loads.pressure, loads.calcium, loads.activation});
     }
+  }
   if (c.active_form == material::ActiveForm::niederer)
     for (const double rate : {-5.0, 0.0, 20.0}) {
       material::Sarcomere<double> state = c.active.steady_state(1.0, 0.7 + 0.01 * rate);
