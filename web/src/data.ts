@@ -52,6 +52,8 @@ interface CaseJson {
   complete: boolean;
   state: string[];
   files: Record<string, string>;
+  septum_deg?: number;     // angle of the middle of the septum about the long axis, from x
+  engine?: string;         // as the case file calls it
   wall?: WallJson;
   flow?: FlowJson;
   pictures?: string;  // id of the element with them
@@ -205,6 +207,24 @@ export class Case {
 
   get flow(): FlowJson | undefined { return this.json.flow; }
   table(file: string): Row[] { return csv(this.json.files[file]); }
+
+  /** Steps of the quasi-static engine are loads, not moments. */
+  get isLoaded(): boolean { return this.json.engine === "quasi_static"; }
+
+  /** What was taken for granted of the anatomy. */
+  get assumptions(): { part: string; text: string }[] {
+    const frame = this.json.files["frame.json"];
+    return this.summary?.assumptions ?? (frame ? JSON.parse(frame).assumed : undefined) ?? [];
+  }
+
+  assumes(part: string): boolean { return this.assumptions.some((a) => a.part === part); }
+
+  /** measured, fitted, assumed or computed: that of the longest path that a figure's path in summary.json begins with. */
+  mark(path: string): string | undefined {
+    const marks: Record<string, string> = this.summary?.marks ?? {};
+    const found = Object.keys(marks).filter((key) => path === key || path.startsWith(`${key}.`));
+    return marks[found.sort((a, b) => b.length - a.length)[0]];
+  }
 
   /** A row of regions.csv. */
   row(state: string, scheme: string, region: string, quantity: string): Row | undefined {

@@ -1,6 +1,6 @@
 // Outlines of the model and contours drawn, over the cine images.
 import { type Case, type Outlined, value } from "./data.ts";
-import { el, figure, fileName, missing, section, svg, table } from "./dom.ts";
+import { el, figure, fileName, folded, missing, section, svg, table } from "./dom.ts";
 import { shown, stateTitle } from "./quantities.ts";
 
 const modelColour = "#e69f00";
@@ -86,6 +86,8 @@ class Sheet {
 }
 
 export function outlinesSection(cases: Case[]): HTMLElement {
+  const none = "There are no images in the results. A case whose [strain] names a cine and its contours has them.";
+  if (cases.every((c) => !c.json.pictures)) return folded("outlines", "Outlines over the images", none);
   const place = el("div", { class: "cases" });
   const whole = section("outlines", "Outlines over the images",
     "Where the model's two surfaces cut the planes of the cine, short and long axes (solid, orange), over the images at end-diastole and " +
@@ -93,13 +95,11 @@ export function outlinesSection(cases: Case[]): HTMLElement {
     "heart; at end-diastole and end-systole nothing forces it to: it was only started from the shape at early diastole. A slice without " +
     "orange lies above the model's base or below its apex. The table has the distance of the drawn points from the model's outline; " +
     "a dash where the plane does not cut the model. Curves on long axes are drawn at end-diastole alone. From pictures/, outlines.csv and outline_distances.csv.", place);
-  const absent = (c: Case) => el("div", { class: "panel" }, missing(
-    `${c.name}: no images in the results. A case whose [strain] names a cine and its contours has them.`));
+  const absent = (c: Case) => el("div", { class: "panel" }, missing(`${c.name}: ${none}`));
   const fill = async () => place.replaceChildren(...await Promise.all(cases.map(async (c) => {
     const pictures = await c.pictures();
     return pictures.length ? new Sheet(c, pictures).element : absent(c);
   })));
-  if (cases.every((c) => !c.json.pictures)) place.append(...cases.map(absent));
-  else void fill();
+  void fill();
   return whole;
 }

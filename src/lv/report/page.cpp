@@ -198,7 +198,7 @@ Json wall_json(const WallSeries& wall, Arrays& arrays) {
     const Range range = range_of(series);
     if (series.size() != wall.times.size() || !(range.max > range.min))
       continue;
-    arrays.is_first = name == "active_tension";  // the page opens with it
+    arrays.is_first = name == "circumferential_strain";  // the page opens with it
     json["quantities"][name] =
         modes_json(modes(series, quantity_tolerance * (range.max - range.min)), arrays);
     json["quantities"][name]["min"] = rounded(range.min);
@@ -262,7 +262,7 @@ struct PageFile {
   const char* name;
 };
 
-constexpr std::array<PageFile, 18> page_files{{
+constexpr std::array<PageFile, 19> page_files{{
     {"results", "summary.json", "summary.json"},
     {"results", "regions.csv", "regions.csv"},
     {"results", "rotation.csv", "rotation.csv"},
@@ -279,6 +279,7 @@ constexpr std::array<PageFile, 18> page_files{{
     {"mesh", "quality.csv", "quality.csv"},
     {"anatomy", "quality.csv", "anatomy_quality.csv"},
     {"anatomy", "fit.csv", "fit.csv"},
+    {"anatomy", "frame.json", "frame.json"},
     {"strain", "slices.csv", "strain_slices.csv"},
     {"strain", "rotation.csv", "strain_rotation.csv"},
 }};
@@ -290,6 +291,24 @@ Json files_json(const fs::path& work) {
     if (const fs::path path = file_of(work, stage, file); !path.empty())
       json[name] = read_file(path);
   return json;
+}
+
+/// What the mesh was made with, as its record tells: where the septum is, and the engine.
+void add_mesh_facts(Json& json, const fs::path& work) {
+  const fs::path record = file_of(work, "mesh", "stage.json");
+  if (record.empty())
+    return;
+  const Json ingredients =
+      from_json_file(record, [](const Json& all) -> Json { return all.at("ingredients"); });
+  const auto words = [&](const char* name) {
+    const std::string quoted = ingredients.value(name, "");
+    return quoted.substr(std::min<std::size_t>(1, quoted.size()),
+                         quoted.size() < 2 ? 0 : quoted.size() - 2);
+  };
+  if (const std::string angle = words("regions.septum_angle"); !angle.empty())
+    json["septum_deg"] = std::stod(angle);  // printed in degrees
+  if (const std::string engine = words("engine"); !engine.empty())
+    json["engine"] = engine;
 }
 
 /// When the beat was at end-diastole; infinite when it has not been there [s].
@@ -332,6 +351,7 @@ Data case_html(const PageCase& shown, int number, std::size_t count) {
             {"complete", shown.complete},
             {"state", state_of(shown)},
             {"files", files_json(shown.work)}};
+  add_mesh_facts(json, shown.work);
   if (const auto frames = wall_frames(shown.work); !frames.empty()) {
     const WallSeries wall = read_wall_series(frames, end_diastole(shown.work));
     json["wall"] = wall_json(wall, arrays);
