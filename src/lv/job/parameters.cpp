@@ -80,8 +80,8 @@ constexpr Group of_anatomy[]{
                 "the base plane lies in the most basal endocardial loop, half a slice spacing "
                 "above it where the slab of the slice ends, or at the mitral annulus (guide "
                 "points, ends of long-axis curves); automatic: slice for contours, slab for "
-                "labels and sunnybrook, annulus for guide_points that show it, slab where that "
-                "makes no wall"),
+                "labels and sunnybrook; for guide_points as high as long-axis curves show muscle "
+                "all round, else annulus, slab where that makes no wall"),
      }},
     {Stages(Stage::strain, Stage::anatomy),
      {&septum_shown},

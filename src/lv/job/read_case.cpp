@@ -252,6 +252,25 @@ std::string meaning(const Parameter& p) {
                             : fmt::format("{} (only {})", p.help, fmt::join(conditions, " and "));
 }
 
+/// Tells of all files and folders that a case names and that are not there, if they are several:
+/// of a single one its reader tells.
+void require_files(const Case& c) {
+  std::vector<std::pair<std::string, std::string>> absent;  // place, what
+  std::error_code failed;
+  for (const Parameter& p : parameters())
+    if (p.text == Text::path && counts_only(p, c).empty())
+      for (const std::string& name : paths(p, c))
+        if (!std::filesystem::exists(beside(c, name), failed) && !failed)
+          absent.emplace_back(place_of(c, p.name),
+                              fmt::format("{}: there is no {}", p.name, beside(c, name).string()));
+  if (absent.size() < 2)
+    return;
+  std::string text = absent.front().second;
+  for (std::size_t i = 1; i < absent.size(); ++i)
+    text += fmt::format("\n{}: {}", absent[i].first, absent[i].second);
+  throw InputError(absent.front().first, text, "Check the names; they are read beside the case");
+}
+
 }  // namespace
 
 Case parse_case(const std::string& text, const std::filesystem::path& file) {
@@ -267,7 +286,9 @@ Case parse_case(const std::string& text, const std::filesystem::path& file) {
 }
 
 Case read_case(const std::filesystem::path& file) {
-  return parse_case(read_text(file), file);
+  Case c = parse_case(read_text(file), file);
+  require_files(c);
+  return c;
 }
 
 std::string starter_case(const std::string& name) {
