@@ -4,6 +4,7 @@
 #include "lv/base/time_left.hpp"
 #include "lv/base/units.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -16,10 +17,21 @@ using quasi_static::Step;
 using solid::Loads;
 using units::mmHg;
 
+/// Steps short enough for curves: contraction begins steeply.
+quasi_static::SolverParameters smooth(quasi_static::SolverParameters p) {
+  constexpr double first_step = 0.02;
+  constexpr double largest_change = 0.05;
+  p.first_step = std::min(p.first_step, first_step);
+  p.largest_change = largest_change;
+  return p;
+}
+
 class QuasiStaticRun {
  public:
   QuasiStaticRun(const QuasiStaticSetup& setup, const Observers& observers)
-      : setup_(setup), observers_(observers), engine_(setup.mesh, setup.model, setup.parameters) {
+      : setup_(setup),
+        observers_(observers),
+        engine_(setup.mesh, setup.model, smooth(setup.parameters)) {
     record({engine_.loads(), 0.0, 0.0, engine_.cavity_volume(), {}});
   }
 
@@ -29,6 +41,7 @@ class QuasiStaticRun {
     go_to({p.ed_pressure, 0.0});
     run_.beat.end_diastole = state();
     run_.phase = Phase::contraction;
+    steps_before_ = run_.beat.steps;
     run_.phase_start = p.filling_ramp;
     go_to({p.es_pressure, 1.0});
     run_.beat.end_systole = state();
@@ -61,11 +74,17 @@ class QuasiStaticRun {
               left_.words(steps_left(step)));
   }
 
-  /// Load steps that the beat will probably still take: those of this phase at the length of the
-  /// last one, and those that contraction usually takes.
+  /// Load steps that the beat will probably still take: of this phase what is left of the usual
+  /// number, or steps that grow from the last one if those are more; and those of contraction.
   [[nodiscard]] double steps_left(const Step& step) const {
-    const double here = std::ceil((1.0 - step.progress) / step.length - 1e-9);
-    return run_.phase == Phase::filling ? here + usual_contraction : here;
+    if (step.progress >= 1.0)
+      return run_.phase == Phase::filling ? usual_contraction : 0.0;
+    const double in_lengths = (1.0 - step.progress) / step.length;
+    const double growing = std::log(1.0 + (growth - 1.0) * in_lengths) / std::log(growth);
+    const bool is_filling = run_.phase == Phase::filling;
+    const double usual = is_filling ? usual_filling : usual_contraction;
+    return std::max(growing, usual - (run_.beat.steps - steps_before_)) +
+           (is_filling ? usual_contraction : 0.0);
   }
 
   void record(const Step& step) {
@@ -86,9 +105,12 @@ class QuasiStaticRun {
       observers_.curves(run_);
     constexpr double nearly = 1e-9;  // of the way
     const bool is_end = step.progress == 0.0 || step.progress > 1.0 - nearly;
-    if (!observers_.frame || (!is_end && run_.time < run_.next_frame))
+    const bool has_moved =
+        std::abs(step.volume - last_frame_volume_) > frame_change * last_frame_volume_;
+    if (!observers_.frame || (!is_end && !has_moved && run_.time < run_.next_frame))
       return;
     run_.next_frame = run_.time + setup_.frame_interval;
+    last_frame_volume_ = step.volume;
     const int number = run_.frames++;
     run_.frame_times.push_back(run_.time);
     observers_.frame({number, state(), run_, {}});
@@ -114,13 +136,18 @@ class QuasiStaticRun {
     return s;
   }
 
-  static constexpr double usual_contraction = 12.0;  ///< load steps
+  static constexpr double usual_filling = 22.0;      ///< load steps
+  static constexpr double usual_contraction = 24.0;  ///< load steps
+  static constexpr double growth = 1.5;              ///< of a step from the one before it
+  static constexpr double frame_change = 0.1;        ///< of the volume since the last frame
 
   const QuasiStaticSetup& setup_;
   const Observers& observers_;
   Engine engine_;
   RunState run_;
   TimeLeft left_;
+  int steps_before_ = 0;            ///< of the phases before this one
+  double last_frame_volume_ = 0.0;  ///< [mm^3]
 };
 
 }  // namespace

@@ -138,8 +138,8 @@ LV_CONDITION(moving_fibres, c.engine == Engine::immersed && s == Stage::beat,
              "with engine = \"immersed\"")
 LV_CONDITION(calcium_counts, has_niederer(c) || moving_fibres.holds(c, s),
              "with active.law = \"niederer\", or with engine = \"immersed\"")
-LV_CONDITION(mass_counts, s == Stage::beat ? c.engine == Engine::immersed : may_have_infarct(c),
-             "with engine = \"immersed\", or with an infarct (infarct.source), whose mass it gives")
+LV_CONDITION(mass_counts, s == Stage::results || may_have_infarct(c),
+             "for the masses of wall and infarct")
 
 // measurements
 LV_CONDITION(fit, c.calibration.asked(), "with a fit: set calibrate.passive or calibrate.active")

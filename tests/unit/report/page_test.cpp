@@ -83,9 +83,3 @@ TEST_CASE("a page of an empty work folder has its state and no wall", "[report]"
   CHECK(page.find("\\u003c1>") != std::string::npos);  // no file ends the script element
   CHECK(page.find("\"wall\":") == std::string::npos);
 }
-
-TEST_CASE("the script for ParaView names the series beside it", "[report]") {
-  const std::string script = report::paraview_script("../03_beat");
-  CHECK(script.find("os.path.join(here, \"../03_beat\")") != std::string::npos);
-  CHECK(script.find("{time:.3f}") != std::string::npos);
-}
