@@ -1,10 +1,9 @@
-// Curves against time, the pressure-volume loop, rotation, the muscle's law.
+// Curves against time, the pressure-volume loop, rotation, passive muscle.
 import { type Chart, drawChart, type DrawnChart, type Line } from "./chart.ts";
 import { lineColours } from "./colours.ts";
 import { type Case, type Row, value } from "./data.ts";
 import { el, figure, fileName, missing, section, table } from "./dom.ts";
-import { curve, lawOf, type NamedLaw, publishedLaws } from "./muscle.ts";
-import { shown } from "./quantities.ts";
+import { shown, stateTitle } from "./quantities.ts";
 import type { Shared, Timeline } from "./shared.ts";
 
 const joined = (cases: Case[]) => cases.map((c) => c.name).join("-");
@@ -26,8 +25,8 @@ export function curvesSection(cases: Case[], shared: Shared, time: Timeline): HT
   const make = (x: string, xTitle: string, y: string, yTitle: string) => {
     const chart: Chart = { x: xTitle, y: yTitle, zero: true,
       lines: shownCases.map(({ c, rows }, i): Line => ({ label: c.name, colour: lineColours[i], x: column(rows, x), y: column(rows, y) })) };
-    if (x === "time_s" && cases.length === 1 && cases[0].json.end_diastole_s !== undefined)
-      chart.marks = [{ x: cases[0].json.end_diastole_s, label: "end-diastole" }];
+    if (x === "time_s" && cases.length === 1)
+      chart.marks = cases[0].moments.map((m) => ({ x: m.time, label: stateTitle(m.name) }));
     const one = drawChart(chart);
     drawn.push({ chart: one, x, y });
     return figure(`${yTitle} against ${xTitle}`, fileName(joined(cases), y, "against", x), one.figure);
@@ -66,16 +65,20 @@ export function rotationSection(cases: Case[]): HTMLElement {
 }
 
 export function muscleSection(cases: Case[]): HTMLElement {
-  const help = "Passive muscle pulled along the fibre with free sides (the paper's Figure 5): Cauchy stress against stretch, computed " +
-    "here from the law and the parameters in summary.json, and from the published parameters of others. The curves of Xi et al. (2011) and " +
+  const help = "Passive muscle pulled along the fibre with free sides (the paper's Figure 5): Cauchy stress against stretch of this case's " +
+    "muscle and of published ones, from stress_stretch.csv. The curves of Xi et al. (2011) and " +
     "Krishnamurthy et al. (2013), which the paper also shows, are not drawn: their numbers are not printed in it. " +
     "Excised muscle (Holzapfel & Ogden's fit) is far stiffer than what images of living hearts lead to.";
-  const own = cases.map((c): Partial<NamedLaw> => ({ label: `${c.name} (this case)`, law: lawOf(c) }));
-  const found = own.filter((law): law is NamedLaw => law.law !== undefined);
-  const lines = [...found, ...publishedLaws].map(({ label, law }, i): Line =>
-    ({ label, colour: lineColours[i], dashed: i >= found.length, ...curve(law) }));
+  const found = cases.map((c) => ({ c, rows: c.table("stress_stretch.csv") })).filter(({ rows }) => rows.length);
+  const absent = cases.filter((c) => !found.some((one) => one.c === c))
+    .map((c) => missing(`${c.name}: stress_stretch.csv is missing: there are no results yet.`));
+  if (!found.length) return section("muscle", "Passive muscle", help, ...absent);
+  const own = found.map(({ c, rows }) => ({ label: `${c.name} (this case)`, dashed: false, rows: rows.filter((r) => r.published === "no") }));
+  const published = found[0].rows.filter((r) => r.published === "yes");
+  const others = [...new Set(published.map((r) => r.muscle))].map((label) => ({ label, dashed: true, rows: published.filter((r) => r.muscle === label) }));
+  const lines = [...own, ...others].map(({ label, dashed, rows }, i): Line =>
+    ({ label, dashed, colour: lineColours[i], x: column(rows, "fibre_stretch"), y: column(rows, "cauchy_stress_kPa") }));
   const chart = drawChart({ x: "fibre stretch", y: "Cauchy stress (kPa)", lines, zero: true, width: 640, height: 380 });
-  return section("muscle", "Passive muscle", help,
-    ...own.filter(({ law }) => !law).map(({ label }) => missing(`${label}: no summary.json, so the law's parameters are not known.`)),
+  return section("muscle", "Passive muscle", help, ...absent,
     el("div", { class: "figures" }, figure("Stress against stretch along the fibre", fileName(joined(cases), "stress-stretch"), chart.figure)));
 }

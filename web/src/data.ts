@@ -1,5 +1,7 @@
 // What the program wrote into the page, decoded.
 
+import { stateTitle } from "./quantities.ts";
+
 export type Row = Record<string, string>;
 
 /** offset + sum_k course_k(t) step shape_k(i); see src/lv/report/modes.hpp. */
@@ -50,7 +52,6 @@ interface CaseJson {
   complete: boolean;
   state: string[];
   files: Record<string, string>;
-  end_diastole_s?: number;
   wall?: WallJson;
   flow?: FlowJson;
   pictures?: string;  // id of the element with them
@@ -167,13 +168,23 @@ export class Wall {
   region(scheme: Scheme): Int16Array | undefined { return this.regions[scheme]; }
 }
 
+/** A named moment of a beat, from moments.csv. */
+export interface Moment { name: string; phase: string; time: number }
+
 export class Case {
   readonly regions: Row[];
+  readonly moments: Moment[];
+  private readonly phases: { name: string; end: number }[] = [];  // as far as curves.csv goes
   name: string;
   wall?: Wall;  // once it is loaded
   private constructor(readonly json: CaseJson, readonly summary: any) {
     this.name = summary?.case ?? json.folder;
     this.regions = csv(json.files["regions.csv"]);
+    this.moments = csv(json.files["moments.csv"]).map((r) => ({ name: r.moment, phase: r.phase, time: value(r.time_s) }));
+    for (const r of this.table("curves.csv")) {
+      if (this.phases.at(-1)?.name !== r.phase) this.phases.push({ name: r.phase, end: 0 });
+      this.phases.at(-1)!.end = value(r.time_s);
+    }
   }
 
   static read(number: number): Case {
@@ -201,6 +212,18 @@ export class Case {
       r.state === state && r.scheme === scheme && r.region === region && r.quantity === quantity);
   }
 
+  /** When the beat came to a moment; undefined when it did not. */
+  timeOf(moment: string): number | undefined { return this.moments.find((m) => m.name === moment)?.time; }
+
+  /** The moment that a time is, else the phase that it lies in. */
+  words(t: number): string {
+    const moment = this.moments.find((m) => Math.abs(m.time - t) < 1e-5);
+    return moment ? stateTitle(moment.name) : (this.phases.find((p) => t <= p.end) ?? this.phases.at(-1))?.name ?? "";
+  }
+
+  /** Names of the moments that regions.csv has values at. */
+  get states(): string[] { return [...new Set(this.regions.map((r) => r.state))]; }
+
   /** Names of a scheme's regions in their order. */
   regionNames(scheme: string): string[] {
     return [...new Set(this.regions.filter((r) => r.scheme === scheme).map((r) => r.region))];
@@ -211,9 +234,6 @@ export class Case {
     const value = this.summary?.parameters?.[name];
     return value === undefined ? undefined : String(value).replace(/^"|"$/g, "");
   }
-
-  /** The number in front of its unit. */
-  number(name: string): number { return parseFloat(this.parameter(name) ?? "NaN"); }
 }
 
 export function csv(text: string | undefined): Row[] {

@@ -11,7 +11,7 @@ export function flowSection(cases: Case[]): HTMLElement {
   const whole = section("flow", "Flow in a long-axis plane",
     "Blood and wall in the plane y = 0 through the long axis (the septum on the right where it is on the model's x axis). Colours: " +
     "speed with all three components, or pressure. Arrows: velocity in the plane; the longest arrow is the fastest blood of the " +
-    "moment. It opens at the moment of contraction with the fastest blood among those the run wrote. There are no valves and no " +
+    "moment. It opens at the moment after end-diastole with the fastest blood among those the run wrote. There are no valves and no " +
     "atrium: blood passes freely through the open base, so the pattern there is not physiological.", place);
   // drawn when it comes near the screen: the first view does not wait for it
   const observer = new IntersectionObserver((entries) => {
@@ -28,7 +28,7 @@ async function fill(cases: Case[], place: HTMLElement): Promise<void> {
   const found: Shown[] = [];
   for (const c of cases) {
     if (!c.flow) continue;
-    const frame = await fastestFrame(c.flow, c.json.end_diastole_s);
+    const frame = await fastestFrame(c.flow, c.timeOf("end_diastole"));
     found.push({ c, frame, data: await readFlow(c.flow, frame), canvas: el("canvas", { class: "flow", role: "img" }), caption: el("p", { class: "time" }) });
   }
   const absent = cases.filter((c) => !c.flow).map((c) => missing(`${c.name}: no frames of the blood in the work folder ` +
@@ -43,8 +43,7 @@ async function fill(cases: Case[], place: HTMLElement): Promise<void> {
       const t = one.c.flow!.times[one.frame];
       const wallFrame = one.c.wall?.times.findIndex((time) => Math.abs(time - t) < 1e-6);
       drawFlow(one.canvas, one.c.flow!, one.data, what, scale, one.c.wall, wallFrame === -1 ? undefined : wallFrame);
-      const phase = t > (one.c.json.end_diastole_s ?? Infinity) ? "contraction" : "filling";
-      one.caption.textContent = `${one.c.name}: t = ${t.toFixed(3)} s, ${phase}`;
+      one.caption.textContent = `${one.c.name}: t = ${t.toFixed(3)} s, ${one.c.words(t)}`;
       one.canvas.setAttribute("aria-label", `${what} and velocity in the long-axis plane, ${one.caption.textContent}`);
     }
   };

@@ -20,12 +20,12 @@ export function speeds(frame: FlowFrame): Float32Array {
   return frame.pressure.map((_, i) => Math.hypot(u[i], u[n + i], u[2 * n + i]));
 }
 
-/** The frame of contraction with the fastest blood; of filling when there is no contraction. */
+/** The frame after end-diastole with the fastest blood; of all when there is none. */
 export async function fastestFrame(flow: FlowJson, endDiastole: number | undefined): Promise<number> {
   const all = flow.times.map((_, i) => i);
-  const contraction = all.filter((i) => flow.times[i] > (endDiastole ?? Infinity));
+  const later = all.filter((i) => flow.times[i] > (endDiastole ?? Infinity));
   let best = { frame: 0, speed: -1 };
-  for (const frame of contraction.length ? contraction : all) {
+  for (const frame of later.length ? later : all) {
     const speed = speeds(await readFlow(flow, frame)).reduce((a, b) => Math.max(a, b), 0);
     if (speed > best.speed) best = { frame, speed };
   }

@@ -39,7 +39,8 @@ export function quantity(name: string): Quantity {
 
 export const label = (q: Quantity) => (q.unit === "1" ? q.title : `${q.title} (${q.unit})`);
 
-export const stateTitle: Record<string, string> = { end_diastole: "end-diastole", end_systole: "end-systole" };
+/** A moment's name for readers: "end-diastole". */
+export const stateTitle = (name: string) => name.replaceAll("_", " ").replace(/^end /, "end-");
 
 /** Below this a number is the rounding of zero, in any unit of the page. */
 const rounding = 1e-9;

@@ -52,19 +52,19 @@ function nearest(times: number[], time: number): number {
   return times.reduce((best, t, i) => (Math.abs(t - time) < Math.abs(times[best] - time) ? i : best), 0);
 }
 
-/** One case: its frames. Two: 40 steps through filling and 40 through contraction, in each case's own time. */
+/** One case: its frames. Two: 40 steps up to end-diastole and 40 from there, in each case's own time. */
 export function timeline(cases: Case[]): Timeline {
   const times = cases.map((c) => c.wall?.times ?? []);
   if (cases.length === 1)
     return { count: Math.max(1, times[0].length), start: Math.max(0, times[0].length - 1),
       frame: (_, step) => (times[0].length ? step : undefined), time: (_, step) => times[0][step] ?? NaN };
-  const perPhase = 40;
+  const half = 40;
   const at = (n: number, step: number) => {
     const end = times[n].at(-1) ?? NaN;
-    const ed = cases[n].json.end_diastole_s ?? end;
-    return step <= perPhase ? (step / perPhase) * ed : ed + (step / perPhase - 1) * (end - ed);
+    const ed = cases[n].timeOf("end_diastole") ?? end;
+    return step <= half ? (step / half) * ed : ed + (step / half - 1) * (end - ed);
   };
-  return { count: 2 * perPhase + 1, start: 2 * perPhase,
+  return { count: 2 * half + 1, start: 2 * half,
     frame: (n, step) => (times[n].length ? nearest(times[n], at(n, step)) : undefined),
     time: (n, step) => times[n][nearest(times[n], at(n, step))] };
 }
@@ -79,10 +79,13 @@ function reach(name: string, low: number, high: number): Scale {
 const smallest = (values: number[]) => values.reduce((a, b) => (b < a ? b : a), Infinity);
 const greatest = (values: number[]) => values.reduce((a, b) => (b > a ? b : a), -Infinity);
 
-/** Of the 3-D view: the 1st to 99th percentile over the wall at end-diastole and end-systole, of all cases. */
+/** Moments that any case has regional values at. */
+export const statesOf = (cases: Case[]) => [...new Set(cases.flatMap((c) => c.states))];
+
+/** Of the 3-D view: the 1st to 99th percentile over the wall at the moments with regional values, of all cases. */
 export function wallScale(cases: Case[], name: string): Scale {
   if (name === "infarct") return { min: 0, max: 1, diverging: false };
-  const found = cases.flatMap((c) => ["end_diastole", "end_systole"].flatMap((state) => {
+  const found = cases.flatMap((c) => c.states.flatMap((state) => {
     const row = c.row(state, "whole", "wall", name);
     return [value(row?.p1), value(row?.p99)];
   })).filter(Number.isFinite);

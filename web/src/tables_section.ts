@@ -3,7 +3,7 @@ import { type Case, type Row, value } from "./data.ts";
 import { el, fileName, missing, save, section, table } from "./dom.ts";
 import { calibration, measuredVolume } from "./calibration_section.ts";
 import { healthyAdults, healthySubject, type MeanSd, paper, patient, volunteers } from "./published.ts";
-import { label, quantities, quantity, shown } from "./quantities.ts";
+import { label, quantities, quantity, shown, stateTitle } from "./quantities.ts";
 
 const perCase = (cases: Case[], content: (c: Case) => (Node | undefined)[]) =>
   el("div", { class: "cases" }, ...cases.map((c) => el("div", { class: "panel" },
@@ -13,9 +13,12 @@ const pm = (x: MeanSd | undefined) => (x ? `${shown(x.mean)} ± ${shown(x.sd, 2)
 const printed = (x: MeanSd | undefined) => (x ? `${x.mean} ± ${x.sd}`.replace("-", "−") : "–");
 const ofRow = (row: Row | undefined): string => (row && row.mean !== "" ? pm({ mean: value(row.mean), sd: value(row.sd) }) : "–");
 
-const known = new Set(["case", "program", "resolution", "early_diastole", "end_diastole", "end_systole", "edv_ml", "esv_ml",
-  "ejection_fraction_percent", "filling_was_steady", "contraction_was_steady", "strain", "whole_wall", "fibre_shortening_percent",
-  "rotation", "observations", "calibration", "zones", "infarct_segments", "warnings", "parameters", "set_in_case_file"]);
+const known = ["case", "program", "resolution", "early_diastole", "edv_ml", "esv_ml", "ejection_fraction_percent", "strain",
+  "whole_wall", "fibre_shortening_percent", "rotation", "observations", "calibration", "zones", "infarct_segments", "warnings",
+  "parameters", "set_in_case_file"];
+
+/** After the name of a phase. */
+const endedSteady = "_was_steady";
 
 /** Entries of a JSON value as rows: "calibration.passive.value", 1.2. */
 function flat(json: any, prefix: string): [string, string][] {
@@ -27,10 +30,12 @@ function flat(json: any, prefix: string): [string, string][] {
 function summaryOf(c: Case): (Node | undefined)[] {
   const s = c.summary;
   if (!s) return [missing("summary.json is missing: the results have not been computed.")];
-  const states = ["early_diastole", "end_diastole", "end_systole"].map((name) => s[name] ?? {});
+  const moments = Object.keys(s.whole_wall ?? {});
+  const states = ["early_diastole", ...moments].map((name) => s[name] ?? {});
+  const steady = Object.keys(s).filter((key) => key.endsWith(endedSteady));
   const row = (title: string, key: string, digits = 4) => [title, ...states.map((state) => shown(state[key], digits))];
   const r = s.resolution ?? {};
-  const measured = ["EDV", "ESV"].map((name) => measuredVolume(c, name));
+  const measured = moments.map((name) => measuredVolume(c, ({ end_diastole: "EDV", end_systole: "ESV" } as Record<string, string>)[name]));
   return [
     el("dl", { class: "key" },
       ...[["end-diastolic volume", `${shown(s.edv_ml, 4)} ml`, "edv_ml"], ["end-systolic volume", `${shown(s.esv_ml, 4)} ml`, "esv_ml"],
@@ -38,7 +43,7 @@ function summaryOf(c: Case): (Node | undefined)[] {
         ["mean fibre stress, end-systole", `${shown(s.whole_wall?.end_systole?.fibre_stress?.mean)} kPa`, "fibre_stress"],
         ["mean active tension, end-systole", `${shown(s.whole_wall?.end_systole?.active_tension?.mean)} kPa`, "active_tension"]]
         .map(([title, text, id]) => el("div", {}, el("dt", {}, title), el("dd", { "data-key": id }, text)))),
-    table(fileName(c.name, "states"), ["", "early diastole", "end-diastole", "end-systole"], [
+    table(fileName(c.name, "states"), ["", "early diastole", ...moments.map(stateTitle)], [
       row("time (s)", "time_s"), row("endocardial pressure (mmHg)", "pressure_mmHg"), row("cavity volume (ml)", "cavity_volume_ml"),
       ["measured cavity volume (ml)", "–", ...measured.map((ml) => shown(ml, 4))],
       row("wall volume (ml)", "wall_volume_ml"), row("endocardial apex z (mm)", "apex_endo_z_mm"),
@@ -47,8 +52,8 @@ function summaryOf(c: Case): (Node | undefined)[] {
     measured.every((ml) => ml === undefined) ? missing("No measured volumes: the case is not fitted to any.") : undefined,
     ...calibration(c),
     el("h3", {}, "Whole wall, mean ± standard deviation"),
-    table(fileName(c.name, "whole-wall"), ["quantity", "end-diastole", "end-systole"], quantities.map((q) => [label(q),
-      ...["end_diastole", "end_systole"].map((state) => pm(s.whole_wall?.[state]?.[q.name]))])),
+    table(fileName(c.name, "whole-wall"), ["quantity", ...moments.map(stateTitle)], quantities.map((q) => [label(q),
+      ...moments.map((state) => pm(s.whole_wall?.[state]?.[q.name]))])),
     el("p", { class: "help" }, `Strain: ${s.strain ?? "not stated"}.`),
     el("h3", {}, "Does it look like a heart?"),
     table(fileName(c.name, "observations"), ["observation", "value", "rule", "holds"], (s.observations ?? []).map((o: any) =>
@@ -59,8 +64,8 @@ function summaryOf(c: Case): (Node | undefined)[] {
       ["wall", `${r.elements ?? "–"} elements, ${r.nodes ?? "–"} nodes`], ["grid of the box", r.grid ?? "–"],
       ["mesh width (mm)", shown(r.mesh_width_mm, 4)], ["steps", `${r.steps ?? "–"} (${r.retries ?? "–"} taken back)`],
       ["time of the beat", r.wall_clock_s === undefined ? "–" : `${shown(r.wall_clock_s / 60)} min on ${r.ranks} rank${r.ranks === 1 ? "" : "s"}`],
-      ["filling ended steady", s.filling_was_steady ? "yes" : "NO"], ["contraction ended steady", s.contraction_was_steady ? "yes" : "NO"]]),
-    ...Object.keys(s).filter((key) => !known.has(key)).map((key) =>
+      ...steady.map((key) => [`${key.slice(0, -endedSteady.length)} ended steady`, s[key] ? "yes" : "NO"])]),
+    ...Object.keys(s).filter((key) => ![...known, ...moments, ...steady].includes(key)).map((key) =>
       el("div", {}, el("h3", {}, key.replaceAll("_", " ")), table(fileName(c.name, key), ["", "value"], flat(s[key], "")))),
   ];
 }

@@ -5,7 +5,7 @@ import { Case, type Scheme, type Series, value } from "./data.ts";
 import { el, figure, missing, saveButtons, section, svg, fileName } from "./dom.ts";
 import { Fibres } from "./fibres.ts";
 import { infarct, label, quantities, quantity, shown, stateTitle } from "./quantities.ts";
-import { regionScale, Shared, type Timeline, wallScale } from "./shared.ts";
+import { regionScale, Shared, statesOf, type Timeline, wallScale } from "./shared.ts";
 import { WallView } from "./wall_view.ts";
 
 let numbers = 0;
@@ -111,9 +111,7 @@ class Panel {
     const frame = this.time.frame(this.number, state.step)!;
     const field = await this.field(state.quantity);
     const t = this.time.time(this.number, state.step);
-    const ed = this.c.json.end_diastole_s ?? Infinity;
-    const phase = Math.abs(t - ed) < 1e-5 ? "end-diastole" : t < ed ? "filling" : "contraction";
-    this.caption.textContent = `${this.c.name}: t = ${t.toFixed(3)} s, ${phase}` +
+    this.caption.textContent = `${this.c.name}: t = ${t.toFixed(3)} s, ${this.c.words(t)}` +
       (field ? "" : `; ${quantity(state.quantity).title} is not in this case's frames`);
     if (state.fibres && !this.fibres) {
       const f0 = await this.c.wall!.fibres();
@@ -210,7 +208,7 @@ export function bullsEyeSection(cases: Case[], shared: Shared): HTMLElement {
     const q = quantity(shared.state.quantity);
     const names = c.regionNames(scheme);
     const rows = names.map((name) => c.row(state, scheme, name, q.name));
-    const title = `${c.name}: ${q.title} at ${stateTitle[state]}, ${scheme === "aha17" ? "17 segments (AHA)" : "seven slices"}`;
+    const title = `${c.name}: ${q.title} at ${stateTitle(state)}, ${scheme === "aha17" ? "17 segments (AHA)" : "seven slices"}`;
     const drawn = drawBullsEye({ scheme, names, values: rows.map((row) => value(row?.mean)), title,
       details: rows.map((row) => `${shown(value(row?.mean))} ± ${shown(value(row?.sd))}`),
       scale: regionScale(cases, q.name, state), pick: (index, fixed) =>
@@ -218,6 +216,7 @@ export function bullsEyeSection(cases: Case[], shared: Shared): HTMLElement {
     plots.push({ drawn, scheme });
     return figure(title, fileName(c.name, q.name, state, scheme), drawn.figure);
   };
+  const absent = (c: Case) => missing(`${c.name}: regions.csv is missing, so there are no regional means.`);
   const refresh = () => {
     plots.length = 0;
     const q = quantity(shared.state.quantity);
@@ -225,11 +224,11 @@ export function bullsEyeSection(cases: Case[], shared: Shared): HTMLElement {
       place.replaceChildren(missing("The infarct M does not change with time; choose another quantity above for its regional means."));
       return;
     }
-    place.replaceChildren(...["end_diastole", "end_systole"].map((state) => el("div", {},
-      el("h3", {}, `${label(q)} at ${stateTitle[state]}`), colourBar(regionScale(cases, q.name, state), `${label(q)}, mean of the region`),
+    place.replaceChildren(...statesOf(cases).map((state) => el("div", {},
+      el("h3", {}, `${label(q)} at ${stateTitle(state)}`), colourBar(regionScale(cases, q.name, state), `${label(q)}, mean of the region`),
       el("div", { class: "cases" }, ...cases.map((c) => c.regions.length
         ? el("div", { class: "pair" }, one(c, state, "sector"), one(c, state, "aha17"))
-        : missing(`${c.name}: regions.csv is missing, so there are no regional means.`))))));
+        : absent(c))))), ...(statesOf(cases).length ? [] : cases.map(absent)));
     mark();
   };
   const mark = () => {
@@ -239,9 +238,9 @@ export function bullsEyeSection(cases: Case[], shared: Shared): HTMLElement {
     read.textContent = selection === undefined ? "" : cases.map((c) => {
       const name = regionName(c, selection.scheme, selection.index);
       const q = quantity(shared.state.quantity);
-      return `${c.name}, ${name}: ` + ["end_diastole", "end_systole"].map((state) => {
+      return `${c.name}, ${name}: ` + c.states.map((state) => {
         const row = c.row(state, selection.scheme, name, q.name);
-        return `${stateTitle[state]} ${shown(value(row?.mean))} ± ${shown(value(row?.sd))} ` +
+        return `${stateTitle(state)} ${shown(value(row?.mean))} ± ${shown(value(row?.sd))} ` +
           `(1% ${shown(value(row?.p1))}, median ${shown(value(row?.p50))}, 99% ${shown(value(row?.p99))})`;
       }).join("; ");
     }).join(" | ");

@@ -277,20 +277,19 @@ Figure states_figure(const Mesh& mesh, const heartbeat::Beat& beat,
                      const analysis::BeatFields& fields, const Orientation& o) {
   const auto stretch = [](const CellFields& c) { return c.fibre_stretch; };
   const ColourScale scale{diverging(), 0.75, 1.25};
-  const auto title = [](const char* state, const heartbeat::Snapshot& s) {
-    return fmt::format("{}: {:.0f} mmHg, {:.1f} ml", state, s.pressure / mmHg, 1e-3 * s.volume);
-  };
-  const auto early = at_nodes(mesh, fields.early_diastole, stretch);
-  const auto ed = at_nodes(mesh, fields.end_diastole, stretch);
-  const auto es = at_nodes(mesh, fields.end_systole, stretch);
-  return {.panels = both_axes(
-              {o.starred("early diastole", "early diastole") + ": free of stress",
-               title("end-diastole", beat.end_diastole), title("end-systole", beat.end_systole)},
-              {{mesh, mesh.nodes, early, scale},
-               {mesh, beat.end_diastole.positions, ed, scale},
-               {mesh, beat.end_systole.positions, es, scale}},
-              o),
-          .columns = 3,
+  std::vector<std::vector<double>> nodal{at_nodes(mesh, fields.early_diastole, stretch)};
+  std::vector<std::string> titles{o.starred("early diastole", "early diastole") +
+                                  ": free of stress"};
+  for (const auto& [name, phase, by_criterion, wall] : beat.moments) {
+    nodal.push_back(at_nodes(mesh, fields.at(name), stretch));
+    titles.push_back(fmt::format("{}: {:.0f} mmHg, {:.1f} ml", heartbeat::title(name),
+                                 wall.pressure / mmHg, 1e-3 * wall.volume));
+  }
+  std::vector<PaintedWall> walls{{mesh, mesh.nodes, nodal.front(), scale}};
+  for (std::size_t i = 0; i < beat.moments.size(); ++i)
+    walls.push_back({mesh, beat.moments[i].wall.positions, nodal[i + 1], scale});
+  return {.panels = both_axes(titles, walls, o),
+          .columns = static_cast<int>(walls.size()),
           .footnote = notes(o),
           .colour_bar = ColourBar{"fibre stretch from early diastole", scale}};
 }
@@ -299,14 +298,17 @@ Figure stress_figure(const Mesh& mesh, const heartbeat::Beat& beat,
                      const analysis::BeatFields& fields, const Orientation& o) {
   const auto stress = [](const CellFields& c) { return c.fibre_stress(); };
   const auto tension = [](const CellFields& c) { return c.tension; };
-  const auto ed = at_nodes(mesh, fields.end_diastole, stress);
-  const auto es = at_nodes(mesh, fields.end_systole, stress);
-  const auto active = at_nodes(mesh, fields.end_systole, tension);
+  const auto ed = at_nodes(mesh, fields.at(heartbeat::end_diastole), stress);
+  const auto es = at_nodes(mesh, fields.at(heartbeat::end_systole), stress);
+  const auto active = at_nodes(mesh, fields.at(heartbeat::end_systole), tension);
   const std::vector<PaintedWall> walls{
-      {mesh, beat.end_diastole.positions, ed, scale_of(ed)},
-      {mesh, beat.end_systole.positions, es, scale_of(es)},
-      {mesh, beat.end_systole.positions, active, scale_of(active)}};
-  Figure figure{.panels = both_axes({"end-diastole", "end-systole", "end-systole"}, walls, o),
+      {mesh, beat.at(heartbeat::end_diastole).positions, ed, scale_of(ed)},
+      {mesh, beat.at(heartbeat::end_systole).positions, es, scale_of(es)},
+      {mesh, beat.at(heartbeat::end_systole).positions, active, scale_of(active)}};
+  Figure figure{.panels = both_axes({heartbeat::title(heartbeat::end_diastole),
+                                     heartbeat::title(heartbeat::end_systole),
+                                     heartbeat::title(heartbeat::end_systole)},
+                                    walls, o),
                 .columns = 3,
                 .footnote = notes(o)};
   for (std::size_t i = 0; i < figure.panels.size(); ++i)

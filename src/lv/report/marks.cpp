@@ -56,13 +56,11 @@ std::string name(Mark mark) {
   LV_CHECK(false);
 }
 
-Marks marks(const RunFacts& facts) {
+Marks marks(const RunFacts& facts, const std::vector<std::string>& moments) {
   Marks all{{"early_diastole", facts.unloaded ? Mark::computed : facts.shape},
-            {"early_diastole.pressure_mmHg", Mark::assumed},
-            {"end_diastole", Mark::computed},
-            {"end_diastole.pressure_mmHg", Mark::assumed},
-            {"end_systole", Mark::computed},
-            {"end_systole.pressure_mmHg", Mark::assumed}};
+            {"early_diastole.pressure_mmHg", Mark::assumed}};
+  for (const std::string& moment : moments)
+    all.insert(all.end(), {{moment, Mark::computed}, {moment + ".pressure_mmHg", Mark::assumed}});
   mark_volumes(facts, all);
   for (const char* figure : {"mass_g", "whole_wall", "zones", "fibre_shortening_percent",
                              "rotation", "plausibility", "calibration.beat_ml"})

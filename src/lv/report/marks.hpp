@@ -14,8 +14,9 @@ enum class Mark { measured, fitted, assumed, computed };
 
 [[nodiscard]] std::string name(Mark mark);
 
-/// The marks of summary.json: path of keys ("end_diastole.pressure_mmHg") and mark. The longest
-/// path that a figure's own begins with holds for it.
-[[nodiscard]] std::vector<std::pair<std::string, Mark>> marks(const RunFacts& facts);
+/// The marks of summary.json with these named moments: path of keys ("end_diastole.pressure_mmHg")
+/// and mark. The longest path that a figure's own begins with holds for it.
+[[nodiscard]] std::vector<std::pair<std::string, Mark>> marks(
+    const RunFacts& facts, const std::vector<std::string>& moments);
 
 }  // namespace lv::report

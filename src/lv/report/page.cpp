@@ -4,6 +4,7 @@
 #include "lv/base/json_file.hpp"
 #include "lv/base/table.hpp"
 #include "lv/base/units.hpp"
+#include "lv/heartbeat/beat.hpp"
 #include "lv/mesh/cell.hpp"
 #include "lv/report/bundle.hpp"
 #include "lv/report/flow_series.hpp"
@@ -261,16 +262,18 @@ struct PageFile {
   const char* name;
 };
 
-constexpr std::array<PageFile, 16> page_files{{
+constexpr std::array<PageFile, 18> page_files{{
     {"results", "summary.json", "summary.json"},
     {"results", "regions.csv", "regions.csv"},
     {"results", "rotation.csv", "rotation.csv"},
     {"results", "infarct.csv", "infarct.csv"},
+    {"results", "stress_stretch.csv", "stress_stretch.csv"},
     {"results", "strain_comparison_circumferential.csv", "strain_comparison_circumferential.csv"},
     {"results", "strain_comparison_radial.csv", "strain_comparison_radial.csv"},
     {"results", "strain_agreement.json", "strain_agreement.json"},
     {"results", "outline_distances.csv", "outline_distances.csv"},
     {"beat", "curves.csv", "curves.csv"},
+    {"beat", "moments.csv", "moments.csv"},
     {"beat", "confirmation.json", "confirmation.json"},
     {"calibrate", "calibration.json", "calibration.json"},
     {"mesh", "quality.csv", "quality.csv"},
@@ -289,23 +292,26 @@ Json files_json(const fs::path& work) {
   return json;
 }
 
-/// The time of the last row of a curves.csv in the filling phase, if contraction follows [s].
-double end_of_filling(const Table& curves) {
-  const auto phases = curves.words("phase");
-  const auto next = std::find_if(phases.begin(), phases.end(),
-                                 [](const std::string& phase) { return phase != "filling"; });
-  if (next == phases.end())
-    return std::numeric_limits<double>::infinity();
-  return next == phases.begin() ? 0.0 : curves.numbers("time_s")[next - phases.begin() - 1];
-}
-
 /// When the beat was at end-diastole; infinite when it has not been there [s].
 double end_diastole(const fs::path& work) {
-  if (const fs::path summary = file_of(work, "results", "summary.json"); !summary.empty())
-    return from_json_file(
-        summary, [](const Json& json) -> double { return json.at("end_diastole").at("time_s"); });
-  const auto curves = table_of(work, "beat", "curves.csv");
-  return curves ? end_of_filling(*curves) : std::numeric_limits<double>::infinity();
+  if (const auto moments = table_of(work, "beat", "moments.csv")) {
+    const auto names = moments->words("moment");
+    const auto found = std::find(names.begin(), names.end(), heartbeat::end_diastole);
+    if (found != names.end())
+      return moments->numbers("time_s").at(static_cast<std::size_t>(found - names.begin()));
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+/// What the page says of a case's state.
+std::vector<std::string> state_of(const PageCase& shown) {
+  std::vector<std::string> state = shown.state;
+  if (!file_of(shown.work, "beat", "wall.pvd").empty() &&
+      file_of(shown.work, "beat", "moments.csv").empty())
+    state.push_back(
+        "03_beat has no moments.csv: strains are from early diastole at all times, and no moment "
+        "has a name.");
+  return state;
 }
 
 /// Frames of the beat; without any, the undeformed mesh.
@@ -324,13 +330,10 @@ Data case_html(const PageCase& shown, int number, std::size_t count) {
   Arrays arrays(number);
   Json json{{"folder", count < 2 ? "the work folder" : folders.at(number)},
             {"complete", shown.complete},
-            {"state", shown.state},
+            {"state", state_of(shown)},
             {"files", files_json(shown.work)}};
-  const double ed = end_diastole(shown.work);
-  if (std::isfinite(ed))
-    json["end_diastole_s"] = ed;
   if (const auto frames = wall_frames(shown.work); !frames.empty()) {
-    const WallSeries wall = read_wall_series(frames, ed);
+    const WallSeries wall = read_wall_series(frames, end_diastole(shown.work));
     json["wall"] = wall_json(wall, arrays);
     const auto blood = frames_of(file_of(shown.work, "beat", "blood.pvd"));
     const auto [lower, upper] = surroundings(wall);

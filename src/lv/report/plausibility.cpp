@@ -73,25 +73,37 @@ double off(double J) {
   return 100.0 * (J - 1.0);
 }
 
+/// The worst of all moments.
 double mean_J(const Results& r) {
-  const double ed = off(r.J_end_diastole.mean);
-  const double es = off(r.J_end_systole.mean);
-  return std::abs(ed) > std::abs(es) ? ed : es;
+  double worst = 0.0;
+  for (const auto& [moment, shape] : r.moments)
+    if (const double here = off(r.whole(moment, "J").mean); std::abs(here) > std::abs(worst))
+      worst = here;
+  return worst;
 }
 
 double tail_J(const Results& r) {
   double most = 0.0;
-  for (const Statistics* J : {&r.J_end_diastole, &r.J_end_systole})
-    most = std::max({most, std::abs(off(J->p1)), std::abs(off(J->p99))});
+  for (const auto& [moment, shape] : r.moments) {
+    const Statistics& J = r.whole(moment, "J");
+    most = std::max({most, std::abs(off(J.p1)), std::abs(off(J.p99))});
+  }
+  return most;
+}
+
+double base_shift(const Results& r) {
+  double most = 0.0;
+  for (const auto& [moment, shape] : r.moments)
+    most = std::max(most, shape.base_axial_shift);
   return most;
 }
 
 double value_of(const std::string& quantity, const JudgedBeat& beat) {
   const Results& r = beat.results;
   if (quantity == "edv_ml")
-    return 1e-3 * r.end_diastole.cavity_volume;
+    return 1e-3 * r.at(heartbeat::end_diastole).cavity_volume;
   if (quantity == "esv_ml")
-    return 1e-3 * r.end_systole.cavity_volume;
+    return 1e-3 * r.at(heartbeat::end_systole).cavity_volume;
   if (quantity == "ejection_fraction_percent")
     return 100.0 * r.ejection_fraction();
   if (quantity == "mass_g")
@@ -99,13 +111,13 @@ double value_of(const std::string& quantity, const JudgedBeat& beat) {
   if (quantity == "fibre_shortening_percent")
     return 100.0 * r.fibre_shortening;
   if (quantity.ends_with("_strain"))
-    return r.whole("end_systole", quantity).mean;
+    return r.whole(heartbeat::end_systole, quantity).mean;
   if (quantity == "thickening_percent")
     return 100.0 * r.thickening;
   if (quantity == "apex_rotation_deg")
     return r.rotation.back().from_end_diastole / units::degree;
   if (quantity == "base_axial_shift_mm")
-    return std::max(r.end_diastole.base_axial_shift, r.end_systole.base_axial_shift);
+    return base_shift(r);
   if (quantity == "wall_volume_mean_percent")
     return mean_J(r);
   LV_CHECK(quantity == "wall_volume_tails_percent");

@@ -44,11 +44,12 @@ Json statistics_json(const Statistics& s, const std::string& unit) {
           {"p50", number(s.p50)},   {"p99", number(s.p99)}, {"unit", unit}};
 }
 
-Json region_json(const Results& results, const std::string& state, const std::string& region) {
+/// The statistics of a region at every moment, by the moment's name and the quantity's.
+Json region_json(const Results& results, const std::string& region) {
   Json json;
   for (const auto& r : results.regional)
-    if (r.state == state && r.region == region)
-      json[r.quantity] = statistics_json(r.statistics, r.unit);
+    if (r.region == region)
+      json[r.state][r.quantity] = statistics_json(r.statistics, r.unit);
   return json;
 }
 
@@ -64,16 +65,16 @@ const RegionalValue& at_end_systole(const Results& results, const std::string& r
                                     const std::string& quantity) {
   return *std::find_if(
       results.regional.begin(), results.regional.end(), [&](const RegionalValue& r) {
-        return r.state == "end_systole" && r.region == region && r.quantity == quantity;
+        return r.state == heartbeat::end_systole && r.region == region && r.quantity == quantity;
       });
 }
 
 Json zones_json(const Results& results) {
   Json json;
-  for (const char* zone : zones)
-    json[zone] = {{"volume_ml", number(1e-3 * at_end_systole(results, zone, "J").volume)},
-                  {"end_diastole", region_json(results, "end_diastole", zone)},
-                  {"end_systole", region_json(results, "end_systole", zone)}};
+  for (const char* zone : zones) {
+    json[zone] = {{"volume_ml", number(1e-3 * at_end_systole(results, zone, "J").volume)}};
+    json[zone].update(region_json(results, zone));
+  }
   return json;
 }
 
@@ -120,7 +121,9 @@ std::string unloaded_text(const UnloadedShape& u) {
 }
 
 std::vector<Judgement> judge(const RunFacts& facts, const heartbeat::Beat& beat, const Results& r) {
-  return judge(JudgedBeat{r, facts.muscle_density, has_zones(r), beat.contraction_was_steady});
+  const heartbeat::NamedMoment* end = beat.find(heartbeat::end_systole);
+  return judge(
+      JudgedBeat{r, facts.muscle_density, has_zones(r), end != nullptr && end->by_criterion});
 }
 
 /// The end of a range; null where it has none.
@@ -183,14 +186,18 @@ Json infarct_json(const RunFacts& facts, const Results& r) {
 }
 
 /// What is to be thought of the numbers.
-void add_remarks(const RunFacts& facts, const std::vector<Judgement>& judgements, Json& json) {
+void add_remarks(const RunFacts& facts, const Results& r, const std::vector<Judgement>& judgements,
+                 Json& json) {
   for (const Judgement& j : judgements)
     json["plausibility"].push_back(judgement_json(j));
   json["assumptions"] = Json::array();
   for (const geometry::Assumption& a : facts.assumed)
     json["assumptions"].push_back({{"part", a.part}, {"text", a.text}});
   json["warnings"] = warnings(facts, judgements);
-  for (const auto& [path, mark] : marks(facts))
+  std::vector<std::string> moments;
+  for (const auto& [moment, shape] : r.moments)
+    moments.push_back(moment);
+  for (const auto& [path, mark] : marks(facts, moments))
     json["marks"][path] = name(mark);
 }
 
@@ -216,16 +223,16 @@ std::string summary_json(const RunFacts& facts, const heartbeat::Beat& beat, con
                         {"retries", beat.retries},
                         {"wall_clock_s", number(facts.wall_clock)}};
   json["early_diastole"] = shape_json(r.early_diastole);
-  json["end_diastole"] = shape_json(r.end_diastole);
-  json["end_systole"] = shape_json(r.end_systole);
-  json["edv_ml"] = number(1e-3 * r.end_diastole.cavity_volume);
-  json["esv_ml"] = number(1e-3 * r.end_systole.cavity_volume);
+  for (const auto& [moment, shape] : r.moments)
+    json[moment] = shape_json(shape);
+  json["edv_ml"] = number(1e-3 * r.at(heartbeat::end_diastole).cavity_volume);
+  json["esv_ml"] = number(1e-3 * r.at(heartbeat::end_systole).cavity_volume);
   json["ejection_fraction_percent"] = number(100.0 * r.ejection_fraction());
-  json["stroke_volume_ml"] =
-      number(1e-3 * (r.end_diastole.cavity_volume - r.end_systole.cavity_volume));
+  json["stroke_volume_ml"] = number(1e-3 * (r.at(heartbeat::end_diastole).cavity_volume -
+                                            r.at(heartbeat::end_systole).cavity_volume));
   json["mass_g"] = number(1e3 * facts.muscle_density * r.early_diastole.wall_volume);
-  json["filling_was_steady"] = beat.filling_was_steady;
-  json["contraction_was_steady"] = beat.contraction_was_steady;
+  for (const heartbeat::NamedMoment& m : beat.moments)
+    json[m.phase + "_was_steady"] = m.by_criterion;
   json["strain"] =
       std::string(
           "Green-Lagrange; at end-systole relative to end-diastole, at end-diastole "
@@ -233,8 +240,7 @@ std::string summary_json(const RunFacts& facts, const heartbeat::Beat& beat, con
       (facts.unloaded ? "the wall without load (named early_diastole)" : "early diastole");
   if (facts.unloaded)
     json["unloaded"] = unloaded_json(*facts.unloaded);
-  json["whole_wall"] = {{"end_diastole", region_json(r, "end_diastole", "wall")},
-                        {"end_systole", region_json(r, "end_systole", "wall")}};
+  json["whole_wall"] = region_json(r, "wall");
   if (has_zones(r))
     json["zones"] = zones_json(r);
   json["fibre_shortening_percent"] = number(100.0 * r.fibre_shortening);
@@ -258,7 +264,7 @@ std::string summary_json(const RunFacts& facts, const heartbeat::Beat& beat, con
          {"infarct_g", number(1e3 * s.mass)},
          {"percent_of_segment", number(100.0 * s.part)},
          {"transmurality_percent", number(100.0 * s.transmurality)}});
-  add_remarks(facts, judge(facts, beat, r), json);
+  add_remarks(facts, r, judge(facts, beat, r), json);
   json["parameters"] = pairs(facts.parameters);
   json["set_in_case_file"] = pairs(facts.origins);
   return json_text(json) + "\n";
@@ -275,8 +281,8 @@ std::string summary_text(const RunFacts& facts, const heartbeat::Beat& beat, con
     text += fmt::format("  {:<34}{:>14.2f}{:>14.2f}{:>14.2f}\n", what, a, b, c);
   };
   const VentricleShape& e = r.early_diastole;
-  const VentricleShape& d = r.end_diastole;
-  const VentricleShape& s = r.end_systole;
+  const VentricleShape& d = r.at(heartbeat::end_diastole);
+  const VentricleShape& s = r.at(heartbeat::end_systole);
   row("endocardial pressure (mmHg)", 0.0, d.pressure / mmHg, s.pressure / mmHg);
   row("cavity volume (ml)", 1e-3 * e.cavity_volume, 1e-3 * d.cavity_volume, 1e-3 * s.cavity_volume);
   row("wall volume (ml)", 1e-3 * e.wall_volume, 1e-3 * d.wall_volume, 1e-3 * s.wall_volume);
@@ -297,7 +303,7 @@ std::string summary_text(const RunFacts& facts, const heartbeat::Beat& beat, con
     text += "\n";
   text += fmt::format("  {:<34}{:>18}\n", "at end-systole, whole wall", "mean +- sd");
   for (const auto& v : r.regional)
-    if (v.state == "end_systole" && v.scheme == "whole")
+    if (v.state == heartbeat::end_systole && v.scheme == "whole")
       text += fmt::format("  {:<34}{:>9.3f} +- {:.3f}{}\n", v.quantity, v.statistics.mean,
                           v.statistics.sd, v.unit == "1" ? "" : " " + v.unit);
   text += "\n";

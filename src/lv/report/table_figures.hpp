@@ -5,7 +5,6 @@
 
 #include <filesystem>
 #include <limits>
-#include <map>
 #include <optional>
 #include <string>
 
@@ -39,13 +38,9 @@ struct CurveFacts {
 /// Rotation of the slices, from rotation.csv.
 [[nodiscard]] Figure rotation_figure(const Table& rotation);
 
-/// Parameters as a case file gives them, by name, as in summary.json.
-using ParameterTexts = std::map<std::string, std::string>;
-
-/// Cauchy stress against stretch along the fibre of the case's passive muscle and of excised
-/// muscle; incompressible, sides free: sigma = (P F^T)_ff - (P F^T)_ss with F = diag(l, l^-1/2,
-/// l^-1/2) [kPa].
-[[nodiscard]] Figure muscle_figure(const ParameterTexts& parameters);
+/// Stress against stretch of the case's passive muscle and of published ones, from
+/// stress_stretch.csv.
+[[nodiscard]] Figure muscle_figure(const Table& curves);
 
 /// Strain of the model against that from images, and their difference against their mean with bias
 /// and 95% limits of agreement (Bland & Altman, Lancet 327:307, 1986), of the pairs of one scheme

@@ -13,12 +13,14 @@ using report::Answer;
 analysis::Results healthy() {
   analysis::Results r;
   r.early_diastole.wall_volume = 1.1e5;
-  r.end_diastole.cavity_volume = 1.44e5;
-  r.end_systole.cavity_volume = 6.0e4;
+  r.moments = {{"end_diastole", {}}, {"end_systole", {}}};
+  r.moments[0].second.cavity_volume = 1.44e5;
+  r.moments[1].second.cavity_volume = 6.0e4;
   r.rotation.push_back({7, 0.21, 0.2, 0.0});  // 12 degrees
   r.fibre_shortening = 0.2;
   r.thickening = 0.4;
-  r.J_end_diastole = r.J_end_systole = {1.0, 0.01, 0.98, 1.0, 1.02};
+  for (const char* moment : {"end_diastole", "end_systole"})
+    r.regional.push_back({moment, "whole", "wall", "J", "1", 1e5, {1.0, 0.01, 0.98, 1.0, 1.02}});
   for (const char* quantity : {"circumferential_strain", "longitudinal_strain"})
     r.regional.push_back({"end_systole", "whole", "wall", quantity, "1", 1e5, {-0.2, 0, 0, 0, 0}});
   return r;
@@ -64,7 +66,7 @@ TEST_CASE("an apex that turns by 30 degrees is outside", "[report]") {
 TEST_CASE("an infarcted heart is not compared with healthy muscle, but its ejection fraction is",
           "[report]") {
   analysis::Results r = healthy();
-  r.end_systole.cavity_volume = 0.74 * r.end_diastole.cavity_volume;
+  r.moments[1].second.cavity_volume = 0.74 * r.moments[0].second.cavity_volume;
   report::JudgedBeat beat = of(r);
   beat.is_infarcted = true;
   CHECK(judged(beat, "ejection_fraction_percent").answer == Answer::outside);
@@ -83,7 +85,7 @@ TEST_CASE("without an end-systole nothing is said of it", "[report]") {
 
 TEST_CASE("an ejection fraction below zero is impossible and is told as a sentence", "[report]") {
   analysis::Results r = healthy();
-  r.end_systole.cavity_volume = 1.26 * r.end_diastole.cavity_volume;
+  r.moments[1].second.cavity_volume = 1.26 * r.moments[0].second.cavity_volume;
   const auto j = judged(of(r), "ejection_fraction_percent");
   CHECK(j.is_impossible);
   CHECK(j.answer == Answer::outside);
