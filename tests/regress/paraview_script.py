@@ -13,7 +13,8 @@ class Thing:
     """Takes every attribute and every call."""
 
     def __init__(self, *_, **attributes):
-        self.__dict__.update(attributes)
+        # ParaView makes an object of ClipType="Plane" and SliceType="Plane"
+        self.__dict__.update({name: Thing() if name.endswith("Type") else value for name, value in attributes.items()})
 
     def __getattr__(self, name):
         self.__dict__[name] = Thing()

@@ -19,7 +19,7 @@ using units::mmHg;
 
 /// Steps short enough for curves: contraction begins steeply.
 quasi_static::SolverParameters smooth(quasi_static::SolverParameters p) {
-  constexpr double first_step = 0.02;
+  constexpr double first_step = 0.002;
   constexpr double largest_change = 0.05;
   p.first_step = std::min(p.first_step, first_step);
   p.largest_change = largest_change;
@@ -138,7 +138,7 @@ class QuasiStaticRun {
     return s;
   }
 
-  static constexpr double usual_steps = 24.0;  ///< load steps of a phase
+  static constexpr double usual_steps = 25.0;  ///< load steps of a phase
   static constexpr double growth = 1.5;        ///< of a step from the one before it
   static constexpr double frame_change = 0.1;  ///< of the volume since the last frame
 

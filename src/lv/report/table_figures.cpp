@@ -60,7 +60,7 @@ Abscissa abscissa(const Table& curves, const CurveFacts& facts) {
   Abscissa a{{"time [s]"}, curves.numbers("time_s"), phases_of(curves)};
   if (!facts.is_static)
     return a;
-  a.axis.label = "load: share of each phase's";
+  a.axis.label = "load [share of each phase]";
   const std::vector<Phase> phases = a.phases;
   for (double& value : a.values) {
     std::size_t k = 0;
