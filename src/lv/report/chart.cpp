@@ -53,11 +53,25 @@ Ticks ticks_of(const Axis& axis, const std::vector<const std::vector<double>*>& 
   return range.low <= range.high ? ticks_within(with_room(range)) : ticks_within({});
 }
 
-Scale scale(const Axis& axis, const LineChart& chart, std::vector<double> Series::*values) {
+enum class Direction { x, y, second_y };
+
+Scale scale(const LineChart& chart, Direction direction) {
   std::vector<const std::vector<double>*> data;
-  for (const Series& s : chart.series)
-    data.push_back(&(s.*values));
+  for (const Series& s : chart.series) {
+    if (direction == Direction::x)
+      data.push_back(&s.x);
+    else if (s.on_second_axis == (direction == Direction::second_y))
+      data.push_back(&s.y);
+  }
+  const Axis& axis = direction == Direction::x   ? chart.x
+                     : direction == Direction::y ? chart.y
+                                                 : chart.second_y;
   return {ticks_of(axis, data), 0.0, 1.0};
+}
+
+bool has_second_axis(const LineChart& chart) {
+  return std::any_of(chart.series.begin(), chart.series.end(),
+                     [](const Series& s) { return s.on_second_axis; });
 }
 
 double widest(Canvas& canvas, const Ticks& ticks) {
@@ -96,16 +110,22 @@ std::vector<PhaseName> phase_names(Canvas& canvas, const Scale& x,
 
 /// The scales of a chart, the box between its axes, and what is written above it.
 struct Frame {
-  Scale x, y;
+  Scale x, y, second_y;
   Box plot;
   std::vector<PhaseName> phases;
 };
 
 Frame frame(Canvas& canvas, const Box& box, const LineChart& chart) {
-  Frame f{scale(chart.x, chart, &Series::x), scale(chart.y, chart, &Series::y), box, {}};
+  Frame f{scale(chart, Direction::x),
+          scale(chart, Direction::y),
+          scale(chart, Direction::second_y),
+          box,
+          {}};
   constexpr double label_height = 18.0;
   const double left = widest(canvas, f.y.marks) + tick_length + label_height + 4.0;
-  const double right = 0.5 * widest(canvas, f.x.marks);
+  const double right = has_second_axis(chart)
+                           ? widest(canvas, f.second_y.marks) + tick_length + label_height + 4.0
+                           : 0.5 * widest(canvas, f.x.marks);
   f.x.from = box.x + left;
   f.x.to = box.right() - right;
   f.phases = phase_names(canvas, f.x, chart.phases);
@@ -114,8 +134,8 @@ Frame frame(Canvas& canvas, const Box& box, const LineChart& chart) {
     top = std::max(top, (name.line + 1) * phase_line + 2.0);
   const double bottom = tick_length + 2.0 * label_height;
   f.plot = {box.x + left, box.y + top, box.width - left - right, box.height - top - bottom};
-  f.y.from = f.plot.bottom();
-  f.y.to = f.plot.y;
+  f.y.from = f.second_y.from = f.plot.bottom();
+  f.y.to = f.second_y.to = f.plot.y;
   return f;
 }
 
@@ -145,21 +165,23 @@ void draw_x_axis(Canvas& canvas, const Frame& f, const std::string& label) {
   canvas.text(label, {f.plot.x + 0.5 * f.plot.width, y + tick_length + 26.0}, style);
 }
 
-void draw_y_axis(Canvas& canvas, const Frame& f, const std::string& label) {
-  const double x = f.plot.x;
+/// `outwards` is -1 for the left axis and +1 for the right one.
+void draw_y_axis(Canvas& canvas, const Frame& f, const Scale& y, const std::string& label,
+                 double outwards) {
+  const double x = outwards < 0.0 ? f.plot.x : f.plot.right();
   TextStyle style = tick_style;
-  style.align = Align::right;
-  for (std::size_t i = 0; i < f.y.marks.values.size(); ++i) {
-    const double at = f.y(f.y.marks.values[i]);
-    canvas.line({x, at}, {x - tick_length, at}, {});
-    canvas.text(f.y.marks.labels[i], {x - tick_length - 3.0, at}, style);
+  style.align = outwards < 0.0 ? Align::right : Align::left;
+  for (std::size_t i = 0; i < y.marks.values.size(); ++i) {
+    const double at = y(y.marks.values[i]);
+    canvas.line({x, at}, {x + outwards * tick_length, at}, {});
+    canvas.text(y.marks.labels[i], {x + outwards * (tick_length + 3.0), at}, style);
   }
   canvas.line({x, f.plot.y}, {x, f.plot.bottom()}, {});
   style = label_style;
   style.align = Align::centre;
   style.turn = upwards;
-  const double away = tick_length + 3.0 + widest(canvas, f.y.marks) + 11.0;
-  canvas.text(label, {x - away, f.plot.y + 0.5 * f.plot.height}, style);
+  const double away = tick_length + 3.0 + widest(canvas, y.marks) + 11.0;
+  canvas.text(label, {x + outwards * away, f.plot.y + 0.5 * f.plot.height}, style);
 }
 
 void draw_marker(Canvas& canvas, Marker marker, const Point& at, const Colour& colour) {
@@ -188,7 +210,7 @@ std::vector<std::vector<Point>> runs(const Series& s, const Scale& x, const Scal
 }
 
 void draw_series(Canvas& canvas, const Frame& f, const Series& s, const Colour& colour) {
-  for (const auto& run : runs(s, f.x, f.y)) {
+  for (const auto& run : runs(s, f.x, s.on_second_axis ? f.second_y : f.y)) {
     if (s.width > 0.0)
       canvas.line(run, {colour, s.width, s.dashed});
     if (s.marker != Marker::none)
@@ -207,7 +229,11 @@ std::vector<LegendEntry> legend(const LineChart& chart) {
     const Series& s = chart.series[i];
     const Colour colour = colour_of(chart, i);
     if (!s.label.empty())
-      entries.push_back({s.label, colour, true, {colour, s.width, s.dashed}, s.marker});
+      entries.push_back({s.label + (s.on_second_axis ? " (right)" : ""),
+                         colour,
+                         true,
+                         {colour, s.width, s.dashed},
+                         s.marker});
   }
   return entries;
 }
@@ -230,7 +256,9 @@ void draw(Canvas& canvas, const Box& box, const LineChart& chart) {
   for (const double value : f.y.marks.values)
     canvas.line({f.plot.x, f.y(value)}, {f.plot.right(), f.y(value)}, {faint, 0.6});
   draw_x_axis(canvas, f, chart.x.label);
-  draw_y_axis(canvas, f, chart.y.label);
+  draw_y_axis(canvas, f, f.y, chart.y.label, -1.0);
+  if (has_second_axis(chart))
+    draw_y_axis(canvas, f, f.second_y, chart.second_y.label, 1.0);
   constexpr double rim = 4.0;  // markers and thick lines on the frame stay whole
   canvas.clipped({f.plot.x - rim, f.plot.y - rim, f.plot.width + 2 * rim, f.plot.height + 2 * rim},
                  [&] {

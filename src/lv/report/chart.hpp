@@ -19,6 +19,7 @@ struct Series {
   double width = 1.8;              ///< [points]; 0: markers alone
   bool dashed = false;
   Marker marker = Marker::none;
+  bool on_second_axis = false;
 };
 
 struct Axis {
@@ -34,6 +35,7 @@ struct Phase {
 
 struct LineChart {
   Axis x{}, y{};
+  Axis second_y{};  ///< on the right, for series that ask for it
   std::vector<Series> series{};
   std::vector<Phase> phases{};
 };
