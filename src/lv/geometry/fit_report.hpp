@@ -33,6 +33,12 @@ struct Thickness {
   int slice = 0;           ///< the nearest short-axis slice
 };
 
+/// A part of the anatomy that nothing shows ("apex", "base", "septum", "early diastole"), and what
+/// was taken for it.
+struct Assumption {
+  std::string part, text;
+};
+
 struct FitReport {
   std::vector<ImageReport> short_axis;  ///< from the base to the apex
   std::vector<ImageReport> long_axis;
@@ -48,6 +54,7 @@ struct FitReport {
   Thickness thinnest, thickest;
   double slice_tilt = 0.0;         ///< between the long axis and the basal slice's normal [radians]
   std::vector<std::string> notes;  ///< what was assumed or extrapolated
+  std::vector<Assumption> assumed;  ///< of these, what is said of the apex and the base
 };
 
 /// Volumes by adding slabs: area of a slice times the thickness of the slab that it stands for,

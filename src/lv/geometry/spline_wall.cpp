@@ -27,6 +27,11 @@ std::string place(const Vec3& x) {
   return fmt::format("z = {:.1f} mm, angle {:.0f} degrees", z, angle < 0.0 ? angle + 360.0 : angle);
 }
 
+void assume(const char* part, std::string text, FitReport& said) {
+  said.notes.push_back(text);
+  said.assumed.push_back({part, std::move(text)});
+}
+
 /// Collects the points of the contours for the fit.
 class Sampler {
  public:
@@ -46,13 +51,15 @@ class Sampler {
   }
 
   /// The apexes that no contour shows, with a note on each.
-  void add_assumed_apexes(std::vector<std::string>& notes) {
+  void add_assumed_apexes(FitReport& notes) {
     const Vec3 endo = frame_.to_model(endo_apex(contours_));
     if (!shows_apex(contours_, Side::endo)) {
       add_apex(Side::endo, endo);
-      notes.push_back(fmt::format(
-          "no contour shows the endocardial apex: assumed {:.1f} mm beyond the last slice",
-          extrapolated_depth(contours_, Side::endo)));
+      assume("apex",
+             fmt::format(
+                 "no contour shows the endocardial apex: assumed {:.1f} mm beyond the last slice",
+                 extrapolated_depth(contours_, Side::endo)),
+             notes);
     }
     if (!shows_apex(contours_, Side::epi))
       add_assumed_epi_apex(endo, notes);
@@ -102,7 +109,7 @@ class Sampler {
       }
   }
 
-  void add_assumed_epi_apex(const Vec3& endo, std::vector<std::string>& notes) {
+  void add_assumed_epi_apex(const Vec3& endo, FitReport& notes) {
     const double thickness = apical_thickness();
     const Contour& last = *loops_from_base(contours_, Side::epi).back();
     const double depth = extrapolated_depth(contours_, Side::epi);
@@ -110,17 +117,19 @@ class Sampler {
     const bool lone = find(contours_.short_axis, last.slice, Side::endo) == nullptr;
     if (lone && height < endo.z() - thickness) {
       add_apex(Side::epi, Vec3(endo.x(), endo.y(), height));
-      notes.push_back(
-          fmt::format("no contour shows the epicardial apex: assumed {:.1f} mm beyond slice {}, "
-                      "the last with muscle",
-                      depth, last.slice));
+      assume("apex",
+             fmt::format("no contour shows the epicardial apex: assumed {:.1f} mm beyond slice {}, "
+                         "the last with muscle",
+                         depth, last.slice),
+             notes);
       return;
     }
     add_apex(Side::epi, endo - Vec3(0.0, 0.0, thickness));
-    notes.push_back(
-        fmt::format("no contour shows the epicardial apex: assumed {:.1f} mm below "
-                    "the endocardial one, as thick as the wall of the last slice",
-                    thickness));
+    assume("apex",
+           fmt::format("no contour shows the epicardial apex: assumed {:.1f} mm below "
+                       "the endocardial one, as thick as the wall of the last slice",
+                       thickness),
+           notes);
   }
 
   /// Its length is the others' mean.
@@ -229,8 +238,7 @@ void note_missing_epicardium(const Contours& contours, std::vector<std::string>&
 }
 
 /// Where the most basal loop of a side leaves a gap below the base plane.
-void note_extrapolated_base(const Contours& contours, const Frame& frame,
-                            std::vector<std::string>& notes) {
+void note_extrapolated_base(const Contours& contours, const Frame& frame, FitReport& notes) {
   constexpr double tolerance = 1.0;  // [mm]
   for (const Side side : {Side::endo, Side::epi})
     for (const int slice : slices_from_base(contours)) {
@@ -241,11 +249,12 @@ void note_extrapolated_base(const Contours& contours, const Frame& frame,
       for (const Vec3& x : loop->points)
         lowest = std::min(lowest, frame.to_model(x).z());
       if (lowest < -tolerance)
-        notes.push_back(
-            fmt::format("{} is extrapolated by up to {:.1f} mm from slice {} to the "
-                        "base plane{}",
-                        name(side), -lowest, slice,
-                        contours.long_axis.empty() ? "" : ", led by long-axis contours"));
+        assume("base",
+               fmt::format("{} is extrapolated by up to {:.1f} mm from slice {} to the "
+                           "base plane{}",
+                           name(side), -lowest, slice,
+                           contours.long_axis.empty() ? "" : ", led by long-axis contours"),
+               notes);
       break;
     }
 }
@@ -316,19 +325,20 @@ SplineWall fit_spline_wall(const Contours& contours, const SplineFitParameters& 
   for (const Contour& loop : placed.short_axis)
     check_star_shaped(loop, frame);
 
-  std::vector<std::string> notes;
+  FitReport said;
   Sampler sampler(placed, frame, parameters);
-  sampler.add_assumed_apexes(notes);
-  note_missing_epicardium(placed, notes);
-  note_extrapolated_base(placed, frame, notes);
-  note_wide_gaps(placed, frame, notes);
+  sampler.add_assumed_apexes(said);
+  note_missing_epicardium(placed, said.notes);
+  note_extrapolated_base(placed, frame, said);
+  note_wide_gaps(placed, frame, said.notes);
 
   const FittedSurfaces fit = fit_surfaces(sampler.data(), parameters);
   check_surfaces(placed, fit);
   FitReport report = measure_fit(placed, frame, fit.endo, fit.epi, parameters.margin);
   for (std::size_t k = 0; k < shifts.size(); ++k)
     report.short_axis[k].shift = shifts[k];
-  report.notes = std::move(notes);
+  report.notes = std::move(said.notes);
+  report.assumed = std::move(said.assumed);
   check_wall(placed, report.thinnest, parameters.thinnest_wall);
   return {frame, matched_meridians(fit.endo, fit.epi), std::move(report)};
 }

@@ -4,6 +4,7 @@
 #include "lv/base/time_left.hpp"
 #include "lv/base/units.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -16,19 +17,29 @@ using quasi_static::Step;
 using solid::Loads;
 using units::mmHg;
 
+/// Steps short enough for curves: contraction begins steeply.
+quasi_static::SolverParameters smooth(quasi_static::SolverParameters p) {
+  constexpr double first_step = 0.002;
+  constexpr double largest_change = 0.05;
+  p.first_step = std::min(p.first_step, first_step);
+  p.largest_change = largest_change;
+  return p;
+}
+
 class QuasiStaticRun {
  public:
   QuasiStaticRun(const QuasiStaticSetup& setup, const Observers& observers)
       : setup_(setup),
         observers_(observers),
         phases_(phases(setup.protocol)),
-        engine_(setup.mesh, setup.model, setup.parameters) {
+        engine_(setup.mesh, setup.model, smooth(setup.parameters)) {
     record({phase().loads(0.0), 0.0, 0.0, engine_.cavity_volume(), {}});
   }
 
   Beat run() {
     const auto start = std::chrono::steady_clock::now();
     for (run_.phase = 0; run_.phase < phases_.size(); ++run_.phase) {
+      steps_before_ = run_.beat.steps;
       go_to(final_loads());
       run_.beat.moments.push_back({phase().marks, phase().name, true, state()});
       run_.phase_start += phase().ramp;
@@ -63,12 +74,15 @@ class QuasiStaticRun {
               left_.words(steps_left(step)));
   }
 
-  /// Load steps that the beat will probably still take: those of this phase at the length of the
-  /// last one, and those that another phase usually takes.
+  /// Load steps that the beat will probably still take: of this phase what is left of the usual
+  /// number, or steps that grow from the last one if those are more; and those of later phases.
   [[nodiscard]] double steps_left(const Step& step) const {
-    constexpr double usual = 12.0;
-    const auto others = static_cast<double>(phases_.size() - run_.phase - 1);
-    return std::ceil((1.0 - step.progress) / step.length - 1e-9) + usual * others;
+    const double later = usual_steps * static_cast<double>(phases_.size() - run_.phase - 1);
+    if (is_end(step) && step.progress > 0.0)
+      return later;
+    const double in_lengths = (1.0 - step.progress) / step.length;
+    const double growing = std::log(1.0 + (growth - 1.0) * in_lengths) / std::log(growth);
+    return std::max(growing, usual_steps - (run_.beat.steps - steps_before_)) + later;
   }
 
   void record(const Step& step) {
@@ -85,9 +99,12 @@ class QuasiStaticRun {
     run_.beat.curves.push_back(row);
     if (observers_.curves)
       observers_.curves(run_);
-    if (!observers_.frame || (!is_end(step) && run_.time < run_.next_frame))
+    const bool has_moved =
+        std::abs(step.volume - last_frame_volume_) > frame_change * last_frame_volume_;
+    if (!observers_.frame || (!is_end(step) && !has_moved && run_.time < run_.next_frame))
       return;
     run_.next_frame = run_.time + setup_.frame_interval;
+    last_frame_volume_ = step.volume;
     const int number = run_.frames++;
     run_.frame_times.push_back(run_.time);
     observers_.frame({number, state(), run_, {}});
@@ -121,12 +138,18 @@ class QuasiStaticRun {
     return s;
   }
 
+  static constexpr double usual_steps = 25.0;  ///< load steps of a phase
+  static constexpr double growth = 1.5;        ///< of a step from the one before it
+  static constexpr double frame_change = 0.1;  ///< of the volume since the last frame
+
   const QuasiStaticSetup& setup_;
   const Observers& observers_;
   std::vector<Phase> phases_;
   Engine engine_;
   RunState run_;
   TimeLeft left_;
+  int steps_before_ = 0;            ///< of the phases before this one
+  double last_frame_volume_ = 0.0;  ///< [mm^3]
 };
 
 }  // namespace

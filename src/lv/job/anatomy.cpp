@@ -31,6 +31,9 @@ constexpr const char* assumed_septum =
 constexpr const char* assumed_septum_of_mesh =
     "the septum is assumed on the mesh's x axis: regions bear the wrong names if it is elsewhere "
     "(set regions.septum_angle)";
+constexpr const char* assumed_moment =
+    "the shape is taken as that of early diastole, free of stress: nothing says at which moment it "
+    "was seen (set unloaded.pressure if it bears a pressure)";
 
 geometry::BaseAt base_at(const Case& c, const Drawn& drawn) {
   switch (c.anatomy.contours.base_at) {
@@ -43,6 +46,22 @@ geometry::BaseAt base_at(const Case& c, const Drawn& drawn) {
     default:
       return drawn.usual_base;
   }
+}
+
+/// A shape that is filled, or may be, is taken as free of stress; a warning goes first.
+void assume_moment(const Case& c, const std::vector<std::string>& warnings, bool is_known,
+                   Shape& shape) {
+  for (const std::string& text : warnings)
+    shape.warnings.push_back({"early diastole", text});
+  if (!is_loaded(c) && !is_known)
+    shape.assumed.push_back({"early diastole", assumed_moment});
+}
+
+/// Warnings are assumptions and notes too.
+void collect_remarks(Shape& shape) {
+  shape.assumed.insert(shape.assumed.begin(), shape.warnings.begin(), shape.warnings.end());
+  for (const geometry::Assumption& a : shape.warnings)
+    shape.notes.push_back(a.text);
 }
 
 std::string base_rule(const std::string& height, geometry::BasePlane direction) {
@@ -66,10 +85,11 @@ Shape from_drawn(const Case& c) {
   shape.notes = std::move(drawn.notes);
   for (const auto& notes : {wall->report().notes, found.notes})
     shape.notes.insert(shape.notes.end(), notes.begin(), notes.end());
-  shape.warnings = std::move(drawn.warnings);
   if (!fit.frame.septum && !c.origin.contains("regions.septum_angle"))
-    shape.warnings.emplace_back(assumed_septum);
-  shape.notes.insert(shape.notes.end(), shape.warnings.begin(), shape.warnings.end());
+    shape.warnings.push_back({"septum", assumed_septum});
+  shape.assumed = wall->report().assumed;
+  assume_moment(c, drawn.warnings, drawn.moment_is_known, shape);
+  collect_remarks(shape);
   shape.quality = report::QualitySheet{
       wall->report(),     drawn.source,       base_rule(found.base, fit.frame.base_plane),
       drawn.label_cavity, drawn.label_muscle, shape.notes};
@@ -105,8 +125,9 @@ Shape from_mesh(const Case& c) {
   shape.frame = imported.frame;
   shape.notes = imported.notes;
   if (!c.origin.contains("regions.septum_angle"))
-    shape.warnings.emplace_back(assumed_septum_of_mesh);
-  shape.notes.insert(shape.notes.end(), shape.warnings.begin(), shape.warnings.end());
+    shape.warnings.push_back({"septum", assumed_septum_of_mesh});
+  assume_moment(c, {}, false, shape);
+  collect_remarks(shape);
   return shape;
 }
 
@@ -126,14 +147,23 @@ std::vector<double> numbers(const Vec3& v) {
   return {v.x(), v.y(), v.z()};
 }
 
+nlohmann::ordered_json json_of(const std::vector<geometry::Assumption>& list) {
+  auto json = nlohmann::ordered_json::array();
+  for (const geometry::Assumption& a : list)
+    json.push_back({{"part", a.part}, {"text", a.text}});
+  return json;
+}
+
 }  // namespace
 
 Shape make_anatomy(const Case& c) {
   Shape shape = read_shape(c);
   const NamesAlone names = names_alone(c);  // notes may name files: they are kept and shown
-  for (auto* texts : {&shape.notes, &shape.warnings})
-    for (std::string& text : *texts)
-      text = names(text);
+  for (std::string& text : shape.notes)
+    text = names(text);
+  for (auto* list : {&shape.assumed, &shape.warnings})
+    for (geometry::Assumption& a : *list)
+      a.text = names(a.text);
   if (shape.quality)
     shape.quality->notes = shape.notes;
   return shape;
@@ -158,7 +188,8 @@ void write_anatomy(const Shape& shape, const fs::path& folder) {
                                      {"y_axis_in_image_space", numbers(axes.col(1))},
                                      {"z_axis_in_image_space", numbers(axes.col(2))},
                                      {"notes", shape.notes},
-                                     {"warnings", shape.warnings}};
+                                     {"assumed", json_of(shape.assumed)},
+                                     {"warnings", json_of(shape.warnings)}};
   write_file(folder / frame_name, json_text(frame) + "\n");
   if (!shape.quality)
     return;
@@ -168,9 +199,14 @@ void write_anatomy(const Shape& shape, const fs::path& folder) {
   write_file(folder / "quality.txt", report::quality_text(*shape.quality));
 }
 
-std::vector<std::string> anatomy_warnings(const fs::path& folder) {
+AnatomyRemarks anatomy_remarks(const fs::path& folder) {
   return from_json_file(folder / frame_name, [](const nlohmann::ordered_json& json) {
-    return json.at("warnings").get<std::vector<std::string>>();
+    AnatomyRemarks remarks;
+    for (const auto& a : json.at("assumed"))
+      remarks.assumed.push_back({a.at("part"), a.at("text")});
+    for (const auto& a : json.at("warnings"))
+      remarks.warnings.push_back(a.at("text"));
+    return remarks;
   });
 }
 

@@ -19,8 +19,10 @@ struct Shape {
   geometry::Frame frame;
   std::optional<report::QualitySheet> quality;  ///< for a drawn wall
   std::vector<std::string> notes;               ///< what was assumed or changed
-  std::vector<std::string> warnings;  ///< of these, what results may be wrong for: a septum that
-                                      ///< nothing shows, a filled wall taken as free of stress
+  std::vector<geometry::Assumption> assumed;    ///< septum, early diastole, apex, base
+  std::vector<geometry::Assumption>
+      warnings;  ///< of these, what results may be wrong for: a septum that
+                 ///< nothing shows, a filled wall taken as free of stress
 };
 
 /// The shape that a case asks for. Throws InputError naming the file and what is wrong in it.
@@ -33,7 +35,11 @@ struct Shape {
 /// residual distances per image and the quality sheet as quality.csv, .json and .txt.
 void write_anatomy(const Shape& shape, const std::filesystem::path& folder);
 
-/// The warnings that write_anatomy left in a folder.
-[[nodiscard]] std::vector<std::string> anatomy_warnings(const std::filesystem::path& folder);
+/// What write_anatomy left in a folder of a shape's assumptions, and of its warnings.
+struct AnatomyRemarks {
+  std::vector<geometry::Assumption> assumed;
+  std::vector<std::string> warnings;
+};
+[[nodiscard]] AnatomyRemarks anatomy_remarks(const std::filesystem::path& folder);
 
 }  // namespace lv::job

@@ -55,26 +55,10 @@ calibrate::Plan plan(const Case& c, const std::vector<StrainTarget>& targets) {
           k.errors};
 }
 
-/// The names of the parameters that a calibration changes.
-std::vector<std::string> changed(const Calibration& k) {
-  std::vector<std::string> names;
-  if (k.passive == FittedPassive::C_a)
-    names.emplace_back("passive.C_a");
-  if (k.passive == FittedPassive::scale || k.passive == FittedPassive::scale_and_exponent)
-    for (const char* a : {"a", "a_f", "a_s", "a_fs"})
-      names.push_back(std::string("passive.holzapfel_ogden.") + a);
-  if (k.passive == FittedPassive::scale_and_exponent)
-    for (const char* b : {"b", "b_f", "b_s", "b_fs"})
-      names.push_back(std::string("passive.holzapfel_ogden.") + b);
-  if (k.active)
-    names.emplace_back("active.T_scale");
-  return names;
-}
-
 /// Lines for a case file, in place of its [calibrate].
 std::string fragment(const Case& fitted) {
   std::vector<CaseLine> lines;
-  const auto names = changed(fitted.calibration);
+  const auto names = fitted_names(fitted.calibration);
   for (const Parameter& p : parameters())
     if (std::find(names.begin(), names.end(), p.name) != names.end())
       lines.push_back({p.name, p.get(fitted), ""});
@@ -127,6 +111,21 @@ Json corrected(const Json& calibration, Json parameters, const Json& rows) {
 }
 
 }  // namespace
+
+std::vector<std::string> fitted_names(const Calibration& k) {
+  std::vector<std::string> names;
+  if (k.passive == FittedPassive::C_a)
+    names.emplace_back("passive.C_a");
+  if (k.passive == FittedPassive::scale || k.passive == FittedPassive::scale_and_exponent)
+    for (const char* a : {"a", "a_f", "a_s", "a_fs"})
+      names.push_back(std::string("passive.holzapfel_ogden.") + a);
+  if (k.passive == FittedPassive::scale_and_exponent)
+    for (const char* b : {"b", "b_f", "b_s", "b_fs"})
+      names.push_back(std::string("passive.holzapfel_ogden.") + b);
+  if (k.active)
+    names.emplace_back("active.T_scale");
+  return names;
+}
 
 Case for_calibration(Case c) {
   c.engine = Engine::quasi_static;
@@ -183,7 +182,7 @@ void make_calibration(const Case& c, const MeshResult& mesh, const std::filesyst
 }
 
 Case calibrated(Case c, const std::filesystem::path& file) {
-  for (const std::string& name : changed(c.calibration))
+  for (const std::string& name : fitted_names(c.calibration))
     c.origin[name] = file.string();
   return with(std::move(c), calibrate::parameters_of(file));
 }

@@ -20,6 +20,9 @@ void make_calibration(const Case& c, const MeshResult& mesh, const std::filesyst
 inline constexpr const char* calibration_name = "calibration.json";
 inline constexpr const char* confirmation_name = "confirmation.json";
 
+/// Names of the parameters that a calibration changes.
+[[nodiscard]] std::vector<std::string> fitted_names(const Calibration& k);
+
 /// The case with the parameters of such a file.
 [[nodiscard]] Case calibrated(Case c, const std::filesystem::path& file);
 

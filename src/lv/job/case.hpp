@@ -159,6 +159,7 @@ struct Case {
   material::Land2017 land2017;
   mesh::InfarctParameters scar;  ///< where the infarct is
   material::InfarctScaling infarct;
+  double muscle_density = 1.05e-6;  ///< of printed masses [kg/mm^3]
   fluid::Blood blood;
   Box box;
   immersed::CouplingParameters coupling;

@@ -145,8 +145,8 @@ LV_CONDITION(calcium_counts, has_kinetics(c) || moving_fibres.holds(c, s),
 LV_CONDITION(alpha_function, has_alpha_function(c), "with calcium.shape = \"alpha_function\"")
 LV_CONDITION(double_exponential, !has_alpha_function(c),
              "with calcium.shape = \"double_exponential\"")
-LV_CONDITION(mass_counts, s == Stage::beat ? c.engine == Engine::immersed : may_have_infarct(c),
-             "with engine = \"immersed\", or with an infarct (infarct.source), whose mass it gives")
+LV_CONDITION(mass_counts, s == Stage::results || may_have_infarct(c),
+             "for the masses of wall and infarct")
 
 // circulation
 LV_CONDITION(circuit, c.circulation.asked(),

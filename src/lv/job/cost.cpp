@@ -15,7 +15,7 @@ namespace {
 
 /// Of the quasi-static engine, in times of a first load step: a beat, an unloading, and a fit of
 /// one parameter. Rough (docs/progress.md).
-constexpr double steps_of_beat = 22.0;
+constexpr double steps_of_beat = 45.0;
 constexpr double steps_of_unloading = 25.0;
 constexpr double steps_of_fit = 45.0;
 

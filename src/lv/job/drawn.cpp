@@ -125,6 +125,7 @@ Drawn from_labels(const Case& c) {
   drawn.septum = traced.septum;
   drawn.usual_base = geometry::BaseAt::slab;
   drawn.notes = std::move(traced.notes);
+  drawn.moment_is_known = volume.frames > 1;
   warn(end_diastole_note(c, moments_of(volume, a.cavity), frame + 1), drawn);
   return drawn;
 }
@@ -154,6 +155,7 @@ Drawn from_sunnybrook(const Case& c) {
   drawn.usual_base = geometry::BaseAt::slab;
   drawn.notes = image::remarks(chosen.stack);
   drawn.notes.insert(drawn.notes.end(), chosen.read.notes.begin(), chosen.read.notes.end());
+  drawn.moment_is_known = chosen.read.phases.size() > 1;
   warn(end_diastole_note(c, moments_of(chosen.read.phases), a.phase), drawn);
   drawn.contours = std::move(chosen.read.phases.at(a.phase));
   return drawn;
@@ -172,6 +174,7 @@ Drawn from_guide_points(const Case& c) {
       missing.raise(c, place_of(c, "anatomy.guide_points.file"),
                     fmt::format("{} has\n{}", file.string(), describe_phases(frames, "frame")));
     }
+    drawn.moment_is_known = true;
     warn(end_diastole_note(c, moments_of(frames), a.frame), drawn);
   }
   image::GuidePoints read = image::read_guide_points(

@@ -20,7 +20,8 @@ struct Drawn {
   std::optional<std::array<double, 3>> septum;            ///< if the source shows where it is [mm]
   geometry::BaseAt usual_base = geometry::BaseAt::slice;  ///< unless the case says otherwise
   std::vector<std::string> notes;
-  std::vector<std::string> warnings;  ///< what may be wrong about the case itself
+  bool moment_is_known = false;       ///< it was chosen among several
+  std::vector<std::string> warnings;  ///< of an end-diastolic shape that is taken as free of stress
 };
 
 /// Whether the anatomy of a case is drawn, not given as an ellipsoid or a mesh.

@@ -391,7 +391,7 @@ Table infarct_table(const Case& c, const MeshResult& wall) {
        mesh::infarct_by_segment(wall.mesh, wall.infarcted, wall.regions, c.regions))
     table.add_row({std::to_string(s.segment), mesh::aha_name(s.segment),
                    Table::number(1e-3 * s.wall), Table::number(1e-3 * s.infarct),
-                   Table::number(1e3 * c.blood.density * s.infarct),
+                   Table::number(1e3 * c.muscle_density * s.infarct),
                    Table::number(s.wall > 0.0 ? 100.0 * s.infarct / s.wall : 0.0),
                    Table::number(100.0 * s.transmurality)});
   return table;
@@ -403,7 +403,7 @@ std::string describe_infarct(const Case& c, const MeshResult& wall) {
     return "";
   const auto part = [&](const char* name, double volume) {
     return fmt::format("{}: {:.2f} ml ({:.1f}% of the wall), {:.1f} g", name, 1e-3 * volume,
-                       100.0 * volume / v.wall, 1e3 * c.blood.density * volume);
+                       100.0 * volume / v.wall, 1e3 * c.muscle_density * volume);
   };
   return part("infarct", v.infarct) + "; " + part("border zone", v.border);
 }

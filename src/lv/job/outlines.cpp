@@ -54,18 +54,31 @@ std::string title(const DrawnImage& image) {
   return fmt::format("{}{}, phase {}", image.closed ? "slice " : "", image.slice, image.phase);
 }
 
+/// A, S, I and L towards the walls of the model.
+std::vector<report::EdgeLetter> edge_letters(const ModelledBeat& model) {
+  const report::Orientation& o = model.orientation;
+  std::vector<report::EdgeLetter> letters;
+  for (const auto& [text, direction] : {std::pair{"A", o.anterior()},
+                                        {"S", o.septal()},
+                                        {"I", Vec3(-o.anterior())},
+                                        {"L", Vec3(-o.septal())}})
+    letters.push_back({o.starred(text, "septum"), model.frame.axes * direction});
+  return letters;
+}
+
 /// Draws one state's outlines over the images and measures their distance from contours.
 class Outlines {
  public:
-  Outlines()
-      : points_({"state", "slice", "source", "contour", "line", "point", "x_mm", "y_mm", "z_mm"}),
+  explicit Outlines(const ModelledBeat& model)
+      : letters_(edge_letters(model)),
+        points_({"state", "slice", "source", "contour", "line", "point", "x_mm", "y_mm", "z_mm"}),
         distances_({"state", "slice", "contour", "points", "mean_mm", "rms_mm", "largest_mm"}) {}
 
   void add(const std::string& state, const Surfaces& model, const std::vector<DrawnImage>& images,
            const fs::path& picture) {
     std::vector<report::Overlay> overlays;
     for (const DrawnImage& image : images) {
-      overlays.push_back({title(image), image.picture, lines_over(state, model, image)});
+      overlays.push_back({title(image), image.picture, lines_over(state, model, image), letters_});
       std::vector<Vec3> around;
       for (const report::OverlayLine& line : overlays.back().lines)
         around.insert(around.end(), line.points.begin(), line.points.end());
@@ -136,6 +149,7 @@ class Outlines {
       means_[state].push_back(d.mean);
   }
 
+  std::vector<report::EdgeLetter> letters_;
   Table points_, distances_;
   std::vector<report::PictureFile> pictures_;
   std::map<std::string, std::vector<double>> means_;
@@ -169,7 +183,7 @@ std::vector<DrawnImage> images_at(const CineStudy& study, int phase, int diastol
 
 std::string write_outlines(const ModelledBeat& model, const CineStudy& study, int diastole,
                            int systole, const fs::path& folder) {
-  Outlines outlines;
+  Outlines outlines(model);
   outlines.add(heartbeat::end_diastole,
                surfaces(model, model.beat.at(heartbeat::end_diastole).positions),
                images_at(study, diastole, diastole), folder / "outlines_ed.png");

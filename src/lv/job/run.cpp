@@ -20,6 +20,7 @@
 #include "lv/job/version.hpp"
 #include "lv/job/workspace.hpp"
 #include "lv/report/page.hpp"
+#include "lv/report/paraview_script.hpp"
 #include "lv/report/table_figures.hpp"
 
 #include <fmt/format.h>
@@ -184,8 +185,8 @@ class Pipeline {
         break;
       case Stage::anatomy:
         on_root([&] {
-          for (const std::string& warning : shape().warnings)
-            log::warn("{}", warning);
+          for (const geometry::Assumption& a : shape().warnings)
+            log::warn("{}", a.text);
           write_anatomy(shape(), part);
         });
         break;
@@ -229,7 +230,8 @@ class Pipeline {
           write_page({work_}, part / "report.html");
           report::write_figures(work_, part / "figures");
           write_file(part / "paraview.py",
-                     report::paraview_script("../" + folder(Stage::beat).filename().string()));
+                     report::paraview_script("../" + folder(Stage::beat).filename().string(),
+                                             report::orientation_of(work_)));
         });
         break;
     }

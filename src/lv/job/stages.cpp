@@ -7,6 +7,8 @@
 #include "lv/base/parallel.hpp"
 #include "lv/base/table.hpp"
 #include "lv/heartbeat/quasi_static_beat.hpp"
+#include "lv/job/calibration.hpp"
+#include "lv/job/drawn.hpp"
 #include "lv/job/infarct.hpp"
 #include "lv/job/parameters.hpp"
 #include "lv/job/strain.hpp"
@@ -110,6 +112,27 @@ class BeatWriter {
   std::optional<std::vector<analysis::CellFields>> end_diastole_;  ///< once it is reached
 };
 
+/// Whether the program knows that a parameter's value was measured: borders, images and volumes
+/// that a case names.
+bool is_measurement(const std::string& parameter) {
+  return parameter == "calibrate.edv" || parameter == "calibrate.esv" ||
+         parameter == "calibrate.strains" || parameter.starts_with("strain.") ||
+         (parameter.starts_with("anatomy.") && parameter != "anatomy.source" &&
+          !parameter.starts_with("anatomy.ellipsoid."));
+}
+
+/// What was measured, fitted and assumed.
+void add_marks(const Case& c, report::RunFacts& facts) {
+  facts.muscle_density = c.muscle_density;
+  facts.shape = is_drawn(c) ? report::Mark::measured : report::Mark::assumed;
+  facts.scar_is_measured =
+      c.scar.source == mesh::InfarctSource::labels || c.scar.source == mesh::InfarctSource::lge;
+  facts.fitted_parameters = fitted_names(c.calibration);
+  for (const auto& [name, place] : c.origin)
+    if (is_measurement(name))
+      facts.measured_parameters.push_back(name);
+}
+
 report::RunFacts run_facts(const Case& c, const MeshResult& mesh, const BeatResult& beat) {
   report::RunFacts facts;
   facts.case_name = c.name;
@@ -127,6 +150,7 @@ report::RunFacts run_facts(const Case& c, const MeshResult& mesh, const BeatResu
     facts.parameters.emplace_back(p.name, p.shown(c));
   for (const auto& [name, place] : c.origin)
     facts.origins.emplace_back(name, std::filesystem::path(place).filename().string());
+  add_marks(c, facts);
   for (const heartbeat::NamedMoment& m : beat.beat.moments)
     if (!m.by_criterion)
       facts.warnings.push_back(
@@ -143,7 +167,7 @@ std::vector<report::SegmentScar> scar_facts(const Case& c, const MeshResult& mes
   for (const mesh::SegmentInfarct& s :
        mesh::infarct_by_segment(mesh.mesh, mesh.infarcted, mesh.regions, c.regions))
     if (s.infarct > 0.0)
-      facts.push_back({mesh::aha_name(s.segment), s.infarct, c.blood.density * s.infarct,
+      facts.push_back({mesh::aha_name(s.segment), s.infarct, c.muscle_density * s.infarct,
                        s.infarct / s.wall, s.transmurality});
   return facts;
 }
@@ -182,24 +206,30 @@ void check_spacing(const Case& c, const mesh::Mesh& m) {
                       : fmt::format("Set mesh.edge_length = \"{:.2g} mm\" or less", 0.9 * width)));
 }
 
-void draw(const mesh::Mesh& mesh, const heartbeat::Beat& beat, const analysis::BeatFields& fields,
-          const analysis::Results& results, const std::filesystem::path& folder) {
+void draw(const Case& c, const mesh::Mesh& mesh, const heartbeat::Beat& beat,
+          const analysis::BeatFields& fields, const report::Orientation& orientation,
+          const std::filesystem::path& folder) {
+  const report::CurveFacts facts{c.engine == Engine::quasi_static,
+                                 beat.at(heartbeat::end_diastole).time,
+                                 beat.at(heartbeat::end_systole).time};
   interrupt::check();
-  report::write(report::states_figure(mesh, beat, fields), folder / "states.png");
+  report::write(report::states_figure(mesh, beat, fields, orientation), folder / "states.png");
   interrupt::check();
-  report::write(report::stress_figure(mesh, beat, fields), folder / "stress.png");
-  report::write(report::curves_figure(report::curves_table(beat.curves)), folder / "curves.png");
-  report::write(report::segments_figure(report::regions_table(results)), folder / "segments.png");
+  report::write(report::stress_figure(mesh, beat, fields, orientation), folder / "stress.png");
+  report::write(report::curves_figure(report::curves_table(beat.curves), facts),
+                folder / "curves.png");
 }
 
 /// What the model's strains come to beside measured ones, if there are any.
 std::string beside_measured(const Case& c, const MeshResult& mesh, const BeatResult& beat,
                             const analysis::BeatFields& fields,
+                            const report::Orientation& orientation,
                             const std::filesystem::path& folder) {
   if (!c.strain.asked() && c.strain.measured.empty())
     return "";
   const auto strain = folder.parent_path() / stage_folder(static_cast<std::size_t>(Stage::strain));
-  return "\n" + compare_strain(c, {mesh, beat.beat, fields, make_anatomy(c).frame}, strain, folder);
+  return "\n" + compare_strain(c, {mesh, beat.beat, fields, make_anatomy(c).frame, orientation},
+                               strain, folder);
 }
 
 /// The case's passive muscle and what it is compared with.
@@ -225,9 +255,12 @@ std::string write_results(const Case& c, const MeshResult& mesh, const BeatResul
   for (const auto& [name, cells] : fields.moments)
     report::write_wall(folder / (name + ".vtu"), mesh.mesh, mesh.regions, beat.beat.at(name), cells,
                        fields.at(heartbeat::end_diastole));
-  draw(mesh.mesh, beat.beat, fields, results, folder);
+  const report::Orientation orientation{c.regions.septum_angle, facts.assumed};
+  draw(c, mesh.mesh, beat.beat, fields, orientation, folder);
+  report::write(report::segments_figure(report::regions_table(results), orientation),
+                folder / "segments.png");
   return report::summary_text(facts, beat.beat, results) +
-         beside_measured(c, mesh, beat, fields, folder);
+         beside_measured(c, mesh, beat, fields, orientation, folder);
 }
 
 }  // namespace
@@ -264,12 +297,15 @@ void show_mesh(const MeshResult& result, const Case& c, const std::filesystem::p
     report::write_mesh(folder / "mesh.vtu", m, result.regions, undeformed);
     report::quality_table(mesh::quality(m)).write_csv(folder / "quality.csv");
     interrupt::check();
-    report::write(report::mesh_figure(m), folder / "mesh.png");
-    report::write(report::fibre_figure(m, undeformed), folder / "fibres.png");
+    const auto anatomy = stage_folder(static_cast<std::size_t>(Stage::anatomy));
+    const report::Orientation orientation{c.regions.septum_angle,
+                                          anatomy_remarks(folder.parent_path() / anatomy).assumed};
+    report::write(report::mesh_figure(m, orientation), folder / "mesh.png");
+    report::write(report::fibre_figure(m, undeformed, orientation), folder / "fibres.png");
     if (const std::string infarct = describe_infarct(c, result); !infarct.empty()) {
       log::info("{}", infarct);
       infarct_table(c, result).write_csv(folder / "infarct.csv");
-      report::write(report::infarct_figure(m), folder / "infarct.png");
+      report::write(report::infarct_figure(m, orientation), folder / "infarct.png");
     }
   });
 }
@@ -302,8 +338,9 @@ std::string make_results(const Case& c, const MeshResult& mesh, const BeatResult
   parallel::on_root([&] {
     report::RunFacts facts = run_facts(c, mesh, beat);
     const auto stage = stage_folder(static_cast<std::size_t>(Stage::anatomy));
-    const auto assumed = anatomy_warnings(folder.parent_path() / stage);
-    facts.warnings.insert(facts.warnings.begin(), assumed.begin(), assumed.end());
+    AnatomyRemarks remarks = anatomy_remarks(folder.parent_path() / stage);
+    facts.warnings.insert(facts.warnings.begin(), remarks.warnings.begin(), remarks.warnings.end());
+    facts.assumed = std::move(remarks.assumed);
     facts.fitted = fitted;
     facts.unloaded = unloaded;
     facts.scar = scar_facts(c, mesh);

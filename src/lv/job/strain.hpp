@@ -4,6 +4,7 @@
 #include "lv/geometry/frame.hpp"
 #include "lv/job/case.hpp"
 #include "lv/job/mesh_result.hpp"
+#include "lv/report/orientation.hpp"
 #include "lv/strain/agreement.hpp"
 
 #include <filesystem>
@@ -40,6 +41,7 @@ struct ModelledBeat {
   const heartbeat::Beat& beat;
   const analysis::BeatFields& fields;
   geometry::Frame frame;  ///< the model's in image space
+  report::Orientation orientation{};
 };
 
 /// Sets the strains of a beat beside the measured ones, with their agreement, and lays the model's

@@ -38,9 +38,8 @@ std::vector<Warning> warnings_of(const Case& c, const Shape& shape, double cavit
     warnings.push_back({"default case", no_parameters});
   for (const std::string& text : c.without_effect)
     warnings.push_back({"no effect", text});
-  for (const std::string& text : shape.warnings)
-    warnings.push_back(
-        {text.starts_with("the septum") ? "septum assumed" : "end-diastolic shape", text});
+  for (const geometry::Assumption& a : shape.warnings)
+    warnings.push_back({a.part == "septum" ? "septum assumed" : "end-diastolic shape", a.text});
   const double edv = c.calibration.edv;
   if (c.calibration.passive != calibrate::FittedPassive::none && !is_loaded(c) &&
       edv < little_filling * cavity)
@@ -83,7 +82,8 @@ std::string describe_shape(const Case& c, const Shape& shape, double cavity, con
     text += fmt::format("  it bears {:.2f} mmHg; the wall without load will be found from it\n",
                         c.unloaded.pressure / mmHg);
   const auto is_warning = [&](const std::string& note) {
-    return std::find(shape.warnings.begin(), shape.warnings.end(), note) != shape.warnings.end();
+    return std::any_of(shape.warnings.begin(), shape.warnings.end(),
+                       [&](const geometry::Assumption& a) { return a.text == note; });
   };
   if (shape.quality) {
     report::QualitySheet sheet = *shape.quality;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace lv::quasi_static {
 namespace {
@@ -20,6 +21,10 @@ Loads between(const Loads& a, const Loads& b, double s) {
 constexpr int easy = 5;  // corrections
 constexpr int hard = 12;
 constexpr double growth = 1.7;
+
+double next_length(double length, int corrections) {
+  return corrections <= easy ? length * growth : corrections >= hard ? length / growth : length;
+}
 
 }  // namespace
 
@@ -42,6 +47,8 @@ Engine::Engine(const mesh::Mesh& mesh, const StaticModel& model, const SolverPar
 Outcome<double> Engine::go_to(const Loads& target,
                               const std::function<void(const Step&)>& observe) {
   const Loads start = loads_;
+  const double most = parameters_.largest_change * cavity_volume();  // [mm^3]
+  double volume = cavity_volume();
   std::optional<State> before;
   double last_length = 0.0;
   double length = parameters_.first_step;
@@ -75,12 +82,11 @@ Outcome<double> Engine::go_to(const Loads& target,
     loads_ = loads;
     progress = progress + length;
     last_length = length;
+    const double change = std::abs(cavity_volume() - volume);
+    volume = cavity_volume();
     if (observe)
-      observe({loads_, progress, length, cavity_volume(), report});
-    if (report.iterations <= easy)
-      length *= growth;
-    else if (report.iterations >= hard)
-      length /= growth;
+      observe({loads_, progress, length, volume, report});
+    length = std::min(next_length(length, report.iterations), length * most / change);
   }
   loads_ = target;
   return cavity_volume();

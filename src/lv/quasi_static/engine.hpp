@@ -3,6 +3,7 @@
 #include "lv/quasi_static/newton.hpp"
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -13,6 +14,9 @@ struct SolverParameters {
   NewtonParameters newton;
   double first_step = 0.1;      ///< of the way from one load to the next [-]
   double smallest_step = 1e-4;  ///< before the engine gives up [-]
+  /// Most by which the cavity should change in a step, of its volume at the start [-]. A step is
+  /// made as long as the one before it lets expect.
+  double largest_change = std::numeric_limits<double>::infinity();
 };
 
 /// The straight line through two states, `by` times their distance beyond the second.

@@ -12,6 +12,7 @@
 #include <fstream>
 #include <map>
 #include <memory>
+#include <numbers>
 #include <string_view>
 
 namespace lv::report {
@@ -35,19 +36,28 @@ void require(cairo_status_t status) {
                    "Ask for a smaller picture");
 }
 
-void draw_page(cairo_surface_t* surface, double pixels_per_point, const Draw& draw) {
+void draw_page(cairo_surface_t* surface, double pixels_per_point, const Draw& draw,
+               std::string* svg_texts = nullptr) {
   const ContextOwner context(cairo_create(surface), &cairo_destroy);
   cairo_set_source_rgb(context.get(), 1.0, 1.0, 1.0);
   cairo_paint(context.get());
-  Canvas canvas(context.get(), pixels_per_point);
+  Canvas canvas(context.get(), pixels_per_point, svg_texts);
   draw(canvas);
   require(cairo_status(context.get()));
 }
 
-/// Cairo numbers the parts of its drawings through the life of a process. Numbered anew, in the
-/// order in which they are named, they are the same in a process that draws the same after other
-/// things.
-std::string with_own_numbers(const std::string& svg) {
+/// FNV-1a (Fowler, Noll, Vo) of a text: the same everywhere.
+std::uint64_t hash_of(const std::string& text) {
+  std::uint64_t hash = 0xcbf29ce484222325U;
+  for (const char c : text)
+    hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
+  return hash;
+}
+
+/// Cairo numbers the parts of its drawings through the life of a process. Numbered anew behind a
+/// prefix, in the order in which they are named, they are the same in a process that draws the same
+/// after other things.
+std::string with_own_numbers(const std::string& svg, const std::string& prefix) {
   static constexpr std::array<std::string_view, 3> before{"id=\"", "href=\"#", "url(#"};
   const std::string_view all = svg;
   std::map<std::string_view, std::string> numbers;
@@ -64,16 +74,49 @@ std::string with_own_numbers(const std::string& svg) {
     at = std::min(all.find_first_of("\")", first), all.size());
     text += *marker;
     text +=
-        numbers.emplace(all.substr(first, at - first), fmt::format("part{}", numbers.size() + 1))
+        numbers
+            .emplace(all.substr(first, at - first), fmt::format("{}{}", prefix, numbers.size() + 1))
             .first->second;
   }
   return text;
 }
 
+/// Ids that two figures share in no document: they bear the hash of their figure.
+std::string with_own_ids(const std::string& svg) {
+  const std::string numbered = with_own_numbers(svg, "part");
+  return with_own_numbers(numbered, fmt::format("f{:016x}-", hash_of(numbered)));
+}
+
+/// Text inside an element.
+std::string escaped(const std::string& text) {
+  std::string safe;
+  for (const char c : text)
+    safe += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
+  return safe;
+}
+
+/// Text that can be searched and changed in the file; `down` is from the line's middle to the
+/// baseline.
+std::string text_element(const std::string& text, const Point& at, const TextStyle& style,
+                         double down) {
+  const Colour& c = style.colour;
+  const auto percent = [](double part) { return 100.0 * part; };
+  return fmt::format(
+      "<text transform=\"translate({:.3f} {:.3f}) rotate({:.2f})\" y=\"{:.3f}\" "
+      "font-family=\"DejaVu Sans, Verdana, sans-serif\" font-size=\"{:.2f}\"{} "
+      "text-anchor=\"{}\" fill=\"rgb({:.1f}%,{:.1f}%,{:.1f}%)\">{}</text>\n",
+      at.x, at.y, -style.turn * 180.0 / std::numbers::pi, down, style.size,
+      style.bold ? " font-weight=\"bold\"" : "",
+      style.align == Align::left     ? "start"
+      : style.align == Align::centre ? "middle"
+                                     : "end",
+      percent(c.r), percent(c.g), percent(c.b), escaped(text));
+}
+
 }  // namespace
 
-Canvas::Canvas(_cairo* context, double pixels_per_point)
-    : cairo_(context), pixels_per_point_(pixels_per_point) {
+Canvas::Canvas(_cairo* context, double pixels_per_point, std::string* svg_texts)
+    : cairo_(context), pixels_per_point_(pixels_per_point), svg_texts_(svg_texts) {
   cairo_set_line_join(cairo_, CAIRO_LINE_JOIN_ROUND);
 }
 
@@ -114,6 +157,13 @@ void Canvas::fill(std::span<const Point> polygon, const Colour& colour) {
 
 void Canvas::fill(const Box& box, const Colour& colour) {
   fill(corners(box), colour);
+}
+
+void Canvas::disc(const Point& centre, double radius, const Colour& colour) {
+  cairo_new_path(cairo_);
+  cairo_arc(cairo_, centre.x, centre.y, radius, 0.0, 2.0 * std::numbers::pi);
+  set(colour);
+  cairo_fill(cairo_);
 }
 
 void Canvas::fill_missing(std::span<const Point> polygon) {
@@ -180,11 +230,17 @@ double Canvas::text_width(const std::string& text, const TextStyle& style) {
 }
 
 void Canvas::text(const std::string& text, const Point& at, const TextStyle& style) {
+  constexpr double half_capital = 0.364;  // of DejaVu Sans, in units of its size
+  if (text.empty())
+    return;
+  if (svg_texts_ != nullptr) {
+    *svg_texts_ += text_element(text, at, style, half_capital * style.size);
+    return;
+  }
   const double width = text_width(text, style);
   const double shift = style.align == Align::left     ? 0.0
                        : style.align == Align::centre ? -0.5 * width
                                                       : -width;
-  constexpr double half_capital = 0.364;  // of DejaVu Sans, in units of its size
   cairo_save(cairo_);
   cairo_translate(cairo_, at.x, at.y);
   cairo_rotate(cairo_, -style.turn);
@@ -223,10 +279,14 @@ std::string svg(double width, double height, double pixels_per_point, const Draw
   std::string bytes;
   const SurfaceOwner surface =
       own(cairo_svg_surface_create_for_stream(&append, &bytes, width, height));
-  draw_page(surface.get(), pixels_per_point, draw);
+  std::string texts;
+  draw_page(surface.get(), pixels_per_point, draw, &texts);
   cairo_surface_finish(surface.get());
   require(cairo_surface_status(surface.get()));
-  return with_own_numbers(bytes);
+  const std::size_t end = bytes.rfind("</svg>");
+  LV_CHECK(end != std::string::npos);
+  bytes.insert(end, texts);
+  return with_own_ids(bytes);
 }
 
 std::string grey_png(int columns, int rows, const std::vector<unsigned char>& levels) {

@@ -55,13 +55,15 @@ struct TextStyle {
 /// Draws on a page: the few operations that figures are made of.
 class Canvas {
  public:
-  Canvas(_cairo* context, double pixels_per_point);
+  /// Texts become elements in `svg_texts` if there are any, and shapes of letters otherwise.
+  Canvas(_cairo* context, double pixels_per_point, std::string* svg_texts = nullptr);
 
   void line(std::span<const Point> points, const Pen& pen);
   void line(const Point& a, const Point& b, const Pen& pen);
   void outline(std::span<const Point> polygon, const Pen& pen);
   void fill(std::span<const Point> polygon, const Colour& colour);
   void fill(const Box& box, const Colour& colour);
+  void disc(const Point& centre, double radius, const Colour& colour);
   /// The sign of a missing value: grey stripes.
   void fill_missing(std::span<const Point> polygon);
   /// A map from its beginning at the bottom to its end at the top.
@@ -82,6 +84,7 @@ class Canvas {
 
   _cairo* cairo_;
   double pixels_per_point_;
+  std::string* svg_texts_;
 };
 
 [[nodiscard]] std::vector<Point> corners(const Box& box);

@@ -35,6 +35,13 @@ void widen(Range& range, double value) {
   range.high = std::max(range.high, value);
 }
 
+/// A little more on both sides, so that no curve lies on the frame.
+Range with_room(const Range& range) {
+  const double room = range.low < range.high ? 0.04 * (range.high - range.low)
+                                             : std::max(0.5 * std::abs(range.low), 0.5);
+  return {range.low - room, range.high + room};
+}
+
 Ticks ticks_of(const Axis& axis, const std::vector<const std::vector<double>*>& data) {
   if (axis.range)
     return ticks_within(*axis.range);
@@ -43,7 +50,7 @@ Ticks ticks_of(const Axis& axis, const std::vector<const std::vector<double>*>& 
   for (const auto* values : data)
     for (const double value : *values)
       widen(range, value);
-  return range.low <= range.high ? ticks_around(range) : ticks_within({});
+  return range.low <= range.high ? ticks_within(with_room(range)) : ticks_within({});
 }
 
 enum class Direction { x, y, second_y };
@@ -209,6 +216,8 @@ void draw_series(Canvas& canvas, const Frame& f, const Series& s, const Colour& 
     if (s.marker != Marker::none)
       for (const Point& p : run)
         draw_marker(canvas, s.marker, p, colour);
+    else if (run.size() == 1)  // between gaps: a line would not show
+      canvas.disc(run.front(), s.width, colour);
   }
 }
 

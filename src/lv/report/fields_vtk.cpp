@@ -130,6 +130,7 @@ void add_frames(Arrays& arrays, const std::vector<CellFields>& cells) {
   arrays.vector("s0", [&](auto c) -> Vec3 { return cells[c].fibre_frame.col(1); });
   arrays.vector("n0", [&](auto c) -> Vec3 { return cells[c].fibre_frame.col(2); });
   arrays.scalar("infarct", [&](auto c) { return cells[c].infarct; });
+  arrays.scalar("reference_volume", [&](auto c) { return cells[c].volume; });
 }
 
 void add_strain(Arrays& arrays, const std::string& against, const std::vector<CellStrain>& strains,

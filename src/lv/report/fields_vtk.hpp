@@ -13,8 +13,9 @@ namespace lv::report {
 /// Writes the wall at one time as a VTU file: displacement, tension and transmural coordinate at
 /// the nodes; in the elements f0, s0, n0, F, J, fibre stretch, Green-Lagrange strain and its
 /// components against early diastole and (once it is known; NaN before) end-diastole, Cauchy stress
-/// total, passive and active with their fibre components, pressure, infarct and region numbers.
-/// Lengths in mm, stresses in kPa. Throws RunError when the file cannot be written.
+/// total, passive and active with their fibre components, pressure, infarct, region numbers and the
+/// element's undeformed volume. Lengths in mm, stresses in kPa. Throws RunError when the file
+/// cannot be written.
 void write_wall(const std::filesystem::path& file, const mesh::Mesh& mesh,
                 const mesh::Regions& regions, const heartbeat::Snapshot& snapshot,
                 const std::vector<analysis::CellFields>& now,

@@ -19,6 +19,8 @@ const TextStyle panel_title{.size = 11.5, .bold = true};
 const TextStyle legend_style{.size = 9.5};
 const TextStyle bar_ticks{.size = 9.5};
 const TextStyle bar_label{.size = 10.5, .align = Align::centre, .turn = upwards};
+constexpr double letter_height = 13.0;
+const TextStyle letter_style{.size = 10.5, .align = Align::centre, .bold = true};
 const TextStyle footnote_style{.size = 9.0, .colour = hex(0x555555)};
 
 // ---- what panels ask for ----
@@ -150,6 +152,23 @@ void draw_scale_bar(Canvas& canvas, const Box& box, double points_per_mm) {
   canvas.text(number(length, length < 1.0 ? 2 : 0) + " mm", {end + 6.0, y}, legend_style);
 }
 
+/// Letters on white ground; the farthest from the viewer first.
+void draw_letters(Canvas& canvas, const Box& view, const Picture& picture) {
+  std::vector<std::pair<Vec3, std::string>> letters;
+  for (const Letter& letter : picture.letters)
+    letters.emplace_back(seen(picture.camera, letter.at), letter.text);
+  std::sort(letters.begin(), letters.end(),
+            [](const auto& a, const auto& b) { return a.first.z() > b.first.z(); });
+  const double scale = magnification(picture.camera, view.width, view.height);
+  for (const auto& [x, text] : letters) {
+    const Point at{view.x + 0.5 * view.width + scale * x.x(),
+                   view.y + 0.5 * view.height + scale * x.y()};
+    const double width = canvas.text_width(text, letter_style) + 4.0;
+    canvas.fill({at.x - 0.5 * width, at.y - 0.5 * letter_height, width, letter_height}, white);
+    canvas.text(text, at, letter_style);
+  }
+}
+
 void draw(Canvas& canvas, const Box& box, const Picture& picture) {
   const double strip = picture.scale_bar ? scale_strip : 0.0;
   const Box view{box.x, box.y, box.width, box.height - strip};
@@ -160,6 +179,7 @@ void draw(Canvas& canvas, const Box& box, const Picture& picture) {
                               .height = pixels(view.height),
                               .pixels_per_point = canvas.pixels_per_point()};
   canvas.image(render(picture.scene, picture.camera, resolution), view);
+  draw_letters(canvas, view, picture);
   if (picture.scale_bar)
     draw_scale_bar(canvas, box, magnification(picture.camera, view.width, view.height));
 }

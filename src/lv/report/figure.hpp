@@ -2,6 +2,7 @@
 
 #include "lv/report/bulls_eye.hpp"
 #include "lv/report/chart.hpp"
+#include "lv/report/orientation.hpp"
 #include "lv/report/scene.hpp"
 
 #include <filesystem>
@@ -12,10 +13,11 @@
 
 namespace lv::report {
 
-/// A scene seen by a camera, with a bar that shows its scale in mm.
+/// A scene seen by a camera, with a bar that shows its scale in mm, and letters over it.
 struct Picture {
   Scene scene{};
   Camera camera{};
+  std::vector<Letter> letters{};
   bool scale_bar = true;
 };
 
@@ -43,7 +45,7 @@ struct Figure {
   std::optional<ColourBar> colour_bar{};  ///< for all panels, on the right
 };
 
-/// The bytes of a file. In SVG all but scenes is made of lines and letters. Scenes are drawn with
+/// The bytes of a file. In SVG all but scenes is made of lines and text. Scenes are drawn with
 /// `pixels_per_point` pixels in both.
 [[nodiscard]] std::string png(const Figure& figure, double pixels_per_point = 2.0);
 [[nodiscard]] std::string svg(const Figure& figure, double pixels_per_point = 3.0);

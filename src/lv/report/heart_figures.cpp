@@ -6,12 +6,10 @@
 #include "lv/report/sticks.hpp"
 #include "lv/report/wall_surface.hpp"
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace lv::report {
 namespace {
@@ -22,8 +20,6 @@ using units::degree;
 using units::mmHg;
 
 const Colour tissue = hex(0xd9b8ae);
-const Vec3 from_the_side(0.25, 1.0, -0.25);  // the viewer's direction: a little from the left above
-const Plane half{Vec3::Zero(), -Vec3::UnitY()};
 
 /// Means of the elements' values at the nodes, weighted by volume.
 std::vector<double> at_nodes(const Mesh& mesh, const std::vector<CellFields>& cells,
@@ -55,56 +51,116 @@ ColourScale scale_of(std::vector<double> values, const ColourMap& map = sequenti
   return {map, step * std::floor(low / step), step * std::ceil(high / step)};
 }
 
-/// The points turned about the long axis by an angle [rad].
-std::vector<Vec3> turned(std::span<const Vec3> points, double angle) {
-  const Mat3 R = Eigen::AngleAxisd(angle, Vec3::UnitZ()).toRotationMatrix();
-  std::vector<Vec3> result;
-  for (const Vec3& x : points)
-    result.emplace_back(R * x);
-  return result;
+/// A nodal field on a wall whose nodes are at `x`.
+struct PaintedWall {
+  const Mesh& m;
+  std::span<const Vec3> x;
+  const std::vector<double>& nodal;
+  ColourScale scale;
+
+  [[nodiscard]] Item item(const WallPatch& patch) const {
+    return {.patch = patch.patch, .paint = PointValues{patch.at_points(nodal), scale}};
+  }
+  [[nodiscard]] Scene whole() const {
+    Scene scene;
+    for (const mesh::Surface* side : {&m.endo, &m.epi, &m.base})
+      scene.items.push_back(item(wall_surface(m, x, *side)));
+    return scene;
+  }
+  /// What a plane leaves, and the section.
+  [[nodiscard]] Scene open(const Plane& plane) const {
+    Scene scene = whole();
+    scene.items.push_back(section(plane));
+    scene.cut = plane;
+    return scene;
+  }
+  [[nodiscard]] Item section(const Plane& plane) const { return item(wall_section(m, x, plane)); }
+  /// Half of the way from the base to the endocardial apex.
+  [[nodiscard]] Plane middle() const {
+    double lowest = 0.0;
+    for (const int node : m.endo.nodes)
+      lowest = std::min(lowest, x[node].z());
+    return short_axis_plane(0.5 * lowest);
+  }
+};
+
+std::vector<Vec3> points_of(const std::vector<Scene>& scenes) {
+  std::vector<Vec3> points;
+  for (const Scene& scene : scenes)
+    for (const Item& item : scene.items)
+      points.insert(points.end(), item.patch.points.begin(), item.patch.points.end());
+  return points;
 }
 
-/// Angle about the long axis of the infarct's middle, from x towards y.
-double infarct_direction(const Mesh& mesh) {
-  Vec3 sum = Vec3::Zero();
-  for (std::size_t a = 0; a < mesh.nodes.size(); ++a)
-    sum += mesh.infarct[a] * mesh.nodes[a];
-  return std::atan2(sum.y(), sum.x());
-}
-
-Item painted(const WallPatch& patch, const std::vector<double>& nodal, const ColourScale& scale) {
-  return {.patch = patch.patch, .paint = PointValues{patch.at_points(nodal), scale}};
-}
-
-/// The far half of the wall, seen from inside, and its section.
-Scene open_wall(const Mesh& mesh, std::span<const Vec3> x, const std::vector<double>& nodal,
-                const ColourScale& scale) {
-  Scene scene;
-  for (const mesh::Surface* side : {&mesh.endo, &mesh.epi, &mesh.base})
-    scene.items.push_back(painted(wall_surface(mesh, x, *side), nodal, scale));
-  scene.items.push_back(painted(wall_section(mesh, x, half), nodal, scale));
-  scene.cut = half;
-  return scene;
-}
-
-Panel open_wall_panel(const std::string& title, const Mesh& mesh, std::span<const Vec3> x,
-                      const std::vector<double>& nodal, const ColourScale& scale,
-                      const Camera& camera) {
-  return {.title = title, .content = Picture{open_wall(mesh, x, nodal, scale), camera}};
-}
-
-Camera camera_for(const Mesh& mesh, const heartbeat::Beat& beat) {
-  const std::vector<double> none(mesh.nodes.size(), 0.0);
+/// Pictures of scenes by one camera, with letters.
+std::vector<Picture> pictures(const std::vector<Scene>& scenes, const Look& look,
+                              const Orientation& o) {
+  const auto letters = wall_letters(o, points_of(scenes));
+  std::vector<Vec3> places;
+  for (const Letter& letter : letters)
+    places.push_back(letter.at);
   Scene all;
-  const auto add = [&](const std::vector<Vec3>& x) {
-    const Scene one = open_wall(mesh, x, none, {});
-    all.items.insert(all.items.end(), one.items.begin(), one.items.end());
-  };
-  add(mesh.nodes);
-  for (const heartbeat::NamedMoment& moment : beat.moments)
-    add(moment.wall.positions);
-  all.cut = half;
-  return fitted(all, from_the_side);
+  for (const Scene& scene : scenes) {
+    all.items.insert(all.items.end(), scene.items.begin(), scene.items.end());
+    all.cut = scene.cut;
+  }
+  constexpr double margin = 1.1;  // for the letters' own size
+  Camera camera = fitted(all, look.view, look.up, places);
+  camera.width *= margin;
+  camera.height *= margin;
+  std::vector<Picture> list;
+  for (const Scene& scene : scenes)
+    list.push_back({scene, camera, letters});
+  return list;
+}
+
+Picture picture(const Scene& scene, const Look& look, const Orientation& o) {
+  return pictures({scene}, look, o).front();
+}
+
+/// The middle of the infarct, weighted by M.
+Vec3 infarct_middle(const Mesh& mesh) {
+  Vec3 sum = Vec3::Zero();
+  double weight = 1e-12;
+  for (std::size_t a = 0; a < mesh.nodes.size(); ++a) {
+    sum += mesh.infarct[a] * mesh.nodes[a];
+    weight += mesh.infarct[a];
+  }
+  return sum / weight;
+}
+
+/// From where the infarct is in front, a little from above.
+Look facing(const Vec3& middle) {
+  const Vec3 outwards(middle.x(), middle.y(), 0.0);
+  const Vec3 towards = outwards.norm() > 1e-6 ? outwards.normalized() : Vec3(Vec3::UnitX());
+  return {-towards - 0.25 * Vec3::UnitZ(), Vec3::UnitZ()};
+}
+
+constexpr const char* four_chamber_title = "four-chamber view, cut open";
+
+std::string notes(const Orientation& o) {
+  return star_note(o, {"septum", "early diastole", "apex", "base"});
+}
+
+std::string base_and_apex(const Orientation& o) {
+  return fmt::format("{} above, {} below", o.starred("base", "base"), o.starred("apex", "apex"));
+}
+
+/// Long-axis pictures in a row, short-axis sections of the same walls below.
+std::vector<Panel> both_axes(const std::vector<std::string>& titles,
+                             const std::vector<PaintedWall>& walls, const Orientation& o) {
+  std::vector<Scene> open;
+  std::vector<Scene> across;
+  for (const PaintedWall& wall : walls) {
+    open.push_back(wall.open(four_chamber_plane(o)));
+    across.push_back({.items = {wall.section(wall.middle())}});
+  }
+  std::vector<Panel> panels;
+  for (const Picture& p : pictures(open, four_chamber(o), o))
+    panels.push_back({.title = titles[panels.size()], .content = p});
+  for (const Picture& p : pictures(across, short_axis(o), o))
+    panels.push_back({.title = "middle short axis, from the apex", .content = p});
+  return panels;
 }
 
 /// Elements at one side of the wall whose face centres are at least `apart` mm from each other.
@@ -148,30 +204,29 @@ Item fibre_sticks(const WallPatch& patch, const std::vector<CellFields>& cells,
 
 }  // namespace
 
-Figure mesh_figure(const Mesh& mesh) {
-  const auto drawn = [&](const mesh::Surface& side) {
-    return Item{.patch = wall_surface(mesh, mesh.nodes, side).patch,
-                .paint = tissue,
-                .outline_width = 0.25};
+Figure mesh_figure(const Mesh& mesh, const Orientation& o) {
+  const auto drawn = [](const WallPatch& wall) {
+    return Item{.patch = wall.patch, .paint = tissue, .outline_width = 0.25};
   };
-  Scene outside{.items = {drawn(mesh.epi), drawn(mesh.endo), drawn(mesh.base)}};
+  Scene outside;
+  for (const mesh::Surface* side : {&mesh.epi, &mesh.endo, &mesh.base})
+    outside.items.push_back(drawn(wall_surface(mesh, mesh.nodes, *side)));
   Scene inside = outside;
-  inside.items.push_back({.patch = wall_section(mesh, mesh.nodes, half).patch,
-                          .paint = tissue,
-                          .outline_width = 0.25});
-  inside.cut = half;
-  Scene below{.items = {drawn(mesh.epi)}};
-  const Camera camera = fitted(outside, from_the_side);
-  return {
-      .panels = {{.title = "from the side", .content = Picture{outside, camera}},
-                 {.title = "cut open", .content = Picture{inside, camera}},
-                 {.title = "apex from below",
-                  .content = Picture{below, fitted(below, Vec3::UnitZ(), Vec3::UnitY())}}},
-      .columns = 3,
-      .title = fmt::format("mesh: {} elements, {} nodes", mesh.cell_count(), mesh.nodes.size())};
+  inside.items.push_back(drawn(wall_section(mesh, mesh.nodes, four_chamber_plane(o))));
+  inside.cut = four_chamber_plane(o);
+  return {.panels = {{.title = "from the anterior side",
+                      .content = picture(outside, four_chamber(o), o)},
+                     {.title = four_chamber_title, .content = picture(inside, four_chamber(o), o)},
+                     {.title = o.starred("apex", "apex") + ", from below",
+                      .content = picture({{outside.items.front()}, {}}, short_axis(o), o)}},
+          .columns = 3,
+          .title = fmt::format("mesh: {} elements, {} nodes; {}", mesh.cell_count(),
+                               mesh.nodes.size(), base_and_apex(o)),
+          .footnote = notes(o)};
 }
 
-Figure fibre_figure(const Mesh& mesh, const std::vector<CellFields>& undeformed) {
+Figure fibre_figure(const Mesh& mesh, const std::vector<CellFields>& undeformed,
+                    const Orientation& o) {
   const ColourScale scale{diverging(), -60.0, 60.0};
   const WallPatch epi = wall_surface(mesh, mesh.nodes, mesh.epi);
   const WallPatch endo = wall_surface(mesh, mesh.nodes, mesh.endo);
@@ -179,73 +234,87 @@ Figure fibre_figure(const Mesh& mesh, const std::vector<CellFields>& undeformed)
                                 fibre_sticks(epi, undeformed, scale)}};
   Scene inside{.items = {{.patch = endo.patch, .paint = hex(0xf2f2f2)},
                          fibre_sticks(endo, undeformed, scale)}};
-  inside.cut = half;
+  inside.cut = four_chamber_plane(o);
   const auto helix = at_nodes(mesh, undeformed, helix_degrees);
-  const Camera camera = fitted(outside, from_the_side);
-  return {.panels = {{.title = "epicardium", .content = Picture{outside, camera}},
-                     {.title = "endocardium, cut open", .content = Picture{inside, camera}},
-                     open_wall_panel("through the wall", mesh, mesh.nodes, helix, scale, camera)},
-          .columns = 3,
-          .title = "fibres",
-          .colour_bar = ColourBar{"helix angle [deg], the paper's sign", scale}};
+  const PaintedWall wall{mesh, mesh.nodes, helix, scale};
+  return {
+      .panels = {{.title = "epicardium, from the anterior side",
+                  .content = picture(outside, four_chamber(o), o)},
+                 {.title = "endocardium, cut open", .content = picture(inside, four_chamber(o), o)},
+                 {.title = "through the wall, four-chamber view",
+                  .content = picture(wall.open(four_chamber_plane(o)), four_chamber(o), o)}},
+      .columns = 3,
+      .title = "fibres",
+      .footnote =
+          "Helix angle as in Gao et al. 2014: negative where the fibre rises towards "
+          "the base when followed anticlockwise seen from the base, a right-handed "
+          "helix as at the endocardium of human hearts. LDRB tools give the same fibre "
+          "the opposite sign (+60 at the endocardium, -60 at the epicardium). " +
+          notes(o),
+      .colour_bar = ColourBar{"helix angle [deg]", scale}};
 }
 
-Figure infarct_figure(const Mesh& mesh) {
-  constexpr double quarter = 0.5 * std::numbers::pi;
+Figure infarct_figure(const Mesh& mesh, const Orientation& o) {
   const ColourScale scale{sequential(), 0.0, 1.0};
-  const double to_front = -quarter - infarct_direction(mesh);  // the viewer stands at -y
-  const auto front = turned(mesh.nodes, to_front);
-  Scene outside;
-  for (const mesh::Surface* side : {&mesh.epi, &mesh.endo, &mesh.base})
-    outside.items.push_back(painted(wall_surface(mesh, front, *side), mesh.infarct, scale));
-  const Camera camera = fitted(outside, from_the_side);
-  const auto open = [&](const std::string& title, double turn) {
-    return open_wall_panel(title, mesh, turned(mesh.nodes, to_front + turn), mesh.infarct, scale,
-                           camera);
-  };
-  return {.panels = {{.title = "from outside", .content = Picture{outside, camera}},
-                     open("from inside", 2.0 * quarter),
-                     open("section", quarter)},
-          .columns = 3,
+  const PaintedWall wall{mesh, mesh.nodes, mesh.infarct, scale};
+  const Vec3 middle = infarct_middle(mesh);
+  const Scene across{.items = {wall.section(short_axis_plane(middle.z()))}};
+  return {.panels = {{.title = "from outside, the infarct in front",
+                      .content = picture(wall.whole(), facing(middle), o)},
+                     {.title = "short axis through its middle, from the apex",
+                      .content = picture(across, short_axis(o), o)},
+                     {.title = four_chamber_title,
+                      .content = picture(wall.open(four_chamber_plane(o)), four_chamber(o), o)},
+                     {.title = "two-chamber view, cut open",
+                      .content = picture(wall.open(two_chamber_plane(o)), two_chamber(o), o)}},
+          .columns = 2,
           .title = "infarct",
+          .footnote = notes(o),
           .colour_bar = ColourBar{"extent M: 1 infarct, 0 remote muscle", scale}};
 }
 
 Figure states_figure(const Mesh& mesh, const heartbeat::Beat& beat,
-                     const analysis::BeatFields& fields) {
+                     const analysis::BeatFields& fields, const Orientation& o) {
   const auto stretch = [](const CellFields& c) { return c.fibre_stretch; };
-  const Camera camera = camera_for(mesh, beat);
   const ColourScale scale{diverging(), 0.75, 1.25};
-  Figure figure{
-      .panels = {open_wall_panel("early diastole: free of stress", mesh, mesh.nodes,
-                                 at_nodes(mesh, fields.early_diastole, stretch), scale, camera)},
-      .columns = static_cast<int>(1 + beat.moments.size()),
-      .colour_bar = ColourBar{"fibre stretch from early diastole", scale}};
-  for (const auto& [name, phase, by_criterion, wall] : beat.moments)
-    figure.panels.push_back(open_wall_panel(
-        fmt::format("{}: {:.0f} mmHg, {:.1f} ml", heartbeat::title(name), wall.pressure / mmHg,
-                    1e-3 * wall.volume),
-        mesh, wall.positions, at_nodes(mesh, fields.at(name), stretch), scale, camera));
-  return figure;
+  std::vector<std::vector<double>> nodal{at_nodes(mesh, fields.early_diastole, stretch)};
+  std::vector<std::string> titles{o.starred("early diastole", "early diastole") +
+                                  ": free of stress"};
+  for (const auto& [name, phase, by_criterion, wall] : beat.moments) {
+    nodal.push_back(at_nodes(mesh, fields.at(name), stretch));
+    titles.push_back(fmt::format("{}: {:.0f} mmHg, {:.1f} ml", heartbeat::title(name),
+                                 wall.pressure / mmHg, 1e-3 * wall.volume));
+  }
+  std::vector<PaintedWall> walls{{mesh, mesh.nodes, nodal.front(), scale}};
+  for (std::size_t i = 0; i < beat.moments.size(); ++i)
+    walls.push_back({mesh, beat.moments[i].wall.positions, nodal[i + 1], scale});
+  return {.panels = both_axes(titles, walls, o),
+          .columns = static_cast<int>(walls.size()),
+          .footnote = notes(o),
+          .colour_bar = ColourBar{"fibre stretch from early diastole", scale}};
 }
 
 Figure stress_figure(const Mesh& mesh, const heartbeat::Beat& beat,
-                     const analysis::BeatFields& fields) {
+                     const analysis::BeatFields& fields, const Orientation& o) {
   const auto stress = [](const CellFields& c) { return c.fibre_stress(); };
   const auto tension = [](const CellFields& c) { return c.tension; };
-  const Camera camera = camera_for(mesh, beat);
-  const auto panel = [&](const char* moment, const auto& value, const char* label) {
-    const std::vector<double> nodal = at_nodes(mesh, fields.at(moment), value);
-    const ColourScale scale = scale_of(nodal);
-    Panel p = open_wall_panel(heartbeat::title(moment), mesh, beat.at(moment).positions, nodal,
-                              scale, camera);
-    p.colour_bar = ColourBar{label, scale};
-    return p;
-  };
-  return {.panels = {panel(heartbeat::end_diastole, stress, "fibre stress [kPa]"),
-                     panel(heartbeat::end_systole, stress, "fibre stress [kPa]"),
-                     panel(heartbeat::end_systole, tension, "active tension [kPa]")},
-          .columns = 3};
+  const auto ed = at_nodes(mesh, fields.at(heartbeat::end_diastole), stress);
+  const auto es = at_nodes(mesh, fields.at(heartbeat::end_systole), stress);
+  const auto active = at_nodes(mesh, fields.at(heartbeat::end_systole), tension);
+  const std::vector<PaintedWall> walls{
+      {mesh, beat.at(heartbeat::end_diastole).positions, ed, scale_of(ed)},
+      {mesh, beat.at(heartbeat::end_systole).positions, es, scale_of(es)},
+      {mesh, beat.at(heartbeat::end_systole).positions, active, scale_of(active)}};
+  Figure figure{.panels = both_axes({heartbeat::title(heartbeat::end_diastole),
+                                     heartbeat::title(heartbeat::end_systole),
+                                     heartbeat::title(heartbeat::end_systole)},
+                                    walls, o),
+                .columns = 3,
+                .footnote = notes(o)};
+  for (std::size_t i = 0; i < figure.panels.size(); ++i)
+    figure.panels[i].colour_bar =
+        ColourBar{i % 3 == 2 ? "active tension [kPa]" : "fibre stress [kPa]", walls[i % 3].scale};
+  return figure;
 }
 
 }  // namespace lv::report

@@ -5,27 +5,34 @@
 
 namespace lv::report {
 
-/// The undeformed wall from outside and cut open along its long axis, with the edges of its
-/// elements.
-[[nodiscard]] Figure mesh_figure(const mesh::Mesh& mesh);
+// Views are those of orientation.hpp, with letters and a bar of scale: long axes have the base up,
+// the four-chamber view has the septum on the left; short axes are seen from the apex, anterior up.
+// What was assumed of the anatomy has stars.
+
+/// The undeformed wall from the anterior side, cut open in the four-chamber view, and from the
+/// apex, with the edges of its elements.
+[[nodiscard]] Figure mesh_figure(const mesh::Mesh& mesh, const Orientation& orientation);
 
 /// The fibres of the undeformed wall on the epicardium and the endocardium, and the helix angle in
-/// a long-axis section.
+/// a four-chamber section.
 [[nodiscard]] Figure fibre_figure(const mesh::Mesh& mesh,
-                                  const std::vector<analysis::CellFields>& undeformed);
+                                  const std::vector<analysis::CellFields>& undeformed,
+                                  const Orientation& orientation);
 
-/// The extent of the infarct, M, on the undeformed wall: from outside, from inside, and in a
-/// long-axis section through the infarct's middle.
-[[nodiscard]] Figure infarct_figure(const mesh::Mesh& mesh);
+/// The extent of the infarct, M, on the undeformed wall: from outside with the infarct in front, in
+/// a short-axis section through the infarct's middle, and cut open in both long-axis views.
+[[nodiscard]] Figure infarct_figure(const mesh::Mesh& mesh, const Orientation& orientation);
 
-/// The wall cut open at early diastole, end-diastole and end-systole, coloured by the fibre
-/// stretch, all by one camera.
+/// The wall at early diastole, end-diastole and end-systole, coloured by the fibre stretch: cut
+/// open in the four-chamber view, and below it the middle short-axis section, all by one camera.
 [[nodiscard]] Figure states_figure(const mesh::Mesh& mesh, const heartbeat::Beat& beat,
-                                   const analysis::BeatFields& fields);
+                                   const analysis::BeatFields& fields,
+                                   const Orientation& orientation);
 
-/// The Cauchy stress along the fibre at end-diastole and end-systole, and the active tension at
-/// end-systole.
+/// In the same views, the Cauchy stress along the fibre at end-diastole and end-systole, and the
+/// active tension at end-systole.
 [[nodiscard]] Figure stress_figure(const mesh::Mesh& mesh, const heartbeat::Beat& beat,
-                                   const analysis::BeatFields& fields);
+                                   const analysis::BeatFields& fields,
+                                   const Orientation& orientation);
 
 }  // namespace lv::report

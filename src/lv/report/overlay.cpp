@@ -4,6 +4,7 @@
 #include "lv/report/picture_files.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 namespace lv::report {
@@ -17,6 +18,29 @@ Image grey(const image::Picture& picture) {
   for (const std::uint32_t level : grey_levels(picture))
     image.argb.push_back(0xff000000U | level << 16U | level << 8U | level);
   return image;
+}
+
+/// Where the letter stands in a box whose sides are those of the plane's image.
+void draw_letter(Canvas& canvas, const Box& box, const image::Plane& plane,
+                 const EdgeLetter& letter) {
+  constexpr double least = 0.5;  // of a unit vector in the plane
+  constexpr double inside = 9.0;
+  const double across = letter.direction.dot(plane.along_row);
+  const double down = letter.direction.dot(plane.along_column);
+  if (std::hypot(across, down) < least)
+    return;
+  const double reach = std::min((0.5 * box.width - inside) / std::max(std::abs(across), 1e-9),
+                                (0.5 * box.height - inside) / std::max(std::abs(down), 1e-9));
+  canvas.text(letter.text,
+              {box.x + 0.5 * box.width + reach * across, box.y + 0.5 * box.height + reach * down},
+              {.size = 10.5, .align = Align::centre, .bold = true, .colour = white});
+}
+
+void draw_scale_bar(Canvas& canvas, const Box& box, double points_per_mm) {
+  constexpr double length = 20.0;  // [mm]
+  const double y = box.bottom() - 6.0;
+  canvas.line({box.x + 6.0, y}, {box.x + 6.0 + length * points_per_mm, y}, {white, 2.0});
+  canvas.text("20 mm", {box.x + 6.0, y - 8.0}, {.size = 8.0, .colour = white});
 }
 
 void draw(Canvas& canvas, const Overlay& overlay, const Point& corner) {
@@ -42,6 +66,9 @@ void draw(Canvas& canvas, const Overlay& overlay, const Point& corner) {
       const Pen pen{line.colour, 1.2, line.dashed};
       line.closed ? canvas.outline(points, pen) : canvas.line(points, pen);
     }
+    draw_scale_bar(canvas, box, scale);
+    for (const EdgeLetter& letter : overlay.letters)
+      draw_letter(canvas, box, plane, letter);
   });
 }
 

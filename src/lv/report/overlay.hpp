@@ -17,15 +17,23 @@ struct OverlayLine {
   bool dashed = false;
 };
 
+/// A letter at that edge of an image to which a direction in image space points.
+struct EdgeLetter {
+  std::string text;
+  Vec3 direction;
+};
+
 /// An image with lines over it.
 struct Overlay {
   std::string title;
   const image::Picture* picture = nullptr;
   std::vector<OverlayLine> lines;
+  std::vector<EdgeLetter> letters{};  ///< those that point out of the image's plane are not drawn
 };
 
-/// Writes images side by side as PNG, each cut to the part around its lines, grey values from the
-/// darkest to all but the brightest 1%. Throws RunError naming a file that cannot be written.
+/// Writes images side by side as PNG, as the scanner shows them, each cut to the part around its
+/// lines, with a bar of 20 mm, grey values from the darkest to all but the brightest 1%. Throws
+/// RunError naming a file that cannot be written.
 void write_overlays(const std::vector<Overlay>& overlays, const std::string& footnote,
                     const std::filesystem::path& file);
 

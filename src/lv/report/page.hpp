@@ -18,8 +18,4 @@ struct PageCase {
 /// Throws RunError naming a file that cannot be read.
 [[nodiscard]] std::string page(const std::vector<PageCase>& cases, const std::string& version);
 
-/// A script for ParaView that opens the wall and the blood of a case with colours and a time axis.
-/// `series` is the folder with wall.pvd and blood.pvd, relative to the script's.
-[[nodiscard]] std::string paraview_script(const std::filesystem::path& series);
-
 }  // namespace lv::report

@@ -273,19 +273,25 @@ double magnification(const Camera& camera, double width, double height) {
   return std::min(width / camera.width, height / camera.height);
 }
 
-Camera fitted(const Scene& scene, const Vec3& view, const Vec3& up) {
+Vec3 seen(const Camera& camera, const Vec3& x) {
+  return view_axes(camera) * (x - camera.centre);
+}
+
+Camera fitted(const Scene& scene, const Vec3& view, const Vec3& up,
+              const std::vector<Vec3>& besides) {
   Camera camera{.view = view, .up = up};
   const Mat3 axes = view_axes(camera);
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity());
   Vec3 high = -low;
-  for (const Item& item : scene.items) {
-    for (const Vec3& point : item.patch.points) {
-      if (!point.allFinite() || (scene.cut && scene.cut->height(point) > cut_tolerance))
-        continue;
-      low = low.cwiseMin(axes * point);
-      high = high.cwiseMax(axes * point);
-    }
-  }
+  const auto show = [&](const Vec3& point) {
+    low = low.cwiseMin(axes * point);
+    high = high.cwiseMax(axes * point);
+  };
+  for (const Item& item : scene.items)
+    for (const Vec3& point : item.patch.points)
+      if (point.allFinite() && !(scene.cut && scene.cut->height(point) > cut_tolerance))
+        show(point);
+  std::for_each(besides.begin(), besides.end(), show);
   if (!(low[0] <= high[0]))
     return camera;
   constexpr double margin = 1.03;

@@ -62,9 +62,14 @@ struct Camera {
   double height = 100.0;  ///< [mm]
 };
 
-/// The camera that shows everything that is not cut away. Use one camera for pictures to be
-/// compared.
-[[nodiscard]] Camera fitted(const Scene& scene, const Vec3& view, const Vec3& up = Vec3::UnitZ());
+/// The camera that shows everything that is not cut away, and some points besides. Use one camera
+/// for pictures to be compared.
+[[nodiscard]] Camera fitted(const Scene& scene, const Vec3& view, const Vec3& up = Vec3::UnitZ(),
+                            const std::vector<Vec3>& besides = {});
+
+/// Where a camera sees a point: to the right of and below the middle of its picture, and away from
+/// the viewer [mm].
+[[nodiscard]] Vec3 seen(const Camera& camera, const Vec3& x);
 
 struct Resolution {
   int width = 600;  ///< [pixels]

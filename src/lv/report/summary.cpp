@@ -2,6 +2,7 @@
 
 #include "lv/base/json_file.hpp"
 #include "lv/base/units.hpp"
+#include "lv/report/plausibility.hpp"
 
 #include <fmt/format.h>
 
@@ -119,6 +120,87 @@ std::string unloaded_text(const UnloadedShape& u) {
       u.largest, u.rms);
 }
 
+std::vector<Judgement> judge(const RunFacts& facts, const heartbeat::Beat& beat, const Results& r) {
+  const heartbeat::NamedMoment* end = beat.find(heartbeat::end_systole);
+  return judge(
+      JudgedBeat{r, facts.muscle_density, has_zones(r), end != nullptr && end->by_criterion});
+}
+
+/// The end of a range; null where it has none.
+Json bound(double value) {
+  return std::isfinite(value) ? number(value) : Json();
+}
+
+Json judgement_json(const Judgement& j) {
+  const PlausibleRange& range = *j.range;
+  return {{"quantity", range.quantity},   {"label", range.label},     {"value", number(j.value)},
+          {"unit", range.unit},           {"low", bound(range.low)},  {"high", bound(range.high)},
+          {"source", range.source},       {"answer", name(j.answer)}, {"reason", j.reason},
+          {"impossible", j.is_impossible}};
+}
+
+std::string plausibility_text(const std::vector<Judgement>& judgements) {
+  std::string text = fmt::format("  {:<56}{:>10} {:<4}{:>16}\n",
+                                 "is it plausible? (sources: "
+                                 "summary.json)",
+                                 "", "", "expected");
+  for (const Judgement& j : judgements) {
+    const PlausibleRange& range = *j.range;
+    text += fmt::format("  {:<56}{:>10.3f} {:<4}{:>16}  {}\n", range.label, j.value,
+                        range.unit == "1" ? "" : range.unit,
+                        fmt::format("{:g} to {:g}", range.low, range.high),
+                        j.is_impossible                      ? "IMPOSSIBLE"
+                        : j.answer == Answer::not_applicable ? "not applicable: " + j.reason
+                                                             : name(j.answer));
+  }
+  return text;
+}
+
+/// The run's own warnings, and one for each number that cannot be.
+std::vector<std::string> warnings(const RunFacts& facts, const std::vector<Judgement>& judgements) {
+  std::vector<std::string> all = facts.warnings;
+  for (std::string& sentence : impossible_values(judgements))
+    all.push_back(std::move(sentence));
+  return all;
+}
+
+/// Assumptions that are no warnings, then warnings.
+std::string remarks_text(const RunFacts& facts, const std::vector<Judgement>& judgements) {
+  const std::vector<std::string> all = warnings(facts, judgements);
+  std::string text;
+  for (const geometry::Assumption& a : facts.assumed)
+    if (std::find(all.begin(), all.end(), a.text) == all.end())
+      text += fmt::format("  assumed: {}: {}\n", a.part, a.text);
+  for (const std::string& warning : all)
+    text += fmt::format("  warning: {}\n", warning);
+  return text.empty() ? text : "\n" + text;
+}
+
+Json infarct_json(const RunFacts& facts, const Results& r) {
+  double volume = 0.0;
+  for (const SegmentScar& s : facts.scar)
+    volume += s.volume;
+  return {{"volume_ml", number(1e-3 * volume)},
+          {"mass_g", number(1e3 * facts.muscle_density * volume)},
+          {"percent_of_wall", number(100.0 * volume / r.early_diastole.wall_volume)}};
+}
+
+/// What is to be thought of the numbers.
+void add_remarks(const RunFacts& facts, const Results& r, const std::vector<Judgement>& judgements,
+                 Json& json) {
+  for (const Judgement& j : judgements)
+    json["plausibility"].push_back(judgement_json(j));
+  json["assumptions"] = Json::array();
+  for (const geometry::Assumption& a : facts.assumed)
+    json["assumptions"].push_back({{"part", a.part}, {"text", a.text}});
+  json["warnings"] = warnings(facts, judgements);
+  std::vector<std::string> moments;
+  for (const auto& [moment, shape] : r.moments)
+    moments.push_back(moment);
+  for (const auto& [path, mark] : marks(facts, moments))
+    json["marks"][path] = name(mark);
+}
+
 Json pairs(const std::vector<std::pair<std::string, std::string>>& list) {
   Json json = Json::object();
   for (const auto& [name, value] : list)
@@ -126,33 +208,7 @@ Json pairs(const std::vector<std::pair<std::string, std::string>>& list) {
   return json;
 }
 
-bool smaller_in_size(double a, double b) {
-  return std::abs(a) < std::abs(b);
-}
-
 }  // namespace
-
-std::vector<Observation> observations(const Results& r) {
-  const double apex = r.rotation.back().from_end_diastole / degree;
-  const double shortening = 100.0 * r.fibre_shortening;
-  double shift = 0.0, mean_J = 0.0, tail_J = 0.0;  // the worst of all moments
-  for (const auto& [moment, shape] : r.moments) {
-    const Statistics& J = r.whole(moment, "J");
-    shift = std::max(shift, shape.base_axial_shift);
-    mean_J = std::max(mean_J, 100.0 * (J.mean - 1.0), smaller_in_size);
-    for (const double percentile : {J.p1, J.p99})
-      tail_J = std::max(tail_J, 100.0 * std::abs(percentile - 1.0));
-  }
-  return {
-      {"apex_rotation", apex, "deg", "positive: anticlockwise seen from the apex", apex > 0.0},
-      {"wall_thickening", 100.0 * r.thickening, "%", "positive", r.thickening > 0.0},
-      {"fibre_shortening", shortening, "%", "10 to 25", shortening >= 10.0 && shortening <= 25.0},
-      {"base_axial_shift", shift, "mm", "at most 0.5", shift <= 0.5},
-      {"wall_volume_mean", mean_J, "%", "mean J within 0.5 of 1", std::abs(mean_J) <= 0.5},
-      {"wall_volume_tails", tail_J, "%", "1st and 99th percentile of J within 5 of 1",
-       tail_J <= 5.0},
-  };
-}
 
 std::string summary_json(const RunFacts& facts, const heartbeat::Beat& beat, const Results& r) {
   Json json;
@@ -172,6 +228,9 @@ std::string summary_json(const RunFacts& facts, const heartbeat::Beat& beat, con
   json["edv_ml"] = number(1e-3 * r.at(heartbeat::end_diastole).cavity_volume);
   json["esv_ml"] = number(1e-3 * r.at(heartbeat::end_systole).cavity_volume);
   json["ejection_fraction_percent"] = number(100.0 * r.ejection_fraction());
+  json["stroke_volume_ml"] = number(1e-3 * (r.at(heartbeat::end_diastole).cavity_volume -
+                                            r.at(heartbeat::end_systole).cavity_volume));
+  json["mass_g"] = number(1e3 * facts.muscle_density * r.early_diastole.wall_volume);
   for (const heartbeat::NamedMoment& m : beat.moments)
     json[m.phase + "_was_steady"] = m.by_criterion;
   json["strain"] =
@@ -190,18 +249,14 @@ std::string summary_json(const RunFacts& facts, const heartbeat::Beat& beat, con
         {{"slice", slice.slice},
          {"end_diastole_to_end_systole_deg", number(slice.from_end_diastole / degree)},
          {"early_diastole_to_end_systole_deg", number(slice.from_early_diastole / degree)}});
-  for (const Observation& o : observations(r))
-    json["observations"].push_back({{"name", o.name},
-                                    {"value", number(o.value)},
-                                    {"unit", o.unit},
-                                    {"rule", o.rule},
-                                    {"holds", o.holds}});
   for (const FittedVolume& v : facts.fitted)
     json["calibration"].push_back({{"volume", v.name},
                                    {"measured_ml", number(1e-3 * v.measured)},
                                    {"quasi_static_ml", number(1e-3 * v.quasi_static)},
                                    {"beat_ml", number(1e-3 * v.beat)},
                                    {"within_tolerance", v.within_tolerance}});
+  if (!facts.scar.empty())
+    json["infarct"] = infarct_json(facts, r);
   for (const SegmentScar& s : facts.scar)
     json["infarct_segments"].push_back(
         {{"segment", s.name},
@@ -209,7 +264,7 @@ std::string summary_json(const RunFacts& facts, const heartbeat::Beat& beat, con
          {"infarct_g", number(1e3 * s.mass)},
          {"percent_of_segment", number(100.0 * s.part)},
          {"transmurality_percent", number(100.0 * s.transmurality)}});
-  json["warnings"] = facts.warnings;
+  add_remarks(facts, r, judge(facts, beat, r), json);
   json["parameters"] = pairs(facts.parameters);
   json["set_in_case_file"] = pairs(facts.origins);
   return json_text(json) + "\n";
@@ -232,7 +287,9 @@ std::string summary_text(const RunFacts& facts, const heartbeat::Beat& beat, con
   row("cavity volume (ml)", 1e-3 * e.cavity_volume, 1e-3 * d.cavity_volume, 1e-3 * s.cavity_volume);
   row("wall volume (ml)", 1e-3 * e.wall_volume, 1e-3 * d.wall_volume, 1e-3 * s.wall_volume);
   row("endocardial apex z (mm)", e.apex_endo_z, d.apex_endo_z, s.apex_endo_z);
-  text += fmt::format("\n  ejection fraction {:.1f}%\n\n", 100.0 * r.ejection_fraction());
+  text += fmt::format(
+      "\n  ejection fraction {:.1f}%, mass {:.1f} g ({:g} g/ml)\n\n", 100.0 * r.ejection_fraction(),
+      1e3 * facts.muscle_density * r.early_diastole.wall_volume, 1e6 * facts.muscle_density);
   if (facts.unloaded)
     text += unloaded_text(*facts.unloaded);
   if (!facts.fitted.empty())
@@ -261,14 +318,8 @@ std::string summary_text(const RunFacts& facts, const heartbeat::Beat& beat, con
                     1e3 * scar.mass, 100.0 * scar.part, 100.0 * scar.transmurality);
   if (!facts.scar.empty())
     text += "\n";
-  for (const Observation& o : observations(r))
-    text += fmt::format("  {:<22}{:>9.2f} {:<4} {:<44} {}\n", o.name, o.value, o.unit, o.rule,
-                        o.holds ? "yes" : "NO");
-  if (!facts.warnings.empty())
-    text += "\n";
-  for (const std::string& warning : facts.warnings)
-    text += fmt::format("  warning: {}\n", warning);
-  return text;
+  const std::vector<Judgement> judgements = judge(facts, beat, r);
+  return text + plausibility_text(judgements) + remarks_text(facts, judgements);
 }
 
 }  // namespace lv::report

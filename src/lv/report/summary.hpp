@@ -1,6 +1,8 @@
 #pragma once
 
 #include "lv/analysis/results.hpp"
+#include "lv/geometry/fit_report.hpp"
+#include "lv/report/marks.hpp"
 
 #include <limits>
 #include <optional>
@@ -52,23 +54,15 @@ struct RunFacts {
   std::vector<std::pair<std::string, std::string>>
       origins;  ///< of those that a case file sets: file:line
   std::vector<std::string> warnings;
-  std::vector<FittedVolume> fitted;  ///< of a calibrated case
+  std::vector<geometry::Assumption> assumed;  ///< about the anatomy
+  double muscle_density = 1.05e-6;            ///< [kg/mm^3]
+  Mark shape = Mark::assumed;                 ///< of the wall that was seen
+  bool scar_is_measured = false;
+  std::vector<std::string> fitted_parameters, measured_parameters;  ///< names
+  std::vector<FittedVolume> fitted;                                 ///< of a calibrated case
   std::optional<UnloadedShape> unloaded;
   std::vector<SegmentScar> scar;  ///< empty without infarct
 };
-
-/// A statement about a beat that a healthy ventricle fulfils, with the number behind it.
-struct Observation {
-  std::string name;
-  double value;
-  std::string unit;
-  std::string rule;
-  bool holds;
-};
-
-/// The apex turns anticlockwise seen from the apex, the wall thickens, fibres shorten by 10-25% on
-/// average, the base stays in its plane, and the wall keeps its volume.
-[[nodiscard]] std::vector<Observation> observations(const analysis::Results& results);
 
 /// summary.json as text.
 [[nodiscard]] std::string summary_json(const RunFacts& facts, const heartbeat::Beat& beat,

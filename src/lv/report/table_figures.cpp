@@ -1,5 +1,7 @@
 #include "lv/report/table_figures.hpp"
 
+#include "lv/base/json_file.hpp"
+#include "lv/base/units.hpp"
 #include "lv/heartbeat/beat.hpp"
 #include "lv/report/work_folder.hpp"
 #include "lv/strain/agreement.hpp"
@@ -9,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 
 namespace lv::report {
@@ -46,6 +49,52 @@ std::vector<Phase> phases_of(const Table& curves) {
   return phases;
 }
 
+/// What curves are drawn against: the time, or the share of each phase's loads, phase after phase.
+struct Abscissa {
+  Axis axis;
+  std::vector<double> values;
+  std::vector<Phase> phases;
+};
+
+Abscissa abscissa(const Table& curves, const CurveFacts& facts) {
+  Abscissa a{{"time [s]"}, curves.numbers("time_s"), phases_of(curves)};
+  if (!facts.is_static)
+    return a;
+  a.axis.label = "load [share of each phase]";
+  const std::vector<Phase> phases = a.phases;
+  for (double& value : a.values) {
+    std::size_t k = 0;
+    while (k + 1 < phases.size() && value > phases[k].end)
+      ++k;
+    const double length = phases[k].end - phases[k].begin;
+    value = static_cast<double>(k) + (length > 0.0 ? (value - phases[k].begin) / length : 0.0);
+  }
+  for (std::size_t k = 0; k < phases.size(); ++k)
+    a.phases[k] = {phases[k].label, static_cast<double>(k), static_cast<double>(k) + 1.0};
+  return a;
+}
+
+Panel curve_panel(const Abscissa& a, const std::string& label, std::vector<double> values) {
+  return {.content = LineChart{.x = a.axis,
+                               .y = {label},
+                               .series = {{.x = a.values, .y = std::move(values)}},
+                               .phases = a.phases}};
+}
+
+/// A marker at the row whose time is the nearest to one that is known.
+void mark(const Table& curves, double time, const char* label, Marker marker, LineChart& path) {
+  const auto times = curves.numbers("time_s");
+  if (std::isnan(time) || times.empty())
+    return;
+  const auto nearest = std::min_element(times.begin(), times.end(), [&](double a, double b) {
+    return std::abs(a - time) < std::abs(b - time);
+  });
+  const Series& all = path.series.front();
+  const auto row = static_cast<std::size_t>(nearest - times.begin());
+  path.series.push_back(
+      {.label = label, .x = {all.x[row]}, .y = {all.y[row]}, .width = 0.0, .marker = marker});
+}
+
 // ---- bull's-eyes ----
 
 /// A quantity at a state in the regions of one scheme.
@@ -68,6 +117,24 @@ RegionalMeans means(const Table& regions, const std::string& quantity, const std
       found.unit = units[i];
     }
   return found;
+}
+
+/// At all moments, in slices' sectors and in segments.
+std::vector<double> all_means(const Table& regions, const std::string& quantity) {
+  const auto schemes = regions.words("scheme");
+  const auto quantities = regions.words("quantity");
+  const auto mean = regions.numbers("mean");
+  std::vector<double> all;
+  for (std::size_t i = 0; i < mean.size(); ++i)
+    if (quantities[i] == quantity && (schemes[i] == "sector" || schemes[i] == "aha17"))
+      all.push_back(mean[i]);
+  return all;
+}
+
+/// The footnote, and what the stars at names of walls mean.
+std::string with_stars(const std::string& footnote, const Orientation& orientation) {
+  const std::string note = star_note(orientation, {"septum"});
+  return footnote + (footnote.empty() || note.empty() ? "" : ". ") + note;
 }
 
 /// From the least to the greatest value, rounded outwards to a step that ticks can name.
@@ -97,18 +164,24 @@ int decimals(const ColourScale& scale) {
 }
 
 Panel bulls_eye_panel(const std::string& title, const std::vector<double>& values,
-                      const ColourScale& scale, int digits) {
+                      const ColourScale& scale, int digits, const Orientation& orientation) {
   BullsEye plot{.values = values, .scale = scale, .decimals = digits};
+  for (std::string& wall : plot.walls)
+    wall = orientation.starred(wall, "septum");
   if (values.size() != 17)
     plot.sectors = seven_slices();
   return {.title = title, .content = plot};
 }
 
 /// The value of every AHA segment at end-systole.
-Panel segment_panel(const Table& regions, const std::string& quantity, int digits) {
+Panel segment_panel(const Table& regions, const std::string& quantity, int digits,
+                    const Orientation& orientation) {
   const RegionalMeans found = means(regions, quantity, heartbeat::end_systole, "aha17");
-  return bulls_eye_panel(with_unit(quantity, found.unit), found.values,
-                         scale_of(found.values, quantity), digits);
+  const ColourScale scale = scale_of(found.values, quantity);
+  const std::string label = with_unit(quantity, found.unit);
+  Panel panel = bulls_eye_panel(label, found.values, scale, digits, orientation);
+  panel.colour_bar = ColourBar{label, scale};
+  return panel;
 }
 
 // ---- agreement ----
@@ -145,6 +218,28 @@ LineChart bland_altman(const Series& points, const strain::Agreement& a) {
 
 // ---- files ----
 
+/// The number before the unit of `"0 deg"`.
+double number_in(std::string text) {
+  std::erase(text, '"');
+  return std::stod(text);
+}
+
+/// Engine and moments as summary.json has them; without one the end of filling is known alone.
+CurveFacts curve_facts(const fs::path& work, const Table& curves) {
+  const fs::path file = file_of(work, "results", "summary.json");
+  if (file.empty()) {
+    const auto phases = phases_of(curves);
+    return {.end_diastole = phases.size() > 1 ? phases.front().end : missing};
+  }
+  return from_json_file(file, [](const auto& summary) {
+    const auto time = [&](const char* state) {
+      return summary.at(state).at("time_s").template get<double>();
+    };
+    return CurveFacts{summary.at("program").at("engine") == "quasi-static", time("end_diastole"),
+                      time("end_systole")};
+  });
+}
+
 /// Writes the figures of what is there.
 class FigureFolder {
  public:
@@ -155,14 +250,17 @@ class FigureFolder {
     const auto table = table_of(work_, "beat", "curves.csv");
     if (!table)
       return;
-    write(curves_figure(*table), "curves");
-    write(calcium_figure(*table), "calcium");
+    const CurveFacts facts = curve_facts(work_, *table);
+    write(curves_figure(*table, facts), "curves");
+    if (const auto calcium = calcium_figure(*table, facts))
+      write(*calcium, "calcium");
   }
 
   void regions() const {
     const auto table = table_of(work_, "results", "regions.csv");
     if (!table)
       return;
+    const Orientation orientation = orientation_of(work_);
     const auto states = table->words("state");
     const std::set<std::string> moments(states.begin(), states.end());
     for (const char* quantity :
@@ -170,7 +268,7 @@ class FigureFolder {
           "circumferential_strain", "radial_strain", "longitudinal_strain", "J"})
       for (const std::string& moment : moments)
         if (!means(*table, quantity, moment, "aha17").values.empty())
-          write(bulls_eyes_figure(*table, quantity, moment),
+          write(bulls_eyes_figure(*table, quantity, moment, orientation),
                 fmt::format("bulls_eyes_{}_{}", quantity, moment));
   }
 
@@ -205,63 +303,59 @@ class FigureFolder {
 
 }  // namespace
 
-Figure curves_figure(const Table& curves) {
-  const auto time = curves.numbers("time_s");
+Figure curves_figure(const Table& curves, const CurveFacts& facts) {
+  const Abscissa a = abscissa(curves, facts);
   const auto pressure = curves.numbers("pressure_mmHg");
   const auto volume = curves.numbers("cavity_volume_ml");
-  const LineChart against_time{
-      .x = {"time [s]"},
-      .y = {"pressure [mmHg], tension [kPa]"},
-      .second_y = {"volume [ml]"},
-      .series = {{.label = "pressure", .x = time, .y = pressure},
-                 {.label = "mean active tension",
-                  .x = time,
-                  .y = curves.numbers("mean_active_tension_kPa")},
-                 {.label = "cavity volume", .x = time, .y = volume, .on_second_axis = true}},
-      .phases = phases_of(curves)};
-  const LineChart loop{.x = {"cavity volume [ml]"},
-                       .y = {"pressure [mmHg]"},
-                       .series = {{.x = volume, .y = pressure}}};
-  return {.panels = {{.title = "against time", .content = against_time},
-                     {.title = "pressure and volume", .content = loop}}};
+  LineChart path{.x = {"cavity volume [ml]"},
+                 .y = {"pressure [mmHg]"},
+                 .series = {{.x = volume, .y = pressure}}};
+  mark(curves, facts.end_diastole, "end-diastole", Marker::circle, path);
+  mark(curves, facts.end_systole, "end-systole", Marker::square, path);
+  return {.panels = {curve_panel(a, "pressure [mmHg]", pressure),
+                     curve_panel(a, "cavity volume [ml]", volume),
+                     curve_panel(a, "mean active tension [kPa]",
+                                 curves.numbers("mean_active_tension_kPa")),
+                     {.title = "pressure-volume path (no valves)", .content = path}}};
 }
 
-Figure calcium_figure(const Table& curves) {
-  const LineChart chart{
-      .x = {"time [s]"},
-      .y = {"calcium [uM]"},
-      .series = {{.x = curves.numbers("time_s"), .y = curves.numbers("calcium_uM")}},
-      .phases = phases_of(curves)};
-  return {.panels = {{.content = chart}}, .columns = 1};
+std::optional<Figure> calcium_figure(const Table& curves, const CurveFacts& facts) {
+  const auto calcium = curves.numbers("calcium_uM");
+  if (std::all_of(calcium.begin(), calcium.end(), [](double c) { return std::isnan(c); }))
+    return std::nullopt;
+  return Figure{.panels = {curve_panel(abscissa(curves, facts), "calcium [µM]", calcium)},
+                .columns = 1,
+                .footnote = facts.is_static ? "Known at rest and at its peak; between them the "
+                                              "tension is a mean of both"
+                                            : ""};
 }
 
-Figure segments_figure(const Table& regions) {
-  return {.panels = {segment_panel(regions, "fibre_strain", 3),
-                     segment_panel(regions, "fibre_stress", 1),
-                     segment_panel(regions, "active_tension", 1),
-                     segment_panel(regions, "radial_strain", 2)},
+Figure segments_figure(const Table& regions, const Orientation& orientation) {
+  return {.panels = {segment_panel(regions, "fibre_strain", 3, orientation),
+                     segment_panel(regions, "fibre_stress", 1, orientation),
+                     segment_panel(regions, "active_tension", 1, orientation),
+                     segment_panel(regions, "radial_strain", 2, orientation)},
           .title = "end-systole, 17 segments",
-          .footnote = "Green-Lagrange strain from end-diastole"};
+          .footnote = with_stars("Green-Lagrange strain from end-diastole", orientation)};
 }
 
 Figure bulls_eyes_figure(const Table& regions, const std::string& quantity,
-                         const std::string& state) {
+                         const std::string& state, const Orientation& orientation) {
   const RegionalMeans slices = means(regions, quantity, state, "sector");
   const RegionalMeans segments = means(regions, quantity, state, "aha17");
-  std::vector<double> all = slices.values;
-  all.insert(all.end(), segments.values.begin(), segments.values.end());
-  const ColourScale scale = scale_of(all, quantity);
+  const ColourScale scale = scale_of(all_means(regions, quantity), quantity);
   const int digits = decimals(scale);
   const std::string label = with_unit(quantity, segments.unit);
   const std::string strain =
       fmt::format("Green-Lagrange strain from {}", state == heartbeat::end_diastole
                                                        ? "early diastole"
                                                        : heartbeat::title(heartbeat::end_diastole));
-  return {.panels = {bulls_eye_panel("seven slices", slices.values, scale, digits),
-                     bulls_eye_panel("17 segments (AHA)", segments.values, scale, digits)},
-          .title = fmt::format("{}, mean at {}", label, heartbeat::title(state)),
-          .footnote = is_strain(quantity) ? strain : "",
-          .colour_bar = ColourBar{label, scale}};
+  return {
+      .panels = {bulls_eye_panel("seven slices", slices.values, scale, digits, orientation),
+                 bulls_eye_panel("17 segments (AHA)", segments.values, scale, digits, orientation)},
+      .title = fmt::format("{}, mean at {}", label, heartbeat::title(state)),
+      .footnote = with_stars(is_strain(quantity) ? strain : "", orientation),
+      .colour_bar = ColourBar{label, scale}};
 }
 
 Figure rotation_figure(const Table& rotation) {
@@ -325,6 +419,21 @@ Figure agreement_figure(const Table& table, const std::string& component,
                      {.title = "Bland and Altman", .content = bland_altman(difference, a)}},
           .title = fmt::format("{} strain at end-systole, {} {}", component, a.count,
                                scheme == "sector" ? "sectors of slices" : "AHA segments")};
+}
+
+Orientation orientation_of(const fs::path& work) {
+  const fs::path file = file_of(work, "results", "summary.json");
+  if (file.empty())
+    return {};
+  return from_json_file(file, [](const auto& summary) {
+    const auto parameters = summary.value("parameters", std::map<std::string, std::string>{});
+    Orientation o;
+    if (parameters.contains("regions.septum_angle"))
+      o.septum_angle = number_in(parameters.at("regions.septum_angle")) * units::degree;
+    for (const auto& a : summary.at("assumptions"))
+      o.assumed.push_back({a.at("part"), a.at("text")});
+    return o;
+  });
 }
 
 void write_figures(const fs::path& work, const fs::path& folder) {

@@ -4,25 +4,36 @@
 #include "lv/report/figure.hpp"
 
 #include <filesystem>
+#include <limits>
+#include <optional>
 #include <string>
 
 namespace lv::report {
 
-/// Pressure, volume and mean active tension against time, and pressure against volume, from
-/// curves.csv.
-[[nodiscard]] Figure curves_figure(const Table& curves);
+/// What curves.csv does not say of itself.
+struct CurveFacts {
+  bool is_static = false;  ///< equilibria: the times are no times but shares of the loads
+  double end_diastole = std::numeric_limits<double>::quiet_NaN();  ///< its time; NaN: not known [s]
+  double end_systole = std::numeric_limits<double>::quiet_NaN();
+};
 
-/// Calcium against time, from curves.csv.
-[[nodiscard]] Figure calcium_figure(const Table& curves);
+/// Pressure, volume and mean active tension against time (against the load where there is no time),
+/// each with an axis of its own, and pressure against volume with end-diastole and end-systole
+/// marked, from curves.csv.
+[[nodiscard]] Figure curves_figure(const Table& curves, const CurveFacts& facts);
+
+/// Calcium in the same way; nothing where it is missing throughout. Missing values are gaps.
+[[nodiscard]] std::optional<Figure> calcium_figure(const Table& curves, const CurveFacts& facts);
 
 /// Fibre strain, fibre stress, active tension and radial strain at end-systole in the 17 segments,
-/// from regions.csv.
-[[nodiscard]] Figure segments_figure(const Table& regions);
+/// from regions.csv. Names of walls have a star where the septum is assumed.
+[[nodiscard]] Figure segments_figure(const Table& regions, const Orientation& orientation);
 
 /// A quantity's regional means at a state in the paper's seven slices and in the 17 segments, from
-/// regions.csv. Strains have a scale that is symmetric about 0, J one about 1.
+/// regions.csv, by the scale of both states. Strains have a scale that is symmetric about 0, J one
+/// about 1.
 [[nodiscard]] Figure bulls_eyes_figure(const Table& regions, const std::string& quantity,
-                                       const std::string& state);
+                                       const std::string& state, const Orientation& orientation);
 
 /// Rotation of the slices, from rotation.csv.
 [[nodiscard]] Figure rotation_figure(const Table& rotation);
@@ -36,6 +47,10 @@ namespace lv::report {
 /// in strain_comparison_COMPONENT.csv.
 [[nodiscard]] Figure agreement_figure(const Table& pairs, const std::string& component,
                                       const std::string& scheme);
+
+/// How the ventricle of a finished run lies and what of it was assumed, from its summary.json as
+/// text; nothing known without one.
+[[nodiscard]] Orientation orientation_of(const std::filesystem::path& work);
 
 /// Writes every chart and bull's-eye of a work folder as SVG into `folder`, and nothing for what is
 /// missing. Throws RunError naming a file that cannot be written.

@@ -10,6 +10,11 @@ using units::mmHg;
 
 const auto number = [](double value) { return Table::number(value); };
 
+/// The number of an AHA segment, which its name begins with; empty for other regions.
+std::string segment(const analysis::RegionalValue& r) {
+  return r.scheme == "aha17" ? r.region.substr(0, r.region.find(' ')) : "";
+}
+
 }  // namespace
 
 Table curves_table(const std::vector<heartbeat::CurveRow>& curves) {
@@ -33,11 +38,11 @@ Table moments_table(const std::vector<heartbeat::NamedMoment>& moments) {
 
 Table regions_table(const analysis::Results& results) {
   Table table({"state", "scheme", "region", "quantity", "unit", "volume_ml", "mean", "sd", "p1",
-               "p50", "p99"});
+               "p50", "p99", "segment"});
   for (const analysis::RegionalValue& r : results.regional)
     table.add_row({r.state, r.scheme, r.region, r.quantity, r.unit, number(1e-3 * r.volume),
                    number(r.statistics.mean), number(r.statistics.sd), number(r.statistics.p1),
-                   number(r.statistics.p50), number(r.statistics.p99)});
+                   number(r.statistics.p50), number(r.statistics.p99), segment(r)});
   return table;
 }
 

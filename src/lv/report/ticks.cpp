@@ -91,10 +91,4 @@ Ticks ticks_within(const Range& range) {
   return multiples(step(r), r);
 }
 
-Ticks ticks_around(const Range& range) {
-  const Range r = with_extent(range);
-  const double d = step(r);
-  return multiples(d, {d * std::floor(r.low / d + rounding), d * std::ceil(r.high / d - rounding)});
-}
-
 }  // namespace lv::report

@@ -20,9 +20,6 @@ struct Ticks {
 /// The round numbers inside `range`.
 [[nodiscard]] Ticks ticks_within(const Range& range);
 
-/// Round numbers for the smallest range that contains `range` and ends on them.
-[[nodiscard]] Ticks ticks_around(const Range& range);
-
 /// The largest of 1, 2, 5, 10, ... that is not above `value`.
 [[nodiscard]] double round_down(double value);
 

@@ -244,7 +244,7 @@ TEST_CASE("what does nothing is named with what it counts with", "[unit][job]") 
       {static_engine, "time.longest_step", "\"1e-4 s\"", "with engine = \"immersed\""},
       {static_engine, "output.checkpoint_interval", "\"1 s\"", "with engine = \"immersed\""},
       {static_engine, "active.A_1", "-30", "with engine = \"immersed\""},
-      {static_engine, "blood.density", "\"1.1 g/ml\"", "with an infarct"},
+      {static_engine, "blood.density", "\"1.1 g/ml\"", "with engine = \"immersed\""},
       {{}, "quasi_static.tolerance", "\"1e-5 mm\"", "with engine = \"quasi_static\", with a fit"},
       {{}, "passive.guccione.C", "\"1 kPa\"", "with passive.law = \"guccione\""},
       {{}, "active.tension", "\"50 kPa\"", "with active.law = \"second_piola\" or \"cauchy\""},

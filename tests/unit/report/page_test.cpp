@@ -95,9 +95,3 @@ TEST_CASE("a page of frames without named moments says so", "[report]") {
   write_file(beat / "moments.csv", "moment,phase,time_s,by_criterion\n");
   CHECK(page().find("no moments.csv") == std::string::npos);
 }
-
-TEST_CASE("the script for ParaView names the series beside it", "[report]") {
-  const std::string script = report::paraview_script("../03_beat");
-  CHECK(script.find("os.path.join(here, \"../03_beat\")") != std::string::npos);
-  CHECK(script.find("{time:.3f}") != std::string::npos);
-}

@@ -41,19 +41,57 @@ Table segments(const std::string& quantity, double least, double greatest) {
 
 }  // namespace
 
-TEST_CASE("curves are drawn from the table's columns, contraction where filling ends", "[report]") {
-  const Figure figure = report::curves_figure(curves());
+TEST_CASE("curves are drawn from the table's columns, each with an axis of its own", "[report]") {
+  const Figure figure = report::curves_figure(curves(), {.end_diastole = 1.0, .end_systole = 2.0});
   const LineChart& time = chart(figure);
   CHECK(time.series[0].y == std::vector<double>{0.0, 8.0, 150.0});
   REQUIRE(time.phases.size() == 2);
   CHECK(time.phases[1].label == "contraction");
   CHECK(time.phases[1].begin == 1.0);
-  CHECK(chart(figure, 1).series[0].x == std::vector<double>{70.0, 140.0, 60.0});
+  CHECK(chart(figure, 1).y.label == "cavity volume [ml]");
+  CHECK(chart(figure, 2).y.label == "mean active tension [kPa]");
+}
+
+TEST_CASE("the path of pressure and volume has its end-diastole and end-systole", "[report]") {
+  const Figure figure = report::curves_figure(curves(), {.end_diastole = 1.0, .end_systole = 2.0});
+  const LineChart& path = chart(figure, 3);
+  CHECK(figure.panels[3].title == "pressure-volume path (no valves)");
+  REQUIRE(path.series.size() == 3);
+  CHECK(path.series[0].x == std::vector<double>{70.0, 140.0, 60.0});
+  CHECK(path.series[1].label == "end-diastole");
+  CHECK(path.series[1].x == std::vector<double>{140.0});
+  CHECK(path.series[2].y == std::vector<double>{150.0});
+}
+
+TEST_CASE("equilibria are drawn against the load", "[report]") {
+  Table table({"time_s", "phase", "pressure_mmHg", "cavity_volume_ml", "calcium_uM",
+               "mean_active_tension_kPa"});
+  table.add_row({"0", "filling", "0", "70", "0.01", "0"});
+  table.add_row({"0.3", "filling", "8", "140", "0.01", "0"});
+  table.add_row({"0.35", "contraction", "43.5", "70", "", "20"});
+  table.add_row({"0.5", "contraction", "150", "60", "1", "80"});
+  const Figure figure = report::curves_figure(table, {.is_static = true});
+  const LineChart& pressure = chart(figure);
+  CHECK_THAT(pressure.x.label, Catch::StartsWith("load"));
+  CHECK(pressure.series[0].x.at(1) == Approx(1.0));
+  CHECK(pressure.series[0].x.at(2) == Approx(1.25));
+  CHECK(pressure.series[0].x.at(3) == Approx(2.0));
+  const auto calcium = report::calcium_figure(table, {.is_static = true});
+  REQUIRE(calcium);
+  CHECK(std::isnan(chart(*calcium).series[0].y.at(2)));  // a gap and no ramp
+  CHECK(chart(*calcium).y.label == "calcium [µM]");
+}
+
+TEST_CASE("a curve without values makes no figure", "[report]") {
+  Table table({"time_s", "phase", "calcium_uM"});
+  table.add_row({"0", "filling", ""});
+  table.add_row({"1", "filling", ""});
+  CHECK_FALSE(report::calcium_figure(table, {}));
 }
 
 TEST_CASE("strains have a scale about no strain, and a missing region stays missing", "[report]") {
   const Figure figure = report::bulls_eyes_figure(segments("fibre_strain", -0.2, 0.05),
-                                                  "fibre_strain", "end_systole");
+                                                  "fibre_strain", "end_systole", {});
   const auto& slices = std::get<BullsEye>(figure.panels.at(0).content);
   const auto& aha = std::get<BullsEye>(figure.panels.at(1).content);
   CHECK(slices.sectors == report::seven_slices());
@@ -61,6 +99,19 @@ TEST_CASE("strains have a scale about no strain, and a missing region stays miss
   CHECK(slices.scale.min <= -0.2);
   CHECK(std::isnan(aha.values.at(3)));
   CHECK(report::svg(figure).find("<svg") != std::string::npos);
+}
+
+TEST_CASE("both states of a quantity have one scale, and an assumed septum has stars", "[report]") {
+  Table table = segments("active_tension", 50.0, 60.0);
+  for (int i = 0; i < 17; ++i)
+    table.add_row({"end_diastole", "aha17", std::to_string(i), "active_tension", "kPa", "0.007"});
+  for (int i = 0; i < 38; ++i)
+    table.add_row({"end_diastole", "sector", std::to_string(i), "active_tension", "kPa", "0.007"});
+  const report::Orientation assumed{0.0, {{"septum", "nothing shows it"}}};
+  const Figure ed = report::bulls_eyes_figure(table, "active_tension", "end_diastole", assumed);
+  CHECK(ed.colour_bar->scale.max >= 60.0);
+  CHECK(std::get<BullsEye>(ed.panels.at(1).content).walls[1] == "septal*");
+  CHECK(ed.footnote == "* assumed: nothing shows it");
 }
 
 TEST_CASE("each muscle is a line of its table, published ones dashed", "[report]") {

@@ -1,0 +1,56 @@
+#pragma once
+
+#include "lv/analysis/results.hpp"
+
+#include <string>
+#include <vector>
+
+namespace lv::report {
+
+/// Of whom a range speaks: of every computed wall, of the ventricles of healthy adults, or of their
+/// muscle, with which a wall that has an infarct is not compared.
+enum class Population { any_wall, healthy_ventricle, healthy_muscle };
+
+/// Where a quantity of a beat is expected, and where no beating heart can be. An end that is not
+/// bounded is infinite.
+struct PlausibleRange {
+  std::string quantity;  ///< its key in summary.json
+  std::string label, unit;
+  double low, high;
+  double possible_low, possible_high;
+  Population population;
+  bool needs_end_systole;  ///< means nothing where contraction was not steady
+  std::string source;
+};
+
+/// The one list of ranges.
+[[nodiscard]] const std::vector<PlausibleRange>& plausible_ranges();
+
+enum class Answer { within, outside, not_applicable };
+
+[[nodiscard]] std::string name(Answer answer);
+
+/// A number beside its range.
+struct Judgement {
+  const PlausibleRange* range;
+  double value;
+  Answer answer;
+  std::string reason;  ///< why the range does not apply, or why the value cannot be
+  bool is_impossible;
+};
+
+/// What a beat is judged by.
+struct JudgedBeat {
+  const analysis::Results& results;
+  double muscle_density;  ///< [kg/mm^3]
+  bool is_infarcted;
+  bool contraction_was_steady;
+};
+
+/// All quantities of plausible_ranges, in its order.
+[[nodiscard]] std::vector<Judgement> judge(const JudgedBeat& beat);
+
+/// A sentence for each value that cannot be.
+[[nodiscard]] std::vector<std::string> impossible_values(const std::vector<Judgement>& judgements);
+
+}  // namespace lv::report

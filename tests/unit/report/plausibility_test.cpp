@@ -1,0 +1,95 @@
+#include "lv/report/plausibility.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+
+namespace {
+
+using namespace lv;
+using report::Answer;
+
+/// A beat as healthy as the means of the ranges.
+analysis::Results healthy() {
+  analysis::Results r;
+  r.early_diastole.wall_volume = 1.1e5;
+  r.moments = {{"end_diastole", {}}, {"end_systole", {}}};
+  r.moments[0].second.cavity_volume = 1.44e5;
+  r.moments[1].second.cavity_volume = 6.0e4;
+  r.rotation.push_back({7, 0.21, 0.2, 0.0});  // 12 degrees
+  r.fibre_shortening = 0.2;
+  r.thickening = 0.4;
+  for (const char* moment : {"end_diastole", "end_systole"})
+    r.regional.push_back({moment, "whole", "wall", "J", "1", 1e5, {1.0, 0.01, 0.98, 1.0, 1.02}});
+  for (const char* quantity : {"circumferential_strain", "longitudinal_strain"})
+    r.regional.push_back({"end_systole", "whole", "wall", quantity, "1", 1e5, {-0.2, 0, 0, 0, 0}});
+  return r;
+}
+
+report::Judgement judged(const report::JudgedBeat& beat, const std::string& quantity) {
+  const auto all = report::judge(beat);
+  return *std::find_if(all.begin(), all.end(),
+                       [&](const auto& j) { return j.range->quantity == quantity; });
+}
+
+report::JudgedBeat of(const analysis::Results& results) {
+  return {results, 1.05e-6, false, true};
+}
+
+}  // namespace
+
+TEST_CASE("every range is a range, lies in what is possible and has a source", "[report]") {
+  for (const report::PlausibleRange& range : report::plausible_ranges()) {
+    CHECK(range.low < range.high);
+    CHECK(range.possible_low <= range.low);
+    CHECK(range.possible_high >= range.high);
+    CHECK(range.source.size() > 10);
+    CHECK_FALSE(range.label.empty());
+  }
+}
+
+TEST_CASE("a healthy beat is within every range", "[report]") {
+  const analysis::Results r = healthy();
+  for (const report::Judgement& j : report::judge(of(r))) {
+    INFO(j.range->quantity << " " << j.value);
+    CHECK(j.answer == Answer::within);
+    CHECK_FALSE(j.is_impossible);
+  }
+}
+
+TEST_CASE("an apex that turns by 30 degrees is outside", "[report]") {
+  analysis::Results r = healthy();
+  r.rotation.back().from_end_diastole = 0.52;
+  CHECK(judged(of(r), "apex_rotation_deg").answer == Answer::outside);
+}
+
+TEST_CASE("an infarcted heart is not compared with healthy muscle, but its ejection fraction is",
+          "[report]") {
+  analysis::Results r = healthy();
+  r.moments[1].second.cavity_volume = 0.74 * r.moments[0].second.cavity_volume;
+  report::JudgedBeat beat = of(r);
+  beat.is_infarcted = true;
+  CHECK(judged(beat, "ejection_fraction_percent").answer == Answer::outside);
+  CHECK(judged(beat, "esv_ml").answer == Answer::outside);
+  CHECK(judged(beat, "fibre_shortening_percent").answer == Answer::not_applicable);
+  CHECK_FALSE(judged(beat, "fibre_shortening_percent").reason.empty());
+}
+
+TEST_CASE("without an end-systole nothing is said of it", "[report]") {
+  const analysis::Results r = healthy();
+  report::JudgedBeat beat = of(r);
+  beat.contraction_was_steady = false;
+  CHECK(judged(beat, "ejection_fraction_percent").answer == Answer::not_applicable);
+  CHECK(judged(beat, "edv_ml").answer == Answer::within);
+}
+
+TEST_CASE("an ejection fraction below zero is impossible and is told as a sentence", "[report]") {
+  analysis::Results r = healthy();
+  r.moments[1].second.cavity_volume = 1.26 * r.moments[0].second.cavity_volume;
+  const auto j = judged(of(r), "ejection_fraction_percent");
+  CHECK(j.is_impossible);
+  CHECK(j.answer == Answer::outside);
+  const auto sentences = report::impossible_values(report::judge(of(r)));
+  REQUIRE(sentences.size() == 1);
+  CHECK_THAT(sentences.front(), Catch::StartsWith("ejection fraction is -26 %, which no beating"));
+}
