@@ -20,7 +20,7 @@ Exit codes:
     3  a defect of the program
   130  stopped by Ctrl-C or kill; the same command goes on)";
 
-inline constexpr std::array<std::pair<const char*, const char*>, 12> commands{{
+inline constexpr std::array<std::pair<const char*, const char*>, 13> commands{{
     {"new",
      R"(With --from the case holds what the source shows: labels, frame, phases, septum,
 unit, the pressure that a filled shape bears. What it cannot show stands there as
@@ -33,6 +33,7 @@ matter, and the next command.)"},
     {"run",
      R"(Stages, each with a folder in the work folder. One whose inputs, parameters and
 program have not changed is not run again.
+  circulation 00_circulation the circulation by itself, for cases with circulation.kind
   strain     00_strain      strain of the muscle, for cases with cine images
   anatomy    01_anatomy     the surfaces of the wall and how well they fit
   mesh       02_mesh        elements, fibres, regions, infarct
@@ -49,6 +50,10 @@ and .csv. `ventricle run` does it too.)"},
     {"strain",
      R"(Set strain.cine and strain.contours. Writes 00_strain/: strain and rotation per
 slice, sector and segment at every phase; strain.txt says what was found.)"},
+    {"circulation",
+     R"(Set circulation.kind. Beats of the circulation alone, with an elastance for the left
+ventricle, up to their limit cycle. Writes 00_circulation/: cycle.csv, beats.csv, the
+pressure-volume loop and the Wiggers diagram as SVG; circulation.txt says what was found.)"},
     {"phantom",
      R"(Writes images (DICOM, NIfTI), label maps, contours, what is true of them (truth.json,
 truth_segments.csv, truth_rotation.csv), and case.toml, ready for ventricle run.)"},

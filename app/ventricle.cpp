@@ -147,10 +147,11 @@ int validate(const Command& command, int argc, char** argv) {
   return 0;
 }
 
-int measure_strain(Command& command, int argc, char** argv) {
+/// Runs the stages up to one that needs one rank.
+int run_alone(Command& command, const std::string& stage, int argc, char** argv) {
   const lv::job::Case c = lv::job::read_case(command.case_file);
   const lv::parallel::Session session(&argc, &argv);
-  command.run.until = "strain";
+  command.run.until = stage;
   return until_stopped([&] { lv::job::run(c, command.run); });
 }
 
@@ -204,7 +205,6 @@ void add_run_options(CLI::App& app, Command& command) {
                  "work folder (default: the case file's name with .work)");
   app.add_flag("--explain", command.run.explain, "say why each stage runs or does not");
   app.add_flag("--dry-run", command.run.dry_run, "say what would run and why, and run nothing");
-  add_ranks(app, command);
 }
 
 void add_verify(CLI::App& app, Command& command) {
@@ -325,20 +325,22 @@ void add_cases(CLI::App& app, Command& command) {
   auto* run =
       app.add_subcommand("run", "run all stages of a case, skipping those that are up to date");
   add_run_options(*run, command);
-  run->add_option("--until", command.until,
-                  "last stage: strain, anatomy, mesh, calibrate, unload, beat, results or report");
+  add_ranks(*run, command);
+  run->add_option(
+      "--until", command.until,
+      "last stage: circulation, strain, anatomy, mesh, calibrate, unload, beat, results or report");
 
   auto* fit =
       app.add_subcommand("calibrate", "fit parameters to measured volumes, as the case asks");
   add_run_options(*fit, command);
+  add_ranks(*fit, command);
 
-  auto* strain =
-      app.add_subcommand("strain", "measure strain from the cine images that a case names");
-  strain->add_option("CASE", command.case_file, "the case file")->required();
-  strain->add_option("--work", command.run.work,
-                     "work folder (default: the case file's name with .work)");
-  strain->add_flag("--explain", command.run.explain, "say why the stage runs or does not");
-  strain->add_flag("--dry-run", command.run.dry_run, "say what would run and why, and run nothing");
+  add_run_options(*app.add_subcommand(
+                      "circulation", "run the circulation of a case by itself, to its limit cycle"),
+                  command);
+  add_run_options(
+      *app.add_subcommand("strain", "measure strain from the cine images that a case names"),
+      command);
 }
 
 void add_parameters(CLI::App& app, Command& command) {
@@ -401,8 +403,8 @@ int perform(const CLI::App& app, Command& command, int argc, char** argv) {
     return refuse_ranks(name);
   if (name == "validate")
     return validate(command, argc, argv);
-  if (name == "strain")
-    return measure_strain(command, argc, argv);
+  if (name == "strain" || name == "circulation")
+    return run_alone(command, name, argc, argv);
   if (name == "calibrate")
     command.until = "calibrate";
   if (name == "run" || name == "calibrate")

@@ -66,6 +66,10 @@ def check_outputs(work):
     rows = list(csv.DictReader((work / "03_beat" / "curves.csv").open()))
     times = [float(row["time_s"]) for row in rows]
     check("the curves are in the order of time", times == sorted(set(times)))
+    moments = list(csv.DictReader((work / "03_beat" / "moments.csv").open()))
+    check("the moments of the beat are named, each at the end of its phase",
+          [(m["moment"], m["phase"]) for m in moments] == [("end_diastole", "filling"), ("end_systole", "contraction")]
+          and all(abs(float(m["time_s"]) - max(float(r["time_s"]) for r in rows if r["phase"] == m["phase"])) < 1e-9 for m in moments), moments)
     check("nothing unfinished is left", not list(work.rglob("*.part*")) and not list(work.rglob("checkpoint*")))
     for picture in ("02_mesh/mesh.png", "02_mesh/fibres.png", "04_results/states.png", "04_results/curves.png",
                     "05_report/report.html"):
@@ -138,7 +142,7 @@ def check_unloading(work):
 
 
 def different_tables(a, b):
-    return [name for name in ("03_beat/curves.csv", "04_results/regions.csv", "04_results/rotation.csv")
+    return [name for name in ("03_beat/curves.csv", "03_beat/moments.csv", "04_results/regions.csv", "04_results/rotation.csv")
             if not filecmp.cmp(a / name, b / name, shallow=False)]
 
 

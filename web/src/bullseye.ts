@@ -2,7 +2,8 @@
 // follow anticlockwise (septum on the left).
 import { colourOf, inkOn, type Scale } from "./colours.ts";
 import { sectorsPerRing, type Scheme } from "./data.ts";
-import { svg } from "./dom.ts";
+import { ink, svg } from "./dom.ts";
+import { marked } from "./orientation.ts";
 import { shown } from "./quantities.ts";
 
 export interface BullsEye {
@@ -12,6 +13,7 @@ export interface BullsEye {
   details: string[];
   scale: Scale;
   title: string;
+  assumed: boolean;  // the septum
   pick: (index: number | undefined, fixed: boolean) => void;
 }
 
@@ -20,6 +22,10 @@ export interface DrawnBullsEye { figure: SVGSVGElement; highlight: (index: numbe
 const size = 300;
 const centre = size / 2;
 const radius = 122;
+
+/** Which artery usually feeds each AHA segment (Cerqueira et al., Circulation 105:539, 2002), from 0. */
+const territories: Record<string, number[]> = { LAD: [0, 1, 6, 7, 12, 13, 16], RCA: [2, 3, 8, 9, 14], LCX: [4, 5, 10, 11, 15] };
+const territoryPlaces: [string, number][] = [["LAD", 60], ["RCA", 225], ["LCX", 330]];
 
 function ringShape(inner: number, outer: number, from: number, to: number): string {
   const at = (r: number, a: number) => `${(centre + r * Math.cos(a)).toFixed(2)} ${(centre - r * Math.sin(a)).toFixed(2)}`;
@@ -30,51 +36,97 @@ function ringShape(inner: number, outer: number, from: number, to: number): stri
     `A${inner} ${inner} 0 ${wide} 1 ${at(inner, from)}Z`;
 }
 
+interface Place { d: string; ring: number; middle: number; r: number; whole: boolean }
+
+function places(scheme: Scheme): Place[] {
+  const rings = sectorsPerRing[scheme];
+  const inner = scheme === "aha17" ? 0 : 0.06 * radius;
+  const edge = (ring: number) => radius - ((radius - inner) * ring) / rings.length;
+  return rings.flatMap((count, ring) => Array.from({ length: count }, (_, k) => {
+    const step = (2 * Math.PI) / count;
+    const middle = Math.PI / 2 + k * step;
+    return { d: ringShape(Math.max(edge(ring + 1), 0), edge(ring), middle - step / 2, middle + step / 2), ring, middle,
+      r: count === 1 ? 0 : (edge(ring) + edge(ring + 1)) / 2, whole: count === 1 };
+  }));
+}
+
+/** The neighbour that an arrow key leads to: around the ring, or the nearest of the next ring. */
+function neighbour(all: Place[], index: number, key: string): number | undefined {
+  const { ring, middle } = all[index];
+  const of = (wanted: number) => all.map((p, i) => ({ p, i })).filter(({ p }) => p.ring === wanted);
+  const own = of(ring);
+  const k = own.findIndex(({ i }) => i === index);
+  if (key === "ArrowLeft") return own[(k + 1) % own.length].i;
+  if (key === "ArrowRight") return own[(k + own.length - 1) % own.length].i;
+  if (key !== "ArrowUp" && key !== "ArrowDown") return undefined;
+  const next = of(ring + (key === "ArrowUp" ? -1 : 1));
+  const away = (p: Place) => Math.abs(Math.sin((p.middle - middle) / 2));
+  return next.reduce<{ p: Place; i: number } | undefined>((best, one) => (!best || away(one.p) < away(best.p) ? one : best), undefined)?.i;
+}
+
+/** The segments of one artery after the other, each group in front of a dark rim: what is left of it parts the territories. */
+function territoryGroups(all: Place[], shapes: SVGPathElement[]): SVGElement[] {
+  const rim = (index: number) => svg("path", { d: all[index].d, fill: "none", stroke: ink.text, "stroke-width": 5, "pointer-events": "none" });
+  return Object.values(territories).flatMap((members) => [...members.map(rim), ...members.map((i) => shapes[i])]);
+}
+
+function words(assumed: boolean): SVGElement[] {
+  return ([["anterior", centre, 18, 0], ["inferior", centre, size - 10, 0], ["septal", 18, centre, -90], ["lateral", size - 12, centre, 90]] as const)
+    .map(([name, x, y, turn]) => svg("text", { transform: `translate(${x} ${y}) rotate(${turn})`, "text-anchor": "middle", "font-size": 11, fill: ink.text },
+      marked(name, assumed)));
+}
+
+function territoryNames(): SVGElement[] {
+  return territoryPlaces.map(([name, angle]) => svg("text", { x: centre + 137 * Math.cos((angle * Math.PI) / 180),
+    y: centre - 137 * Math.sin((angle * Math.PI) / 180) + 4, "text-anchor": "middle", "font-size": 10, "font-weight": 600, fill: ink.soft }, name));
+}
+
+/** Value, and with it the number of an AHA segment. */
+function texts(plot: BullsEye, place: Place, index: number, text: string, longest: number): SVGElement {
+  const aha = plot.scheme === "aha17";
+  const fontSize = aha ? (longest > 5 ? 9 : 11) : longest > 5 ? 6 : 8;
+  // long numbers run along the ring
+  const tilt = longest > 3 && !place.whole ? 90 - (place.middle * 180) / Math.PI : 0;
+  const turn = Math.abs(((tilt % 360) + 540) % 360 - 180) > 91 ? tilt + 180 : tilt;
+  const fill = inkOn(plot.scale, plot.values[index]);
+  const at = `translate(${centre + place.r * Math.cos(place.middle)} ${centre - place.r * Math.sin(place.middle)}) rotate(${turn})`;
+  return svg("g", { transform: at, "text-anchor": "middle", fill, "pointer-events": "none" },
+    svg("text", { dy: aha ? "0.7em" : "0.35em", "font-size": fontSize }, text),
+    aha && svg("text", { dy: "-0.55em", "font-size": 6.5 }, String(index + 1)));
+}
+
 export function drawBullsEye(plot: BullsEye): DrawnBullsEye {
-  const rings = sectorsPerRing[plot.scheme];
   const root = svg("svg", { viewBox: `0 0 ${size} ${size}`, class: "bullseye", role: "group", "font-family": "sans-serif",
-    "aria-label": plot.title });
+    "aria-label": `${plot.title}; arrow keys go from region to region` });
   const id = `stripes-${Math.random().toString(36).slice(2)}`;
   root.append(svg("defs", {}, svg("pattern", { id, width: 6, height: 6, patternUnits: "userSpaceOnUse", patternTransform: "rotate(45)" },
     svg("rect", { width: 6, height: 6, fill: "#d9d9d9" }), svg("rect", { width: 2, height: 6, fill: "#9a9a9a" }))));
-  const inner = plot.scheme === "aha17" ? 0 : 0.06 * radius;
-  const shapes: SVGPathElement[] = [];
-  const texts = plot.values.map((x) => shown(x, 2));
-  const longest = texts.reduce((most, text) => Math.max(most, text.length), 0);
-  const fontSize = plot.scheme === "aha17" ? (longest > 5 ? 9 : 11) : longest > 5 ? 6 : 8;
-  let first = 0;
-  rings.forEach((count, ring) => {
-    const outerR = radius - ((radius - inner) * ring) / rings.length;
-    const innerR = radius - ((radius - inner) * (ring + 1)) / rings.length;
-    for (let k = 0; k < count; ++k) {
-      const index = first + k;
-      const step = (2 * Math.PI) / count;
-      const middle = Math.PI / 2 + k * step;
-      const value = plot.values[index];
-      const shape = svg("path", { d: ringShape(Math.max(innerR, 0), outerR, middle - step / 2, middle + step / 2),
-        fill: Number.isNaN(value) ? `url(#${id})` : colourOf(plot.scale, value), stroke: "#fff", "stroke-width": 1.2,
-        tabindex: 0, "data-index": index, role: "button", "aria-label": `${plot.names[index]}: ${plot.details[index]}`,
-        pointerenter: () => plot.pick(index, false), pointerleave: () => plot.pick(undefined, false),
-        focus: () => plot.pick(index, false), blur: () => plot.pick(undefined, false), click: () => plot.pick(index, true),
-        keydown: (event: KeyboardEvent) => {
-          if (event.key !== "Enter" && event.key !== " ") return;
-          event.preventDefault();
-          plot.pick(index, true);
-        } }, svg("title", {}, `${plot.names[index]}: ${plot.details[index]}`));
-      shapes.push(shape);
-      root.append(shape);
-      const r = count === 1 ? 0 : (innerR + outerR) / 2;
-      // long numbers run along the ring
-      const tilt = longest > 3 && count > 1 ? 90 - (middle * 180) / Math.PI : 0;
-      const turn = Math.abs(((tilt % 360) + 540) % 360 - 180) > 91 ? tilt + 180 : tilt;
-      root.append(svg("text", { transform: `translate(${centre + r * Math.cos(middle)} ${centre - r * Math.sin(middle)}) rotate(${turn})`,
-        dy: "0.35em", "text-anchor": "middle", "font-size": fontSize, fill: inkOn(plot.scale, value), "pointer-events": "none" }, texts[index]));
-    }
-    first += count;
+  const all = places(plot.scheme);
+  const shownValues = plot.values.map((x) => shown(x, 2));
+  const longest = shownValues.reduce((most, text) => Math.max(most, text.length), 0);
+  const focus = (index: number) => {
+    shapes.forEach((shape, i) => shape.setAttribute("tabindex", i === index ? "0" : "-1"));
+    shapes[index].focus();
+  };
+  const keydown = (event: KeyboardEvent, index: number) => {
+    const next = neighbour(all, index, event.key);
+    if (next === undefined && event.key !== "Enter" && event.key !== " ") return;
+    event.preventDefault();
+    if (next === undefined) plot.pick(index, true);
+    else focus(next);
+  };
+  const shapes = all.map(({ d }, index) => {
+    const value = plot.values[index];
+    const name = `${plot.names[index]}: ${plot.details[index]}`;
+    return svg("path", { d, fill: Number.isNaN(value) ? `url(#${id})` : colourOf(plot.scale, value), stroke: ink.paper, "stroke-width": 1.2,
+      tabindex: index === 0 ? 0 : -1, "data-index": index, role: "button", "aria-label": name,
+      pointerenter: () => plot.pick(index, false), pointerleave: () => plot.pick(undefined, false),
+      focus: () => plot.pick(index, false), blur: () => plot.pick(undefined, false), click: () => plot.pick(index, true),
+      keydown: (event: KeyboardEvent) => keydown(event, index) }, svg("title", {}, name));
   });
-  for (const [name, x, y, turn] of [["anterior", centre, 18, 0], ["inferior", centre, size - 10, 0],
-    ["septal", 18, centre, -90], ["lateral", size - 12, centre, 90]] as const)
-    root.append(svg("text", { transform: `translate(${x} ${y}) rotate(${turn})`, "text-anchor": "middle", "font-size": 11, fill: "#333" }, name));
+  root.append(...(plot.scheme === "aha17" ? territoryGroups(all, shapes) : shapes));
+  root.append(...all.map((place, i) => texts(plot, place, i, shownValues[i], longest)), ...words(plot.assumed),
+    ...(plot.scheme === "aha17" ? territoryNames() : []));
   const ring = svg("path", { class: "live", fill: "none", stroke: "#000", "stroke-width": 3, "pointer-events": "none" });
   const halo = svg("path", { class: "live", fill: "none", stroke: "#fff", "stroke-width": 6, "pointer-events": "none" });
   root.append(halo, ring);

@@ -1,14 +1,15 @@
 // Line charts as SVG.
-import { svg } from "./dom.ts";
+import { ink, svg } from "./dom.ts";
 import { shown } from "./quantities.ts";
 
-export interface Line { label: string; colour: string; dashed?: boolean; x: number[]; y: number[]; dots?: boolean; bare?: boolean /* dots alone */ }
+export interface Line { label: string; colour: string; dashed?: boolean; x: number[]; y: number[]; dots?: boolean; bare?: boolean /* dots alone */; ofPaper?: boolean }
 export interface Mark { x: number; label: string }
 export interface Chart {
   x: string;
   y: string;
   lines: Line[];
   marks?: Mark[];
+  points?: { x: number; y: number; label: string }[];
   zero?: boolean;  // the y axis reaches 0
   width?: number;
   height?: number;
@@ -25,6 +26,20 @@ export function ticks(min: number, max: number, count: number): number[] {
 }
 
 const finite = (values: number[]) => values.filter(Number.isFinite);
+/** A path with a gap where a number is missing; a point between two gaps is a dot. */
+function pathOf(points: [number, number][]): { d: string; alone: [number, number][] } {
+  const known = (p: [number, number] | undefined) => p !== undefined && p.every(Number.isFinite);
+  let d = "";
+  const alone: [number, number][] = [];
+  points.forEach((p, k) => {
+    if (!known(p)) return;
+    const joins = known(points[k - 1]);
+    if (!joins && !known(points[k + 1])) alone.push(p);
+    d += `${joins ? "L" : "M"}${p[0].toFixed(1)} ${p[1].toFixed(1)}`;
+  });
+  return { d, alone };
+}
+
 const tickText = (x: number) => String(x).replace("-", "−");
 
 export interface DrawnChart {
@@ -55,37 +70,45 @@ export function drawChart(chart: Chart): DrawnChart {
   const root = svg("svg", { viewBox: `0 0 ${width} ${height}`, class: "chart", role: "img", "font-family": "sans-serif",
     "font-size": 12, "aria-label": `${chart.y} against ${chart.x}` });
   for (const x of ticks(x0, x1, 6))
-    root.append(svg("line", { x1: px(x), x2: px(x), y1: box.top, y2: box.bottom, stroke: "#e6e6e6" }),
-      svg("text", { x: px(x), y: box.bottom + 16, "text-anchor": "middle", fill: "#333" }, tickText(x)));
+    root.append(svg("line", { x1: px(x), x2: px(x), y1: box.top, y2: box.bottom, stroke: ink.grid }),
+      svg("text", { x: px(x), y: box.bottom + 16, "text-anchor": "middle", fill: ink.text }, tickText(x)));
   for (const y of ticks(y0, y1, 5))
-    root.append(svg("line", { x1: box.left, x2: box.right, y1: py(y), y2: py(y), stroke: "#e6e6e6" }),
-      svg("text", { x: box.left - 6, y: py(y) + 4, "text-anchor": "end", fill: "#333" }, tickText(y)));
+    root.append(svg("line", { x1: box.left, x2: box.right, y1: py(y), y2: py(y), stroke: ink.grid }),
+      svg("text", { x: box.left - 6, y: py(y) + 4, "text-anchor": "end", fill: ink.text }, tickText(y)));
   root.append(svg("rect", { x: box.left, y: box.top, width: box.right - box.left, height: box.bottom - box.top,
-    fill: "none", stroke: "#888" }));
-  root.append(svg("text", { x: (box.left + box.right) / 2, y: height - 8, "text-anchor": "middle", fill: "#111" }, chart.x));
+    fill: "none", stroke: ink.frame }));
+  root.append(svg("text", { x: (box.left + box.right) / 2, y: height - 8, "text-anchor": "middle", fill: ink.text }, chart.x));
   root.append(svg("text", { transform: `translate(14 ${(box.top + box.bottom) / 2}) rotate(-90)`, "text-anchor": "middle",
-    fill: "#111" }, chart.y));
+    fill: ink.text }, chart.y));
   for (const mark of chart.marks ?? []) {
     const late = px(mark.x) > box.right - 70;
-    root.append(svg("line", { x1: px(mark.x), x2: px(mark.x), y1: box.top, y2: box.bottom, stroke: "#777", "stroke-dasharray": "2 3" }),
-      svg("text", { x: px(mark.x) + (late ? -4 : 4), y: box.bottom - 6, "text-anchor": late ? "end" : "start", fill: "#555", "font-size": 11 }, mark.label));
+    root.append(svg("line", { x1: px(mark.x), x2: px(mark.x), y1: box.top, y2: box.bottom, stroke: ink.soft, "stroke-dasharray": "2 3" }),
+      svg("text", { x: px(mark.x) + (late ? -4 : 4), y: box.bottom - 6, "text-anchor": late ? "end" : "start", fill: ink.soft, "font-size": 11 }, mark.label));
   }
   chart.lines.forEach((line, i) => {
-    const points = line.x.map((x, k) => [x, line.y[k]]).filter((p) => p.every(Number.isFinite));
-    const path = points.map(([x, y], k) => `${k ? "L" : "M"}${px(x).toFixed(1)} ${py(y).toFixed(1)}`).join("");
-    if (!line.bare) root.append(svg("path", { d: path, fill: "none", stroke: line.colour, "stroke-width": 1.8,
+    const group = svg("g", line.ofPaper ? { class: "of-paper" } : {});
+    const points = line.x.map((x, k): [number, number] => [px(x), py(line.y[k])]);
+    const { d, alone } = pathOf(points);
+    if (!line.bare) group.append(svg("path", { d, fill: "none", stroke: line.colour, "stroke-width": 1.8,
       "stroke-dasharray": line.dashed ? "6 4" : "none", "stroke-linejoin": "round" }));
-    if (line.dots) for (const [x, y] of points)
-      root.append(svg("circle", { cx: px(x), cy: py(y), r: 3.2, fill: line.colour }));
+    for (const [cx, cy] of line.dots ? points.filter((p) => p.every(Number.isFinite)) : alone)
+      group.append(svg("circle", { cx, cy, r: 3.2, fill: line.colour }));
     const [lx, ly] = [box.left + (i % 2) * ((box.right - box.left) / 2), 12 + 16 * Math.floor(i / 2)];
-    root.append(line.bare ? svg("circle", { class: "key", cx: lx + 10, cy: ly, r: 3.2, fill: line.colour })
+    group.append(line.bare ? svg("circle", { class: "key", cx: lx + 10, cy: ly, r: 3.2, fill: line.colour })
       : svg("line", { x1: lx, x2: lx + 20, y1: ly, y2: ly, stroke: line.colour, "stroke-width": 2, "stroke-dasharray": line.dashed ? "6 4" : "none" }),
-      svg("text", { x: lx + 25, y: ly + 4, fill: "#111" }, line.label));
+      svg("text", { x: lx + 25, y: ly + 4, fill: ink.text }, line.label));
+    root.append(group);
   });
+  for (const { x, y, label } of chart.points ?? []) {
+    const right = px(x) > (box.left + box.right) / 2;
+    const high = py(y) < box.top + 22;
+    root.append(svg("circle", { class: "key", cx: px(x), cy: py(y), r: 4.5, fill: ink.paper, stroke: ink.text, "stroke-width": 1.6 }),
+      svg("text", { x: px(x) + (right ? -8 : 8), y: py(y) + (high ? 16 : -7), "text-anchor": right ? "end" : "start", fill: ink.text, "font-weight": 600 }, label));
+  }
 
-  const line = svg("line", { class: "live", y1: box.top, y2: box.bottom, stroke: "#111", opacity: 0 });
-  const dots = chart.lines.map((l) => svg("circle", { class: "live", r: 5, fill: l.colour, stroke: "#fff", opacity: 0 }));
-  const read = svg("text", { class: "live", x: box.right - 4, y: box.top + 14, "text-anchor": "end", fill: "#111", "font-size": 11 });
+  const line = svg("line", { class: "live", y1: box.top, y2: box.bottom, stroke: ink.text, opacity: 0 });
+  const dots = chart.lines.map((l) => svg("circle", { class: "live", r: 5, fill: l.colour, stroke: ink.paper, opacity: 0 }));
+  const read = svg("text", { class: "live", x: box.right - 4, y: box.top + 14, "text-anchor": "end", fill: ink.text, "font-size": 11 });
   root.append(line, ...dots, read);
   root.addEventListener("pointermove", (event) => {
     const bounds = root.getBoundingClientRect();

@@ -46,11 +46,16 @@ function table(anchors: number[]): Rgb[] {
 
 const tables = { sequential: table(sequentialAnchors), diverging: table(divergingAnchors) };
 
-export interface Scale { min: number; max: number; diverging: boolean }
+/** Values nearer than `floor` to `middle` are as good as none and have no colour. */
+export interface Scale { min: number; max: number; diverging: boolean; middle: number; floor: number }
+
+export const uncoloured: Rgb = [236, 234, 231];
+const isColoured = (scale: Scale, x: number) => Math.abs(x - scale.middle) >= scale.floor;
 
 export const colourTable = (scale: Scale) => (scale.diverging ? tables.diverging : tables.sequential);
 
 export function rgbOf(scale: Scale, x: number): Rgb {
+  if (!isColoured(scale, x)) return uncoloured;
   const t = scale.max > scale.min ? (x - scale.min) / (scale.max - scale.min) : 0.5;
   return colourTable(scale)[Math.round(255 * Math.min(1, Math.max(0, t)))];
 }

@@ -1,5 +1,7 @@
 // What the program wrote into the page, decoded.
 
+import { stateTitle } from "./quantities.ts";
+
 export type Row = Record<string, string>;
 
 /** offset + sum_k course_k(t) step shape_k(i); see src/lv/report/modes.hpp. */
@@ -50,7 +52,8 @@ interface CaseJson {
   complete: boolean;
   state: string[];
   files: Record<string, string>;
-  end_diastole_s?: number;
+  septum_deg?: number;     // angle of the middle of the septum about the long axis, from x
+  engine?: string;         // as the case file calls it
   wall?: WallJson;
   flow?: FlowJson;
   pictures?: string;  // id of the element with them
@@ -167,13 +170,23 @@ export class Wall {
   region(scheme: Scheme): Int16Array | undefined { return this.regions[scheme]; }
 }
 
+/** A named moment of a beat, from moments.csv. */
+export interface Moment { name: string; phase: string; time: number }
+
 export class Case {
   readonly regions: Row[];
+  readonly moments: Moment[];
+  private readonly phases: { name: string; end: number }[] = [];  // as far as curves.csv goes
   name: string;
   wall?: Wall;  // once it is loaded
   private constructor(readonly json: CaseJson, readonly summary: any) {
     this.name = summary?.case ?? json.folder;
     this.regions = csv(json.files["regions.csv"]);
+    this.moments = csv(json.files["moments.csv"]).map((r) => ({ name: r.moment, phase: r.phase, time: value(r.time_s) }));
+    for (const r of this.table("curves.csv")) {
+      if (this.phases.at(-1)?.name !== r.phase) this.phases.push({ name: r.phase, end: 0 });
+      this.phases.at(-1)!.end = value(r.time_s);
+    }
   }
 
   static read(number: number): Case {
@@ -195,11 +208,41 @@ export class Case {
   get flow(): FlowJson | undefined { return this.json.flow; }
   table(file: string): Row[] { return csv(this.json.files[file]); }
 
+  /** Steps of the quasi-static engine are loads, not moments. */
+  get isLoaded(): boolean { return this.json.engine === "quasi_static"; }
+
+  /** What was taken for granted of the anatomy. */
+  get assumptions(): { part: string; text: string }[] {
+    const frame = this.json.files["frame.json"];
+    return this.summary?.assumptions ?? (frame ? JSON.parse(frame).assumed : undefined) ?? [];
+  }
+
+  assumes(part: string): boolean { return this.assumptions.some((a) => a.part === part); }
+
+  /** measured, fitted, assumed or computed: that of the longest path that a figure's path in summary.json begins with. */
+  mark(path: string): string | undefined {
+    const marks: Record<string, string> = this.summary?.marks ?? {};
+    const found = Object.keys(marks).filter((key) => path === key || path.startsWith(`${key}.`));
+    return marks[found.sort((a, b) => b.length - a.length)[0]];
+  }
+
   /** A row of regions.csv. */
   row(state: string, scheme: string, region: string, quantity: string): Row | undefined {
     return this.regions.find((r) =>
       r.state === state && r.scheme === scheme && r.region === region && r.quantity === quantity);
   }
+
+  /** When the beat came to a moment; undefined when it did not. */
+  timeOf(moment: string): number | undefined { return this.moments.find((m) => m.name === moment)?.time; }
+
+  /** The moment that a time is, else the phase that it lies in. */
+  words(t: number): string {
+    const moment = this.moments.find((m) => Math.abs(m.time - t) < 1e-5);
+    return moment ? stateTitle(moment.name) : (this.phases.find((p) => t <= p.end) ?? this.phases.at(-1))?.name ?? "";
+  }
+
+  /** Names of the moments that regions.csv has values at. */
+  get states(): string[] { return [...new Set(this.regions.map((r) => r.state))]; }
 
   /** Names of a scheme's regions in their order. */
   regionNames(scheme: string): string[] {
@@ -211,9 +254,6 @@ export class Case {
     const value = this.summary?.parameters?.[name];
     return value === undefined ? undefined : String(value).replace(/^"|"$/g, "");
   }
-
-  /** The number in front of its unit. */
-  number(name: string): number { return parseFloat(this.parameter(name) ?? "NaN"); }
 }
 
 export function csv(text: string | undefined): Row[] {

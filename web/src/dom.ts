@@ -19,10 +19,27 @@ export function svg<K extends keyof SVGElementTagNameMap>(tag: K, attributes: At
   return fill(document.createElementNS("http://www.w3.org/2000/svg", tag), attributes, children);
 }
 
+/** Colours of drawings: the page's, or those of paper in a file that is saved. */
+export const ink = { text: "var(--ink, #1a1a1a)", soft: "var(--soft, #505050)", grid: "var(--grid, #e6e6e6)",
+  frame: "var(--frame, #888)", paper: "var(--paper, #fff)" };
+
+/** Shows what stands in the paper of its two subjects (class of-paper), or hides it; all such switches go together. */
+export function paperSwitch(): HTMLElement {
+  return el("label", { class: "paper-switch" }, el("input", { type: "checkbox", change: (event: Event) => {
+    const on = (event.target as HTMLInputElement).checked;
+    document.body.classList.toggle("paper", on);
+    for (const other of document.querySelectorAll<HTMLInputElement>(".paper-switch input")) other.checked = on;
+  } }), "beside the paper's two subjects");
+}
+
 export function section(id: string, title: string, help: string, ...children: Child[]): HTMLElement {
   return el("section", { id, "aria-labelledby": `${id}-title` }, el("h2", { id: `${id}-title` }, title),
     el("p", { class: "help" }, help), ...children);
 }
+
+/** A section without data: one line. */
+export const folded = (id: string, title: string, why: string) =>
+  el("section", { id, class: "folded", "aria-labelledby": `${id}-title` }, el("h2", { id: `${id}-title` }, title), missing(why));
 
 export const missing = (what: string) => el("p", { class: "missing" }, what);
 
@@ -39,57 +56,67 @@ export const fileName = (...parts: string[]) =>
 const svgText = (figure: SVGSVGElement) => {
   const copy = figure.cloneNode(true) as SVGSVGElement;
   copy.setAttribute("xmlns", "http://www.w3.org/2000/svg");
-  copy.querySelectorAll(".live").forEach((mark) => mark.remove());
-  return new XMLSerializer().serializeToString(copy);
+  copy.querySelectorAll(`.live${document.body.classList.contains("paper") ? "" : ", .of-paper"}`).forEach((mark) => mark.remove());
+  return new XMLSerializer().serializeToString(copy).replaceAll(/var\(--[\w-]+, ([^)]+)\)/g, "$1");
 };
 
-async function svgToPng(figure: SVGSVGElement): Promise<Blob> {
-  const { width, height } = figure.viewBox.baseVal;
-  const image = new Image();
-  image.src = "data:image/svg+xml;charset=utf-8," + encodeURIComponent(svgText(figure));
-  await image.decode();
-  const canvas = el("canvas", { width: 3 * width, height: 3 * height });
+/** Pictures on white paper, one above the other, as a PNG. */
+async function paintedPng(width: number, height: number, layers: (HTMLCanvasElement | SVGSVGElement)[]): Promise<Blob> {
+  const canvas = el("canvas", { width, height });
   const context = canvas.getContext("2d")!;
   context.fillStyle = "#fff";
-  context.fillRect(0, 0, canvas.width, canvas.height);
-  context.drawImage(image, 0, 0, canvas.width, canvas.height);
-  return canvasPng(canvas);
+  context.fillRect(0, 0, width, height);
+  for (const layer of layers) {
+    if (layer instanceof HTMLCanvasElement) context.drawImage(layer, 0, 0, width, height);
+    else {
+      const image = new Image();
+      image.src = "data:image/svg+xml;charset=utf-8," + encodeURIComponent(svgText(layer));
+      await image.decode();
+      context.drawImage(image, 0, 0, width, height);
+    }
+  }
+  return new Promise((done) => canvas.toBlob((blob) => done(blob!), "image/png"));
 }
 
-export const canvasPng = (canvas: HTMLCanvasElement) =>
-  new Promise<Blob>((done) => canvas.toBlob((blob) => done(blob!), "image/png"));
-
-/** Buttons that save a figure: `name` without extension. */
-export function saveButtons(name: string, source: () => SVGSVGElement | HTMLCanvasElement): HTMLElement {
-  const button = (format: string, make: () => Promise<Blob>) =>
-    el("button", { type: "button", class: "save", title: `Save as ${name}.${format}`,
-      click: async () => save(`${name}.${format}`, await make()) }, format.toUpperCase());
-  const now = source();
-  const bar = el("div", { class: "buttons" });
-  if (now instanceof SVGSVGElement) {
-    bar.append(button("svg", async () => new Blob([svgText(source() as SVGSVGElement)], { type: "image/svg+xml" })));
-    bar.append(button("png", () => svgToPng(source() as SVGSVGElement)));
-  } else bar.append(button("png", () => canvasPng(source() as HTMLCanvasElement)));
-  return bar;
+function svgToPng(figure: SVGSVGElement): Promise<Blob> {
+  const { width, height } = figure.viewBox.baseVal;
+  return paintedPng(3 * width, 3 * height, [figure]);
 }
+
+/** A canvas with what is written over it, at the canvas's resolution. */
+export const overlaidPng = (canvas: HTMLCanvasElement, overlay: SVGSVGElement) =>
+  paintedPng(canvas.width, canvas.height, [canvas, overlay]);
+
+const saveButton = (name: string, format: string, make: () => Promise<Blob>) =>
+  el("button", { type: "button", class: "save", title: `Save as ${name}.${format}`, "aria-label": `Save as ${name}.${format}`,
+    click: async () => save(`${name}.${format}`, await make()) }, format.toUpperCase());
+
+/** A button that saves what is drawn on a canvas; `name` without extension. */
+export const savePng = (name: string, make: () => Promise<Blob>) => el("div", { class: "buttons" }, saveButton(name, "png", make));
+
+const saveSvg = (name: string, drawing: SVGSVGElement) => el("div", { class: "buttons" },
+  saveButton(name, "svg", async () => new Blob([svgText(drawing)], { type: "image/svg+xml" })),
+  saveButton(name, "png", () => svgToPng(drawing)));
 
 /** A figure with its caption and its buttons. */
 export function figure(caption: string, name: string, content: SVGSVGElement): HTMLElement {
-  return el("figure", {}, content, el("figcaption", {}, caption, saveButtons(name, () => content)));
+  return el("figure", {}, content, el("figcaption", {}, caption, saveSvg(name, content)));
 }
 
-/** A table with a button that saves it as CSV. Numbers are right-aligned. */
-export function table(name: string, head: string[], rows: (string | number)[][]): HTMLElement {
+/** A table with a button that saves it as CSV. Numbers are right-aligned; columns `ofPaper` are shown on request. */
+export function table(name: string, head: string[], rows: (string | number)[][], ofPaper: number[] = []): HTMLElement {
   const quoted = (cell: string | number) => {
     const text = typeof cell === "number" ? (Number.isNaN(cell) ? "" : String(cell)) : cell === "–" ? "" : cell;
     return /[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
   };
   const text = [head, ...rows].map((row) => row.map(quoted).join(",")).join("\n").replaceAll("−", "-") + "\n";
+  const kinds = head.map((_, i) => ({ class: `${ofPaper.includes(i) ? "of-paper" : ""} ${
+    i > 0 && rows.some((row) => String(row[i]).length > 60) ? "long" : ""}`.trim() || false }));
   const cell = (content: string | number, i: number) =>
-    i === 0 ? el("th", { scope: "row" }, String(content)) : el("td", {}, String(content));
+    i === 0 ? el("th", { scope: "row" }, String(content)) : el("td", kinds[i], String(content));
   return el("div", { class: "table" },
-    el("table", {}, el("thead", {}, el("tr", {}, ...head.map((title) => el("th", { scope: "col" }, title)))),
+    el("table", {}, el("thead", {}, el("tr", {}, ...head.map((title, i) => title === "" ? el("td") : el("th", { scope: "col", ...kinds[i] }, title)))),
       el("tbody", {}, ...rows.map((row) => el("tr", {}, ...row.map(cell))))),
-    el("div", { class: "buttons" }, el("button", { type: "button", class: "save", title: `Save as ${name}.csv`,
+    el("div", { class: "buttons" }, el("button", { type: "button", class: "save", title: `Save as ${name}.csv`, "aria-label": `Save as ${name}.csv`,
       click: () => save(`${name}.csv`, new Blob([text], { type: "text/csv" })) }, "CSV")));
 }

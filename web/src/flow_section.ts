@@ -1,18 +1,21 @@
 // The flow of all cases in their long-axis planes.
-import { type Case } from "./data.ts";
-import { el, fileName, missing, saveButtons, section } from "./dom.ts";
-import { drawFlow, fastestFrame, type FlowFrame, flowScale, type FlowQuantity, readFlow } from "./flow_view.ts";
-import { colourBar } from "./wall_section.ts";
+import { type Case, type Wall } from "./data.ts";
+import { el, fileName, folded, missing, overlaidPng, savePng, section } from "./dom.ts";
+import { fastestFrame, type FlowFrame, flowScale, type FlowQuantity, flowTitle, FlowView, readFlow } from "./flow_view.ts";
+import { heartOf } from "./orientation.ts";
 
-interface Shown { c: Case; frame: number; data: FlowFrame; canvas: HTMLCanvasElement; caption: HTMLElement }
+interface Shown { c: Case; wall: Wall; frame: number; data: FlowFrame; view: FlowView }
+
+const none = "There are no frames of the blood in the work folder (output.blood = false, or an engine without blood).";
 
 export function flowSection(cases: Case[]): HTMLElement {
+  if (cases.every((c) => !c.flow)) return folded("flow", "Flow in a long-axis plane", none);
   const place = el("div");
   const whole = section("flow", "Flow in a long-axis plane",
-    "Blood and wall in the plane y = 0 through the long axis (the septum on the right where it is on the model's x axis). Colours: " +
-    "speed with all three components, or pressure. Arrows: velocity in the plane; the longest arrow is the fastest blood of the " +
-    "moment. It opens at the moment of contraction with the fastest blood among those the run wrote. There are no valves and no " +
-    "atrium: blood passes freely through the open base, so the pattern there is not physiological.", place);
+    "Blood in the plane y = 0 through the long axis, within the wall and, above the base, in line with its inner rim; letters name the walls on both " +
+    "sides. Colours: speed with all three components, or pressure. Arrows: velocity in the plane, to the scale of the arrow at the lower " +
+    "right, which is set by the fastest blood of the moment. It opens at the moment after end-diastole with the fastest blood among those the " +
+    "run wrote. There are no valves and no atrium: blood passes freely through the open base, so the pattern there is not physiological.", place);
   // drawn when it comes near the screen: the first view does not wait for it
   const observer = new IntersectionObserver((entries) => {
     if (!entries.some((entry) => entry.isIntersecting)) return;
@@ -27,36 +30,33 @@ export function flowSection(cases: Case[]): HTMLElement {
 async function fill(cases: Case[], place: HTMLElement): Promise<void> {
   const found: Shown[] = [];
   for (const c of cases) {
-    if (!c.flow) continue;
-    const frame = await fastestFrame(c.flow, c.json.end_diastole_s);
-    found.push({ c, frame, data: await readFlow(c.flow, frame), canvas: el("canvas", { class: "flow", role: "img" }), caption: el("p", { class: "time" }) });
+    if (!c.flow || !c.wall) continue;
+    const frame = await fastestFrame(c.flow, c.timeOf("end_diastole"));
+    const view = new FlowView(c.flow, heartOf(c));
+    view.canvas.className = "flow";
+    view.canvas.setAttribute("role", "img");
+    found.push({ c, wall: c.wall, frame, data: await readFlow(c.flow, frame, c.wall), view });
   }
-  const absent = cases.filter((c) => !c.flow).map((c) => missing(`${c.name}: no frames of the blood in the work folder ` +
-    "(output.blood = false, or an engine without blood)."));
-  if (!found.length) { place.replaceChildren(...absent); return; }
   let what: FlowQuantity = "speed";
-  const bar = el("div", { class: "bar-place" });
   const draw = () => {
-    const scale = flowScale(found.map((one) => one.data), what);
-    bar.replaceChildren(colourBar(scale, what === "speed" ? "speed (m/s)" : "pressure (mmHg)"));
-    for (const one of found) {
-      const t = one.c.flow!.times[one.frame];
-      const wallFrame = one.c.wall?.times.findIndex((time) => Math.abs(time - t) < 1e-6);
-      drawFlow(one.canvas, one.c.flow!, one.data, what, scale, one.c.wall, wallFrame === -1 ? undefined : wallFrame);
-      const phase = t > (one.c.json.end_diastole_s ?? Infinity) ? "contraction" : "filling";
-      one.caption.textContent = `${one.c.name}: t = ${t.toFixed(3)} s, ${phase}`;
-      one.canvas.setAttribute("aria-label", `${what} and velocity in the long-axis plane, ${one.caption.textContent}`);
+    const scale = flowScale(found.map(({ c, data }) => ({ flow: c.flow!, frame: data })), what);
+    for (const { c, frame, data, view } of found) {
+      const t = c.flow!.times[frame];
+      const caption = `${c.name}, ${c.words(t)}, ${t.toFixed(3)} s`;
+      view.show(data, what, scale, caption);
+      view.canvas.setAttribute("aria-label", `${what} and velocity in the long-axis plane: ${caption}`);
     }
   };
   const choice = el("select", { change: () => { what = choice.value as FlowQuantity; draw(); } },
-    el("option", { value: "speed" }, "speed (m/s)"), el("option", { value: "pressure" }, "pressure (mmHg)"));
-  place.replaceChildren(el("div", { class: "controls" }, el("label", {}, "colours", choice)), bar,
-    el("div", { class: "cases" }, ...found.map((one) => el("div", { class: "panel" }, one.caption, one.canvas,
-      el("label", { class: "wide" }, "time", el("input", { type: "range", min: 0, max: one.c.flow!.times.length - 1, step: 1, value: one.frame,
-        "aria-label": `time of the flow of ${one.c.name}`, input: async (event: Event) => {
-          one.frame = (event.target as HTMLInputElement).valueAsNumber;
-          one.data = await readFlow(one.c.flow!, one.frame);
-          draw();
-        } })), saveButtons(fileName(one.c.name, "flow"), () => one.canvas)))), ...absent);
+    ...(["speed", "pressure"] as const).map((name) => el("option", { value: name }, flowTitle[name])));
+  const panel = (one: Shown) => el("div", { class: "panel" }, el("div", { class: "view flowing" }, one.view.canvas, one.view.overlay),
+    el("label", { class: "wide" }, "time", el("input", { type: "range", min: 0, max: one.c.flow!.times.length - 1, step: 1, value: one.frame,
+      "aria-label": `time of the flow of ${one.c.name}`, input: async (event: Event) => {
+        one.frame = (event.target as HTMLInputElement).valueAsNumber;
+        one.data = await readFlow(one.c.flow!, one.frame, one.wall);
+        draw();
+      } })), savePng(fileName(one.c.name, "flow"), () => overlaidPng(one.view.canvas, one.view.overlay)));
+  place.replaceChildren(el("div", { class: "controls" }, el("label", {}, "colours", choice)),
+    el("div", { class: "cases" }, ...found.map(panel), ...cases.filter((c) => !c.flow).map((c) => missing(`${c.name}: ${none}`))));
   draw();
 }

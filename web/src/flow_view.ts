@@ -1,94 +1,38 @@
-// Blood in the long-axis plane y = 0: speed or pressure as colours, velocity as arrows, the wall's section above them.
+// Blood in the long-axis plane y = 0, seen from +y so that x points to the left: speed or pressure as colours, velocity as arrows,
+// the wall's section around it.
+import { barParts } from "./bar.ts";
 import { rgbOf, type Scale } from "./colours.ts";
 import { shorts, type FlowJson, type Wall } from "./data.ts";
-import { cutWall } from "./section.ts";
+import { ink, svg } from "./dom.ts";
+import { type Heart, letterAt } from "./orientation.ts";
+import { shown } from "./quantities.ts";
+import { cutWall, type Section } from "./section.ts";
 
 export type FlowQuantity = "speed" | "pressure";
-export interface FlowFrame { velocity: Float32Array; pressure: Float32Array }  // m/s (x, then y, then z), mmHg
+
+export interface FlowFrame {
+  velocity: Float32Array;  // m/s (x, then y, then z)
+  pressure: Float32Array;  // mmHg
+  section: Section;        // of the wall
+  sides: [number, number][];  // its outline
+  cavity: ([number, number] | undefined)[];  // of each row of cells: from, to [mm]
+}
 
 const kPaPerMmHg = 0.133322387415;
 
-export async function readFlow(flow: FlowJson, frame: number): Promise<FlowFrame> {
-  const [u, p] = await Promise.all([shorts(flow.velocity.frames[frame]), shorts(flow.pressure.frames[frame])]);
-  return { velocity: Float32Array.from(u, (n) => (n * flow.velocity.step) / 1000),
-    pressure: Float32Array.from(p, (n) => (n * flow.pressure.step) / kPaPerMmHg) };
+export const flowTitle: Record<FlowQuantity, string> = { speed: "speed (m/s)", pressure: "pressure (mmHg)" };
+
+async function velocityOf(flow: FlowJson, frame: number): Promise<Float32Array> {
+  return Float32Array.from(await shorts(flow.velocity.frames[frame]), (n) => (n * flow.velocity.step) / 1000);
 }
 
-export function speeds(frame: FlowFrame): Float32Array {
-  const n = frame.pressure.length;
-  const { velocity: u } = frame;
-  return frame.pressure.map((_, i) => Math.hypot(u[i], u[n + i], u[2 * n + i]));
+function speeds(velocity: Float32Array): Float32Array {
+  const n = velocity.length / 3;
+  return Float32Array.from({ length: n }, (_, i) => Math.hypot(velocity[i], velocity[n + i], velocity[2 * n + i]));
 }
 
-/** The frame of contraction with the fastest blood; of filling when there is no contraction. */
-export async function fastestFrame(flow: FlowJson, endDiastole: number | undefined): Promise<number> {
-  const all = flow.times.map((_, i) => i);
-  const contraction = all.filter((i) => flow.times[i] > (endDiastole ?? Infinity));
-  let best = { frame: 0, speed: -1 };
-  for (const frame of contraction.length ? contraction : all) {
-    const speed = speeds(await readFlow(flow, frame)).reduce((a, b) => Math.max(a, b), 0);
-    if (speed > best.speed) best = { frame, speed };
-  }
-  return best.frame;
-}
-
-export function flowScale(frames: FlowFrame[], what: FlowQuantity): Scale {
-  const all = frames.flatMap((frame) => Array.from(what === "speed" ? speeds(frame) : frame.pressure)).sort((a, b) => a - b);
-  const at = (f: number) => all[Math.min(all.length - 1, Math.floor(f * all.length))] ?? 0;
-  if (what === "speed") return { min: 0, max: Math.max(at(0.995), 1e-3), diverging: false };
-  return { min: Math.min(0, at(0.01)), max: Math.max(at(0.99), 0.01), diverging: false };
-}
-
-export function drawFlow(canvas: HTMLCanvasElement, flow: FlowJson, frame: FlowFrame, what: FlowQuantity, scale: Scale,
-                         wall: Wall | undefined, wallFrame: number | undefined): void {
-  const [nx, nz] = flow.cells;
-  const zoom = Math.max(2, Math.round(900 / (nz * flow.spacing[1])));  // pixels per mm
-  canvas.width = Math.round(nx * flow.spacing[0] * zoom);
-  canvas.height = Math.round(nz * flow.spacing[1] * zoom);
-  const context = canvas.getContext("2d")!;
-  const colours = document.createElement("canvas");
-  [colours.width, colours.height] = [nx, nz];
-  const pixels = new ImageData(nx, nz);
-  const values = what === "speed" ? speeds(frame) : frame.pressure;
-  for (let k = 0; k < nz; ++k)
-    for (let i = 0; i < nx; ++i)
-      pixels.data.set([...rgbOf(scale, values[i + nx * k]), 255], 4 * (i + nx * (nz - 1 - k)));
-  colours.getContext("2d")!.putImageData(pixels, 0, 0);
-  context.imageSmoothingQuality = "high";
-  context.drawImage(colours, 0, 0, canvas.width, canvas.height);
-  const px = (x: number) => (x - flow.lower[0]) * zoom;
-  const py = (z: number) => canvas.height - (z - flow.lower[1]) * zoom;
-  if (wall && wallFrame !== undefined) drawWall(context, wall, wallFrame, px, py);
-  drawArrows(context, flow, frame, values, what, scale, px, py);
-  drawBar(context, canvas.height);
-  function drawBar(c: CanvasRenderingContext2D, height: number) {
-    c.fillStyle = "#fff";
-    c.fillRect(12, height - 42, 20 * zoom + 20, 32);
-    c.fillStyle = "#111";
-    c.fillRect(22, height - 18, 20 * zoom, 3);
-    c.font = "20px sans-serif";
-    c.textAlign = "center";
-    c.fillText("20 mm", 22 + 10 * zoom, height - 22);
-  }
-}
-
-function drawWall(context: CanvasRenderingContext2D, wall: Wall, frame: number, px: (x: number) => number, py: (z: number) => number): void {
-  const section = cutWall(wall, wall.positions(frame), { normal: [0, 1, 0], offset: 0 });
-  context.fillStyle = "rgb(222, 205, 200)";
-  context.beginPath();
-  for (const corners of section.polygons) {
-    // counter-clockwise all, so that the parts add up under the nonzero rule
-    corners.forEach((p, i) => {
-      const at: [number, number] = [px(section.points[3 * p]), py(section.points[3 * p + 2])];
-      i ? context.lineTo(...at) : context.moveTo(...at);
-    });
-    context.closePath();
-  }
-  context.fill();
-  context.strokeStyle = context.fillStyle;
-  context.lineWidth = 1;
-  context.stroke();
-  // the outline: sides of one polygon only
+/** Sides that belong to one polygon only. */
+function outline(section: Section): [number, number][] {
   const sides = new Map<string, [number, number]>();
   for (const corners of section.polygons)
     corners.forEach((p, i) => {
@@ -96,46 +40,212 @@ function drawWall(context: CanvasRenderingContext2D, wall: Wall, frame: number, 
       const key = p < q ? `${p} ${q}` : `${q} ${p}`;
       if (!sides.delete(key)) sides.set(key, [p, q]);
     });
-  context.strokeStyle = "#333";
-  context.lineWidth = 2;
-  context.beginPath();
-  for (const [p, q] of sides.values()) {
-    context.moveTo(px(section.points[3 * p]), py(section.points[3 * p + 2]));
-    context.lineTo(px(section.points[3 * q]), py(section.points[3 * q + 2]));
-  }
-  context.stroke();
+  return [...sides.values()];
 }
 
-function drawArrows(context: CanvasRenderingContext2D, flow: FlowJson, frame: FlowFrame, values: Float32Array, what: FlowQuantity,
-                    scale: Scale, px: (x: number) => number, py: (z: number) => number): void {
-  const [nx, nz] = flow.cells;
-  const every = Math.max(1, Math.round(4 / flow.spacing[0]));
-  const n = nx * nz;
-  const fastest = speeds(frame).reduce((a, b) => Math.max(a, b), 1e-9);
-  const longest = 3.2 * every * (px(flow.spacing[0]) - px(0));
-  for (let k = every >> 1; k < nz; k += every)
-    for (let i = every >> 1; i < nx; i += every) {
-      const cell = i + nx * k;
-      const u = frame.velocity[cell];
-      const w = frame.velocity[2 * n + cell];
-      const length = (longest * Math.hypot(u, w)) / fastest;
-      if (length < 2) continue;
-      const dark = what === "pressure" || (values[cell] - scale.min) / (scale.max - scale.min) > 0.55;
-      context.strokeStyle = context.fillStyle = dark ? "#111" : "#fff";
-      context.lineWidth = 1.6;
-      const x = px(flow.lower[0] + (i + 0.5) * flow.spacing[0]);
-      const y = py(flow.lower[1] + (k + 0.5) * flow.spacing[1]);
-      const a = Math.atan2(-w, u);
-      const tip: [number, number] = [x + length * Math.cos(a), y + length * Math.sin(a)];
-      context.beginPath();
-      context.moveTo(x, y);
-      context.lineTo(...tip);
-      context.stroke();
-      const head = Math.min(9, 0.5 * length);
-      context.beginPath();
-      context.moveTo(...tip);
-      for (const side of [-0.45, 0.45])
-        context.lineTo(tip[0] - head * Math.cos(a + side), tip[1] - head * Math.sin(a + side));
-      context.fill();
+/** Where the plane meets blood within the wall, row after row from the base down; above the base, between its inner rims. */
+function cavityOf(flow: FlowJson, section: Section, sides: [number, number][]): ([number, number] | undefined)[] {
+  const x = (p: number) => section.points[3 * p];
+  const z = (p: number) => section.points[3 * p + 2];
+  const base = section.points.reduce((top, value, i) => (i % 3 === 2 ? Math.max(top, value) : top), -Infinity);
+  const rows: ([number, number] | undefined)[] = Array.from({ length: flow.cells[1] });
+  let [middle, inside] = [0, true];
+  for (let k = rows.length - 1; k >= 0 && inside; --k) {
+    const height = Math.min(flow.lower[1] + (k + 0.5) * flow.spacing[1], base - 0.5);
+    const crossings = sides.filter(([p, q]) => z(p) < height !== z(q) < height)
+      .map(([p, q]) => x(p) + ((height - z(p)) / (z(q) - z(p))) * (x(q) - x(p)));
+    const left = crossings.filter((at) => at < middle);
+    const right = crossings.filter((at) => at >= middle);
+    inside = left.length > 1 && left.length % 2 === 0 && right.length > 1;  // a wall on both sides, and the middle in neither
+    if (!inside) break;
+    rows[k] = [Math.max(...left), Math.min(...right)];
+    middle = 0.5 * (rows[k]![0] + rows[k]![1]);
+  }
+  return rows;
+}
+
+/** A frame of the blood with the wall at the nearest moment. */
+export async function readFlow(flow: FlowJson, frame: number, wall: Wall): Promise<FlowFrame> {
+  const away = (t: number) => Math.abs(t - flow.times[frame]);
+  const nearest = wall.times.reduce((best, t, i) => (away(t) < away(wall.times[best]) ? i : best), 0);
+  const [velocity, p] = await Promise.all([velocityOf(flow, frame), shorts(flow.pressure.frames[frame])]);
+  const section = cutWall(wall, wall.positions(nearest), { normal: [0, 1, 0], offset: 0 });
+  const sides = outline(section);
+  return { velocity, pressure: Float32Array.from(p, (n) => (n * flow.pressure.step) / kPaPerMmHg), section, sides, cavity: cavityOf(flow, section, sides) };
+}
+
+/** The frame after end-diastole with the fastest blood; of all when there is none. */
+export async function fastestFrame(flow: FlowJson, endDiastole: number | undefined): Promise<number> {
+  const all = flow.times.map((_, i) => i);
+  const later = all.filter((i) => flow.times[i] > (endDiastole ?? Infinity));
+  let best = { frame: 0, speed: -1 };
+  for (const frame of later.length ? later : all) {
+    const speed = speeds(await velocityOf(flow, frame)).reduce((a, b) => Math.max(a, b), 0);
+    if (speed > best.speed) best = { frame, speed };
+  }
+  return best.frame;
+}
+
+const centreX = (flow: FlowJson, i: number) => flow.lower[0] + (i + 0.5) * flow.spacing[0];
+const isBlood = (flow: FlowJson, frame: FlowFrame, i: number, k: number) => {
+  const row = frame.cavity[k];
+  return row !== undefined && centreX(flow, i) > row[0] && centreX(flow, i) < row[1];
+};
+const valuesOf = (frame: FlowFrame, what: FlowQuantity) => (what === "speed" ? speeds(frame.velocity) : frame.pressure);
+
+export function flowScale(flows: { flow: FlowJson; frame: FlowFrame }[], what: FlowQuantity): Scale {
+  const all = flows.flatMap(({ flow, frame }) =>
+    Array.from(valuesOf(frame, what)).filter((_, i) => isBlood(flow, frame, i % flow.cells[0], Math.floor(i / flow.cells[0])))).sort((a, b) => a - b);
+  const at = (f: number) => all[Math.min(all.length - 1, Math.floor(f * all.length))] ?? 0;
+  const bounds = what === "speed" ? { min: 0, max: Math.max(at(0.995), 1e-3) } : { min: Math.min(0, at(0.01)), max: Math.max(at(0.99), 0.01) };
+  return { ...bounds, diverging: false, middle: 0, floor: 0 };
+}
+
+/** A drawing: its canvas, and what is written over it and saved with it. */
+export class FlowView {
+  readonly canvas = document.createElement("canvas");
+  readonly overlay = svg("svg", { class: "overlay", "font-family": "sans-serif", "font-size": 26, "aria-hidden": "true" });
+  private zoom: number;  // pixels a millimetre
+  private head = 56;     // pixels for the caption
+  private context: CanvasRenderingContext2D;
+  constructor(private flow: FlowJson, private heart: Heart) {
+    this.zoom = Math.max(2, Math.round(900 / (flow.cells[1] * flow.spacing[1])));
+    this.canvas.width = Math.round(flow.cells[0] * flow.spacing[0] * this.zoom);
+    this.canvas.height = Math.round(flow.cells[1] * flow.spacing[1] * this.zoom) + this.head;
+    this.context = this.canvas.getContext("2d")!;
+    this.overlay.setAttribute("viewBox", `0 0 ${this.canvas.width} ${this.canvas.height}`);
+    this.overlay.setAttribute("width", String(this.canvas.width));
+    this.overlay.setAttribute("height", String(this.canvas.height));
+  }
+
+  private px(x: number): number { return this.canvas.width - (x - this.flow.lower[0]) * this.zoom; }
+  private py(z: number): number { return this.canvas.height - (z - this.flow.lower[1]) * this.zoom; }
+
+  show(frame: FlowFrame, what: FlowQuantity, scale: Scale, caption: string): void {
+    this.context.clearRect(0, 0, this.canvas.width, this.canvas.height);
+    const values = valuesOf(frame, what);
+    this.colour(frame, values, scale);
+    this.wall(frame);
+    const fastest = this.fastest(frame);
+    this.arrows(frame, values, what, scale, fastest);
+    this.write(what, scale, caption, fastest);
+  }
+
+  /** Blood alone: the colours are cut by the cavity's outline. */
+  private colour(frame: FlowFrame, values: Float32Array, scale: Scale): void {
+    const { flow, context } = this;
+    const [nx, nz] = flow.cells;
+    const colours = document.createElement("canvas");
+    [colours.width, colours.height] = [nx, nz];
+    const pixels = new ImageData(nx, nz);
+    for (let k = 0; k < nz; ++k)
+      for (let i = 0; i < nx; ++i)
+        pixels.data.set([...rgbOf(scale, values[i + nx * k]), 255], 4 * (nx - 1 - i + nx * (nz - 1 - k)));
+    colours.getContext("2d")!.putImageData(pixels, 0, 0);
+    const rows = frame.cavity.map((row, k) => ({ row, z: flow.lower[1] + (k + 0.5) * flow.spacing[1] })).filter(({ row }) => row !== undefined);
+    if (!rows.length) return;
+    // beyond the lowest row the wall, drawn later, is the border
+    const path = (side: 0 | 1) => [{ ...rows[0], z: rows[0].z - 2 * flow.spacing[1] }, ...rows, { ...rows.at(-1)!, z: rows.at(-1)!.z + 0.5 * flow.spacing[1] }]
+      .map(({ row, z }): [number, number] => [this.px(row![side]), this.py(z)]);
+    context.save();
+    context.beginPath();
+    for (const at of [...path(0), ...path(1).reverse()]) context.lineTo(...at);
+    context.clip();
+    context.imageSmoothingQuality = "high";
+    context.drawImage(colours, 0, this.head, this.canvas.width, this.canvas.height - this.head);
+    context.restore();
+  }
+
+  private wall({ section, sides }: FlowFrame): void {
+    const { context } = this;
+    const at = (p: number): [number, number] => [this.px(section.points[3 * p]), this.py(section.points[3 * p + 2])];
+    context.fillStyle = context.strokeStyle = "rgb(222, 205, 200)";
+    context.lineWidth = 1;
+    context.beginPath();
+    for (const corners of section.polygons) {
+      corners.forEach((p, i) => (i ? context.lineTo(...at(p)) : context.moveTo(...at(p))));
+      context.closePath();
     }
+    context.fill();
+    context.stroke();
+    // the two surfaces; the base is where the model ends, not a border of the wall
+    const base = section.points.reduce((top, value, i) => (i % 3 === 2 ? Math.max(top, value) : top), -Infinity);
+    const isBase = (p: number) => section.points[3 * p + 2] > base - 0.7;
+    context.strokeStyle = "#333";
+    context.lineWidth = 2;
+    context.beginPath();
+    for (const [p, q] of sides) if (!(isBase(p) && isBase(q))) {
+      context.moveTo(...at(p));
+      context.lineTo(...at(q));
+    }
+    context.stroke();
+  }
+
+  private fastest(frame: FlowFrame): number {
+    const [nx] = this.flow.cells;
+    const n = frame.pressure.length;
+    let most = 1e-9;
+    for (let i = 0; i < n; ++i)
+      if (isBlood(this.flow, frame, i % nx, Math.floor(i / nx))) most = Math.max(most, Math.hypot(frame.velocity[i], frame.velocity[2 * n + i]));
+    return most;
+  }
+
+  /** Length of the arrow of the fastest blood. */
+  private get longest(): number { return 3.2 * this.every * this.flow.spacing[0] * this.zoom; }
+  private get every(): number { return Math.max(1, Math.round(4 / this.flow.spacing[0])); }
+
+  private arrows(frame: FlowFrame, values: Float32Array, what: FlowQuantity, scale: Scale, fastest: number): void {
+    const { flow, every } = this;
+    const [nx, nz] = flow.cells;
+    this.context.save();
+    this.context.beginPath();
+    this.context.rect(0, this.head, this.canvas.width, this.canvas.height);
+    this.context.clip();
+    for (let k = every >> 1; k < nz; k += every)
+      for (let i = every >> 1; i < nx; i += every) {
+        if (!isBlood(flow, frame, i, k)) continue;
+        const cell = i + nx * k;
+        const [u, w] = [-frame.velocity[cell], frame.velocity[2 * nx * nz + cell]];
+        const length = (this.longest * Math.hypot(u, w)) / fastest;
+        if (length < 2) continue;
+        const dark = what === "pressure" || (values[cell] - scale.min) / (scale.max - scale.min) > 0.55;
+        this.arrow(this.px(centreX(flow, i)), this.py(flow.lower[1] + (k + 0.5) * flow.spacing[1]), length, Math.atan2(-w, u), dark ? "#111" : "#fff");
+      }
+    this.context.restore();
+  }
+
+  private arrow(x: number, y: number, length: number, angle: number, colour: string): void {
+    const { context } = this;
+    context.strokeStyle = context.fillStyle = colour;
+    context.lineWidth = 1.6;
+    const tip: [number, number] = [x + length * Math.cos(angle), y + length * Math.sin(angle)];
+    context.beginPath();
+    context.moveTo(x, y);
+    context.lineTo(...tip);
+    context.stroke();
+    const head = Math.min(9, 0.5 * length);
+    context.beginPath();
+    context.moveTo(...tip);
+    for (const side of [-0.45, 0.45])
+      context.lineTo(tip[0] - head * Math.cos(angle + side), tip[1] - head * Math.sin(angle + side));
+    context.fill();
+  }
+
+  private write(what: FlowQuantity, scale: Scale, caption: string, fastest: number): void {
+    const { width, height } = this.canvas;
+    const [bar, edge] = [20 * this.zoom, 20];
+    const text = (x: number, y: number, anchor: string, words: string, more = {}) =>
+      svg("text", { x, y, "text-anchor": anchor, fill: ink.text, ...more }, words);
+    const letter = (x: number, anchor: string, degrees: number) =>
+      text(x, this.py(0) - 30, anchor, letterAt(this.heart, degrees), { class: "letter", "font-size": 36, "font-weight": 700 });
+    const length = Math.min(this.longest, 0.4 * width);
+    const speed = (fastest * length) / this.longest;
+    this.overlay.replaceChildren(text(edge, 34, "start", caption, { "font-weight": 600 }),
+      letter(edge, "start", 0), letter(width - edge, "end", 180),
+      svg("g", { class: "legend", transform: `translate(${edge} ${height - 106}) scale(2)`, "font-size": 12 }, ...barParts(scale, flowTitle[what], 0.2 * width)),
+      svg("path", { d: `M${width - edge - bar} ${height - 36}v12h${bar}v-12`, stroke: ink.text, "stroke-width": 3, fill: "none" }),
+      text(width - edge - bar / 2, height - 40, "middle", "20 mm"),
+      svg("path", { d: `M${width - edge - length} ${height - 130}h${length - 4}m-14 -7l14 7l-14 7`, stroke: ink.text, "stroke-width": 3, fill: "none" }),
+      text(width - edge, height - 96, "end", `${shown(speed, 2)} m/s in the plane`));
+  }
 }

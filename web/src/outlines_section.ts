@@ -1,6 +1,6 @@
 // Outlines of the model and contours drawn, over the cine images.
 import { type Case, type Outlined, value } from "./data.ts";
-import { el, figure, fileName, missing, section, svg, table } from "./dom.ts";
+import { el, figure, fileName, folded, missing, section, svg, table } from "./dom.ts";
 import { shown, stateTitle } from "./quantities.ts";
 
 const modelColour = "#e69f00";
@@ -19,7 +19,7 @@ function pathOf(points: number[]): string {
 function drawPicture(picture: Outlined, scale: number): SVGSVGElement {
   const { columns, rows, spacing_i_mm: across, spacing_j_mm: down } = picture;
   const [width, height] = [columns * across, rows * down];
-  const title = `${titleOf(picture.slice)}, image ${picture.phase} (${stateTitle[picture.state]})`;
+  const title = `${titleOf(picture.slice)}, image ${picture.phase} (${stateTitle(picture.state)})`;
   const names = [...new Set(picture.lines.map((line) => line.source))];
   const root = svg("svg", { viewBox: `0 0 ${width} ${height}`, width: scale * width, height: scale * height, class: "outlined", role: "img",
     "data-slice": picture.slice, "aria-label": `${title}; ${names.includes("model") ? "with" : "without"} an outline of the model` },
@@ -36,7 +36,7 @@ function drawPicture(picture: Outlined, scale: number): SVGSVGElement {
 /** One case's images: a grid of all slices, and one of them large. */
 class Sheet {
   readonly element = el("div", { class: "panel" });
-  private state = "end_diastole";
+  private state: string;
   private slice: string;
   private grid = el("div", { class: "sheet" });
   private large = el("div");
@@ -44,13 +44,15 @@ class Sheet {
   private name = el("output");
   constructor(private c: Case, private pictures: Outlined[]) {
     const slices = this.slices();
+    const states = [...new Set(pictures.map((p) => p.state))];
+    this.state = states[0];
     this.slice = slices[Math.floor(slices.length / 2)];
     this.slider = el("input", { type: "range", min: 0, max: slices.length - 1, step: 1, value: slices.indexOf(this.slice),
       "aria-label": `slice of the images of ${c.name}`, input: () => { this.slice = slices[this.slider.valueAsNumber]; this.draw(); } });
-    const states = el("div", { class: "looks", role: "group", "aria-label": "moment of the images" },
-      ...["end_diastole", "end_systole"].map((state) => el("button", { type: "button", "data-state": state,
-        click: () => { this.state = state; this.draw(); } }, stateTitle[state])));
-    this.element.append(el("div", { class: "controls" }, states, el("label", {}, "slice", this.slider, this.name)),
+    const choice = el("div", { class: "looks", role: "group", "aria-label": "moment of the images" },
+      ...states.map((state) => el("button", { type: "button", "data-state": state,
+        click: () => { this.state = state; this.draw(); } }, stateTitle(state))));
+    this.element.append(el("div", { class: "controls" }, choice, el("label", {}, "slice", this.slider, this.name)),
       el("div", { class: "outlines" }, this.large, this.grid), this.distances());
     this.draw();
   }
@@ -66,9 +68,9 @@ class Sheet {
     const now = this.pictures.filter((p) => p.state === this.state);
     const chosen = now.find((p) => p.slice === this.slice);
     this.large.replaceChildren(chosen
-      ? figure(`${this.c.name}: ${titleOf(this.slice)} at ${stateTitle[this.state]}`,
+      ? figure(`${this.c.name}: ${titleOf(this.slice)} at ${stateTitle(this.state)}`,
         fileName(this.c.name, "outlines", this.state, titleOf(this.slice)), drawPicture(chosen, 4))
-      : missing(`No image of ${titleOf(this.slice)} at ${stateTitle[this.state]}.`));
+      : missing(`No image of ${titleOf(this.slice)} at ${stateTitle(this.state)}.`));
     this.grid.replaceChildren(...now.map((p) => el("button", { type: "button", class: "thumb", "aria-label": `show ${titleOf(p.slice)}`,
       "aria-pressed": p.slice === this.slice, click: () => { this.slice = p.slice; this.draw(); } }, drawPicture(p, 1.3))));
   }
@@ -78,12 +80,14 @@ class Sheet {
     if (!rows.length) return missing("outline_distances.csv is missing, or no contours were given to measure from.");
     return el("details", {}, el("summary", {}, "distance of the drawn contours from the model's outlines"), table(fileName(this.c.name, "outline-distances"),
       ["moment, slice, contour", "points", "mean (mm)", "rms (mm)", "largest (mm)"], rows.map((r) =>
-        [`${stateTitle[r.state] ?? r.state}, ${r.slice}, ${r.contour}`, r.points,
+        [`${stateTitle(r.state)}, ${r.slice}, ${r.contour}`, r.points,
           ...["mean_mm", "rms_mm", "largest_mm"].map((name) => shown(value(r[name])))])));
   }
 }
 
 export function outlinesSection(cases: Case[]): HTMLElement {
+  const none = "There are no images in the results. A case whose [strain] names a cine and its contours has them.";
+  if (cases.every((c) => !c.json.pictures)) return folded("outlines", "Outlines over the images", none);
   const place = el("div", { class: "cases" });
   const whole = section("outlines", "Outlines over the images",
     "Where the model's two surfaces cut the planes of the cine, short and long axes (solid, orange), over the images at end-diastole and " +
@@ -91,13 +95,11 @@ export function outlinesSection(cases: Case[]): HTMLElement {
     "heart; at end-diastole and end-systole nothing forces it to: it was only started from the shape at early diastole. A slice without " +
     "orange lies above the model's base or below its apex. The table has the distance of the drawn points from the model's outline; " +
     "a dash where the plane does not cut the model. Curves on long axes are drawn at end-diastole alone. From pictures/, outlines.csv and outline_distances.csv.", place);
-  const absent = (c: Case) => el("div", { class: "panel" }, missing(
-    `${c.name}: no images in the results. A case whose [strain] names a cine and its contours has them.`));
+  const absent = (c: Case) => el("div", { class: "panel" }, missing(`${c.name}: ${none}`));
   const fill = async () => place.replaceChildren(...await Promise.all(cases.map(async (c) => {
     const pictures = await c.pictures();
     return pictures.length ? new Sheet(c, pictures).element : absent(c);
   })));
-  if (cases.every((c) => !c.json.pictures)) place.append(...cases.map(absent));
-  else void fill();
+  void fill();
   return whole;
 }

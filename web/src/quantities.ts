@@ -6,6 +6,7 @@ export interface Quantity {
   unit: string;     // "1" of numbers without one
   signed: boolean;  // a diverging colour map, symmetric about `middle`
   middle: number;
+  floor: number;    // nearer to `middle` is as good as none, and not coloured
   help: string;
 }
 
@@ -13,23 +14,23 @@ const strainHelp = "Green-Lagrange strain; up to end-diastole from early diastol
   "Negative: shorter.";
 
 export const quantities: Quantity[] = [
-  { name: "active_tension", title: "active tension", unit: "kPa", signed: false, middle: 0,
-    help: "Tension T along the fibre that the muscle makes (Niederer-Hunter-Smith law)." },
-  { name: "fibre_stress", title: "fibre stress", unit: "kPa", signed: false, middle: 0,
+  { name: "circumferential_strain", title: "circumferential strain", unit: "1", signed: true, middle: 0, floor: 0.005, help: strainHelp },
+  { name: "fibre_stress", title: "fibre stress", unit: "kPa", signed: false, middle: 0, floor: 0.1,
     help: "Total Cauchy stress along the deformed fibre: passive, active and pressure." },
-  { name: "fibre_stress_passive", title: "passive fibre stress", unit: "kPa", signed: false, middle: 0,
-    help: "The passive law's share of the Cauchy stress along the fibre, without the pressure." },
-  { name: "fibre_strain", title: "fibre strain", unit: "1", signed: true, middle: 0, help: strainHelp },
-  { name: "circumferential_strain", title: "circumferential strain", unit: "1", signed: true, middle: 0, help: strainHelp },
-  { name: "radial_strain", title: "radial strain", unit: "1", signed: true, middle: 0,
+  { name: "fibre_strain", title: "fibre strain", unit: "1", signed: true, middle: 0, floor: 0.005, help: strainHelp },
+  { name: "longitudinal_strain", title: "longitudinal strain", unit: "1", signed: true, middle: 0, floor: 0.005, help: strainHelp },
+  { name: "radial_strain", title: "radial strain", unit: "1", signed: true, middle: 0, floor: 0.005,
     help: strainHelp + " Positive across the wall: thicker." },
-  { name: "longitudinal_strain", title: "longitudinal strain", unit: "1", signed: true, middle: 0, help: strainHelp },
-  { name: "J", title: "volume ratio J", unit: "1", signed: true, middle: 1,
+  { name: "active_tension", title: "active tension", unit: "kPa", signed: false, middle: 0, floor: 0.1,
+    help: "Tension T along the fibre that the muscle makes (Niederer-Hunter-Smith law)." },
+  { name: "fibre_stress_passive", title: "passive fibre stress", unit: "kPa", signed: false, middle: 0, floor: 0.1,
+    help: "The passive law's share of the Cauchy stress along the fibre, without the pressure." },
+  { name: "J", title: "volume ratio J", unit: "1", signed: true, middle: 1, floor: 0.0005,
     help: "Deformed over undeformed volume; muscle is nearly incompressible, so anything but 1 is the model's error." },
 ];
 
 export const infarct: Quantity = {
-  name: "infarct", title: "infarct M", unit: "1", signed: false, middle: 0,
+  name: "infarct", title: "infarct M", unit: "1", signed: false, middle: 0, floor: 0.005,
   help: "Extent of the infarct: 1 in it, falling to 0 across the border zone; it does not change with time.",
 };
 
@@ -39,7 +40,12 @@ export function quantity(name: string): Quantity {
 
 export const label = (q: Quantity) => (q.unit === "1" ? q.title : `${q.title} (${q.unit})`);
 
-export const stateTitle: Record<string, string> = { end_diastole: "end-diastole", end_systole: "end-systole" };
+/** A moment's name for readers: "end-diastole". */
+export const stateTitle = (name: string) => name.replaceAll("_", " ").replace(/^end /, "end-");
+
+/** A moment's short name for axes and sliders, "ED" for end_diastole, and its name. */
+export const stateMark = (name: string) => ({ title: stateTitle(name),
+  label: name.startsWith("end_") ? name.split("_").map((word) => word[0].toUpperCase()).join("") : stateTitle(name) });
 
 /** Below this a number is the rounding of zero, in any unit of the page. */
 const rounding = 1e-9;

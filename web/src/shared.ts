@@ -1,10 +1,10 @@
 // What all views show together: one quantity, one moment, one region, one cut.
 import { Case, type Selection } from "./data.ts";
 import type { Scale } from "./colours.ts";
-import { quantity } from "./quantities.ts";
+import { quantity, stateMark } from "./quantities.ts";
 import { value } from "./data.ts";
 
-export interface Cut { kind: "none" | "long" | "short"; angle: number; height: number }  // degrees, mm
+export interface Cut { kind: "none" | "long" | "short"; angle: number; height: number }  // degrees from the septum, mm
 
 export interface State {
   quantity: string;
@@ -46,55 +46,59 @@ export interface Timeline {
   frame: (number: number, step: number) => number | undefined;
   time: (number: number, step: number) => number;
   start: number;  // the step to begin with
+  marks: { step: number; label: string; title: string }[];  // named moments
 }
 
 function nearest(times: number[], time: number): number {
   return times.reduce((best, t, i) => (Math.abs(t - time) < Math.abs(times[best] - time) ? i : best), 0);
 }
 
-/** One case: its frames. Two: 40 steps through filling and 40 through contraction, in each case's own time. */
+function ownTimeline(c: Case, times: number[]): Timeline {
+  const last = Math.max(0, times.length - 1);
+  const marks = times.length ? c.moments.map((m) => ({ step: nearest(times, m.time), ...stateMark(m.name) })) : [];
+  return { count: last + 1, start: marks.find((mark) => mark.label === "ES")?.step ?? last, marks,
+    frame: (_, step) => (times.length ? step : undefined), time: (_, step) => times[step] ?? NaN };
+}
+
+/** One case: its frames. Two: 40 steps up to end-diastole and 40 from there, in each case's own time. */
 export function timeline(cases: Case[]): Timeline {
   const times = cases.map((c) => c.wall?.times ?? []);
-  if (cases.length === 1)
-    return { count: Math.max(1, times[0].length), start: Math.max(0, times[0].length - 1),
-      frame: (_, step) => (times[0].length ? step : undefined), time: (_, step) => times[0][step] ?? NaN };
-  const perPhase = 40;
+  if (cases.length === 1) return ownTimeline(cases[0], times[0]);
+  const half = 40;
   const at = (n: number, step: number) => {
     const end = times[n].at(-1) ?? NaN;
-    const ed = cases[n].json.end_diastole_s ?? end;
-    return step <= perPhase ? (step / perPhase) * ed : ed + (step / perPhase - 1) * (end - ed);
+    const ed = cases[n].timeOf("end_diastole") ?? end;
+    return step <= half ? (step / half) * ed : ed + (step / half - 1) * (end - ed);
   };
-  return { count: 2 * perPhase + 1, start: 2 * perPhase,
+  const everyHas = (name: string, time: (n: number) => number) => cases.every((c, n) => Math.abs((c.timeOf(name) ?? Infinity) - time(n)) < 1e-5);
+  const marks = [{ step: half, name: "end_diastole" }, { step: 2 * half, name: "end_systole" }]
+    .filter(({ step, name }) => everyHas(name, (n) => at(n, step))).map(({ step, name }) => ({ step, ...stateMark(name) }));
+  return { count: 2 * half + 1, start: 2 * half, marks,
     frame: (n, step) => (times[n].length ? nearest(times[n], at(n, step)) : undefined),
     time: (n, step) => times[n][nearest(times[n], at(n, step))] };
 }
 
+/** Moments that any case has regional values at. */
+export const statesOf = (cases: Case[]) => [...new Set(cases.flatMap((c) => c.states))];
+
 function reach(name: string, low: number, high: number): Scale {
-  const q = quantity(name);
-  if (!q.signed) return { min: low < -1e-6 * Math.abs(high) ? low : 0, max: high, diverging: false };
-  const most = Math.max(Math.abs(low - q.middle), Math.abs(high - q.middle));
-  return { min: q.middle - most, max: q.middle + most, diverging: true };
+  const { signed: diverging, middle, floor } = quantity(name);
+  if (!diverging) return { min: low < -1e-6 * Math.abs(high) ? low : 0, max: high, diverging, middle, floor };
+  const most = Math.max(Math.abs(low - middle), Math.abs(high - middle));
+  return { min: middle - most, max: middle + most, diverging, middle, floor };
 }
 
 const smallest = (values: number[]) => values.reduce((a, b) => (b < a ? b : a), Infinity);
 const greatest = (values: number[]) => values.reduce((a, b) => (b > a ? b : a), -Infinity);
 
-/** Of the 3-D view: the 1st to 99th percentile over the wall at end-diastole and end-systole, of all cases. */
-export function wallScale(cases: Case[], name: string): Scale {
-  if (name === "infarct") return { min: 0, max: 1, diverging: false };
-  const found = cases.flatMap((c) => ["end_diastole", "end_systole"].flatMap((state) => {
+/** One scale of a quantity for wall and bull's-eyes, all moments with regional values and all cases: the 1st to 99th percentile over the wall. */
+export function scaleOf(cases: Case[], name: string): Scale {
+  if (name === "infarct") return reach(name, 0, 1);
+  const found = cases.flatMap((c) => c.states.flatMap((state) => {
     const row = c.row(state, "whole", "wall", name);
     return [value(row?.p1), value(row?.p99)];
   })).filter(Number.isFinite);
   const fallback = cases.flatMap((c) => (c.wall?.quantities.includes(name) ? c.wall.range(name) : []));
   const values = found.length ? found : fallback;
-  return values.length ? reach(name, smallest(values), greatest(values)) : { min: 0, max: 1, diverging: false };
-}
-
-/** Of a bull's-eye: the regional means at its state, of all cases. */
-export function regionScale(cases: Case[], name: string, state: string): Scale {
-  const means = cases.flatMap((c) => c.regions)
-    .filter((r) => r.state === state && r.quantity === name && (r.scheme === "sector" || r.scheme === "aha17"))
-    .map((r) => value(r.mean)).filter(Number.isFinite);
-  return means.length ? reach(name, smallest(means), greatest(means)) : { min: 0, max: 1, diverging: false };
+  return values.length ? reach(name, smallest(values), greatest(values)) : reach(name, 0, 1);
 }

@@ -2,7 +2,7 @@
 import { drawChart, type Line } from "./chart.ts";
 import { lineColours } from "./colours.ts";
 import { type Case, type Row, value } from "./data.ts";
-import { el, figure, fileName, missing, section, table } from "./dom.ts";
+import { el, figure, fileName, folded, missing, section, table } from "./dom.ts";
 import { shown } from "./quantities.ts";
 
 const components = ["circumferential", "radial"];
@@ -63,12 +63,13 @@ function regionTable(c: Case, scheme: string, title: string): HTMLElement | unde
       names.map((name) => [name, ...cells(cir, name), ...cells(rad, name)])));
 }
 
+const none = "There is no strain from images. A case with [strain] measures it from its cine, or takes it from a table.";
+const hasStrain = (c: Case) => c.json.files["strain_agreement.json"] !== undefined && components.some((k) => c.table(`strain_comparison_${k}.csv`).length);
+
 function ofCase(c: Case): (Node | undefined)[] {
-  const text = c.json.files["strain_agreement.json"];
   const rows = components.map((k) => c.table(`strain_comparison_${k}.csv`));
-  if (!text || rows.every((r) => !r.length))
-    return [missing(`${c.name}: no strain from images. A case with [strain] measures it from its cine, or takes it from a table.`)];
-  const all = JSON.parse(text);
+  if (!hasStrain(c)) return [missing(`${c.name}: ${none}`)];
+  const all = JSON.parse(c.json.files["strain_agreement.json"]);
   const scheme = all.circumferential?.sector || all.radial?.sector ? "sector" : "aha17";
   const figures = components.flatMap((component, k) => {
     const chosen = rows[k].filter((r) => r.scheme === scheme);
@@ -85,6 +86,7 @@ function ofCase(c: Case): (Node | undefined)[] {
 }
 
 export function strainSection(cases: Case[]): HTMLElement {
+  if (!cases.some(hasStrain)) return folded("strain", "Strain: model and images", none);
   return section("strain", "Strain: model and images",
     "Systolic strain from end-diastole of the model and of the images, region by region (the paper's Table 1), and how far they agree: " +
     "the bias is the mean of model − images, and 95% of the differences of such regions lie within the limits (Bland & Altman, Lancet " +

@@ -1,9 +1,12 @@
 // Summary, comparisons with print, infarct zones, quality of the input, parameters, files.
 import { type Case, type Row, value } from "./data.ts";
-import { el, fileName, missing, save, section, table } from "./dom.ts";
+import { el, fileName, folded, missing, paperSwitch, save, section, table } from "./dom.ts";
 import { calibration, measuredVolume } from "./calibration_section.ts";
+import { judgements, rangeOf } from "./first_section.ts";
+import { transmurality } from "./regions_section.ts";
+import type { Shared } from "./shared.ts";
 import { healthyAdults, healthySubject, type MeanSd, paper, patient, volunteers } from "./published.ts";
-import { label, quantities, quantity, shown } from "./quantities.ts";
+import { label, quantities, quantity, shown, stateTitle } from "./quantities.ts";
 
 const perCase = (cases: Case[], content: (c: Case) => (Node | undefined)[]) =>
   el("div", { class: "cases" }, ...cases.map((c) => el("div", { class: "panel" },
@@ -13,9 +16,16 @@ const pm = (x: MeanSd | undefined) => (x ? `${shown(x.mean)} ± ${shown(x.sd, 2)
 const printed = (x: MeanSd | undefined) => (x ? `${x.mean} ± ${x.sd}`.replace("-", "−") : "–");
 const ofRow = (row: Row | undefined): string => (row && row.mean !== "" ? pm({ mean: value(row.mean), sd: value(row.sd) }) : "–");
 
-const known = new Set(["case", "program", "resolution", "early_diastole", "end_diastole", "end_systole", "edv_ml", "esv_ml",
-  "ejection_fraction_percent", "filling_was_steady", "contraction_was_steady", "strain", "whole_wall", "fibre_shortening_percent",
-  "rotation", "observations", "calibration", "zones", "infarct_segments", "warnings", "parameters", "set_in_case_file"]);
+const known = ["case", "program", "resolution", "early_diastole", "edv_ml", "esv_ml", "stroke_volume_ml", "mass_g",
+  "ejection_fraction_percent", "strain", "whole_wall", "fibre_shortening_percent",
+  "rotation", "plausibility", "calibration", "zones", "infarct", "infarct_segments", "assumptions", "warnings", "marks", "parameters", "set_in_case_file"];
+
+/** After the name of a phase. */
+const endedSteady = "_was_steady";
+const steadyKeys = (c: Case) => Object.keys(c.summary).filter((key) => key.endsWith(endedSteady));
+
+/** The moments that summary.json tells of. */
+const momentsOf = (c: Case) => Object.keys(c.summary.whole_wall ?? {});
 
 /** Entries of a JSON value as rows: "calibration.passive.value", 1.2. */
 function flat(json: any, prefix: string): [string, string][] {
@@ -24,53 +34,63 @@ function flat(json: any, prefix: string): [string, string][] {
   return [[prefix, json === null ? "–" : String(json)]];
 }
 
-function summaryOf(c: Case): (Node | undefined)[] {
+/** "computed", or "fitted / computed" where the columns differ. */
+const marks = (c: Case, ...paths: string[]) => [...new Set(paths.map((path) => c.mark(path)).filter(Boolean))].join(" / ") || "–";
+
+function stateTable(c: Case): HTMLElement {
+  const moments = momentsOf(c);
+  const names = ["early_diastole", ...moments];
+  const row = (title: string, key: string, digits = 4) => [title, ...names.map((name) => shown(c.summary[name]?.[key], digits)),
+    marks(c, ...names.map((name) => `${name}.${key}`))];
+  const measured = moments.map((name) => shown(measuredVolume(c, ({ end_diastole: "EDV", end_systole: "ESV" } as Record<string, string>)[name]), 4));
+  return table(fileName(c.name, "states"), ["", ...names.map(stateTitle), "origin"], [
+    row(c.isLoaded ? "load (no time)" : "time (s)", "time_s"), row("endocardial pressure (mmHg)", "pressure_mmHg"), row("cavity volume (ml)", "cavity_volume_ml"),
+    ["measured cavity volume (ml)", "–", ...measured, "measured"],
+    row("wall volume (ml)", "wall_volume_ml"), row("endocardial apex z (mm)", "apex_endo_z_mm"),
+    row("epicardial apex z (mm)", "apex_epi_z_mm"), row("radius of the endocardium at the base (mm)", "base_endo_radius_mm"),
+    row("largest axial shift of the base (mm)", "base_axial_shift_mm", 2)]);
+}
+
+function plausibilityTable(c: Case): HTMLElement | undefined {
+  const all = judgements(c);
+  return all.length === 0 ? undefined : table(fileName(c.name, "plausibility"), ["figure", "value", "usual", "answer", "why, source"], all.map((j) =>
+    [j.label, `${shown(j.value)}${j.unit === "1" ? "" : ` ${j.unit}`}`, rangeOf(j), j.impossible ? "IMPOSSIBLE" : j.answer, [j.reason, j.source].filter(Boolean).join("; ")]));
+}
+
+function runTable(c: Case): HTMLElement {
+  const s = c.summary;
+  const r = s.resolution ?? {};
+  return table(fileName(c.name, "run"), ["", "value"], [
+    ["program", `${s.program?.name} ${s.program?.version}`], ["engine", s.program?.engine ?? "–"],
+    ["wall", `${r.elements ?? "–"} elements, ${r.nodes ?? "–"} nodes`], ["grid of the box", r.grid ?? "–"],
+    ["mesh width (mm)", shown(r.mesh_width_mm, 4)], ["steps", `${r.steps ?? "–"} (${r.retries ?? "–"} taken back)`],
+    ["time of the beat", r.wall_clock_s === undefined ? "–" : `${shown(r.wall_clock_s / 60)} min on ${r.ranks} rank${r.ranks === 1 ? "" : "s"}`],
+    ...steadyKeys(c).map((key) => [`${key.slice(0, -endedSteady.length)} ended steady`, s[key] ? "yes" : "NO"])]);
+}
+
+function detailsOf(c: Case): (Node | undefined)[] {
   const s = c.summary;
   if (!s) return [missing("summary.json is missing: the results have not been computed.")];
-  const states = ["early_diastole", "end_diastole", "end_systole"].map((name) => s[name] ?? {});
-  const row = (title: string, key: string, digits = 4) => [title, ...states.map((state) => shown(state[key], digits))];
-  const r = s.resolution ?? {};
-  const measured = ["EDV", "ESV"].map((name) => measuredVolume(c, name));
   return [
-    el("dl", { class: "key" },
-      ...[["end-diastolic volume", `${shown(s.edv_ml, 4)} ml`, "edv_ml"], ["end-systolic volume", `${shown(s.esv_ml, 4)} ml`, "esv_ml"],
-        ["ejection fraction", `${shown(s.ejection_fraction_percent, 3)} %`, "ejection_fraction_percent"],
-        ["mean fibre stress, end-systole", `${shown(s.whole_wall?.end_systole?.fibre_stress?.mean)} kPa`, "fibre_stress"],
-        ["mean active tension, end-systole", `${shown(s.whole_wall?.end_systole?.active_tension?.mean)} kPa`, "active_tension"]]
-        .map(([title, text, id]) => el("div", {}, el("dt", {}, title), el("dd", { "data-key": id }, text)))),
-    table(fileName(c.name, "states"), ["", "early diastole", "end-diastole", "end-systole"], [
-      row("time (s)", "time_s"), row("endocardial pressure (mmHg)", "pressure_mmHg"), row("cavity volume (ml)", "cavity_volume_ml"),
-      ["measured cavity volume (ml)", "–", ...measured.map((ml) => shown(ml, 4))],
-      row("wall volume (ml)", "wall_volume_ml"), row("endocardial apex z (mm)", "apex_endo_z_mm"),
-      row("epicardial apex z (mm)", "apex_epi_z_mm"), row("radius of the endocardium at the base (mm)", "base_endo_radius_mm"),
-      row("largest axial shift of the base (mm)", "base_axial_shift_mm", 2)]),
-    measured.every((ml) => ml === undefined) ? missing("No measured volumes: the case is not fitted to any.") : undefined,
-    ...calibration(c),
+    stateTable(c), ...calibration(c),
+    el("h3", {}, "Does it look like a heart?"), plausibilityTable(c),
     el("h3", {}, "Whole wall, mean ± standard deviation"),
-    table(fileName(c.name, "whole-wall"), ["quantity", "end-diastole", "end-systole"], quantities.map((q) => [label(q),
-      ...["end_diastole", "end_systole"].map((state) => pm(s.whole_wall?.[state]?.[q.name]))])),
+    table(fileName(c.name, "whole-wall"), ["quantity", ...momentsOf(c).map(stateTitle), "origin"], quantities.map((q) => [label(q),
+      ...momentsOf(c).map((state) => pm(s.whole_wall?.[state]?.[q.name])), marks(c, "whole_wall")])),
     el("p", { class: "help" }, `Strain: ${s.strain ?? "not stated"}.`),
-    el("h3", {}, "Does it look like a heart?"),
-    table(fileName(c.name, "observations"), ["observation", "value", "rule", "holds"], (s.observations ?? []).map((o: any) =>
-      [o.name.replaceAll("_", " "), `${shown(o.value)} ${o.unit}`, o.rule, o.holds ? "yes" : "NO"])),
-    el("h3", {}, "Run"),
-    table(fileName(c.name, "run"), ["", "value"], [
-      ["program", `${s.program?.name} ${s.program?.version}`], ["engine", s.program?.engine ?? "–"],
-      ["wall", `${r.elements ?? "–"} elements, ${r.nodes ?? "–"} nodes`], ["grid of the box", r.grid ?? "–"],
-      ["mesh width (mm)", shown(r.mesh_width_mm, 4)], ["steps", `${r.steps ?? "–"} (${r.retries ?? "–"} taken back)`],
-      ["time of the beat", r.wall_clock_s === undefined ? "–" : `${shown(r.wall_clock_s / 60)} min on ${r.ranks} rank${r.ranks === 1 ? "" : "s"}`],
-      ["filling ended steady", s.filling_was_steady ? "yes" : "NO"], ["contraction ended steady", s.contraction_was_steady ? "yes" : "NO"]]),
-    ...Object.keys(s).filter((key) => !known.has(key)).map((key) =>
+    el("h3", {}, "Run"), runTable(c),
+    ...Object.keys(s).filter((key) => ![...known, ...momentsOf(c), ...steadyKeys(c)].includes(key)).map((key) =>
       el("div", {}, el("h3", {}, key.replaceAll("_", " ")), table(fileName(c.name, key), ["", "value"], flat(s[key], "")))),
   ];
 }
 
-export function summarySection(cases: Case[]): HTMLElement {
-  return section("summary", "Summary",
-    "What the model comes to at the three moments that matter. Read the volumes first, against the measured ones if there are any; " +
-    "then whether each observation holds that a healthy ventricle fulfils; then the warnings. All numbers are summary.json's.",
-    perCase(cases, (c) => [
-      ...(c.summary?.warnings ?? []).map((text: string) => el("p", { class: "warning" }, text)), ...summaryOf(c)]));
+export function detailsSection(cases: Case[]): HTMLElement {
+  const title = "Volumes, shape, plausibility";
+  if (cases.every((c) => !c.summary)) return folded("details", title, "summary.json is missing: the results have not been computed.");
+  return section("details", title,
+    "What the model comes to at the three moments that matter, and what each number is: measured, fitted so that another agrees with a measurement, " +
+    "assumed, or computed from these. A number is within its usual range, outside of it, or the range does not apply; what no beating heart can have is " +
+    "flagged. All numbers are summary.json's.", perCase(cases, detailsOf));
 }
 
 export function normalSection(cases: Case[]): HTMLElement {
@@ -80,21 +100,22 @@ export function normalSection(cases: Case[]): HTMLElement {
     const away = of ? Math.abs(value(row?.mean) - of.mean) / of.sd : NaN;
     return Number.isNaN(away) ? "–" : `${away.toFixed(1)} sd`;
   };
-  return section("normal", "Strain beside published values",
+  const title = "Strain beside published values";
+  if (cases.every((c) => !c.regions.length)) return folded("normal", title, "regions.csv is missing: there are no results yet.");
+  return section("normal", title,
     "Means ± standard deviations at end-systole, from end-diastole, per third of the wall (slices 1-2, 3-5, 6-7) and over all of it, " +
-    `from regions.csv. Beside them, for the whole wall: the paper's healthy subject (${paper}), one heart and its spread over the wall; ` +
-    `and the mean and spread of 100 healthy adults from feature tracking of cine images (${volunteers}), whose changes of length are ` +
+    "from regions.csv. Beside them, for the whole wall, " +
+    `the mean and spread of 100 healthy adults from feature tracking of cine images (${volunteers}), whose changes of length are ` +
     "converted to Green-Lagrange strain, E = e + e²/2. Feature tracking follows the borders of the wall, mostly the inner one, so it sees " +
     "more shortening than a mean over the wall; the model's base cannot move, so its longitudinal strain is small. “Away”: how many of those " +
-    "standard deviations lie between. For thirds of the wall nothing stands beside the model: the paper's Table 2 compares them with " +
-    "tagged images of 31 volunteers (Moore et al., Radiology 214:453, 2000), but neither's numbers are in the paper's text.",
+    `standard deviations lie between. On request, the paper's healthy subject (${paper}): one heart, and its spread over the wall.`, paperSwitch(),
     perCase(cases, (c) => c.regions.length === 0 ? [missing("regions.csv is missing: there are no results yet.")] : [
-      table(fileName(c.name, "strain-thirds"), ["strain", ...thirds, "whole wall", "paper's healthy subject", "away", "100 healthy adults", "away"],
+      table(fileName(c.name, "strain-thirds"), ["strain", ...thirds, "whole wall", "100 healthy adults", "away", "paper's healthy subject", "away"],
         strains.map((name) => {
           const whole = c.row("end_systole", "whole", "wall", name);
           return [quantity(name).title, ...thirds.map((third) => ofRow(c.row("end_systole", "third", third, name))), ofRow(whole),
-            printed(healthySubject[name]), verdict(whole, healthySubject[name]), pm(healthyAdults[name]), verdict(whole, healthyAdults[name])];
-        }))]));
+            pm(healthyAdults[name]), verdict(whole, healthyAdults[name]), printed(healthySubject[name]), verdict(whole, healthySubject[name])];
+        }), [7, 8])]));
 }
 
 function scarTable(c: Case): Node | undefined {
@@ -104,22 +125,25 @@ function scarTable(c: Case): Node | undefined {
       [s.segment, ...["infarct_ml", "infarct_g", "percent_of_segment", "transmurality_percent"].map((key) => shown(s[key]))])) : undefined;
 }
 
-export function zoneSection(cases: Case[]): HTMLElement {
+export function zoneSection(cases: Case[], shared: Shared): HTMLElement {
+  const title = "Infarct, border zone, remote muscle";
+  if (cases.every((c) => !c.regionNames("zone").length))
+    return folded("zones", title, cases.some((c) => c.regions.length) ? "There is no infarct." : "regions.csv is missing: there are no results yet.");
   const names = ["active_tension", "fibre_stress", "fibre_stress_passive", "fibre_strain", "circumferential_strain", "longitudinal_strain", "radial_strain"];
   const cells = (row: Row | undefined) => row ? [ofRow(row), shown(value(row.p1)), shown(value(row.p50)), shown(value(row.p99))] : ["–", "–", "–", "–"];
-  return section("zones", "Infarct, border zone, remote muscle",
-    "Distributions at end-systole over the infarct (M = 1), its border zone (0 < M < 1) and remote muscle (M = 0), from regions.csv; " +
-    "beside them the means the paper gives for its patient.",
+  return section("zones", title,
+    "Transmurality: the part of the wall's thickness that the infarct takes, per AHA segment. Distributions at end-systole over the infarct (M = 1), " +
+    "its border zone (0 < M < 1) and remote muscle (M = 0), from regions.csv; on request with the means the paper gives for its patient.", paperSwitch(),
     perCase(cases, (c) => {
       const zones = c.regionNames("zone");
       if (!c.regions.length) return [missing("regions.csv is missing: there are no results yet.")];
       if (!zones.length) return [missing("This case has no infarct.")];
-      return [table(fileName(c.name, "zones"), ["quantity, zone", "volume (ml)", "mean ± sd", "1%", "median", "99%", "paper's patient"],
+      return [transmurality(c, shared), table(fileName(c.name, "zones"), ["quantity, zone", "volume (ml)", "mean ± sd", "1%", "median", "99%", "paper's patient"],
         names.flatMap((name) => zones.map((zone) => {
           const row = c.row("end_systole", "zone", zone, name);
           return [`${label(quantity(name))}, ${zone}`, shown(value(row?.volume_ml)), ...cells(row),
             printed(patient[zone as "remote"]?.[name])];
-        }))), scarTable(c)];
+        })), [6]), scarTable(c)];
     }));
 }
 

@@ -1,34 +1,40 @@
 // The wall in 3-D: surface, section, fibres; coloured by a quantity; regions can be picked.
 import {
-  BufferAttribute, BufferGeometry, DataTexture, DynamicDrawUsage, LinearFilter, LineBasicMaterial, LineSegments, Mesh,
-  PerspectiveCamera, Raycaster, RGBAFormat, Scene, ShaderMaterial, Sphere, Vector2, Vector3, Vector4, WebGLRenderer, DoubleSide,
+  BufferAttribute, BufferGeometry, Color, DataTexture, DynamicDrawUsage, LinearFilter, LineBasicMaterial, LineSegments, Mesh,
+  OrthographicCamera, Raycaster, RGBAFormat, Scene, ShaderMaterial, Sphere, Vector2, Vector3, Vector4, WebGLRenderer, DoubleSide,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
-import { colourTable, type Scale } from "./colours.ts";
+import { colourTable, type Scale, uncoloured } from "./colours.ts";
 import type { Scheme, Selection, Series, Wall } from "./data.ts";
 import type { Fibres } from "./fibres.ts";
 import { atPoints, cutWall, type Plane, type Section } from "./section.ts";
+import { type Heart, unit, walls } from "./orientation.ts";
 import type { Cut } from "./shared.ts";
 
 const vertexShader = `
 attribute float value;
 attribute float chosen;
-varying float v; varying float c; varying vec3 place; varying vec3 n; varying vec3 eye;
+varying float v; varying float c; varying vec3 place; varying vec3 n;
 void main() {
   v = value; c = chosen; place = position; n = normalMatrix * normal;
-  vec4 e = modelViewMatrix * vec4(position, 1.0);
-  eye = e.xyz;
-  gl_Position = projectionMatrix * e;
+  gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
 }`;
+// A chosen region has c = 1 at all its corners, so its border is where c falls below 1: a dark line there with a light one around it.
 const fragmentShader = `
-uniform sampler2D map; uniform vec2 range; uniform vec4 plane; uniform float choosing; uniform float plain; uniform float flatLight;
-varying float v; varying float c; varying vec3 place; varying vec3 n; varying vec3 eye;
+uniform sampler2D map; uniform vec2 range; uniform vec2 none; uniform vec3 uncoloured; uniform vec4 plane; uniform float choosing;
+uniform float plain; uniform float flatLight; uniform float pixel;
+varying float v; varying float c; varying vec3 place; varying vec3 n;
 void main() {
   if (dot(plane.xyz, place) > plane.w) discard;
   vec3 colour = texture2D(map, vec2(clamp((v - range.x) / (range.y - range.x), 0.0, 1.0) * 0.99609375 + 0.001953125, 0.5)).rgb;
+  if (abs(v - none.x) < none.y) colour = uncoloured;
   colour = mix(colour, vec3(0.80, 0.62, 0.58), plain);
-  if (flatLight < 0.5) colour *= 0.5 + 0.5 * abs(dot(normalize(n), normalize(eye)));
-  colour = mix(colour, vec3(0.93), choosing * (1.0 - step(0.5, c)) * 0.72);
+  if (flatLight < 0.5) colour *= 0.55 + 0.45 * abs(normalize(n).z);
+  float away = (1.0 - c) / max(fwidth(c), 1e-6) / pixel;
+  if (choosing > 0.5 && c < 0.9999) {
+    if (away < 2.5) colour = vec3(0.0);
+    else if (away < 4.0) colour = vec3(1.0);
+  }
   gl_FragColor = vec4(colour, 1.0);
 }`;
 
@@ -38,16 +44,21 @@ function dynamic(size: number, width: number): BufferAttribute {
   return new BufferAttribute(new Float32Array(size * width), width).setUsage(DynamicDrawUsage);
 }
 
-export function planeOf(cut: Cut): Plane | undefined {
+export function planeOf(cut: Cut, heart: Heart): Plane | undefined {
   if (cut.kind === "none") return undefined;
   if (cut.kind === "short") return { normal: [0, 0, 1], offset: cut.height };
-  const a = (cut.angle * Math.PI) / 180;
-  return { normal: [-Math.sin(a), Math.cos(a), 0], offset: 0 };
+  const [x, y] = unit(heart.septum + cut.angle);
+  return { normal: [-y, x, 0], offset: 0 };
 }
+
+const turned = ({ normal: [x, y, z], offset }: Plane): Plane => ({ normal: [-x, -y, -z], offset: -offset });
+
+/** A letter of the picture, in pixels of the screen from its upper left corner. */
+export interface Letter { name: string; x: number; y: number; seen: boolean }
 
 export class WallView {
   readonly canvas = document.createElement("canvas");
-  readonly camera = new PerspectiveCamera(30, 1, 1, 2000);
+  readonly camera = new OrthographicCamera(-1, 1, 1, -1, 1, 2000);
   readonly controls: OrbitControls;
   private renderer: WebGLRenderer;
   private scene = new Scene();
@@ -59,6 +70,9 @@ export class WallView {
   private positions!: Float32Array;
   private values?: Float32Array;
   private plane?: Plane;
+  private cut: Cut = { kind: "none", angle: 0, height: 0 };
+  private fibres?: Fibres;
+  private reach: { radius: number; bottom: number; top: number };  // of the wall about the long axis, at all moments [mm]
   private selection?: Selection;
   private waiting = false;
   private slow: boolean;  // no graphics processor
@@ -66,12 +80,11 @@ export class WallView {
   onRender?: () => void;
 
   /** Throws when the browser has no WebGL. */
-  constructor(readonly wall: Wall) {
+  constructor(readonly wall: Wall, readonly heart: Heart) {
     this.renderer = new WebGLRenderer({ canvas: this.canvas, preserveDrawingBuffer: true });
     const context = this.renderer.getContext();
     const facts = context.getExtension("WEBGL_debug_renderer_info");
     this.slow = /swiftshader|llvmpipe|software/i.test(facts ? String(context.getParameter(facts.UNMASKED_RENDERER_WEBGL)) : "");
-    this.renderer.setClearColor(0xffffff);
     this.skinNodes = Int32Array.from(new Set(wall.skin)).sort();
     this.skin = this.makeSkin();
     this.cap = new Mesh(new BufferGeometry(), this.material(1));
@@ -85,14 +98,28 @@ export class WallView {
     this.canvas.tabIndex = 0;
     this.canvas.addEventListener("keydown", (event) => this.turnByKey(event));
     new ResizeObserver(() => this.resize()).observe(this.canvas);
-    const z = this.wall.undeformed.subarray(2 * wall.nodes);
-    this.controls.target.set(0, 0, 0.5 * z.reduce((a, b) => Math.min(a, b), 0));
-    this.look(90, 12);
+    this.reach = this.furthest();
+    this.controls.target.set(0, 0, 0.5 * (this.reach.bottom + this.reach.top));
+  }
+
+  private furthest(): WallView["reach"] {
+    const { nodes: n, times } = this.wall;
+    const reach = { radius: 0, bottom: 0, top: 0 };
+    for (const frame of new Set([0, times.length >> 1, times.length - 1])) {
+      const x = this.wall.positions(frame);
+      for (let a = 0; a < n; ++a) {
+        reach.radius = Math.max(reach.radius, Math.hypot(x[a], x[n + a]));
+        reach.bottom = Math.min(reach.bottom, x[2 * n + a]);
+        reach.top = Math.max(reach.top, x[2 * n + a]);
+      }
+    }
+    return reach;
   }
 
   private material(flatLight: number): ShaderMaterial {
     return new ShaderMaterial({ vertexShader, fragmentShader, side: DoubleSide, uniforms: {
       map: { value: null }, range: { value: new Vector2(0, 1) }, plane: { value: new Vector4(0, 0, 0, 1) },
+      none: { value: new Vector2(0, 0) }, uncoloured: { value: new Vector3(...uncoloured).divideScalar(255) }, pixel: { value: 1 },
       choosing: { value: 0 }, plain: { value: 0 }, flatLight: { value: flatLight } } });
   }
 
@@ -117,44 +144,98 @@ export class WallView {
     return new Mesh(geometry, this.material(0));
   }
 
-  /** The camera at an azimuth from x towards y and an elevation [degrees]. */
+  /** The camera at an azimuth from the septum, anticlockwise seen from the base, and an elevation [degrees]. */
   look(azimuth: number, elevation: number): void {
-    const [a, e] = [azimuth, elevation].map((angle) => (angle * Math.PI) / 180);
-    const distance = 225;
+    const [x, y] = unit(this.heart.septum + azimuth);
+    const [across, up] = unit(elevation);
+    const distance = 500;
     this.camera.up.set(0, 0, 1);
-    this.camera.position.set(Math.cos(e) * Math.cos(a), Math.cos(e) * Math.sin(a), Math.sin(e))
-      .multiplyScalar(distance).add(this.controls.target);
+    this.camera.position.set(across * x, across * y, up).multiplyScalar(distance).add(this.controls.target);
     this.controls.update();
     this.render();
+  }
+
+  private get azimuth(): number {
+    return (Math.atan2(this.camera.position.y, this.camera.position.x) * 180) / Math.PI - this.heart.septum;
+  }
+
+  private get elevation(): number {
+    const arm = this.camera.position.clone().sub(this.controls.target);
+    return (Math.asin(arm.z / arm.length()) * 180) / Math.PI;
+  }
+
+  /** Takes the place of another view's camera about its own heart. */
+  copy(other: WallView): void {
+    const off = Math.abs(Math.sin(((other.azimuth - this.azimuth) * Math.PI) / 360)) + Math.abs(other.elevation - this.elevation);
+    if (off < 1e-4 && this.camera.zoom === other.camera.zoom) return;
+    this.camera.zoom = other.camera.zoom;
+    this.camera.updateProjectionMatrix();
+    this.look(other.azimuth, other.elevation);
   }
 
   private turnByKey(event: KeyboardEvent): void {
     const turn: Record<string, [number, number]> = { ArrowLeft: [-10, 0], ArrowRight: [10, 0], ArrowUp: [0, 10], ArrowDown: [0, -10] };
     if (!turn[event.key]) return;
     event.preventDefault();
-    const arm = this.camera.position.clone().sub(this.controls.target);
-    const degrees = 180 / Math.PI;
-    const elevation = Math.asin(arm.z / arm.length()) * degrees + turn[event.key][1];
-    this.look(Math.atan2(arm.y, arm.x) * degrees + turn[event.key][0], Math.min(88, Math.max(-88, elevation)));
+    const [across, up] = turn[event.key];
+    this.look(this.azimuth + across, Math.min(89.9, Math.max(-89.9, this.elevation + up)));
   }
 
   private resize(): void {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     if (!width || !height) return;
     this.renderer.setSize(width, height, false);
-    this.camera.aspect = width / height;
+    // room for letters around the wall, for the caption above and the apex below it
+    const { radius, bottom, top } = this.reach;
+    const [above, below] = [66, 22];  // [pixels]
+    const across = 2 * (radius + 16);
+    const mm = Math.max(Math.max(top - bottom + 8, across) / Math.max(height - above - below, 1), across / width);  // a pixel
+    const [half, lower] = [0.5 * mm * height, 0.5 * mm * (above - below)];
+    Object.assign(this.camera, { left: -0.5 * mm * width, right: 0.5 * mm * width, top: half + lower, bottom: lower - half });
     this.camera.updateProjectionMatrix();
     this.render();
+  }
+
+  /** Pixels of the screen a millimetre. */
+  get scale(): number { return (this.camera.zoom * this.canvas.clientHeight) / (this.camera.top - this.camera.bottom); }
+
+  /** The walls' letters around the base, or around the plane of a short axis. One in line with the eye is not seen. */
+  letters(): Letter[] {
+    const height = this.cut.kind === "short" ? this.cut.height : this.reach.top + 5;
+    const { clientWidth: width, clientHeight } = this.canvas;
+    this.camera.updateMatrixWorld();
+    const eye = this.camera.getWorldDirection(new Vector3());
+    return walls.map(([name, angle]) => {
+      const [x, y] = unit(this.heart.septum + angle);
+      const at = new Vector3(x, y, 0).multiplyScalar(this.reach.radius + 7).setZ(height).project(this.camera);
+      return { name, x: 0.5 * (1 + at.x) * width, y: 0.5 * (1 - at.y) * clientHeight, seen: Math.abs(eye.x * x + eye.y * y) < 0.8 };
+    });
+  }
+
+  /** Paper behind the wall. */
+  background(colour: string): void {
+    this.renderer.setClearColor(colour);
+    this.render();
+  }
+
+  /** What is thrown away lies before the plane: its normal points to the eye. */
+  private get facing(): Plane | undefined {
+    const { plane } = this;
+    if (!plane) return undefined;
+    const arm = this.camera.position.clone().sub(this.controls.target);
+    return arm.dot(new Vector3(...plane.normal)) < 0 ? turned(plane) : plane;
   }
 
   /** The wall at a frame; `series` colours it, M if it is an array. */
   show(frame: number, field: Series | Float32Array | undefined, scale: Scale, cut: Cut, fibres: Fibres | undefined): void {
     this.positions = this.wall.positions(frame);
     this.values = field instanceof Float32Array ? field : field?.addTo(new Float32Array(this.wall.nodes), frame);
-    this.plane = planeOf(cut);
+    this.cut = cut;
+    this.plane = planeOf(cut, this.heart);
+    this.fibres = fibres;
     this.updateSkin();
     this.updateCap();
-    this.updateSticks(fibres);
+    this.turnPlane();
     const table = colourTable(scale);
     const map = new DataTexture(Uint8Array.from(table.flatMap((rgb) => [...rgb, 255])), 256, 1, RGBAFormat);
     map.magFilter = map.minFilter = LinearFilter;
@@ -163,11 +244,18 @@ export class WallView {
       material.uniforms.map.value?.dispose();
       material.uniforms.map.value = map;
       material.uniforms.range.value.set(scale.min, scale.max);
+      material.uniforms.none.value.set(scale.middle, scale.floor);
       material.uniforms.plain.value = this.values ? 0 : 1;
     }
-    const plane = this.plane;
-    this.skin.material.uniforms.plane.value.set(...(plane ? [...plane.normal, plane.offset] : [0, 0, 0, 1]) as [number, number, number, number]);
     this.choose(this.selection);
+  }
+
+  /** Follows the camera with the side of the plane that is seen. */
+  private turnPlane(): void {
+    this.plane = this.facing;
+    const { plane } = this;
+    this.skin.material.uniforms.plane.value.set(...(plane ? [...plane.normal, plane.offset] : [0, 0, 0, 1]) as [number, number, number, number]);
+    this.updateSticks(this.fibres);
   }
 
   private updateSkin(): void {
@@ -235,7 +323,7 @@ export class WallView {
     this.sticks.geometry.setAttribute("position", new BufferAttribute(Float32Array.from(ends), 3));
   }
 
-  /** Fades all but one region. */
+  /** Outlines one region. */
   choose(selection: Selection | undefined): void {
     this.selection = selection;
     const region = selection && this.wall.region(selection.scheme);
@@ -280,10 +368,23 @@ export class WallView {
 
   region(cell: number, scheme: Scheme): number | undefined { return this.wall.region(scheme)?.[cell]; }
 
+  /** A copy of the picture on white paper, finer than the screen. */
+  painted(): HTMLCanvasElement {
+    const [colour, copy] = [this.renderer.getClearColor(new Color()), document.createElement("canvas")];
+    this.renderer.setClearColor(0xffffff);
+    this.draw(2);
+    [copy.width, copy.height] = [this.canvas.width, this.canvas.height];
+    copy.getContext("2d")!.drawImage(this.canvas, 0, 0);
+    this.renderer.setClearColor(colour);
+    this.render();
+    return copy;
+  }
+
   /** With a share of the screen's resolution. */
   private draw(share: number): void {
     const ratio = Math.min(share * devicePixelRatio, 3);
     if (this.renderer.getPixelRatio() !== ratio) this.renderer.setPixelRatio(ratio);
+    for (const { material } of [this.skin, this.cap]) material.uniforms.pixel.value = ratio;
     this.renderer.render(this.scene, this.camera);
   }
 
@@ -293,6 +394,7 @@ export class WallView {
     this.waiting = true;
     requestAnimationFrame(() => {
       this.waiting = false;
+      if (this.plane && this.facing !== this.plane) this.turnPlane();
       // finer at rest than in motion; edges are smoothed by drawing finer than the screen where that is cheap
       this.draw(this.slow ? 0.5 : 1);
       clearTimeout(this.atRest);

@@ -64,11 +64,28 @@ double mean(const std::vector<CellFields>& cells, const Value& value) {
   return sum / volume;
 }
 
+/// The entry of a list of named things.
+template <class List, class Name>
+auto& named(const List& list, const std::string& name, const Name& name_of) {
+  const auto found =
+      std::find_if(list.begin(), list.end(), [&](const auto& x) { return name_of(x) == name; });
+  LV_CHECK(found != list.end());
+  return *found;
+}
+
 }  // namespace
 
-const Statistics& Results::whole(const std::string& state, const std::string& quantity) const {
+const std::vector<CellFields>& BeatFields::at(const std::string& moment) const {
+  return named(moments, moment, [](const Moment& m) { return m.name; }).cells;
+}
+
+const VentricleShape& Results::at(const std::string& moment) const {
+  return named(moments, moment, [](const auto& m) { return m.first; }).second;
+}
+
+const Statistics& Results::whole(const std::string& moment, const std::string& quantity) const {
   const auto found = std::find_if(regional.begin(), regional.end(), [&](const RegionalValue& r) {
-    return r.state == state && r.scheme == "whole" && r.quantity == quantity;
+    return r.state == moment && r.scheme == "whole" && r.quantity == quantity;
   });
   LV_CHECK(found != regional.end());
   return found->statistics;
@@ -76,25 +93,27 @@ const Statistics& Results::whole(const std::string& state, const std::string& qu
 
 Results results(const mesh::Mesh& mesh, const mesh::Regions& regions, const heartbeat::Beat& beat,
                 const BeatFields& fields) {
-  const auto& [early, ed, es] = fields;
+  const std::vector<CellFields>& early = fields.early_diastole;
+  const std::vector<CellFields>& ed = fields.at(heartbeat::end_diastole);
+  const std::vector<CellFields>& es = fields.at(heartbeat::end_systole);
   Results r;
   r.early_diastole = shape(mesh, mesh.nodes, early);
-  r.end_diastole = shape(mesh, beat.end_diastole, ed);
-  r.end_systole = shape(mesh, beat.end_systole, es);
-
   const std::vector<Region> list = region_list(regions, early);
-  add_regional("end_diastole", quantities(ed, {}), list, early, r.regional);
-  add_regional("end_systole", quantities(es, ed), list, early, r.regional);
+  std::vector<CellFields> from;  // strains start at early diastole, then at end-diastole
+  for (const auto& [name, cells] : fields.moments) {
+    r.moments.emplace_back(name, shape(mesh, beat.at(name), cells));
+    add_regional(name, quantities(cells, from), list, early, r.regional);
+    if (name == heartbeat::end_diastole)
+      from = cells;
+  }
   for (const Region& region : list)
     if (region.scheme == "slice")
       r.rotation.push_back({std::stoi(region.name), rotation(es, ed, region.cells),
                             rotation(es, early, region.cells), rotation(ed, early, region.cells)});
 
-  r.J_end_diastole = r.whole("end_diastole", "J");
-  r.J_end_systole = r.whole("end_systole", "J");
   r.fibre_shortening =
       mean(es, [&](std::size_t c) { return 1.0 - es[c].fibre_stretch / ed[c].fibre_stretch; });
-  r.thickening = r.whole("end_systole", "thickening").mean;
+  r.thickening = r.whole(heartbeat::end_systole, "thickening").mean;
   return r;
 }
 

@@ -1,8 +1,10 @@
 #pragma once
 
 #include "lv/analysis/regional.hpp"
+#include "lv/heartbeat/beat.hpp"
 
-#include <array>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace lv::analysis {
@@ -21,7 +23,7 @@ struct VentricleShape {
 
 /// A quantity's statistics in one region at one state.
 struct RegionalValue {
-  std::string state;   ///< end_diastole or end_systole
+  std::string state;   ///< name of the moment
   std::string scheme;  ///< of the region
   std::string region;
   std::string quantity;
@@ -38,27 +40,36 @@ struct SliceRotation {
   double filling;              ///< early diastole to end-diastole
 };
 
-/// All numbers of a beat, computed from its three states.
+/// The elements' fields at rest and at the moments of a beat.
+struct BeatFields {
+  struct Moment {
+    std::string name;
+    std::vector<CellFields> cells;
+  };
+  std::vector<CellFields> early_diastole;
+  std::vector<Moment> moments;
+
+  [[nodiscard]] const std::vector<CellFields>& at(const std::string& moment) const;
+};
+
+/// All numbers of a beat.
 struct Results {
-  VentricleShape early_diastole, end_diastole, end_systole;
+  VentricleShape early_diastole;
+  std::vector<std::pair<std::string, VentricleShape>> moments;  ///< name and shape, in their order
   std::vector<RegionalValue> regional;
   std::vector<SliceRotation> rotation;
-  Statistics J_end_diastole{}, J_end_systole{};
   double fibre_shortening = 0.0;  ///< mean of 1 - lambda_ES/lambda_ED
   double thickening =
       0.0;  ///< mean stretch of the wall's thickness from end-diastole to end-systole, minus 1
 
+  [[nodiscard]] const VentricleShape& at(const std::string& moment) const;
   [[nodiscard]] double ejection_fraction() const {
-    return 1.0 - end_systole.cavity_volume / end_diastole.cavity_volume;
+    return 1.0 -
+           at(heartbeat::end_systole).cavity_volume / at(heartbeat::end_diastole).cavity_volume;
   }
   /// The statistics of a quantity over the whole wall.
-  [[nodiscard]] const Statistics& whole(const std::string& state,
+  [[nodiscard]] const Statistics& whole(const std::string& moment,
                                         const std::string& quantity) const;
-};
-
-/// The elements' fields at the three states of a beat.
-struct BeatFields {
-  std::vector<CellFields> early_diastole, end_diastole, end_systole;
 };
 
 [[nodiscard]] Results results(const mesh::Mesh& mesh, const mesh::Regions& regions,

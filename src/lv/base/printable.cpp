@@ -91,6 +91,16 @@ std::string made_safe(std::string_view text, std::string_view kept) {
 
 }  // namespace
 
+bool is_utf8(std::string_view text) {
+  while (!text.empty()) {
+    const Character character = first_of(text);
+    if (character.code < 0)
+      return false;
+    text.remove_prefix(character.length);
+  }
+  return true;
+}
+
 std::string printable(std::string_view text) {
   return made_safe(text, "");
 }

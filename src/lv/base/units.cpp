@@ -214,7 +214,12 @@ std::string kind_of(const Unit& unit) {
                                                       {{0, 0, -1, 0, 0}, "rate"},
                                                       {{0, 0, -1, -1, 0}, "binding rate"},
                                                       {{-2, 1, -2, 0, 0}, "stiffness per area"},
-                                                      {{2, 0, 0, 0, 0}, "area"}};
+                                                      {{2, 0, 0, 0, 0}, "area"},
+                                                      {{3, 0, -1, 0, 0}, "flow"},
+                                                      {{-4, 1, -1, 0, 0}, "resistance"},
+                                                      {{-4, 1, 0, 0, 0}, "inertance"},
+                                                      {{-4, 1, -2, 0, 0}, "elastance"},
+                                                      {{4, -1, 2, 0, 0}, "compliance"}};
   const auto found = kinds.find(unit.dimension);
   return found == kinds.end() ? "quantity of another kind" : found->second;
 }

@@ -1,12 +1,16 @@
 #include "lv/geometry/drawn_wall.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/geometry/contour_measures.hpp"
+#include "lv/geometry/long_axis.hpp"
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -53,6 +57,50 @@ std::string says(const Misfit& aligned) {
   return fmt::format(
       "moves them by up to {:.1f} mm in their planes and leaves {:.1f} mm (rms {:.1f} mm)",
       aligned.largest_shift, aligned.most, aligned.rms);
+}
+
+/// Where a base plane lies, in words.
+const char* words(BaseAt at) {
+  return at == BaseAt::slice ? "through the most basal slice"
+         : at == BaseAt::slab
+             ? "half a slice spacing above the most basal slice, where its slab ends"
+             : "through the mitral annulus";
+}
+
+constexpr const char* at_end_of_muscle = "as high as the long-axis curves show muscle all round";
+
+/// The highest points of a long-axis curve on both sides of the axis; none where it has no side.
+std::vector<Vec3> ends_of(const Contour& curve, const LongAxis& axis) {
+  const Vec3 across = plane_of(curve.points).axes.col(2).cross(axis.up);
+  std::vector<Vec3> ends;
+  for (const double side : {1.0, -1.0}) {
+    const Vec3* highest = nullptr;
+    for (const Vec3& x : curve.points)
+      if (side * (x - axis.point).dot(across) > 0.0 &&
+          (highest == nullptr || x.dot(axis.up) > highest->dot(axis.up)))
+        highest = &x;
+    if (highest != nullptr)
+      ends.push_back(*highest);
+  }
+  return ends;
+}
+
+/// The lowest end of the long-axis curves of two or more images; none if they are fewer.
+std::optional<Vec3> end_of_muscle(const Contours& contours) {
+  std::set<int> images;
+  std::optional<Vec3> lowest;
+  const Vec3 basal = mean_of(loops_from_base(contours, Side::endo).front()->points);
+  const LongAxis axis = long_axis(contours);
+  const double drawn_short = -0.5 * slice_spacing(contours);
+  for (const Contour& curve : contours.long_axis)
+    for (const Vec3& end : ends_of(curve, axis)) {
+      if ((end - basal).dot(axis.up) < drawn_short)
+        continue;
+      images.insert(curve.slice);
+      if (!lowest || end.dot(axis.up) < lowest->dot(axis.up))
+        lowest = end;
+    }
+  return images.size() < 2 ? std::nullopt : lowest;
 }
 
 constexpr const char* align = "anatomy.contours.align_slices = true";
@@ -105,21 +153,29 @@ std::string alignment_note(const Contours& contours, const SplineFitParameters& 
 DrawnWall fit_drawn_wall(const Contours& contours, const SplineFitParameters& parameters,
                          bool base_may_move) {
   SplineFitParameters used = parameters;
+  Contours drawn = contours;
   std::vector<std::string> notes;
-  Attempt found = attempt(contours, used);
-  if (!found.wall && base_may_move && used.frame.base_at == BaseAt::annulus) {
-    notes.push_back(fmt::format(
-        "the base plane is laid where the slab of the most basal slice ends: through the mitral "
-        "annulus there is no wall ({})",
-        found.why.substr(0, found.why.find(". "))));
+  std::string base = words(used.frame.base_at);
+  base_may_move = base_may_move && used.frame.base_at == BaseAt::annulus;
+  if (const auto end = base_may_move ? end_of_muscle(contours) : std::nullopt) {
+    drawn.annulus = {*end};
+    base = at_end_of_muscle;
+  }
+  Attempt found = attempt(drawn, used);
+  if (!found.wall && base_may_move) {
     used.frame.base_at = BaseAt::slab;
-    found = attempt(contours, used);
+    notes.push_back(fmt::format(
+        "the base plane is laid where the slab of the most basal slice ends: {} there is no wall "
+        "({})",
+        base, found.why.substr(0, found.why.find(". "))));
+    base = words(used.frame.base_at);
+    found = attempt(drawn, used);
   }
   if (!found.wall)
-    refuse(contours, used, found);
-  if (const std::string note = alignment_note(contours, used, found.wall->report()); !note.empty())
+    refuse(drawn, used, found);
+  if (const std::string note = alignment_note(drawn, used, found.wall->report()); !note.empty())
     notes.push_back(note);
-  return {std::move(*found.wall), used.frame.base_at, std::move(notes)};
+  return {std::move(*found.wall), std::move(base), std::move(notes)};
 }
 
 }  // namespace lv::geometry

@@ -7,18 +7,23 @@
 
 namespace lv::geometry {
 
-/// A wall, where its base plane lies, and what was tried or could be.
+/// A wall, where its base plane lies, in words, and what was tried or could be.
 struct DrawnWall {
   SplineWall wall;
-  BaseAt base_at;
+  std::string base;
   std::vector<std::string> notes;
 };
 
 /// fit_spline_wall for contours as they are found, which says what else would help:
 ///
-/// - A base plane in the mitral annulus that gives no wall (it lies far above the most basal slice)
-///   is laid at the end of that slice's slab, with a note, if `base_may_move`; else the error names
-///   it.
+/// - A base plane in the mitral annulus is laid as high as the curves on two or more long-axis
+///   images show muscle all round, if `base_may_move`: at the lowest of their ends, for the annulus
+///   is tilted, and there is no muscle between its lowest and its mean point. This plane moves with
+///   the heart and does not jump where a slice comes or goes. Curves that end more than half a slice
+///   spacing below the most basal slice are drawn short and do not tell.
+/// - If there is no wall with that plane, or with that in the annulus where there are no such
+///   curves, it is laid at the end of the most basal slice's slab, with a note, if `base_may_move`;
+///   else the error names it.
 /// - Slices that lie as the scanner put them and whose contours are farther than 3 mm from the wall
 ///   are fitted again with align_slices. If that halves the distances (root mean square), or if
 ///   there is a wall only then, a note or the error says so, with the numbers.

@@ -1,17 +1,17 @@
 #pragma once
 
 #include "lv/base/tensor.hpp"
-#include "lv/heartbeat/protocol.hpp"
 #include "lv/solid/cell_stress.hpp"
 
+#include <string>
 #include <vector>
 
 namespace lv::heartbeat {
 
 /// One row of the curves of a beat.
 struct CurveRow {
-  double time = 0.0;  ///< [s]
-  Phase phase = Phase::filling;
+  double time = 0.0;              ///< [s]
+  std::string phase{};            ///< its name
   double pressure = 0.0;          ///< on the endocardium [kPa]
   double volume = 0.0;            ///< of the cavity [mm^3]
   double calcium = 0.0;           ///< [uM]
@@ -26,7 +26,6 @@ struct CurveRow {
 /// The wall at one time: all that stresses and strains follow from.
 struct Snapshot {
   double time = 0.0;
-  Phase phase = Phase::filling;
   double pressure = 0.0;        ///< on the endocardium [kPa]
   double volume = 0.0;          ///< [mm^3]
   std::vector<Vec3> positions;  ///< of the nodes [mm]
@@ -35,16 +34,34 @@ struct Snapshot {
   std::vector<solid::CellStress> stress;
 };
 
+/// The names of the moments that every beat has.
+inline constexpr const char* end_diastole = "end_diastole";
+inline constexpr const char* end_systole = "end_systole";
+
+/// A moment's name for readers: "end-diastole".
+[[nodiscard]] std::string title(const std::string& moment);
+
+/// A moment of a beat that has a name: that which a phase ends with.
+struct NamedMoment {
+  std::string name{};         ///< end_diastole, ...
+  std::string phase{};        ///< that it ends
+  bool by_criterion = false;  ///< its criterion ended the phase, not its longest duration
+  Snapshot wall{};
+};
+
 /// What a beat comes to, whichever engine ran it.
 struct Beat {
   std::vector<CurveRow> curves;
-  Snapshot end_diastole;
-  Snapshot end_systole;
-  bool filling_was_steady = false;  ///< the criterion ended the phase, not its longest duration
-  bool contraction_was_steady = false;
+  std::vector<NamedMoment> moments;  ///< in their order
   int steps = 0;
   int retries = 0;          ///< steps taken back and repeated smaller
   double wall_clock = 0.0;  ///< of the computation, interruptions left out [s]
+
+  /// The moment of that name, or nothing when the beat did not come to it.
+  [[nodiscard]] const NamedMoment* find(const std::string& name) const;
+
+  /// The wall at the moment of that name, which the beat must have come to.
+  [[nodiscard]] const Snapshot& at(const std::string& name) const;
 };
 
 }  // namespace lv::heartbeat

@@ -28,10 +28,10 @@ std::size_t points(const fluid::Component& u) {
 
 /// A moment as an archive has it, in place of a state of the same model.
 Moment load_moment(const Archive& archive, const immersed::Model& model,
-                   const immersed::ModelState& like, const Protocol& protocol) {
+                   const immersed::ModelState& like, const std::vector<Phase>& phases) {
   const std::size_t nodes = like.positions.size();
   const auto at_nodes = [&](const char* name) { return vectors(archive.get_rows(name, 3, nodes)); };
-  Moment moment{like, load_run_state(archive, protocol, nodes)};
+  Moment moment{like, load_run_state(archive, phases, nodes)};
   immersed::ModelState& state = moment.model;
   state.positions = at_nodes("positions");
   state.node_velocities = at_nodes("node_velocities");
@@ -74,11 +74,11 @@ Archive archived(const immersed::ModelState& state, const RunState& run,
 }
 
 Checkpoint read_checkpoint(const std::filesystem::path& file, immersed::Model& model,
-                           const Protocol& protocol) {
+                           const std::vector<Phase>& phases) {
   Archive archive = Archive::read(file);
   const immersed::ModelState& like = model.state();
-  Moment now = load_moment(archive.take("now"), model, like, protocol);
-  return {std::move(now), load_moment(archive.take("kept"), model, like, protocol)};
+  Moment now = load_moment(archive.take("now"), model, like, phases);
+  return {std::move(now), load_moment(archive.take("kept"), model, like, phases)};
 }
 
 }  // namespace lv::heartbeat

@@ -24,6 +24,6 @@ struct Checkpoint {
 /// The checkpoint in a file, for a run of this model; collective. Throws RunError when the file
 /// cannot be read, is damaged, is of another wall or box, or says what no run can come to.
 [[nodiscard]] Checkpoint read_checkpoint(const std::filesystem::path& file, immersed::Model& model,
-                                         const Protocol& protocol);
+                                         const std::vector<Phase>& phases);
 
 }  // namespace lv::heartbeat

@@ -48,6 +48,7 @@ class ImmersedRun {
       : setup_(setup),
         folder_(std::move(folder)),
         observers_(observers),
+        phases_(phases(setup.protocol)),
         model_(setup.mesh, setup.heart, setup.model),
         checkpoint_timer_(setup.output.checkpoint_interval) {}
 
@@ -61,7 +62,7 @@ class ImmersedRun {
     while (!finished_) {
       if (advance()) {
         observe();
-        end_phase_when_steady();
+        end_phase_when_due();
         keep_sometimes();
       }
       if (!finished_)
@@ -75,8 +76,8 @@ class ImmersedRun {
 
  private:
   void start() {
-    model_.relax(setup_.protocol.calcium.Ca_0);
-    run_.steady = criterion(setup_.protocol, Phase::filling);
+    model_.relax(loads_now().calcium);
+    run_.steady = criterion(phase());
     record_curve();
   }
 
@@ -94,13 +95,14 @@ class ImmersedRun {
   void write_frame();
   [[nodiscard]] Snapshot snapshot() const;
   void watch_least_volume();
-  void end_phase_when_steady();
-  void end_filling(bool steady);
-  void end_contraction(bool steady);
+  void end_phase_when_due();
+  [[nodiscard]] bool criterion_is_met() const;
+  void end_phase(bool by_criterion);
+  [[nodiscard]] Snapshot marked_wall() const;
+  [[nodiscard]] const Phase& phase() const { return phases_[run_.phase]; }
   [[nodiscard]] double time_in_phase() const { return run_.time - run_.phase_start; }
-  [[nodiscard]] solid::Loads loads_now() const {
-    return loads(setup_.protocol, run_.phase, time_in_phase());
-  }
+  [[nodiscard]] bool loads_are_final() const { return time_in_phase() >= phase().settled; }
+  [[nodiscard]] solid::Loads loads_now() const { return phase().loads(time_in_phase()); }
   void housekeeping();
   void report_progress(double now);
   [[nodiscard]] double time_left();
@@ -108,6 +110,7 @@ class ImmersedRun {
   const BeatSetup& setup_;
   std::filesystem::path folder_;
   const Observers& observers_;
+  std::vector<Phase> phases_;
   immersed::Model model_;
   RunState run_;
   immersed::StepReport last_;
@@ -130,11 +133,11 @@ bool ImmersedRun::resume() {
   const std::filesystem::path file = folder_ / checkpoint_name;
   if (!parallel::any(parallel::is_root() && std::filesystem::exists(file)))
     return false;
-  Checkpoint checkpoint = read_checkpoint(file, model_, setup_.protocol);
+  Checkpoint checkpoint = read_checkpoint(file, model_, phases_);
   model_.restore(checkpoint.now.model);
   run_ = std::move(checkpoint.now.run);
   kept_ = std::move(checkpoint.kept);
-  log::info("resumed from the checkpoint at {:.4f} s of {}", run_.time, name(run_.phase));
+  log::info("resumed from the checkpoint at {:.4f} s of {}", run_.time, phase().name);
   return true;
 }
 
@@ -188,7 +191,7 @@ std::string ImmersedRun::what_is_wrong(const immersed::StepReport& report) {
 bool ImmersedRun::advance() {
   const double dt = step_size();
   volume_before_ = model_.cavity_volume();
-  last_ = model_.step(loads_now(), dt, drag(setup_.protocol, run_.phase, time_in_phase()));
+  last_ = model_.step(loads_now(), dt, loads_are_final() ? phase().drag : 0.0);
   run_.time += dt;
   ++run_.beat.steps;
   if (run_.beat.steps % 10 == 0)
@@ -236,7 +239,7 @@ void ImmersedRun::take_back(const std::string& why) {
     save();
     throw RunError(
         fmt::format("The run became unstable at {:.4f} s of {}: {}, even with steps of {:.2g} s",
-                    failed_at, name(run_.phase), why,
+                    failed_at, phase().name, why,
                     std::ldexp(setup_.control.longest, -setup_.control.halvings)),
         "Look at the last frame: a wall at the side of the box needs a larger box.size, one that "
         "folds a finer mesh or lower pressures; otherwise lower time.longest_step in the case "
@@ -250,7 +253,6 @@ Snapshot ImmersedRun::snapshot() const {
   const auto x = model_.positions();
   const auto tension = model_.contraction().tension();
   return {run_.time,
-          run_.phase,
           loads_now().pressure,
           model_.cavity_volume(),
           {x.begin(), x.end()},
@@ -260,8 +262,7 @@ Snapshot ImmersedRun::snapshot() const {
 
 void ImmersedRun::observe() {
   run_.steady.record(run_.time, model_.cavity_volume());
-  if (setup_.protocol.calcium.mode == material::Calcium::Mode::transient &&
-      run_.phase == Phase::contraction)
+  if (phase().end == Phase::End::refilling)
     watch_least_volume();
   if (run_.time >= run_.next_curve)
     record_curve();
@@ -275,7 +276,7 @@ void ImmersedRun::record_curve() {
   const auto motion =
       fluid::motion(model_.velocity(), setup_.model.grid, setup_.model.blood.density);
   const solid::Loads now = loads_now();
-  run_.beat.curves.push_back({run_.time, run_.phase, now.pressure, model_.cavity_volume(),
+  run_.beat.curves.push_back({run_.time, phase().name, now.pressure, model_.cavity_volume(),
                               now.calcium, model_.mean_tension(), motion.kinetic_energy,
                               motion.largest_velocity, last_.J.min_J, last_.J.max_J, step_size()});
   run_.next_curve = run_.time + setup_.output.curve_interval;
@@ -292,8 +293,7 @@ void ImmersedRun::write_frame() {
   observers_.frame({number, snapshot(), run_, Blood{model_, pressure}});
 }
 
-/// End-systole of a calcium transient is the smallest volume: noticed at the first step that fills
-/// again.
+/// The smallest volume is noticed at the first step that fills again.
 void ImmersedRun::watch_least_volume() {
   const bool falling = model_.cavity_volume() < volume_before_;
   if (run_.volume_was_falling && !falling &&
@@ -302,59 +302,50 @@ void ImmersedRun::watch_least_volume() {
   run_.volume_was_falling = falling;
 }
 
-void ImmersedRun::end_phase_when_steady() {
-  const Protocol& p = setup_.protocol;
-  if (run_.phase == Phase::filling) {
-    const bool steady = loads_are_final(p, run_.phase, time_in_phase()) && run_.steady.reached();
-    if (steady || time_in_phase() >= p.filling_longest)
-      end_filling(steady);
-    return;
-  }
-  if (p.calcium.mode == material::Calcium::Mode::transient) {
-    constexpr double refilled = 1.02;  // of the smallest volume
-    const bool over = loads_are_final(p, run_.phase, time_in_phase()) &&
-                      !run_.least.positions.empty() &&
-                      model_.cavity_volume() > refilled * run_.least.volume;
-    if (over || time_in_phase() >= p.contraction_longest)
-      end_contraction(over);
-    return;
-  }
-  const bool steady = loads_are_final(p, run_.phase, time_in_phase()) && run_.steady.reached();
-  if (steady || time_in_phase() >= p.contraction_longest)
-    end_contraction(steady);
+void ImmersedRun::end_phase_when_due() {
+  const bool met = loads_are_final() && criterion_is_met();
+  if (met || time_in_phase() >= phase().longest)
+    end_phase(met);
 }
 
-void ImmersedRun::end_filling(bool steady) {
-  record_curve();
-  run_.beat.end_diastole = snapshot();
-  run_.beat.filling_was_steady = steady;
-  if (!steady)
-    log::warn("filling did not settle within {} s: the volume still varies by {:.2g}% per {} s",
-              setup_.protocol.filling_longest, 100.0 * run_.steady.variation(),
-              setup_.protocol.filling_window);
-  log::info("end-diastole at {:.4f} s: {:.2f} ml at {:.1f} mmHg", run_.time,
-            1e-3 * model_.cavity_volume(), loads_now().pressure / mmHg);
-  write_frame();
-  run_.phase = Phase::contraction;
-  run_.phase_start = run_.time;
-  run_.steady = criterion(setup_.protocol, Phase::contraction);
-  keep();
+bool ImmersedRun::criterion_is_met() const {
+  if (phase().end == Phase::End::steady)
+    return run_.steady.reached();
+  constexpr double refilled = 1.02;  // of the smallest volume
+  return !run_.least.positions.empty() && model_.cavity_volume() > refilled * run_.least.volume;
 }
 
-void ImmersedRun::end_contraction(bool steady) {
-  record_curve();
-  Beat& beat = run_.beat;
+/// The wall at the moment that the phase ends with.
+Snapshot ImmersedRun::marked_wall() const {
   const bool passed_the_least =
       !run_.least.positions.empty() && run_.least.volume < model_.cavity_volume();
-  beat.end_systole = passed_the_least ? run_.least : snapshot();
-  beat.contraction_was_steady = steady;
-  if (!steady)
-    log::warn("contraction did not reach its end criterion within {} s",
-              setup_.protocol.contraction_longest);
-  log::info("end-systole at {:.4f} s: {:.2f} ml at {:.1f} mmHg", beat.end_systole.time,
-            1e-3 * beat.end_systole.volume, beat.end_systole.pressure / mmHg);
+  return passed_the_least ? run_.least : snapshot();
+}
+
+void ImmersedRun::end_phase(bool by_criterion) {
+  record_curve();
+  run_.beat.moments.push_back({phase().marks, phase().name, by_criterion, marked_wall()});
+  const Snapshot& wall = run_.beat.moments.back().wall;
+  if (!by_criterion)
+    log::warn("{} did not meet its end criterion within {} s{}", phase().name, phase().longest,
+              std::isfinite(run_.steady.variation())
+                  ? fmt::format(": the volume still varies by {:.2g}% per {} s",
+                                100.0 * run_.steady.variation(), phase().window)
+                  : "");
+  log::info("{} at {:.4f} s: {:.2f} ml at {:.1f} mmHg", title(phase().marks), wall.time,
+            1e-3 * wall.volume, wall.pressure / mmHg);
   write_frame();
-  finished_ = true;
+  if (run_.phase + 1 == phases_.size()) {
+    finished_ = true;
+    return;
+  }
+  ++run_.phase;
+  run_.phase_start = run_.time;
+  run_.steady = criterion(phase());
+  settling_ = {};
+  run_.least = {};
+  run_.volume_was_falling = false;
+  keep();
 }
 
 void ImmersedRun::housekeeping() {
@@ -363,7 +354,7 @@ void ImmersedRun::housekeeping() {
     if (observers_.curves)
       observers_.curves(run_);
     throw Interrupted(fmt::format("stopped at {:.4f} s of {}; run the same command again to go on",
-                                  run_.time, name(run_.phase)));
+                                  run_.time, phase().name));
   }
   constexpr int look_every = 10;  // steps
   if (run_.beat.steps % look_every != 0)
@@ -380,10 +371,10 @@ void ImmersedRun::housekeeping() {
 
 /// Simulated time that the run will probably still take.
 double ImmersedRun::time_left() {
-  const double here =
-      settling_.time_left(setup_.protocol, run_.phase, time_in_phase(), run_.steady.variation());
-  return run_.phase == Phase::filling ? here + usual_duration(setup_.protocol, Phase::contraction)
-                                      : here;
+  double left = settling_.time_left(phase(), time_in_phase(), run_.steady.variation());
+  for (std::size_t next = run_.phase + 1; next < phases_.size(); ++next)
+    left += phases_[next].usual;
+  return left;
 }
 
 void ImmersedRun::report_progress(double now) {
@@ -392,7 +383,7 @@ void ImmersedRun::report_progress(double now) {
   log::info(
       "{} {:.3f} s  {:.1f} mmHg  {:.1f} ml  tension {:.1f} kPa  local volume {:.2f} to {:.2f}  "
       "{:.1f} steps/s{}",
-      name(run_.phase), run_.time, loads_now().pressure / mmHg, 1e-3 * model_.cavity_volume(),
+      phase().name, run_.time, loads_now().pressure / mmHg, 1e-3 * model_.cavity_volume(),
       model_.mean_tension(), last_.J.min_J, last_.J.max_J, rate, left_.words(time_left()));
 }
 

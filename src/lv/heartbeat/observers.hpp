@@ -27,7 +27,7 @@ struct Frame {
 struct Observers {
   std::function<void(const Frame&)> frame;
   std::function<void(const RunState&)>
-      curves;  ///< every few seconds and at the end: the curves so far
+      curves;  ///< every few seconds and at the end: the curves and moments so far
 };
 
 }  // namespace lv::heartbeat

@@ -1,38 +1,61 @@
 #include "lv/heartbeat/protocol.hpp"
 
+#include "lv/heartbeat/beat.hpp"
+
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace lv::heartbeat {
-
-std::string name(Phase phase) {
-  return phase == Phase::filling ? "filling" : "contraction";
-}
 
 double smooth_step(double s) {
   s = std::clamp(s, 0.0, 1.0);
   return s * s * s * (10.0 - 15.0 * s + 6.0 * s * s);
 }
 
-solid::Loads loads(const Protocol& p, Phase phase, double time) {
-  if (phase == Phase::filling)
-    return {p.ed_pressure * smooth_step(time / p.filling_ramp), 0.0, p.calcium.Ca_0};
-  const double rise = smooth_step(time / p.contraction_ramp);
-  return {p.ed_pressure + (p.es_pressure - p.ed_pressure) * rise, rise, p.calcium.at(time)};
+namespace {
+
+Phase filling(const Protocol& p) {
+  return {.name = "filling",
+          .marks = end_diastole,
+          .loads =
+              [p](double time) {
+                return solid::Loads{p.ed_pressure * smooth_step(time / p.filling_ramp), 0.0,
+                                    p.calcium.Ca_0};
+              },
+          .ramp = p.filling_ramp,
+          .settled = p.filling_ramp,
+          .drag = p.filling_drag,
+          .tolerance = p.filling_tolerance,
+          .window = p.filling_window,
+          .longest = p.filling_longest,
+          .usual = p.filling_ramp + 2.0 * p.filling_window};
 }
 
-double drag(const Protocol& p, Phase phase, double time) {
-  if (!loads_are_final(p, phase, time))
-    return 0.0;
-  if (phase == Phase::filling)
-    return p.filling_drag;
-  return p.calcium.mode == material::Calcium::Mode::hold ? p.contraction_drag : 0.0;
+Phase contraction(const Protocol& p) {
+  const bool transient = p.calcium.mode == material::Calcium::Mode::transient;
+  return {.name = "contraction",
+          .marks = end_systole,
+          .loads =
+              [p](double time) {
+                const double rise = smooth_step(time / p.contraction_ramp);
+                return solid::Loads{std::lerp(p.ed_pressure, p.es_pressure, rise), rise,
+                                    p.calcium.at(time)};
+              },
+          .ramp = p.contraction_ramp,
+          .settled = std::max(p.contraction_ramp, p.calcium.peak_time()),
+          .drag = transient ? 0.0 : p.contraction_drag,
+          .end = transient ? Phase::End::refilling : Phase::End::steady,
+          .tolerance = p.contraction_tolerance,
+          .window = p.contraction_window,
+          .longest = p.contraction_longest,
+          .usual = p.contraction_ramp + 3.0 * p.contraction_window};
 }
 
-bool loads_are_final(const Protocol& p, Phase phase, double time) {
-  if (phase == Phase::filling)
-    return time >= p.filling_ramp;
-  return time >= std::max(p.contraction_ramp, p.calcium.tau);
+}  // namespace
+
+std::vector<Phase> phases(const Protocol& protocol) {
+  return {filling(protocol), contraction(protocol)};
 }
 
 void SteadyVolume::record(double time, double volume) {

@@ -4,28 +4,16 @@
 #include "lv/solid/loads.hpp"
 
 #include <deque>
+#include <functional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace lv::heartbeat {
-
-enum class Phase { filling, contraction };
-
-[[nodiscard]] std::string name(Phase phase);
 
 /// Rises from 0 to 1 over s in [0,1] with zero slope and curvature at both ends, so that wall and
 /// blood ring little: s^3 (10 - 15 s + 6 s^2).
 [[nodiscard]] double smooth_step(double s);
-
-/// The loads at `time` seconds after the start of a phase.
-[[nodiscard]] solid::Loads loads(const Protocol& protocol, Phase phase, double time);
-
-/// The resistance to the velocity then [1/s].
-[[nodiscard]] double drag(const Protocol& protocol, Phase phase, double time);
-
-/// Whether the loads have reached their final values (the end of the ramps, calcium at its
-/// plateau).
-[[nodiscard]] bool loads_are_final(const Protocol& protocol, Phase phase, double time);
 
 /// Knows when a volume has settled: over a whole window its range is below a fraction of its mean.
 /// A turning point of a swing does not fool it, since the window is longer than half a swing.
@@ -46,5 +34,27 @@ class SteadyVolume {
   double tolerance_;
   std::deque<std::pair<double, double>> samples_;  ///< time and volume
 };
+
+/// One part of a beat: what acts while it lasts, how it ends and which moment that is.
+struct Phase {
+  enum class End {
+    steady,    ///< the volume has settled (SteadyVolume)
+    refilling  ///< the cavity fills again; the moment is that of its smallest volume
+  };
+
+  std::string name;
+  std::string marks;                          ///< name of the moment
+  std::function<solid::Loads(double)> loads;  ///< so many seconds after its start
+  double ramp = 0.0;                          ///< how long the loads rise [s]
+  double settled = 0.0;                       ///< from when on they are final [s]
+  double drag = 0.0;                          ///< resistance to the velocity once they are [1/s]
+  End end = End::steady;
+  double tolerance = 0.0, window = 0.0;  ///< see SteadyVolume [-], [s]
+  double longest = 0.0;                  ///< gives up waiting for its end after this long [s]
+  double usual = 0.0;                    ///< how long it usually takes [s]
+};
+
+/// The paper's two phases, filling and contraction.
+[[nodiscard]] std::vector<Phase> phases(const Protocol& protocol);
 
 }  // namespace lv::heartbeat

@@ -19,20 +19,22 @@ using units::mmHg;
 class QuasiStaticRun {
  public:
   QuasiStaticRun(const QuasiStaticSetup& setup, const Observers& observers)
-      : setup_(setup), observers_(observers), engine_(setup.mesh, setup.model, setup.parameters) {
-    record({engine_.loads(), 0.0, 0.0, engine_.cavity_volume(), {}});
+      : setup_(setup),
+        observers_(observers),
+        phases_(phases(setup.protocol)),
+        engine_(setup.mesh, setup.model, setup.parameters) {
+    record({phase().loads(0.0), 0.0, 0.0, engine_.cavity_volume(), {}});
   }
 
   Beat run() {
     const auto start = std::chrono::steady_clock::now();
-    const Protocol& p = setup_.protocol;
-    go_to({p.ed_pressure, 0.0});
-    run_.beat.end_diastole = state();
-    run_.phase = Phase::contraction;
-    run_.phase_start = p.filling_ramp;
-    go_to({p.es_pressure, 1.0});
-    run_.beat.end_systole = state();
-    run_.beat.filling_was_steady = run_.beat.contraction_was_steady = true;
+    for (run_.phase = 0; run_.phase < phases_.size(); ++run_.phase) {
+      go_to(final_loads());
+      run_.beat.moments.push_back({phase().marks, phase().name, true, state()});
+      run_.phase_start += phase().ramp;
+    }
+    if (observers_.curves)
+      observers_.curves(run_);
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
     run_.beat.wall_clock = elapsed.count();
     return std::move(run_.beat);
@@ -52,9 +54,9 @@ class QuasiStaticRun {
     const quasi_static::NewtonReport& n = step.newton;
     left_.record(run_.beat.steps);
     log::info("{} {:3.0f}%  {:.2f} mmHg  {:.2f} ml  tension {:.1f} kPa  {} corrections, {} {}{}{}",
-              name(run_.phase), 100.0 * step.progress, step.loads.pressure / mmHg,
-              1e-3 * step.volume, run_.beat.curves.back().mean_tension, n.iterations,
-              n.factorisations, n.factorisations == 1 ? "tangent" : "tangents",
+              phase().name, 100.0 * step.progress, step.loads.pressure / mmHg, 1e-3 * step.volume,
+              run_.beat.curves.back().mean_tension, n.iterations, n.factorisations,
+              n.factorisations == 1 ? "tangent" : "tangents",
               n.linear_iterations == 0
                   ? ""
                   : fmt::format(", {} iterations of GMRES", n.linear_iterations),
@@ -62,31 +64,28 @@ class QuasiStaticRun {
   }
 
   /// Load steps that the beat will probably still take: those of this phase at the length of the
-  /// last one, and those that contraction usually takes.
+  /// last one, and those that another phase usually takes.
   [[nodiscard]] double steps_left(const Step& step) const {
-    const double here = std::ceil((1.0 - step.progress) / step.length - 1e-9);
-    return run_.phase == Phase::filling ? here + usual_contraction : here;
+    constexpr double usual = 12.0;
+    const auto others = static_cast<double>(phases_.size() - run_.phase - 1);
+    return std::ceil((1.0 - step.progress) / step.length - 1e-9) + usual * others;
   }
 
   void record(const Step& step) {
-    const Protocol& p = setup_.protocol;
-    const double ramp = run_.phase == Phase::filling ? p.filling_ramp : p.contraction_ramp;
-    run_.time = run_.phase_start + step.progress * ramp;
+    run_.time = run_.phase_start + step.progress * phase().ramp;
     CurveRow row;
     row.time = run_.time;
-    row.phase = run_.phase;
+    row.phase = phase().name;
     row.pressure = step.loads.pressure;
     row.volume = step.volume;
-    row.calcium = calcium(step.loads.activation);
+    row.calcium = calcium(step);
     row.mean_tension = engine_.mean_tension();
-    row.step = step.length * ramp;
+    row.step = step.length * phase().ramp;
     row.min_J = row.max_J = std::numeric_limits<double>::quiet_NaN();  // not looked at
     run_.beat.curves.push_back(row);
     if (observers_.curves)
       observers_.curves(run_);
-    constexpr double nearly = 1e-9;  // of the way
-    const bool is_end = step.progress == 0.0 || step.progress > 1.0 - nearly;
-    if (!observers_.frame || (!is_end && run_.time < run_.next_frame))
+    if (!observers_.frame || (!is_end(step) && run_.time < run_.next_frame))
       return;
     run_.next_frame = run_.time + setup_.frame_interval;
     const int number = run_.frames++;
@@ -94,30 +93,37 @@ class QuasiStaticRun {
     observers_.frame({number, state(), run_, {}});
   }
 
-  /// Known where the muscle rests or is fully active; in between the tension is a mean of both.
-  [[nodiscard]] double calcium(double activation) const {
-    const auto& c = setup_.protocol.calcium;
-    return activation == 0.0   ? c.Ca_0
-           : activation == 1.0 ? c.Ca_max
-                               : std::numeric_limits<double>::quiet_NaN();
+  [[nodiscard]] const Phase& phase() const { return phases_[run_.phase]; }
+  [[nodiscard]] Loads final_loads() const { return phase().loads(phase().settled); }
+
+  [[nodiscard]] static bool is_end(const Step& step) {
+    constexpr double nearly = 1e-9;  // of the way
+    return step.progress == 0.0 || step.progress > 1.0 - nearly;
+  }
+
+  /// Known at the ends of the phase, and where they are alike: in between the tension is a mean.
+  [[nodiscard]] double calcium(const Step& step) const {
+    const double first = phase().loads(0.0).calcium;
+    const double last = final_loads().calcium;
+    if (step.progress == 0.0 || first == last)
+      return first;
+    return is_end(step) ? last : std::numeric_limits<double>::quiet_NaN();
   }
 
   /// The engine's present state.
   [[nodiscard]] Snapshot state() const {
     Snapshot s;
     s.time = run_.time;
-    s.phase = run_.phase;
     s.pressure = engine_.loads().pressure;
     s.volume = engine_.cavity_volume();
     s.positions = engine_.state().positions;
-    s.stress = engine_.equations().cell_stress(engine_.state(), engine_.loads().activation);
+    s.stress = engine_.cell_stress();
     return s;
   }
 
-  static constexpr double usual_contraction = 12.0;  ///< load steps
-
   const QuasiStaticSetup& setup_;
   const Observers& observers_;
+  std::vector<Phase> phases_;
   Engine engine_;
   RunState run_;
   TimeLeft left_;

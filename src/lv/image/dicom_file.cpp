@@ -6,6 +6,8 @@
 #include "lv/base/memory.hpp"
 #include "lv/base/printable.hpp"
 #include "lv/base/trial.hpp"
+#include "lv/image/dicom_stream.hpp"
+#include "lv/image/dicom_text.hpp"
 
 #include <fmt/format.h>
 #include <gdcmImageReader.h>
@@ -67,7 +69,9 @@ class Values {
                : std::string_view(value->GetPointer(), value->GetLength());
   }
 
-  [[nodiscard]] std::string text(const Tag& tag) const { return printable(trimmed(bytes(tag))); }
+  [[nodiscard]] std::string text(const Tag& tag) const {
+    return printable(dicom_text(trimmed(bytes(tag)), bytes(Tag(0x0008, 0x0005))));
+  }
 
   /// Numbers written as text (DS, IS).
   [[nodiscard]] std::vector<double> numbers(const Tag& tag) const {
@@ -146,6 +150,7 @@ class FrameGroups {
 struct ParsedFile {
   gdcm::Reader reader;
   std::uintmax_t pixels_begin = 0, size = 0;  ///< [bytes]
+  bool ends_early = false;
 };
 
 /// Position, orientation and spacing as text values; empty if fine, else what is wrong.
@@ -302,16 +307,18 @@ std::uintmax_t pixel_bytes(const Values& values, const DicomImage& image, int fr
          bits / 8U;
 }
 
-/// Whether the file ends before its pixels do; packed and compressed ones are tried when they are
-/// read. GDCM takes zeros for what is missing.
+/// Whether the file ends before its pixels do; compressed ones are tried when they are read. GDCM
+/// takes zeros for what is missing.
 std::string damage_of(const ParsedFile& parsed, const Values& values, const DicomImage& image,
                       int frames) {
   const gdcm::TransferSyntax syntax =
       parsed.reader.GetFile().GetHeader().GetDataSetTransferSyntax();
-  if (syntax.IsEncapsulated() || syntax == gdcm::TransferSyntax::DeflatedExplicitVRLittleEndian)
+  if (syntax.IsEncapsulated())
     return "";
   const std::uintmax_t needed = pixel_bytes(values, image, frames);
   const std::uintmax_t there = parsed.size - std::min(parsed.size, parsed.pixels_begin);
+  if (parsed.ends_early && there >= needed)
+    return "the file is truncated: its deflated data have no end";
   return there < needed ? fmt::format("the file is truncated: {} of {} bytes of pixels are there",
                                       there, needed)
                         : "";
@@ -404,8 +411,9 @@ bool append_as(const gdcm::PixelFormat& format, const std::vector<char>& bytes,
 std::vector<float> decoded_values(const fs::path& file) {
   std::vector<float> values;
   try {
+    const DicomStream stream = open_dicom(file);
     gdcm::ImageReader reader;
-    reader.SetFileName(file.c_str());
+    reader.SetStream(*stream.bytes);
     if (!reader.Read())
       fail_pixels(file,
                   "the pixels cannot be read: the file is truncated, damaged or of an unknown "
@@ -446,14 +454,15 @@ std::vector<float> stored_values(const fs::path& file, std::uintmax_t bytes) {
 
 DicomFile read_headers(const fs::path& file) {
   try {
-    std::ifstream stream(file, std::ios::binary);
+    const DicomStream stream = open_dicom(file);
     ParsedFile parsed;
-    parsed.reader.SetStream(stream);
+    parsed.reader.SetStream(*stream.bytes);
     const Tag pixels(0x7fe0, 0x0010);
     if (!parsed.reader.ReadUpToTag(pixels, {pixels}))  // and no further
       return {{}, "its DICOM header is truncated or damaged"};
-    parsed.size = fs::file_size(file);
-    const std::streamoff at = stream.tellg();
+    parsed.size = stream.size;
+    parsed.ends_early = stream.ends_early;
+    const std::streamoff at = stream.bytes->tellg();
     parsed.pixels_begin = at < 0 ? parsed.size : static_cast<std::uintmax_t>(at);
     return read_parsed(file, parsed);
   } catch (const std::bad_alloc&) {

@@ -9,10 +9,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -191,22 +193,36 @@ struct AngleFromApex {
   }
 };
 
-/// Drops what of a curve, as seen from the middle of the cavity, lies between the outermost points
-/// of the valves in its image: a line drawn through the opening is no wall.
-std::size_t drop_in_valve(std::vector<GuidePoint>& rows, const std::vector<Vec3>& valve,
-                          const AngleFromApex& angle) {
-  double left = pi;
-  double right = -pi;
+/// The outermost points of the valves in an image, as seen from the middle of the cavity.
+std::optional<std::array<Vec3, 2>> opening_of(const std::vector<Vec3>& valve,
+                                              const AngleFromApex& angle) {
+  const Vec3* left = nullptr;
+  const Vec3* right = nullptr;
   for (const Vec3& x : valve)
     if (const double at = angle(x); at > 0.5 * pi)
-      left = std::min(left, at);
+      left = left == nullptr || at < angle(*left) ? &x : left;
     else if (at < -0.5 * pi)
-      right = std::max(right, at);
-  if (left == pi || right == -pi)
+      right = right == nullptr || at > angle(*right) ? &x : right;
+  if (left == nullptr || right == nullptr)
+    return std::nullopt;
+  return std::array{*left, *right};
+}
+
+/// Drops what of a curve lies between the outermost points of the valves in its image, as seen from
+/// the middle of the cavity, and no deeper than a drawn line sags: it runs through the opening and
+/// is no wall.
+std::size_t drop_in_valve(std::vector<GuidePoint>& rows, const std::vector<Vec3>& valve,
+                          const AngleFromApex& angle) {
+  constexpr double sag = 5.0;  // [mm]
+  const auto opening = opening_of(valve, angle);
+  if (!opening)
     return 0;
+  const auto& [left, right] = *opening;
+  const Vec3 along = (left - right).normalized();
+  const Vec3 out = (angle.up - angle.up.dot(along) * along).normalized();
   return std::erase_if(rows, [&](const GuidePoint& p) {
     const double at = angle(p.x);
-    return at > left || at < right;
+    return (at > angle(left) || at < angle(right)) && (p.x - left).dot(out) > -sag;
   });
 }
 

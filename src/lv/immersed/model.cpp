@@ -10,9 +10,11 @@ namespace lv::immersed {
 namespace {
 
 /// A law without kinetics leaves the contractile state alone.
-material::NiedererHunterSmith kinetics(const material::ActiveLaw& law) {
-  const auto* kinetics = std::get_if<material::NiedererHunterSmith>(&law);
-  return kinetics != nullptr ? *kinetics : material::NiedererHunterSmith{};
+material::KineticLaw kinetics(const material::ActiveLaw& law) {
+  if (const auto* land = std::get_if<material::Land2017>(&law))
+    return *land;
+  const auto* niederer = std::get_if<material::NiedererHunterSmith>(&law);
+  return niederer != nullptr ? *niederer : material::NiedererHunterSmith{};
 }
 
 }  // namespace

@@ -45,11 +45,7 @@ geometry::BaseAt base_at(const Case& c, const Drawn& drawn) {
   }
 }
 
-std::string base_rule(geometry::BaseAt at, geometry::BasePlane direction) {
-  const char* height = at == geometry::BaseAt::slice ? "through the most basal slice"
-                       : at == geometry::BaseAt::slab
-                           ? "half a slice spacing above the most basal slice, where its slab ends"
-                           : "through the mitral annulus";
+std::string base_rule(const std::string& height, geometry::BasePlane direction) {
   return fmt::format("{}, {}", height,
                      direction == geometry::BasePlane::long_axis ? "across the long axis"
                                                                  : "parallel to that slice");
@@ -75,7 +71,7 @@ Shape from_drawn(const Case& c) {
     shape.warnings.emplace_back(assumed_septum);
   shape.notes.insert(shape.notes.end(), shape.warnings.begin(), shape.warnings.end());
   shape.quality = report::QualitySheet{
-      wall->report(),     drawn.source,       base_rule(found.base_at, fit.frame.base_plane),
+      wall->report(),     drawn.source,       base_rule(found.base, fit.frame.base_plane),
       drawn.label_cavity, drawn.label_muscle, shape.notes};
   return shape;
 }

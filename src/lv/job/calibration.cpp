@@ -88,8 +88,8 @@ Json volumes_json(const Json& calibration, const heartbeat::Beat& beat) {
     const std::string name = v.at("name");
     if (name != "EDV" && name != "ESV")
       continue;
-    const double volume =
-        1e-3 * (name == "EDV" ? beat.end_diastole.volume : beat.end_systole.volume);
+    const double volume = 1e-3 * (name == "EDV" ? beat.at(heartbeat::end_diastole).volume
+                                                : beat.at(heartbeat::end_systole).volume);
     rows.push_back({{"name", name},
                     {"measured_ml", v.at("target_ml")},
                     {"quasi_static_ml", v.at("model_ml")},

@@ -9,6 +9,26 @@ solid::BasalSupport quasi_static_support(const Case& c) {
   return {c.base.kind, quasi_static::rigid_base};
 }
 
+/// The tensions of laws with kinetics are what (2.21) says.
+void set_active(const Case& c, material::Myocardium& material) {
+  switch (c.active_law) {
+    case ActiveLaw::niederer:
+      material.active = c.active;
+      break;
+    case ActiveLaw::land2017:
+      material.active = c.land2017;
+      break;
+    case ActiveLaw::second_piola:
+      material.active = material::PrescribedTension{c.prescribed_tension};
+      material.active_form = material::ActiveForm::second_piola;
+      break;
+    case ActiveLaw::cauchy:
+      material.active = material::PrescribedTension{c.prescribed_tension};
+      material.active_form = material::ActiveForm::cauchy;
+      break;
+  }
+}
+
 }  // namespace
 
 std::filesystem::path beside(const Case& c, const std::string& name) {
@@ -36,11 +56,7 @@ material::Myocardium myocardium(const Case& c) {
   material.volumetric = c.volumetric;
   material.volumetric_points = c.volumetric_points;
   material.infarct = c.infarct;
-  material.active_form = c.active_form;
-  if (c.active_form == material::ActiveForm::niederer)
-    material.active = c.active;
-  else
-    material.active = material::PrescribedTension{c.prescribed_tension};
+  set_active(c, material);
   return material;
 }
 

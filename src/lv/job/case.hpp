@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lv/calibrate/fit.hpp"
+#include "lv/circulation/parameters.hpp"
 #include "lv/geometry/ellipsoid.hpp"
 #include "lv/geometry/parameters.hpp"
 #include "lv/heartbeat/parameters.hpp"
@@ -25,6 +26,9 @@ enum class AnatomySource { ellipsoid, contours, mesh, labels, sunnybrook, guide_
 
 /// Which passive law the wall follows.
 enum class PassiveLaw { holzapfel_ogden, guccione, neo_hookean };
+
+/// Which active law the wall follows; `second_piola` and `cauchy` are forms of a prescribed tension.
+enum class ActiveLaw { niederer, second_piola, cauchy, land2017 };
 
 /// Which solver runs the beat.
 enum class Engine { immersed, quasi_static };
@@ -149,9 +153,10 @@ struct Case {
   Passive passive;
   material::Volumetric volumetric;
   material::VolumetricPoints volumetric_points = material::VolumetricPoints::mean;
-  material::ActiveForm active_form = material::ActiveForm::niederer;
-  double prescribed_tension = 60.0;  ///< for the other forms [kPa]
+  ActiveLaw active_law = ActiveLaw::niederer;
+  double prescribed_tension = 60.0;  ///< of second_piola and cauchy [kPa]
   material::NiedererHunterSmith active;
+  material::Land2017 land2017;
   mesh::InfarctParameters scar;  ///< where the infarct is
   material::InfarctScaling infarct;
   fluid::Blood blood;
@@ -163,6 +168,7 @@ struct Case {
   quasi_static::UnloadParameters unloaded{.tolerance = 0.05};
   Calibration calibration;
   StrainStudy strain;
+  circulation::Parameters circulation;
   heartbeat::Protocol protocol;
   heartbeat::StepControl time;
   heartbeat::OutputSchedule output;

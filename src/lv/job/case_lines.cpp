@@ -74,6 +74,16 @@ std::string listed(const std::vector<int>& numbers) {
   return fmt::format("[{}]", fmt::join(numbers, ", "));
 }
 
+std::string first_lines(const std::string& name) {
+  return fmt::format(
+      "name = {}\n\n"
+      "# The engine that runs the beat; `ventricle validate` says what each takes for this case:\n"
+      "#   \"immersed\"      the dynamic model with its blood: about 25 min on two cores\n"
+      "#   \"quasi_static\"  equilibrium without inertia and blood: about a minute\n"
+      "engine = \"immersed\"\n",
+      quoted(name));
+}
+
 std::string case_lines(const std::vector<CaseLine>& lines) {
   std::string text;
   for (const auto& [table, of_table] : by_table(lines))

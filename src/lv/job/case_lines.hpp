@@ -27,6 +27,9 @@ inline constexpr const char* fill_in = "\"FILL IN\"";
 [[nodiscard]] std::string quoted(const std::string& text);
 [[nodiscard]] std::string listed(const std::vector<int>& numbers);
 
+/// The first lines of any new case: name and engine.
+[[nodiscard]] std::string first_lines(const std::string& name);
+
 /// The lines under the headings of their tables, in the order in which each table comes first. A
 /// table of which no line is active has its heading in a comment too.
 [[nodiscard]] std::string case_lines(const std::vector<CaseLine>& lines);

@@ -24,8 +24,11 @@ inline bool may_have_infarct(const Case& c) {
 inline bool has_passive_fit(const Case& c) {
   return c.calibration.passive != calibrate::FittedPassive::none;
 }
-inline bool has_niederer(const Case& c) {
-  return c.active_form == material::ActiveForm::niederer;
+inline bool has_kinetics(const Case& c) {
+  return c.active_law == ActiveLaw::niederer || c.active_law == ActiveLaw::land2017;
+}
+inline bool has_alpha_function(const Case& c) {
+  return c.protocol.calcium.shape == material::Calcium::Shape::alpha_function;
 }
 
 #define LV_CONDITION(name, holds, words)                                                      \
@@ -131,15 +134,29 @@ LV_CONDITION(holzapfel_ogden, c.passive.law == PassiveLaw::holzapfel_ogden,
 LV_CONDITION(guccione, c.passive.law == PassiveLaw::guccione, "with passive.law = \"guccione\"")
 LV_CONDITION(neo_hookean, c.passive.law == PassiveLaw::neo_hookean,
              "with passive.law = \"neo_hookean\"")
-LV_CONDITION(niederer, has_niederer(c), "with active.law = \"niederer\"")
-LV_CONDITION(prescribed_tension, !has_niederer(c),
+LV_CONDITION(niederer, c.active_law == ActiveLaw::niederer, "with active.law = \"niederer\"")
+LV_CONDITION(land2017, c.active_law == ActiveLaw::land2017, "with active.law = \"land2017\"")
+LV_CONDITION(prescribed_tension, !has_kinetics(c),
              "with active.law = \"second_piola\" or \"cauchy\"")
 LV_CONDITION(moving_fibres, c.engine == Engine::immersed && s == Stage::beat,
              "with engine = \"immersed\"")
-LV_CONDITION(calcium_counts, has_niederer(c) || moving_fibres.holds(c, s),
-             "with active.law = \"niederer\", or with engine = \"immersed\"")
+LV_CONDITION(calcium_counts, has_kinetics(c) || moving_fibres.holds(c, s),
+             "with active.law = \"niederer\" or \"land2017\", or with engine = \"immersed\"")
+LV_CONDITION(alpha_function, has_alpha_function(c), "with calcium.shape = \"alpha_function\"")
+LV_CONDITION(double_exponential, !has_alpha_function(c),
+             "with calcium.shape = \"double_exponential\"")
 LV_CONDITION(mass_counts, s == Stage::beat ? c.engine == Engine::immersed : may_have_infarct(c),
              "with engine = \"immersed\", or with an infarct (infarct.source), whose mass it gives")
+
+// circulation
+LV_CONDITION(circuit, c.circulation.asked(),
+             "with circulation.kind = \"windkessel\" or \"closed_loop\"")
+LV_CONDITION(windkessel, c.circulation.kind == circulation::Kind::windkessel,
+             "with circulation.kind = \"windkessel\"")
+LV_CONDITION(closed_loop, c.circulation.kind == circulation::Kind::closed_loop,
+             "with circulation.kind = \"closed_loop\"")
+LV_CONDITION(quadratic_valves, c.circulation.valves.law == circulation::ValveLaw::quadratic,
+             "with circulation.valves.law = \"quadratic\"")
 
 // measurements
 LV_CONDITION(fit, c.calibration.asked(), "with a fit: set calibrate.passive or calibrate.active")

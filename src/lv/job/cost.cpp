@@ -2,7 +2,7 @@
 
 #include "lv/base/check.hpp"
 #include "lv/base/log.hpp"
-#include "lv/heartbeat/settling.hpp"
+#include "lv/heartbeat/protocol.hpp"
 #include "lv/job/calibration.hpp"
 #include "lv/mesh/quadratic.hpp"
 
@@ -44,8 +44,9 @@ Estimate of_immersed(const Case& c, const mesh::Mesh& mesh) {
           static_cast<void>(model.step({.calcium = c.protocol.calcium.Ca_0}, c.time.longest));
       }) /
       steps;
-  const double simulated = heartbeat::usual_duration(c.protocol, heartbeat::Phase::filling) +
-                           heartbeat::usual_duration(c.protocol, heartbeat::Phase::contraction);
+  double simulated = 0.0;
+  for (const heartbeat::Phase& phase : heartbeat::phases(c.protocol))
+    simulated += phase.usual;
   return {
       fmt::format("  grid: {} x {} x {}, mesh width {:.3f} mm; {:.3g} s a step\n", p.grid.cells[0],
                   p.grid.cells[1], p.grid.cells[2], p.grid.spacing.minCoeff(), step),

@@ -179,8 +179,8 @@ Drawn from_guide_points(const Case& c) {
   drawn.contours = std::move(read.contours);
   drawn.source = "guide points";
   drawn.septum = read.septum;
-  drawn.usual_base =
-      drawn.contours.annulus.empty() ? geometry::BaseAt::slab : geometry::BaseAt::annulus;
+  const bool base_is_shown = !drawn.contours.annulus.empty() || !drawn.contours.long_axis.empty();
+  drawn.usual_base = base_is_shown ? geometry::BaseAt::annulus : geometry::BaseAt::slab;
   drawn.notes.insert(drawn.notes.end(), read.notes.begin(), read.notes.end());
   return drawn;
 }

@@ -3,7 +3,7 @@
 #include "lv/base/table.hpp"
 #include "lv/job/anatomy.hpp"
 #include "lv/job/case.hpp"
-#include "lv/job/stages.hpp"
+#include "lv/job/mesh_result.hpp"
 
 #include <optional>
 #include <string>

@@ -170,12 +170,14 @@ std::vector<DrawnImage> images_at(const CineStudy& study, int phase, int diastol
 std::string write_outlines(const ModelledBeat& model, const CineStudy& study, int diastole,
                            int systole, const fs::path& folder) {
   Outlines outlines;
-  outlines.add("end_diastole", surfaces(model, model.beat.end_diastole.positions),
+  outlines.add(heartbeat::end_diastole,
+               surfaces(model, model.beat.at(heartbeat::end_diastole).positions),
                images_at(study, diastole, diastole), folder / "outlines_ed.png");
-  outlines.add("end_systole", surfaces(model, model.beat.end_systole.positions),
+  outlines.add(heartbeat::end_systole,
+               surfaces(model, model.beat.at(heartbeat::end_systole).positions),
                images_at(study, systole, diastole), folder / "outlines_es.png");
   outlines.write(folder);
-  return outlines.words("end_diastole") + outlines.words("end_systole");
+  return outlines.words(heartbeat::end_diastole) + outlines.words(heartbeat::end_systole);
 }
 
 }  // namespace lv::job

@@ -80,8 +80,8 @@ constexpr Group of_anatomy[]{
                 "the base plane lies in the most basal endocardial loop, half a slice spacing "
                 "above it where the slab of the slice ends, or at the mitral annulus (guide "
                 "points, ends of long-axis curves); automatic: slice for contours, slab for "
-                "labels and sunnybrook, annulus for guide_points that show it, slab where that "
-                "makes no wall"),
+                "labels and sunnybrook; for guide_points as high as long-axis curves show muscle "
+                "all round, else annulus, slab where that makes no wall"),
      }},
     {Stages(Stage::strain, Stage::anatomy),
      {&septum_shown},
@@ -547,10 +547,11 @@ constexpr Group of_muscle[]{
     {mechanics,
      {},
      {
-         choice("active.law", LV_AT(active_form), "niederer second_piola cauchy",
-                "active tension of Niederer, Hunter and Smith, J T F f0 (x) f0; or a prescribed "
-                "tension as the second Piola-Kirchhoff stress T f0 (x) f0, or as the Cauchy "
-                "stress T along the fibre",
+         choice("active.law", LV_AT(active_law), "niederer second_piola cauchy land2017",
+                "active tension of Niederer, Hunter and Smith (rat, room temperature) or of Land "
+                "et al. 2017 (human, 37 degrees), J T F f0 (x) f0; or a prescribed tension as the "
+                "second Piola-Kirchhoff stress T f0 (x) f0, or as the Cauchy stress T along the "
+                "fibre",
                 "2.21"),
      }},
     {mechanics,
@@ -619,12 +620,56 @@ constexpr Group of_muscle[]{
          number("active.unbinding_min", LV_AT(active.unbinding_min), "", between(0.0, 1.0),
                 "guard: least value of the bracket in (A.3)", "A.3"),
      }},
+    {mechanics,
+     {&land2017},
+     {
+         number("active.land2017.T_ref", LV_AT(land2017.T_ref), "kPa", not_negative,
+                "tension at full activation and resting length"),
+         number("active.land2017.Ca_50ref", LV_AT(land2017.Ca_50ref), "uM", positive,
+                "calcium at half saturation of troponin at resting length"),
+         number("active.land2017.beta_0", LV_AT(land2017.beta_0), "", not_negative,
+                "dependence of the overlap on stretch"),
+         number("active.land2017.beta_1", LV_AT(land2017.beta_1), "uM", any,
+                "change of the calcium at half saturation with stretch"),
+         number("active.land2017.TRPN_50", LV_AT(land2017.TRPN_50), "", between(0.01, 1.0),
+                "share of troponin with calcium at which half of the sites are blocked"),
+         number("active.land2017.r_s", LV_AT(land2017.r_s), "", between(0.01, 0.99),
+                "share of cross-bridges after the power stroke at full activation"),
+         number("active.land2017.r_w", LV_AT(land2017.r_w), "", between(0.01, 0.99),
+                "share of the other cross-bridges that is before it"),
+     }},
+    {Stages(Stage::beat),
+     {&land2017, &moving_fibres},
+     {
+         number("active.land2017.k_TRPN", LV_AT(land2017.k_TRPN), "1/s", positive,
+                "rate of calcium's binding to troponin"),
+         number("active.land2017.k_u", LV_AT(land2017.k_u), "1/s", positive,
+                "rate of unblocking of actin sites"),
+         number("active.land2017.k_uw", LV_AT(land2017.k_uw), "1/s", positive,
+                "rate from unbound to before the power stroke"),
+         number("active.land2017.k_ws", LV_AT(land2017.k_ws), "1/s", positive,
+                "rate of the power stroke"),
+         number("active.land2017.gamma_s", LV_AT(land2017.gamma_s), "1/s", not_negative,
+                "distortion unbinds cross-bridges after the power stroke"),
+         number("active.land2017.gamma_w", LV_AT(land2017.gamma_w), "1/s", not_negative,
+                "distortion unbinds cross-bridges before it"),
+         number("active.land2017.phi", LV_AT(land2017.phi), "", positive,
+                "how fast distortion decays"),
+         number("active.land2017.A_eff", LV_AT(land2017.A_eff), "", not_negative,
+                "distortion per stretch"),
+     }},
     {Stages(Stage::beat),
      {&immersed_engine},
      {
          choice("calcium.mode", LV_AT(protocol.calcium.mode), "hold transient",
-                "calcium stays at its peak until the ventricle is steady, or decays as (A.1) says",
+                "calcium stays at its peak until the ventricle is steady, or decays as its shape "
+                "says",
                 "A.1"),
+         choice(
+             "calcium.shape", LV_AT(protocol.calcium.shape), "alpha_function double_exponential",
+             "Ca_0 + (Ca_max - Ca_0) times t/tau exp(1 - t/tau), or a difference of exponentials "
+             "with time constants t_1 and t_2, as human transients have been described",
+             "A.1"),
      }},
     {mechanics,
      {&calcium_counts},
@@ -635,10 +680,18 @@ constexpr Group of_muscle[]{
                 "A.1"),
      }},
     {Stages(Stage::beat),
-     {&immersed_engine},
+     {&immersed_engine, &alpha_function},
      {
          number("calcium.tau", LV_AT(protocol.calcium.tau), "s", positive, "time to the peak",
                 "A.1"),
+     }},
+    {Stages(Stage::beat),
+     {&immersed_engine, &double_exponential},
+     {
+         number("calcium.t_1", LV_AT(protocol.calcium.t_1), "s", positive,
+                "time constant of the rise"),
+         number("calcium.t_2", LV_AT(protocol.calcium.t_2), "s", positive,
+                "time constant of the decay, longer than t_1"),
      }},
 };
 
@@ -956,13 +1009,207 @@ constexpr Group of_protocol[]{
      }},
 };
 
+constexpr Range of_resistance = above_up_to(0.0, 1e6);
+constexpr Range of_compliance = above_up_to(0.0, 1e4);
+constexpr Range of_elastance = between(0.0, 100.0);
+
+constexpr Group of_circulation[]{
+    {Stages(Stage::circulation),
+     {},
+     {
+         choice("circulation.kind", LV_AT(circulation.kind), "none windkessel closed_loop",
+                "three elements with a venous source, or the closed loop of Regazzoni et al. "
+                "(J. Comput. Phys. 457:111083, 2022); run by itself, with an elastance for the "
+                "left ventricle"),
+     }},
+    {Stages(Stage::circulation),
+     {&circuit},
+     {
+         number("circulation.period", LV_AT(circulation.period), "s", between(0.2, 3.0),
+                "length of a beat, RR"),
+         number("circulation.step", LV_AT(circulation.step), "s", above_up_to(0.0, 0.02),
+                "of time"),
+         number("circulation.beats", LV_AT(circulation.beats), "", between(1, 10000),
+                "beats at most"),
+         number("circulation.tolerance", LV_AT(circulation.tolerance), "", not_negative,
+                "beats end when the last has changed no state by more than this part of itself; 0: "
+                "never"),
+         choice(
+             "circulation.valves.law", LV_AT(circulation.valves.law), "quadratic arctangent",
+             "a parabola between closed and open, which is monotone and smooth, or the published "
+             "closed loop's arctangent of the logarithm of the resistance"),
+         number("circulation.valves.closed_resistance", LV_AT(circulation.valves.closed_resistance),
+                "mmHg s/ml", of_resistance, "of a closed valve"),
+     }},
+    {Stages(Stage::circulation),
+     {&circuit, &quadratic_valves},
+     {
+         number("circulation.valves.smoothing", LV_AT(circulation.valves.smoothing), "mmHg",
+                above_up_to(0.0, 10.0), "range of the pressure across a valve in which it opens"),
+     }},
+    {Stages(Stage::circulation),
+     {&circuit},
+     {
+         number("circulation.left_ventricle.E_A", LV_AT(circulation.left_ventricle.E_A), "mmHg/ml",
+                of_elastance,
+                "active elastance of the left ventricle, p = (E_B + E_A e(t)) (V - V_0)"),
+         number("circulation.left_ventricle.E_B", LV_AT(circulation.left_ventricle.E_B), "mmHg/ml",
+                above_up_to(0.0, 100.0), "passive elastance"),
+         number("circulation.left_ventricle.T_C", LV_AT(circulation.left_ventricle.T_C), "s",
+                above_up_to(0.0, 3.0), "duration of contraction"),
+         number("circulation.left_ventricle.T_R", LV_AT(circulation.left_ventricle.T_R), "s",
+                above_up_to(0.0, 3.0), "duration of relaxation"),
+         number("circulation.left_ventricle.t_C", LV_AT(circulation.left_ventricle.t_C), "s",
+                between(0.0, 3.0), "when contraction begins"),
+         number("circulation.left_ventricle.V_0", LV_AT(circulation.left_ventricle.V_0), "ml",
+                between(0.0, 1000.0), "volume without pressure"),
+         number("circulation.start.V_lv", LV_AT(circulation.start.V_lv), "ml", between(0.0, 2000.0),
+                "left ventricular volume"),
+         number("circulation.start.p_ar_sys", LV_AT(circulation.start.p_ar_sys), "mmHg",
+                between(0.0, 500.0), "pressure of the arterial compliance"),
+     }},
+    {Stages(Stage::circulation),
+     {&windkessel},
+     {
+         number("circulation.windkessel.R_mv", LV_AT(circulation.windkessel.R_mv), "mmHg s/ml",
+                of_resistance, "open mitral valve"),
+         number("circulation.windkessel.R_ao", LV_AT(circulation.windkessel.R_ao), "mmHg s/ml",
+                of_resistance, "open aortic valve"),
+         number("circulation.windkessel.R_c", LV_AT(circulation.windkessel.R_c), "mmHg s/ml",
+                of_resistance, "characteristic resistance of the aorta"),
+         number("circulation.windkessel.R_p", LV_AT(circulation.windkessel.R_p), "mmHg s/ml",
+                of_resistance, "peripheral resistance"),
+         number("circulation.windkessel.C", LV_AT(circulation.windkessel.C), "ml/mmHg",
+                of_compliance, "arterial compliance"),
+         number("circulation.windkessel.p_ven", LV_AT(circulation.windkessel.p_ven), "mmHg",
+                between(0.0, 100.0), "pressure of the venous source"),
+     }},
+    {Stages(Stage::circulation),
+     {&closed_loop},
+     {
+         number("circulation.closed_loop.valve_resistance",
+                LV_AT(circulation.closed_loop.valve_resistance), "mmHg s/ml", of_resistance,
+                "of an open valve"),
+         number("circulation.closed_loop.systemic.R_ar",
+                LV_AT(circulation.closed_loop.systemic.R_ar), "mmHg s/ml", of_resistance,
+                "resistance of the arteries of the body"),
+         number("circulation.closed_loop.systemic.C_ar",
+                LV_AT(circulation.closed_loop.systemic.C_ar), "ml/mmHg", of_compliance,
+                "compliance of the arteries"),
+         number("circulation.closed_loop.systemic.L_ar",
+                LV_AT(circulation.closed_loop.systemic.L_ar), "mmHg s^2/ml", of_resistance,
+                "inertance of the arteries"),
+         number("circulation.closed_loop.systemic.R_ven",
+                LV_AT(circulation.closed_loop.systemic.R_ven), "mmHg s/ml", of_resistance,
+                "resistance of the veins"),
+         number("circulation.closed_loop.systemic.C_ven",
+                LV_AT(circulation.closed_loop.systemic.C_ven), "ml/mmHg", of_compliance,
+                "compliance of the veins"),
+         number("circulation.closed_loop.systemic.L_ven",
+                LV_AT(circulation.closed_loop.systemic.L_ven), "mmHg s^2/ml", of_resistance,
+                "inertance of the veins"),
+         number("circulation.closed_loop.pulmonary.R_ar",
+                LV_AT(circulation.closed_loop.pulmonary.R_ar), "mmHg s/ml", of_resistance,
+                "resistance of the arteries of the lungs"),
+         number("circulation.closed_loop.pulmonary.C_ar",
+                LV_AT(circulation.closed_loop.pulmonary.C_ar), "ml/mmHg", of_compliance,
+                "compliance of the arteries"),
+         number("circulation.closed_loop.pulmonary.L_ar",
+                LV_AT(circulation.closed_loop.pulmonary.L_ar), "mmHg s^2/ml", of_resistance,
+                "inertance of the arteries"),
+         number("circulation.closed_loop.pulmonary.R_ven",
+                LV_AT(circulation.closed_loop.pulmonary.R_ven), "mmHg s/ml", of_resistance,
+                "resistance of the veins"),
+         number("circulation.closed_loop.pulmonary.C_ven",
+                LV_AT(circulation.closed_loop.pulmonary.C_ven), "ml/mmHg", of_compliance,
+                "compliance of the veins"),
+         number("circulation.closed_loop.pulmonary.L_ven",
+                LV_AT(circulation.closed_loop.pulmonary.L_ven), "mmHg s^2/ml", of_resistance,
+                "inertance of the veins"),
+         number("circulation.closed_loop.left_atrium.E_A",
+                LV_AT(circulation.closed_loop.left_atrium.E_A), "mmHg/ml", of_elastance,
+                "active elastance of the left atrium"),
+         number("circulation.closed_loop.left_atrium.E_B",
+                LV_AT(circulation.closed_loop.left_atrium.E_B), "mmHg/ml", above_up_to(0.0, 100.0),
+                "passive elastance"),
+         number("circulation.closed_loop.left_atrium.T_C",
+                LV_AT(circulation.closed_loop.left_atrium.T_C), "s", above_up_to(0.0, 3.0),
+                "duration of contraction"),
+         number("circulation.closed_loop.left_atrium.T_R",
+                LV_AT(circulation.closed_loop.left_atrium.T_R), "s", above_up_to(0.0, 3.0),
+                "duration of relaxation"),
+         number("circulation.closed_loop.left_atrium.t_C",
+                LV_AT(circulation.closed_loop.left_atrium.t_C), "s", between(0.0, 3.0),
+                "when contraction begins"),
+         number("circulation.closed_loop.left_atrium.V_0",
+                LV_AT(circulation.closed_loop.left_atrium.V_0), "ml", between(0.0, 1000.0),
+                "volume without pressure"),
+         number("circulation.closed_loop.right_atrium.E_A",
+                LV_AT(circulation.closed_loop.right_atrium.E_A), "mmHg/ml", of_elastance,
+                "active elastance of the right atrium"),
+         number("circulation.closed_loop.right_atrium.E_B",
+                LV_AT(circulation.closed_loop.right_atrium.E_B), "mmHg/ml", above_up_to(0.0, 100.0),
+                "passive elastance"),
+         number("circulation.closed_loop.right_atrium.T_C",
+                LV_AT(circulation.closed_loop.right_atrium.T_C), "s", above_up_to(0.0, 3.0),
+                "duration of contraction"),
+         number("circulation.closed_loop.right_atrium.T_R",
+                LV_AT(circulation.closed_loop.right_atrium.T_R), "s", above_up_to(0.0, 3.0),
+                "duration of relaxation"),
+         number("circulation.closed_loop.right_atrium.t_C",
+                LV_AT(circulation.closed_loop.right_atrium.t_C), "s", between(0.0, 3.0),
+                "when contraction begins"),
+         number("circulation.closed_loop.right_atrium.V_0",
+                LV_AT(circulation.closed_loop.right_atrium.V_0), "ml", between(0.0, 1000.0),
+                "volume without pressure"),
+         number("circulation.closed_loop.right_ventricle.E_A",
+                LV_AT(circulation.closed_loop.right_ventricle.E_A), "mmHg/ml", of_elastance,
+                "active elastance of the right ventricle"),
+         number("circulation.closed_loop.right_ventricle.E_B",
+                LV_AT(circulation.closed_loop.right_ventricle.E_B), "mmHg/ml",
+                above_up_to(0.0, 100.0), "passive elastance"),
+         number("circulation.closed_loop.right_ventricle.T_C",
+                LV_AT(circulation.closed_loop.right_ventricle.T_C), "s", above_up_to(0.0, 3.0),
+                "duration of contraction"),
+         number("circulation.closed_loop.right_ventricle.T_R",
+                LV_AT(circulation.closed_loop.right_ventricle.T_R), "s", above_up_to(0.0, 3.0),
+                "duration of relaxation"),
+         number("circulation.closed_loop.right_ventricle.t_C",
+                LV_AT(circulation.closed_loop.right_ventricle.t_C), "s", between(0.0, 3.0),
+                "when contraction begins"),
+         number("circulation.closed_loop.right_ventricle.V_0",
+                LV_AT(circulation.closed_loop.right_ventricle.V_0), "ml", between(0.0, 1000.0),
+                "volume without pressure"),
+         number("circulation.start.V_la", LV_AT(circulation.start.V_la), "ml", between(0.0, 2000.0),
+                "left atrial volume"),
+         number("circulation.start.V_ra", LV_AT(circulation.start.V_ra), "ml", between(0.0, 2000.0),
+                "right atrial volume"),
+         number("circulation.start.V_rv", LV_AT(circulation.start.V_rv), "ml", between(0.0, 2000.0),
+                "right ventricular volume"),
+         number("circulation.start.p_ven_sys", LV_AT(circulation.start.p_ven_sys), "mmHg",
+                between(0.0, 500.0), "pressure of the veins of the body"),
+         number("circulation.start.p_ar_pul", LV_AT(circulation.start.p_ar_pul), "mmHg",
+                between(0.0, 500.0), "pressure of the arteries of the lungs"),
+         number("circulation.start.p_ven_pul", LV_AT(circulation.start.p_ven_pul), "mmHg",
+                between(0.0, 500.0), "pressure of the veins of the lungs"),
+         number("circulation.start.Q_ar_sys", LV_AT(circulation.start.Q_ar_sys), "ml/s", any,
+                "flow through the arteries of the body"),
+         number("circulation.start.Q_ven_sys", LV_AT(circulation.start.Q_ven_sys), "ml/s", any,
+                "flow through its veins"),
+         number("circulation.start.Q_ar_pul", LV_AT(circulation.start.Q_ar_pul), "ml/s", any,
+                "flow through the arteries of the lungs"),
+         number("circulation.start.Q_ven_pul", LV_AT(circulation.start.Q_ven_pul), "ml/s", any,
+                "flow through their veins"),
+     }},
+};
+
 std::vector<Parameter> rows_of_all() {
   std::vector<Parameter> rows;
   for (const std::span<const Group> groups :
        {std::span<const Group>(of_anatomy), std::span<const Group>(of_mesh),
         std::span<const Group>(of_infarct), std::span<const Group>(of_muscle),
         std::span<const Group>(of_blood_and_base), std::span<const Group>(of_measurements),
-        std::span<const Group>(of_protocol)})
+        std::span<const Group>(of_circulation), std::span<const Group>(of_protocol)})
     for (const Group& group : groups)
       for (const Parameter& row : group.rows)
         rows.push_back(in_group(group, row));
@@ -982,6 +1229,8 @@ std::vector<const Condition*> missing(const Parameter& p, const Case& c, Stage s
 
 bool has_stage(const Case& c, Stage stage) {
   switch (stage) {
+    case Stage::circulation:
+      return c.circulation.asked();
     case Stage::strain:
       return c.strain.asked();
     case Stage::calibrate:
@@ -1029,6 +1278,7 @@ const std::vector<Parameter>& parameters() {
   return all;
 }
 
+// NOLINTNEXTLINE(readability-function-size): a table
 const std::vector<Section>& sections() {
   static const std::vector<Section> all{
       {"", "The case"},
@@ -1068,6 +1318,10 @@ const std::vector<Section>& sections() {
       {"infarct.lge", "A late-enhancement image with a threshold (source = \"lge\")"},
       {"active",
        "Active tension; all but law and tension belong to the law of Niederer, Hunter and Smith"},
+      {"active.land2017",
+       "The law of Land et al. (J. Mol. Cell. Cardiol. 106:68, 2017) with its whole-organ "
+       "constants "
+       "(law = \"land2017\")"},
       {"calcium", "Intracellular calcium, the same everywhere"},
       {"blood", "Blood and muscle share density and viscosity"},
       {"box", "The box of blood around the ventricle and its grid"},
@@ -1078,6 +1332,21 @@ const std::vector<Section>& sections() {
        "Fitting of passive and active parameters to measured volumes and strains, with the "
        "quasi-static engine"},
       {"strain", "Strain measured from cine images, and what the model's is compared with"},
+      {"circulation", "The circulation by itself (`ventricle circulation`)"},
+      {"circulation.valves", "What all valves have in common"},
+      {"circulation.left_ventricle",
+       "The elastance that stands for the left ventricle; contraction follows half a cosine, and "
+       "so "
+       "does relaxation"},
+      {"circulation.start",
+       "Where the circulation starts; a closed loop keeps the blood that it starts with"},
+      {"circulation.windkessel", "Three elements and a venous source (kind = \"windkessel\")"},
+      {"circulation.closed_loop", "Four chambers, body and lungs (kind = \"closed_loop\")"},
+      {"circulation.closed_loop.systemic", "Arteries and veins of the body"},
+      {"circulation.closed_loop.pulmonary", "Arteries and veins of the lungs"},
+      {"circulation.closed_loop.left_atrium", "An elastance"},
+      {"circulation.closed_loop.right_atrium", "An elastance"},
+      {"circulation.closed_loop.right_ventricle", "An elastance"},
       {"protocol", "Pressures, timings and the ends of the phases"},
       {"time", "Time steps"},
       {"output", "What is kept, and how often"}};

@@ -14,10 +14,10 @@
 namespace lv::job {
 
 /// The stages of a run, in their order.
-enum class Stage { strain, anatomy, mesh, calibrate, unload, beat, results, report };
-inline constexpr std::array all_stages{Stage::strain,    Stage::anatomy, Stage::mesh,
-                                       Stage::calibrate, Stage::unload,  Stage::beat,
-                                       Stage::results,   Stage::report};
+enum class Stage { circulation, strain, anatomy, mesh, calibrate, unload, beat, results, report };
+inline constexpr std::array all_stages{Stage::circulation, Stage::strain,    Stage::anatomy,
+                                       Stage::mesh,        Stage::calibrate, Stage::unload,
+                                       Stage::beat,        Stage::results,   Stage::report};
 
 /// Which stages read a parameter.
 class Stages {
@@ -34,7 +34,8 @@ class Stages {
   unsigned bits_;
 };
 
-/// Whether a case has a stage: strain, calibrate and unload are of cases that ask for them.
+/// Whether a case has a stage: circulation, strain, calibrate and unload are of cases that ask for
+/// them.
 [[nodiscard]] bool has_stage(const Case& c, Stage stage);
 
 /// What a case must be like for a parameter to count in a stage.

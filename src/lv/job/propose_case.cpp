@@ -327,16 +327,6 @@ Proposal propose(const fs::path& source, const std::string& name) {
   return {};
 }
 
-std::string first_lines(const std::string& name) {
-  return fmt::format(
-      "name = {}\n\n"
-      "# The engine that runs the beat; `ventricle validate` says what each takes for this case:\n"
-      "#   \"immersed\"      the dynamic model with its blood: about 25 min on two cores\n"
-      "#   \"quasi_static\"  equilibrium without inertia and blood: about a minute\n"
-      "engine = \"immersed\"\n",
-      quoted(name));
-}
-
 std::string proposed_case(const fs::path& source, const fs::path& file) {
   const SourceKind kind = kind_of(source);
   if (kind == SourceKind::case_file || kind == SourceKind::surface)

@@ -47,7 +47,4 @@ struct Proposal {
 [[nodiscard]] std::string proposed_case(const std::filesystem::path& source,
                                         const std::filesystem::path& file);
 
-/// The first lines of any new case: name and engine.
-[[nodiscard]] std::string first_lines(const std::string& name);
-
 }  // namespace lv::job

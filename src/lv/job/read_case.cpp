@@ -7,7 +7,6 @@
 #include "lv/base/table.hpp"
 #include "lv/job/case_lines.hpp"
 #include "lv/job/parameter_values.hpp"
-#include "lv/job/propose_case.hpp"
 
 #include <fmt/format.h>
 
@@ -110,10 +109,24 @@ class CaseReader {
         "quasi_static.linear_solver",
         "is iterative, which does not converge with the linear elements of quasi_static.order = 1");
     rule(p.calcium.Ca_max > p.calcium.Ca_0, "calcium.Ca_max", "must be larger than Ca_0");
+    rule(p.calcium.t_2 > p.calcium.t_1, "calcium.t_2", "must be longer than t_1");
+    check_land2017();
     check_calibration();
+    check_circulation();
     const StrainStudy& study = case_.strain;
     rule(study.measured.empty() || !study.measured_column.empty(), "strain.measured",
          "needs strain.measured_column, the name of the column that holds end-systole");
+  }
+
+  void check_land2017() {
+    const material::Land2017& law = case_.land2017;
+    rule(
+        law.k_uw * (1.0 / law.r_w - 1.0) >= law.k_ws, "active.land2017.k_ws",
+        "must not be larger than k_uw (1/r_w - 1), the rate at which cross-bridges leave the state "
+        "W: some must go back");
+    rule(law.Ca_50ref + law.beta_1 * (law.longest - 1.0) > 0.0, "active.land2017.beta_1",
+         "must leave a calcium at half activation above zero at a stretch of 1.2: Ca_50ref + 0.2 "
+         "beta_1 > 0");
   }
 
   /// What is set and does nothing would be taken for something that it is not. The mesh is told
@@ -146,7 +159,7 @@ class CaseReader {
          "fits the Holzapfel-Ogden law alone; passive.law is another");
     rule(!passive || case_.protocol.ed_pressure > 0.0, "protocol.ed_pressure",
          "must be above zero for a passive fit");
-    rule(!k.active || case_.active_form == material::ActiveForm::niederer, "calibrate.active",
+    rule(!k.active || case_.active_law == ActiveLaw::niederer, "calibrate.active",
          "fits T_scale of active.law = \"niederer\"; the case has another");
     rule(
         !is_loaded(case_) || !passive ||
@@ -161,6 +174,25 @@ class CaseReader {
          "must be larger than exponent_min");
     rule(k.T_scale.low < k.T_scale.high, "calibrate.T_scale_max",
          "must be larger than T_scale_min");
+  }
+
+  void check_circulation() {
+    const circulation::Parameters& p = case_.circulation;
+    rule(p.step <= 0.05 * p.period, "circulation.step",
+         "must be at most a twentieth of the period");
+    rule(p.valves.closed_resistance >=
+             100.0 * std::max({p.windkessel.R_mv, p.windkessel.R_ao + p.windkessel.R_c,
+                               p.closed_loop.valve_resistance}),
+         "circulation.valves.closed_resistance",
+         "must be at least a hundred times that of every open valve");
+    const auto fits = [&](const circulation::ElastanceParameters& e, const std::string& chamber) {
+      rule(e.T_C + e.T_R <= p.period, "circulation." + chamber + ".T_R",
+           "and T_C take longer together than a beat (circulation.period)");
+    };
+    fits(p.left_ventricle, "left_ventricle");
+    fits(p.closed_loop.left_atrium, "closed_loop.left_atrium");
+    fits(p.closed_loop.right_atrium, "closed_loop.right_atrium");
+    fits(p.closed_loop.right_ventricle, "closed_loop.right_ventricle");
   }
 
   /// A rule of a parameter that does not count says nothing.
@@ -220,6 +252,25 @@ std::string meaning(const Parameter& p) {
                             : fmt::format("{} (only {})", p.help, fmt::join(conditions, " and "));
 }
 
+/// Tells of all files and folders that a case names and that are not there, if they are several:
+/// of a single one its reader tells.
+void require_files(const Case& c) {
+  std::vector<std::pair<std::string, std::string>> absent;  // place, what
+  std::error_code failed;
+  for (const Parameter& p : parameters())
+    if (p.text == Text::path && counts_only(p, c).empty())
+      for (const std::string& name : paths(p, c))
+        if (!std::filesystem::exists(beside(c, name), failed) && !failed)
+          absent.emplace_back(place_of(c, p.name),
+                              fmt::format("{}: there is no {}", p.name, beside(c, name).string()));
+  if (absent.size() < 2)
+    return;
+  std::string text = absent.front().second;
+  for (std::size_t i = 1; i < absent.size(); ++i)
+    text += fmt::format("\n{}: {}", absent[i].first, absent[i].second);
+  throw InputError(absent.front().first, text, "Check the names; they are read beside the case");
+}
+
 }  // namespace
 
 Case parse_case(const std::string& text, const std::filesystem::path& file) {
@@ -235,7 +286,9 @@ Case parse_case(const std::string& text, const std::filesystem::path& file) {
 }
 
 Case read_case(const std::filesystem::path& file) {
-  return parse_case(read_text(file), file);
+  Case c = parse_case(read_text(file), file);
+  require_files(c);
+  return c;
 }
 
 std::string starter_case(const std::string& name) {

@@ -8,7 +8,8 @@
 namespace lv::job {
 
 /// Reads a case file. Every key must be a known parameter with a value that its declaration allows.
-/// Throws InputError that names each mistake with file:line, the rule and the nearest valid name.
+/// Throws InputError that names each mistake with file:line, the rule and the nearest valid name,
+/// or each of several files that the case names and that are not there.
 [[nodiscard]] Case read_case(const std::filesystem::path& file);
 
 /// The same from text, as if it were in `file`.

@@ -9,6 +9,7 @@
 #include "lv/base/table.hpp"
 #include "lv/bench/bench.hpp"
 #include "lv/job/calibration.hpp"
+#include "lv/job/circulation.hpp"
 #include "lv/job/infarct.hpp"
 #include "lv/job/ingredients.hpp"
 #include "lv/job/parameters.hpp"
@@ -80,8 +81,9 @@ class Pipeline {
     Ingredients ingredients;
   };
 
-  /// The stages in their order. Each takes the results of all before it but strain's, which the
-  /// results alone look at; what stands for a result is known before it is there.
+  /// The stages in their order. Each takes the results of all before it but the circulation's,
+  /// which runs by itself, and strain's, which the results alone look at; what stands for a result
+  /// is known before it is there.
   [[nodiscard]] std::vector<Planned> plan() {
     std::vector<Planned> stages;
     Ingredients before;  // the last result that leads to the next stage
@@ -96,7 +98,10 @@ class Pipeline {
         all.insert(strain.begin(), strain.end());
       Ingredients result;
       result["result of " + name_of(stage)] = fingerprint(all);
-      (stage == Stage::strain ? strain : before) = std::move(result);
+      if (stage == Stage::strain)
+        strain = std::move(result);
+      else if (stage != Stage::circulation)
+        before = std::move(result);
       stages.push_back({stage, std::move(all)});
     }
     return stages;
@@ -118,6 +123,9 @@ class Pipeline {
   [[nodiscard]] Stage last_stage() const {
     if (!options_.until)
       return all_stages.back();
+    if (*options_.until == "circulation" && !case_.circulation.asked())
+      throw InputError(case_.file.string(), "has no circulation",
+                       "Set circulation.kind to \"windkessel\" or \"closed_loop\"");
     if (*options_.until == "strain" && !case_.strain.asked())
       throw InputError(case_.file.string(), "has no cine images",
                        "Name them with strain.cine, and the contours with strain.contours");
@@ -168,6 +176,9 @@ class Pipeline {
   /// `c` is the case as the stage sees it.
   void make(Stage s, const Case& c, const std::filesystem::path& part) {
     switch (s) {
+      case Stage::circulation:
+        on_root([&] { make_circulation(c, part); });
+        break;
       case Stage::strain:
         on_root([&] { make_strain(c, part); });
         break;
@@ -295,6 +306,9 @@ class Pipeline {
     if (stage == Stage::calibrate)
       print(fmt::format("\n{}\nparameters in {}\n\n", read_file(folder(stage) / "calibration.txt"),
                         (folder(stage) / "calibrated.toml").string()));
+    if (stage == Stage::circulation)
+      print(fmt::format("\n{}\ntables and figures in {}\n\n",
+                        read_file(folder(stage) / "circulation.txt"), folder(stage).string()));
     if (stage == Stage::strain)
       print(fmt::format("\n{}\nstrain in {}\n\n", read_file(folder(stage) / "strain.txt"),
                         folder(stage).string()));

@@ -19,6 +19,7 @@ struct RunOptions {
 /// Runs all stages of a case, skipping those whose inputs, parameters and program version are
 /// unchanged:
 ///
+///   circulation by itself                                 00_circulation/, of cases that have one
 ///   strain    of the muscle, from cine images             00_strain/, for cases that have them
 ///   anatomy   the surfaces of the wall                    01_anatomy/
 ///   mesh      elements, fibres, regions, quality          02_mesh/

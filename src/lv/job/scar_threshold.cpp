@@ -17,33 +17,33 @@
 namespace lv::job {
 namespace {
 
-/// The muscle of the wall as an image shows it, per element.
-struct Muscle {
+/// The wall as an image shows it, per element.
+struct WallGreys {
   std::vector<double> greys, volumes;
   std::vector<int> segments;  ///< AHA, 1 to 17
 };
 
-Muscle muscle_of(const Case& c, const mesh::Mesh& mesh, const std::vector<double>& greys) {
-  Muscle muscle{greys, {}, mesh::divide(mesh, c.regions).aha};
+WallGreys wall_greys(const Case& c, const mesh::Mesh& mesh, const std::vector<double>& greys) {
+  WallGreys wall{greys, {}, mesh::divide(mesh, c.regions).aha};
   for (int cell = 0; cell < mesh.cell_count(); ++cell)
-    muscle.volumes.push_back(mesh::cell_volume(mesh, cell));
-  return muscle;
+    wall.volumes.push_back(mesh::cell_volume(mesh, cell));
+  return wall;
 }
 
 /// Mean and some standard deviations of the segments; none if the image shows nothing of them.
-std::optional<double> threshold_of(const Muscle& muscle, const std::vector<int>& remote,
+std::optional<double> threshold_of(const WallGreys& wall, const std::vector<int>& remote,
                                    double deviations) {
   double V = 0.0;
   double first = 0.0;
   double second = 0.0;
-  for (std::size_t e = 0; e < muscle.greys.size(); ++e) {
-    const double grey = muscle.greys[e];
+  for (std::size_t e = 0; e < wall.greys.size(); ++e) {
+    const double grey = wall.greys[e];
     if (std::isnan(grey) ||
-        std::find(remote.begin(), remote.end(), muscle.segments[e]) == remote.end())
+        std::find(remote.begin(), remote.end(), wall.segments[e]) == remote.end())
       continue;
-    V += muscle.volumes[e];
-    first += muscle.volumes[e] * grey;
-    second += muscle.volumes[e] * grey * grey;
+    V += wall.volumes[e];
+    first += wall.volumes[e] * grey;
+    second += wall.volumes[e] * grey * grey;
   }
   if (V == 0.0)
     return std::nullopt;
@@ -52,25 +52,25 @@ std::optional<double> threshold_of(const Muscle& muscle, const std::vector<int>&
 }
 
 /// Volume of the elements whose centre is brighter [ml].
-double scar_above(const Muscle& muscle, double threshold) {
+double scar_above(const WallGreys& wall, double threshold) {
   double V = 0.0;
-  for (std::size_t e = 0; e < muscle.greys.size(); ++e)
-    V += muscle.greys[e] > threshold ? muscle.volumes[e] : 0.0;
+  for (std::size_t e = 0; e < wall.greys.size(); ++e)
+    V += wall.greys[e] > threshold ? wall.volumes[e] : 0.0;
   return 1e-3 * V;
 }
 
 /// "1: 24.1, 2: 20.3 and so on ml".
-std::string scar_by_segment(const Muscle& muscle, double deviations) {
+std::string scar_by_segment(const WallGreys& wall, double deviations) {
   std::vector<std::string> each;
-  for (const int segment : std::set<int>(muscle.segments.begin(), muscle.segments.end()))
-    if (const auto threshold = threshold_of(muscle, {segment}, deviations))
-      each.push_back(fmt::format("{}: {:.1f}", segment, scar_above(muscle, *threshold)));
+  for (const int segment : std::set<int>(wall.segments.begin(), wall.segments.end()))
+    if (const auto threshold = threshold_of(wall, {segment}, deviations))
+      each.push_back(fmt::format("{}: {:.1f}", segment, scar_above(wall, *threshold)));
   return fmt::format("{} ml", fmt::join(each, ", "));
 }
 
-double by_deviations(const Case& c, const Muscle& muscle) {
+double by_deviations(const Case& c, const WallGreys& wall) {
   const mesh::LateEnhancement& lge = c.scar.lge;
-  const std::string each = scar_by_segment(muscle, lge.deviations);
+  const std::string each = scar_by_segment(wall, lge.deviations);
   if (lge.remote.empty())
     throw InputError(
         place_of(c, "infarct.source"),
@@ -78,13 +78,13 @@ double by_deviations(const Case& c, const Muscle& muscle) {
                     "is {}",
                     each),
         "Name the AHA segments of remote, healthy muscle, or set threshold = \"fwhm\"");
-  const auto threshold = threshold_of(muscle, lge.remote, lge.deviations);
+  const auto threshold = threshold_of(wall, lge.remote, lge.deviations);
   if (!threshold)
     throw InputError(place_of(c, "infarct.lge.remote"),
                      "the image shows nothing of the remote segments",
                      "Name segments between 1 and 17 that the image covers");
   log::info("late enhancement: {:.1f} ml of scar by the remote segments {}; by one alone, {}",
-            scar_above(muscle, *threshold), fmt::join(lge.remote, ", "), each);
+            scar_above(wall, *threshold), fmt::join(lge.remote, ", "), each);
   return *threshold;
 }
 
@@ -144,7 +144,7 @@ double scar_threshold(const Case& c, const mesh::Mesh& mesh, const image::Cine& 
                       const std::vector<double>& greys) {
   return c.scar.lge.threshold == mesh::ScarThreshold::fwhm
              ? half_of_brightest(c, image, greys)
-             : by_deviations(c, muscle_of(c, mesh, greys));
+             : by_deviations(c, wall_greys(c, mesh, greys));
 }
 
 }  // namespace lv::job

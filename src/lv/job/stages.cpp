@@ -6,7 +6,6 @@
 #include "lv/base/log.hpp"
 #include "lv/base/parallel.hpp"
 #include "lv/base/table.hpp"
-#include "lv/heartbeat/archive.hpp"
 #include "lv/heartbeat/quasi_static_beat.hpp"
 #include "lv/job/infarct.hpp"
 #include "lv/job/parameters.hpp"
@@ -24,67 +23,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 
 namespace lv::job {
 namespace {
-
-using heartbeat::Archive;
-
-std::vector<double> as_numbers(const std::vector<int>& whole) {
-  return {whole.begin(), whole.end()};
-}
-
-void store(const mesh::Surface& surface, const std::string& name, Archive& archive) {
-  archive.set(name + ".nodes_per_face", {static_cast<double>(surface.nodes_per_face)});
-  archive.set(name, as_numbers(surface.nodes));
-}
-
-void store(const mesh::GivenFibres& fibres, Archive& archive) {
-  archive.set("fibres.at_nodes", {fibres.at == mesh::GivenFibres::At::nodes ? 1.0 : 0.0});
-  archive.set("fibres.f0", heartbeat::flat(fibres.f0));
-  archive.set("fibres.s0", heartbeat::flat(fibres.s0));
-}
-
-mesh::GivenFibres load_fibres(const Archive& archive, const mesh::Mesh& m) {
-  using At = mesh::GivenFibres::At;
-  const At at = archive.whole_number(archive.number("fibres.at_nodes"), {0.0, 1.0}) == 0
-                    ? At::cells
-                    : At::nodes;
-  const std::size_t count =
-      at == At::nodes ? m.nodes.size() : static_cast<std::size_t>(m.cell_count());
-  constexpr heartbeat::Range unit{-1.0 - 1e-6, 1.0 + 1e-6};
-  const auto load = [&](const char* name) {
-    return archive.get(name).empty() ? std::vector<Vec3>{}
-                                     : heartbeat::vectors(archive.get_rows(name, 3, count, unit));
-  };
-  return {at, load("fibres.f0"), load("fibres.s0")};
-}
-
-/// Nodes of cells or faces, `each` of one, of those that a wall has.
-std::vector<int> load_nodes(const Archive& archive, const std::string& name, std::size_t each,
-                            std::size_t nodes) {
-  static_cast<void>(archive.get_rows(name, each));
-  return archive.get_whole(name, {}, {0.0, static_cast<double>(nodes) - 1.0});
-}
-
-mesh::Surface load_surface(const Archive& archive, const std::string& name, std::size_t nodes) {
-  const int each = archive.whole_number(archive.number(name + ".nodes_per_face"), {3.0, 4.0});
-  return {each, load_nodes(archive, name, static_cast<std::size_t>(each), nodes)};
-}
-
-/// A snapshot that an engine has taken of a wall: with the stress of every element, or the tension
-/// at every node.
-heartbeat::Snapshot load_whole_snapshot(const Archive& archive, const std::string& name,
-                                        const mesh::Mesh& mesh) {
-  heartbeat::Snapshot snapshot = heartbeat::load_snapshot(archive, name, mesh.nodes.size());
-  const bool fits = snapshot.stress.empty()
-                        ? snapshot.tension.size() == mesh.nodes.size()
-                        : snapshot.stress.size() == static_cast<std::size_t>(mesh.cell_count());
-  if (!fits || snapshot.positions.empty())
-    archive.refuse(fmt::format("'{}' is of another wall", name));
-  return snapshot;
-}
 
 analysis::FieldAnalysis field_analysis(const Case& c, const mesh::Mesh& m) {
   return {m, cardiac_model(c)};
@@ -120,9 +63,9 @@ class BeatWriter {
 
   void frame(const heartbeat::Frame& f) {
     const auto cells = analysis_.fields(f.wall);
-    const auto& ed = f.run.beat.end_diastole;
-    if (!ed.positions.empty() && !end_diastole_)
-      end_diastole_ = analysis_.fields(ed);
+    const auto* ed = f.run.beat.find(heartbeat::end_diastole);
+    if (ed != nullptr && !end_diastole_)
+      end_diastole_ = analysis_.fields(ed->wall);
     if (parallel::is_root())
       report::write_wall(folder_ / wall_file(f.number), mesh_.mesh, mesh_.regions, f.wall, cells,
                          end_diastole_.value_or(std::vector<analysis::CellFields>{}));
@@ -136,8 +79,10 @@ class BeatWriter {
   }
 
   void curves(const heartbeat::RunState& run) const {
-    if (parallel::is_root())
-      report::curves_table(run.beat.curves).write_csv(folder_ / "curves.csv");
+    if (!parallel::is_root())
+      return;
+    report::curves_table(run.beat.curves).write_csv(folder_ / "curves.csv");
+    report::moments_table(run.beat.moments).write_csv(folder_ / "moments.csv");
   }
 
  private:
@@ -182,12 +127,10 @@ report::RunFacts run_facts(const Case& c, const MeshResult& mesh, const BeatResu
     facts.parameters.emplace_back(p.name, p.shown(c));
   for (const auto& [name, place] : c.origin)
     facts.origins.emplace_back(name, std::filesystem::path(place).filename().string());
-  if (!beat.beat.filling_was_steady)
-    facts.warnings.push_back(
-        "filling ended at protocol.filling_longest before the volume was steady");
-  if (!beat.beat.contraction_was_steady)
-    facts.warnings.push_back(
-        "contraction ended at protocol.contraction_longest before its criterion was met");
+  for (const heartbeat::NamedMoment& m : beat.beat.moments)
+    if (!m.by_criterion)
+      facts.warnings.push_back(
+          fmt::format("{0} ended at protocol.{0}_longest before its criterion was met", m.phase));
   if (beat.beat.retries > 0)
     facts.warnings.push_back(
         fmt::format("{} steps were taken back and repeated smaller", beat.beat.retries));
@@ -259,6 +202,14 @@ std::string beside_measured(const Case& c, const MeshResult& mesh, const BeatRes
   return "\n" + compare_strain(c, {mesh, beat.beat, fields, make_anatomy(c).frame}, strain, folder);
 }
 
+/// The case's passive muscle and what it is compared with.
+std::vector<material::StressStretch> muscles(const Case& c) {
+  auto curves = material::published_muscles();
+  curves.insert(curves.begin(),
+                material::pulled_along_fibre("this case", cardiac_model(c).myocardium.passive));
+  return curves;
+}
+
 /// The root's part of make_results.
 std::string write_results(const Case& c, const MeshResult& mesh, const BeatResult& beat,
                           const report::RunFacts& facts, const analysis::BeatFields& fields,
@@ -269,11 +220,11 @@ std::string write_results(const Case& c, const MeshResult& mesh, const BeatResul
     infarct_table(c, mesh).write_csv(folder / "infarct.csv");
   report::regions_table(results).write_csv(folder / "regions.csv");
   report::rotation_table(results).write_csv(folder / "rotation.csv");
+  report::stress_stretch_table(muscles(c)).write_csv(folder / "stress_stretch.csv");
   report::curves_table(beat.beat.curves).write_csv(folder / "curves.csv");
-  report::write_wall(folder / "end_diastole.vtu", mesh.mesh, mesh.regions, beat.beat.end_diastole,
-                     fields.end_diastole, fields.end_diastole);
-  report::write_wall(folder / "end_systole.vtu", mesh.mesh, mesh.regions, beat.beat.end_systole,
-                     fields.end_systole, fields.end_diastole);
+  for (const auto& [name, cells] : fields.moments)
+    report::write_wall(folder / (name + ".vtu"), mesh.mesh, mesh.regions, beat.beat.at(name), cells,
+                       fields.at(heartbeat::end_diastole));
   draw(mesh.mesh, beat.beat, fields, results, folder);
   return report::summary_text(facts, beat.beat, results) +
          beside_measured(c, mesh, beat, fields, folder);
@@ -306,28 +257,6 @@ MeshResult make_mesh(const Case& c, const Shape& shape) {
   return result;
 }
 
-void write_mesh_result(const MeshResult& result, const std::filesystem::path& folder) {
-  const mesh::Mesh& m = result.mesh;
-  Archive archive;
-  archive.set("kind", {m.kind == mesh::CellKind::hexahedron ? 0.0 : 1.0});
-  archive.set("order", {static_cast<double>(m.order)});
-  archive.set("nodes", heartbeat::flat(m.nodes));
-  archive.set("cells", as_numbers(m.cells));
-  archive.set("transmural", m.transmural);
-  archive.set("infarct", m.infarct);
-  archive.set("infarcted", result.infarcted);
-  store(m.fibres, archive);
-  store(m.endo, "endo", archive);
-  store(m.epi, "epi", archive);
-  store(m.base, "base", archive);
-  archive.set("slice", as_numbers(result.regions.slice));
-  archive.set("sector", as_numbers(result.regions.sector));
-  archive.set("aha", as_numbers(result.regions.aha));
-  archive.write(folder / "mesh.bin");
-  if (result.slice_moves)
-    result.slice_moves->write_csv(folder / "slice_moves.csv");
-}
-
 void show_mesh(const MeshResult& result, const Case& c, const std::filesystem::path& folder) {
   const mesh::Mesh& m = result.mesh;
   const auto undeformed = analysis::FieldAnalysis(m, {c.fibres, {}, {}}).at_rest();  // directions
@@ -343,34 +272,6 @@ void show_mesh(const MeshResult& result, const Case& c, const std::filesystem::p
       report::write(report::infarct_figure(m), folder / "infarct.png");
     }
   });
-}
-
-MeshResult read_mesh_result(const std::filesystem::path& folder) {
-  const Archive archive = Archive::read(folder / "mesh.bin");
-  MeshResult result;
-  mesh::Mesh& m = result.mesh;
-  m.kind = archive.whole_number(archive.number("kind"), {0.0, 1.0}) == 0
-               ? mesh::CellKind::hexahedron
-               : mesh::CellKind::tetrahedron;
-  m.order = archive.whole_number(archive.number("order"), {1.0, 2.0});
-  m.nodes = heartbeat::vectors(archive.get_rows("nodes", 3));
-  const std::size_t nodes = m.nodes.size();
-  const int of_element = m.order == 1 ? 1 : 8;  // its parts, see mesh.hpp
-  m.cells = load_nodes(archive, "cells",
-                       static_cast<std::size_t>(mesh::nodes_per_cell(m.kind) * of_element), nodes);
-  constexpr heartbeat::Range part{-1e-6, 1.0 + 1e-6};
-  m.transmural = archive.get_rows("transmural", 1, nodes, part);
-  m.infarct = archive.get_rows("infarct", 1, nodes, part);
-  m.endo = load_surface(archive, "endo", nodes);
-  m.epi = load_surface(archive, "epi", nodes);
-  m.base = load_surface(archive, "base", nodes);
-  const auto cells = static_cast<std::size_t>(m.cell_count());
-  result.infarcted = archive.get_rows("infarcted", 1, cells, part);
-  m.fibres = load_fibres(archive, m);
-  result.regions = {archive.get_whole("slice", cells, {1.0, mesh::slice_count}),
-                    archive.get_whole("sector", cells, {1.0, mesh::sectors_of_slice(1)}),
-                    archive.get_whole("aha", cells, {1.0, 17.0})};
-  return result;
 }
 
 heartbeat::Beat make_beat(const Case& c, const MeshResult& mesh,
@@ -389,41 +290,14 @@ heartbeat::Beat make_beat(const Case& c, const MeshResult& mesh,
   return heartbeat::run_immersed_beat(setup, folder, observers);
 }
 
-void write_beat(const heartbeat::Beat& beat, const std::filesystem::path& folder) {
-  Archive archive;
-  heartbeat::store(beat.curves, archive);
-  heartbeat::store(beat.end_diastole, "end_diastole", archive);
-  heartbeat::store(beat.end_systole, "end_systole", archive);
-  archive.set("facts",
-              {beat.filling_was_steady ? 1.0 : 0.0, beat.contraction_was_steady ? 1.0 : 0.0,
-               static_cast<double>(beat.steps), static_cast<double>(beat.retries), beat.wall_clock,
-               static_cast<double>(parallel::size())});
-  archive.write(folder / beat_name);
-}
-
-BeatResult read_beat(const std::filesystem::path& folder, const mesh::Mesh& mesh) {
-  const Archive archive = Archive::read(folder / beat_name);
-  const auto& facts = archive.get_rows("facts", 6, 1, heartbeat::not_negative);
-  BeatResult result;
-  result.beat.curves = heartbeat::load_curves(archive);
-  result.beat.end_diastole = load_whole_snapshot(archive, "end_diastole", mesh);
-  result.beat.end_systole = load_whole_snapshot(archive, "end_systole", mesh);
-  result.beat.filling_was_steady = facts[0] != 0.0;
-  result.beat.contraction_was_steady = facts[1] != 0.0;
-  result.beat.steps = archive.whole_number(facts[2]);
-  result.beat.retries = archive.whole_number(facts[3]);
-  result.beat.wall_clock = facts[4];
-  result.ranks = archive.whole_number(facts[5]);
-  return result;
-}
-
 std::string make_results(const Case& c, const MeshResult& mesh, const BeatResult& beat,
                          const std::vector<report::FittedVolume>& fitted,
                          const std::optional<report::UnloadedShape>& unloaded,
                          const std::filesystem::path& folder) {
   const analysis::FieldAnalysis analysis = field_analysis(c, mesh.mesh);
-  const analysis::BeatFields fields{analysis.at_rest(), analysis.fields(beat.beat.end_diastole),
-                                    analysis.fields(beat.beat.end_systole)};
+  analysis::BeatFields fields{analysis.at_rest(), {}};
+  for (const heartbeat::NamedMoment& m : beat.beat.moments)
+    fields.moments.push_back({m.name, analysis.fields(m.wall)});
   std::string text;
   parallel::on_root([&] {
     report::RunFacts facts = run_facts(c, mesh, beat);

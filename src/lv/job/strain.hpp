@@ -3,7 +3,7 @@
 #include "lv/analysis/results.hpp"
 #include "lv/geometry/frame.hpp"
 #include "lv/job/case.hpp"
-#include "lv/job/stages.hpp"
+#include "lv/job/mesh_result.hpp"
 #include "lv/strain/agreement.hpp"
 
 #include <filesystem>

@@ -30,8 +30,8 @@ using Pairs = std::array<std::vector<Pair>, 2>;
 class ModelStrain {
  public:
   ModelStrain(const ModelledBeat& model, StrainMeasure measure) : model_(model) {
-    const auto& then = model.fields.end_diastole;
-    const auto& now = model.fields.end_systole;
+    const auto& then = model.fields.at(heartbeat::end_diastole);
+    const auto& now = model.fields.at(heartbeat::end_systole);
     for (std::size_t i = 0; i < now.size(); ++i) {
       const analysis::CellStrain s = analysis::strain(now[i], then[i]);
       for (std::size_t k = 0; k < 2; ++k) {
@@ -44,7 +44,7 @@ class ModelStrain {
 
   /// Mean over the elements that a test chooses, NaN if there are none.
   [[nodiscard]] double mean(std::size_t component, const std::function<bool(int)>& chosen) const {
-    const auto& cells = model_.fields.end_diastole;
+    const auto& cells = model_.fields.at(heartbeat::end_diastole);
     std::vector<int> members;
     for (int i = 0; i < static_cast<int>(cells.size()); ++i)
       if (chosen(i))
@@ -112,7 +112,7 @@ std::map<int, std::vector<bool>> in_slices(const ModelledBeat& model, const Cine
     const image::Plane& plane = study.cine.slices[study.slice_of[l]].frames.front().plane;
     std::vector<bool>& in = members[loops[l].slice];
     in.clear();
-    for (const analysis::CellFields& cell : model.fields.end_diastole)
+    for (const analysis::CellFields& cell : model.fields.at(heartbeat::end_diastole))
       in.push_back(std::abs(plane.pixel(model.frame.to_image(cell.position)).z()) <
                    0.5 * study.spacing);
   }

@@ -1,7 +1,8 @@
 #pragma once
 
 #include "lv/calibrate/fit.hpp"
-#include "lv/job/stages.hpp"
+#include "lv/job/case.hpp"
+#include "lv/mesh/mesh.hpp"
 
 namespace lv::job {
 

@@ -134,6 +134,12 @@ std::optional<std::size_t> outdated_source(const fs::path& work, std::size_t sta
   return {};
 }
 
+/// Whether few cases ask for a stage.
+bool is_of_few(Stage stage) {
+  return stage == Stage::circulation || stage == Stage::strain || stage == Stage::calibrate ||
+         stage == Stage::unload;
+}
+
 /// Of a text file; empty when there is none.
 std::string last_line(const fs::path& file) {
   std::ifstream in(file);
@@ -146,7 +152,7 @@ std::string last_line(const fs::path& file) {
 }  // namespace
 
 std::string stage_folder(std::size_t stage) {
-  static const std::array<std::string, stage_names.size()> numbers{"00",  "01", "02", "02b",
+  static const std::array<std::string, stage_names.size()> numbers{"00",  "00", "01", "02", "02b",
                                                                    "02c", "03", "04", "05"};
   return numbers.at(stage) + "_" + stage_names.at(stage);
 }
@@ -294,9 +300,7 @@ std::vector<std::string> state_of(const fs::path& work) {
           stage_folder(s)));
     else if (begun)
       state.push_back(fmt::format("{} is unfinished.", stage_folder(s)));
-    else if (!whole && static_cast<Stage>(s) != Stage::calibrate &&
-             static_cast<Stage>(s) != Stage::unload &&
-             static_cast<Stage>(s) != Stage::strain)  // which few cases ask for
+    else if (!whole && !is_of_few(static_cast<Stage>(s)))
       state.push_back(fmt::format("{} has not been made.", stage_folder(s)));
     else if (!lack.empty())
       state.push_back(fmt::format("{} is not whole: {}.", stage_folder(s), lack));

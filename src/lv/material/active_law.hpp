@@ -1,5 +1,6 @@
 #pragma once
 
+#include "lv/material/land2017.hpp"
 #include "lv/material/niederer_hunter_smith.hpp"
 
 #include <variant>
@@ -11,7 +12,10 @@ struct PrescribedTension {
   double T_max = 0.0;  ///< [kPa]
 };
 
-/// The active law of a wall: one with kinetics, which goes by calcium, or one without.
-using ActiveLaw = std::variant<NiedererHunterSmith, PrescribedTension>;
+/// The laws with kinetics, which go by calcium.
+using KineticLaw = std::variant<NiedererHunterSmith, Land2017>;
+
+/// The active law of a wall: one with kinetics or one without.
+using ActiveLaw = std::variant<NiedererHunterSmith, Land2017, PrescribedTension>;
 
 }  // namespace lv::material

@@ -34,21 +34,7 @@ Vector<T> active_stress_column(const Tensor<T>& F, const T& J, const T& tension,
 ///   dP f0 = g T df + m g T (F^{-T} : dF) f + (g T' + n g T / lambda) / lambda (f . df) f
 ///
 /// It is symmetric for second_piola alone, which has the potential int T lambda dlambda.
-inline Tangent<double> active_tangent(const Mat3& F, double tension, double slope,
-                                      ActiveForm form = ActiveForm::niederer) {
-  const double m = form == ActiveForm::second_piola ? 0.0 : 1.0;
-  const double n = form == ActiveForm::cauchy ? -2.0 : 0.0;
-  const Vec3 f = F.col(0);
-  const Mat3 cof = cofactor(F);
-  const double J = f.dot(cof.col(0));
-  const double I4f = f.squaredNorm();
-  const double g = active_factor(form, J, I4f);
-
-  Tangent<double> A = Tangent<double>::Zero();
-  A.topRows<3>() = (m * g * tension / J) * f * cof.reshaped().transpose();
-  block(A, 0, 0) += g * tension * Mat3::Identity() +
-                    g * (slope / std::sqrt(I4f) + n * tension / I4f) * f * f.transpose();
-  return A;
-}
+[[nodiscard]] Tangent<double> active_tangent(const Mat3& F, double tension, double slope,
+                                             ActiveForm form = ActiveForm::niederer);
 
 }  // namespace lv::material

@@ -25,10 +25,7 @@ struct NeoHookean {
   }
 
   /// dP/dF [kPa].
-  [[nodiscard]] Tangent<double> tangent(const Mat3& F) const {
-    const Mat3 G = cofactor(F) / determinant(F);
-    return mu * (Tangent<double>::Identity() - inverse_transpose_tangent(G));
-  }
+  [[nodiscard]] Tangent<double> tangent(const Mat3& F) const;
 };
 
 }  // namespace lv::material

@@ -14,6 +14,9 @@ struct Sarcomere {
   std::array<T, 3> Q{T(0.0), T(0.0), T(0.0)};  ///< fading memory [-]
   T stretch = T(1.0);                          ///< fibre stretch lambda_f [-]
   T tension = T(0.0);                          ///< T [kPa]
+
+  /// All numbers, in the order of a checkpoint.
+  auto fields() { return std::array{&Ca_trpn, &z, &Q[0], &Q[1], &Q[2], &stretch, &tension}; }
 };
 
 /// Active tension of Niederer, Hunter & Smith (Biophys. J. 90:1697-1722, 2006) as in the paper's
@@ -50,6 +53,9 @@ struct NiedererHunterSmith {
 
   static constexpr int n = 3;    ///< cooperativity of binding (A.4)
   static constexpr int n_r = 3;  ///< of relaxation
+
+  template <class T>
+  using State = Sarcomere<T>;
 
   /// T_ref = T_scale x 56.2 kPa.
   [[nodiscard]] double T_ref() const { return T_scale * T_ref_unscaled; }
@@ -93,6 +99,12 @@ struct NiedererHunterSmith {
   /// dT/dlambda at fixed time over T_0, at Q = 0: (1 + a) sum A_i [-]. Stretching faster than the
   /// fading memory forgets meets this stiffness.
   [[nodiscard]] double instantaneous_stiffness() const { return (1.0 + a) * (A[0] + A[1] + A[2]); }
+
+  /// dT/dlambda of a sudden stretch without change of overlap [kPa].
+  template <class T>
+  [[nodiscard]] T sudden_stiffness(const Sarcomere<T>& state) const {
+    return instantaneous_stiffness() * isometric_tension(state);
+  }
 
   /// One step of length dt [s] to the new stretch, calcium [uM] going from Ca_before to Ca_after. Q
   /// is integrated exactly for the stretch rate [1/s], constant over this very step; binding and

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lv/material/niederer_hunter_smith.hpp"
+#include "lv/material/tension.hpp"
 
 #include <boost/math/interpolators/cardinal_quintic_b_spline.hpp>
 
@@ -23,6 +24,8 @@ class SteadyTension {
 
   /// dT/dlambda [kPa], exactly that of tension(). Zero where T is constant.
   [[nodiscard]] double derivative(double stretch) const;
+
+  [[nodiscard]] Tension at(double stretch) const { return {tension(stretch), derivative(stretch)}; }
 
  private:
   boost::math::interpolators::cardinal_quintic_b_spline<double> table_;

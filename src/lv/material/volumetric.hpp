@@ -27,12 +27,7 @@ struct Volumetric {
   }
 
   /// dP/dF = 2 beta_s/J [(1 - ln J)/J cof F (x) cof F + ln J d cof(F)/dF]   [kPa]
-  [[nodiscard]] Tangent<double> tangent(const Mat3& F) const {
-    const Mat3 cof = cofactor(F);
-    const double J = F.col(0).dot(cof.col(0));
-    const double log_J = std::log(J);
-    return 2.0 * beta_s / J * ((1.0 - log_J) / J * outer(cof, cof) + log_J * cofactor_tangent(F));
-  }
+  [[nodiscard]] Tangent<double> tangent(const Mat3& F) const;
 };
 
 }  // namespace lv::material

@@ -35,16 +35,26 @@ solid::ReferencePoints points_of_part(const std::vector<Vec3>& corners) {
   return points;
 }
 
-/// Shapes of displacement and pressure at the quadrature points of a part.
+/// Shapes of displacement and pressure at the quadrature points of a part, and for each of these
+/// the nearest quadrature point of the element.
 struct PartShapes {
   solid::ShapeTable displacement, pressure;
+  std::vector<std::size_t> nearest;
 };
 
 /// The tables of parts, made once for each way in which a part lies in its element.
 class PartTables {
  public:
   explicit PartTables(const mesh::Mesh& mesh)
-      : mesh_(mesh), places_(mesh::node_places(mesh.kind, mesh.order)) {}
+      : mesh_(mesh), places_(mesh::node_places(mesh.kind, mesh.order)) {
+    const Eigen::MatrixXd phi = solid::element_shapes(mesh.kind, mesh.order).value;
+    for (Eigen::Index q = 0; q < phi.rows(); ++q) {
+      Vec3 place = Vec3::Zero();
+      for (Eigen::Index a = 0; a < phi.cols(); ++a)
+        place += phi(q, a) * places_[static_cast<std::size_t>(a)];
+      own_points_.push_back(place);
+    }
+  }
 
   const PartShapes& of(int cell, std::span<const int> element) {
     std::vector<int> where;
@@ -65,18 +75,29 @@ class PartTables {
     const auto points = mesh_.kind == CellKind::hexahedron ? points_of_part<solid::Hex8>(corners)
                                                            : points_of_part<solid::Tet4>(corners);
     return {solid::element_shapes(mesh_.kind, mesh_.order, points),
-            solid::pressure_shapes(mesh_.kind, mesh_.order, points)};
+            solid::pressure_shapes(mesh_.kind, mesh_.order, points), nearest(points.places)};
+  }
+
+  [[nodiscard]] std::vector<std::size_t> nearest(const std::vector<Vec3>& places) const {
+    std::vector<std::size_t> result;
+    for (const Vec3& place : places)
+      result.push_back(std::min_element(own_points_.begin(), own_points_.end(),
+                                        [&](const Vec3& a, const Vec3& b) {
+                                          return (a - place).norm() < (b - place).norm();
+                                        }) -
+                       own_points_.begin());
+    return result;
   }
 
   const mesh::Mesh& mesh_;
   std::vector<Vec3> places_;
+  std::vector<Vec3> own_points_;  ///< the element's quadrature points
   std::map<std::vector<int>, PartShapes> tables_;
 };
 
 }  // namespace
 
-std::vector<CellStress> Equations::cell_stress(const State& state, double activation) const {
-  const Constitution law{model_, activation};
+std::vector<CellStress> Equations::cell_stress(const State& state, const TensionAt& tension) const {
   const PointMaker maker(mesh_, model_.heart.fibres);
   PartTables tables(mesh_);
   const int parts = mesh_.order == 2 ? 8 : 1;
@@ -93,6 +114,7 @@ std::vector<CellStress> Equations::cell_stress(const State& state, double activa
                           [](double sum, const Point& point) { return sum + point.volume; });
       for (std::size_t q = 0; q < points.size(); ++q) {
         const Mat3 F = s.x * points[q].gradient.transpose();
+        const Constitution law{model_, tension, i, shapes.nearest[q]};
         CellStress here = law.cauchy(F, points[q].infarct);
         here.pressure -= shapes.pressure.value.row(static_cast<Eigen::Index>(q)).dot(s.p);
         result[cell].add(points[q].volume / volume, here);

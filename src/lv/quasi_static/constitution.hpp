@@ -4,10 +4,12 @@
 
 namespace lv::quasi_static {
 
-/// The sum of stresses at one point under an activation, without the pressure's part.
+/// The sum of stresses at one point, without the pressure's part. The active tension at the point
+/// is a function of its stretch.
 struct Constitution {
   const StaticModel& model;
-  double activation;
+  const TensionAt& tension_at;
+  std::size_t element = 0, point = 0;  ///< see TensionAt
 
   /// Calls f with the point's material::PointLaw.
   template <class F>
@@ -17,7 +19,7 @@ struct Constitution {
 
   /// With the infarct's factor.
   [[nodiscard]] Tension tension(const Mat3& F, double M) const {
-    Tension T = model.contractility.at(F.col(0).norm(), activation);
+    Tension T = tension_at(element, point, F.col(0).norm());
     T.value *= model.heart.myocardium.infarct.active(M);
     T.derivative *= model.heart.myocardium.infarct.active(M);
     return T;

@@ -16,22 +16,22 @@ Loads between(const Loads& a, const Loads& b, double s) {
           (1.0 - s) * a.calcium + s * b.calcium};
 }
 
-/// The straight line through two states, `by` times their distance beyond the second.
-State extrapolate(const State& before, const State& now, double by) {
-  State next = now;
-  for (std::size_t a = 0; a < next.positions.size(); ++a)
-    next.positions[a] += by * (now.positions[a] - before.positions[a]);
-  for (std::size_t m = 0; m < next.pressures.size(); ++m)
-    next.pressures[m] += by * (now.pressures[m] - before.pressures[m]);
-  return next;
-}
-
 /// Step lengths grow when Newton's method finds it easy, and shrink when it does not.
 constexpr int easy = 5;  // corrections
 constexpr int hard = 12;
 constexpr double growth = 1.7;
 
 }  // namespace
+
+State extrapolate(const State& before, const State& now, double by) {
+  State next = now;
+  for (std::size_t a = 0; a < next.positions.size(); ++a)
+    next.positions[a] += by * (now.positions[a] - before.positions[a]);
+  for (std::size_t m = 0; m < next.pressures.size(); ++m)
+    next.pressures[m] += by * (now.pressures[m] - before.pressures[m]);
+  next.cavity_pressure += by * (now.cavity_pressure - before.cavity_pressure);
+  return next;
+}
 
 Engine::Engine(const mesh::Mesh& mesh, const StaticModel& model, const SolverParameters& parameters)
     : parameters_(parameters),
@@ -98,6 +98,15 @@ Outcome<double> Engine::set_model(const StaticModel& model) {
   const Loads loads = loads_;
   relax();
   return go_to(loads);
+}
+
+NewtonReport Engine::find(State guess, const Equilibrium& equilibrium) {
+  NewtonReport report = newton_.solve(guess, equilibrium);
+  if (report.converged) {
+    state_ = std::move(guess);
+    loads_ = {equilibrium.volume ? state_.cavity_pressure : equilibrium.pressure};
+  }
+  return report;
 }
 
 void Engine::relax() {

@@ -15,6 +15,9 @@ struct SolverParameters {
   double smallest_step = 1e-4;  ///< before the engine gives up [-]
 };
 
+/// The straight line through two states, `by` times their distance beyond the second.
+[[nodiscard]] State extrapolate(const State& before, const State& now, double by);
+
 /// One equilibrium on the way to the loads that were asked for.
 struct Step {
   Loads loads;
@@ -42,6 +45,10 @@ class Engine {
   /// on the switches I4 = 1 of (2.16), where Newton's method finds no way on.
   Outcome<double> set_model(const StaticModel& model);
 
+  /// The equilibrium near a guess, with any tension, or around a volume of the cavity; stays at the
+  /// present one if it finds none. The loads are then its pressure alone.
+  NewtonReport find(State guess, const Equilibrium& equilibrium);
+
   /// Back to the undeformed wall without loads.
   void relax();
 
@@ -51,14 +58,21 @@ class Engine {
   [[nodiscard]] double cavity_volume() const {
     return equations_.endocardium().volume(state_.positions);
   }  ///< [mm^3]
+  /// Stress in every linear cell of the mesh; collective.
+  [[nodiscard]] std::vector<solid::CellStress> cell_stress() const {
+    return equations_.cell_stress(state_, equations_.steady(loads_.activation));
+  }
   /// Volume-weighted mean over the wall of the active tension, with the infarct's factor [kPa].
   [[nodiscard]] double mean_tension() const {
-    return equations_.mean_tension(state_, loads_.activation);
+    return equations_.mean_tension(state_, equations_.steady(loads_.activation));
   }
 
   /// Takes over an equilibrium that was reached before, with the loads that held it. Throws
   /// InputError when it is one of another wall.
   void restore(const State& state, const Loads& loads);
+
+  /// What comes next does not depend on the tangent that Newton's method has kept.
+  void forget_tangent() { newton_.forget_tangent(); }
 
  private:
   SolverParameters parameters_;

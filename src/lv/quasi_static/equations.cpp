@@ -2,6 +2,7 @@
 
 #include "lv/base/check.hpp"
 #include "lv/base/parallel.hpp"
+#include "lv/material/tangent_algebra.hpp"
 #include "lv/mesh/shapes.hpp"
 #include "lv/quasi_static/constitution.hpp"
 
@@ -34,10 +35,10 @@ class ElementTangent {
   }
 
   const Eigen::MatrixXd& compute(const std::vector<Point>& points, const ElementState& s,
-                                 const Constitution& law, const Eigen::MatrixXd& pressure_shapes) {
+                                 Constitution law, const Eigen::MatrixXd& pressure_shapes) {
     K_.setZero();
     pressure_mass_.setZero();
-    for (std::size_t q = 0; q < points.size(); ++q)
+    for (std::size_t& q = law.point = 0; q < points.size(); ++q)
       add_point(points[q], static_cast<Eigen::Index>(q), s, law, pressure_shapes);
     multiply();
     K_.bottomLeftCorner(m_, 3 * n_) = K_.topRightCorner(3 * n_, m_).transpose();
@@ -175,9 +176,15 @@ Pattern Equations::pattern() const {
   return pattern;
 }
 
-std::vector<double> Equations::residual(const State& state, const Loads& loads) const {
+TensionAt Equations::steady(double activation) const {
+  return [this, activation](std::size_t, std::size_t, double stretch) {
+    return model_.contractility.at(stretch, activation);
+  };
+}
+
+std::vector<double> Equations::residual(const State& state, double pressure,
+                                        const TensionAt& tension) const {
   std::vector<double> R(size(), 0.0);
-  const Constitution law{model_, loads.activation};
   bool inverted = false;
   for (std::size_t i = 0; i < wall_.points.size(); ++i) {
     const int e = wall_.own[i];
@@ -190,6 +197,7 @@ std::vector<double> Equations::residual(const State& state, const Loads& loads) 
       const double J = determinant(F);
       inverted = inverted || !(J > 0.0);
       const Eigen::VectorXd N = wall_.pressure_shapes.value.row(static_cast<Eigen::Index>(q));
+      const Constitution law{model_, tension, i, q};
       const Mat3 P = law.stress(F, J, point.infarct) + N.dot(s.p) * cofactor(F);
       force.noalias() += point.volume * P * point.gradient;
       swelling += point.volume * (J - 1.0) * N;
@@ -203,7 +211,7 @@ std::vector<double> Equations::residual(const State& state, const Loads& loads) 
   if (parallel::any(inverted))
     return {};
   std::vector<Vec3> forces(state.positions.size(), Vec3::Zero());
-  endocardium_.add_gradient(loads.pressure, state.positions, forces);
+  endocardium_.add_gradient(pressure, state.positions, forces);
   base_.add_forces(state.positions, forces);
   for (std::size_t a = 0; a < forces.size(); ++a)
     for (int i = 0; i < 3; ++i)
@@ -212,20 +220,39 @@ std::vector<double> Equations::residual(const State& state, const Loads& loads) 
   return R;
 }
 
-void Equations::tangent(const State& state, const Loads& loads, SparseMatrix& K) const {
+std::vector<double> Equations::cavity_gradient(const State& state) const {
+  std::vector<Vec3> gradient(state.positions.size(), Vec3::Zero());
+  endocardium_.add_gradient(1.0, state.positions, gradient);
+  std::vector<double> g(gradient.data()->data(), gradient.data()->data() + 3 * gradient.size());
+  g.resize(size(), 0.0);
+  parallel::sum(g);
+  return g;
+}
+
+std::vector<double> Equations::fibre_stretch(const State& state) const {
+  std::vector<double> stretch;
+  for (std::size_t i = 0; i < wall_.points.size(); ++i) {
+    const ElementState s = element_state(wall_, wall_.own[i], state);
+    for (const Point& point : wall_.points[i])
+      stretch.push_back((s.x * point.gradient.row(0).transpose()).norm());
+  }
+  return stretch;
+}
+
+void Equations::tangent(const State& state, double pressure, const TensionAt& tension,
+                        SparseMatrix& K) const {
   K.set_zero();
-  const Constitution law{model_, loads.activation};
   ElementTangent element(wall_.elements.nodes_per_element, wall_.pressures.nodes_per_element,
                          wall_.points.empty() ? 0 : wall_.points.front().size());
   for (std::size_t i = 0; i < wall_.points.size(); ++i) {
     const int e = wall_.own[i];
     const std::vector<int> at = unknowns(wall_, e, node_count());
-    K.add(at, element.compute(wall_.points[i], element_state(wall_, e, state), law,
+    K.add(at, element.compute(wall_.points[i], element_state(wall_, e, state), {model_, tension, i},
                               wall_.pressure_shapes.value));
     K.add_pressure_mass(std::span(at).last(wall_.pressures.nodes_per_element),
                         element.pressure_mass());
   }
-  endocardium_.add_hessian(-loads.pressure, state.positions,
+  endocardium_.add_hessian(-pressure, state.positions,
                            [&](std::span<const int> nodes, const Eigen::MatrixXd& block) {
                              std::vector<int> at;
                              for (const int node : nodes)
@@ -239,12 +266,13 @@ void Equations::tangent(const State& state, const Loads& loads, SparseMatrix& K)
   K.finish();
 }
 
-double Equations::mean_tension(const State& state, double activation) const {
-  const Constitution law{model_, activation};
+double Equations::mean_tension(const State& state, const TensionAt& tension) const {
   std::array<double, 2> sums{};
   for (std::size_t i = 0; i < wall_.points.size(); ++i) {
     const ElementState s = element_state(wall_, wall_.own[i], state);
-    for (const Point& point : wall_.points[i]) {
+    for (std::size_t q = 0; q < wall_.points[i].size(); ++q) {
+      const Point& point = wall_.points[i][q];
+      const Constitution law{model_, tension, i, q};
       const Mat3 F = s.x * point.gradient.transpose();
       sums[0] += point.volume * law.tension(F, point.infarct).value;
       sums[1] += point.volume;

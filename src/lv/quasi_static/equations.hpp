@@ -8,11 +8,16 @@
 #include "lv/solid/endocardial_surface.hpp"
 #include "lv/solid/loads.hpp"
 
+#include <functional>
 #include <vector>
 
 namespace lv::quasi_static {
 
 using solid::Loads;
+
+/// Active tension without the infarct's factor, at a fibre stretch, of a quadrature point: the
+/// element's place among this rank's, and the point's in it.
+using TensionAt = std::function<Tension(std::size_t element, std::size_t point, double stretch)>;
 
 /// Springs that yield by micrometres under the pressures of a ventricle [kPa/mm].
 inline constexpr double rigid_base = 1e6;
@@ -38,9 +43,11 @@ struct StaticModel {
 };
 
 /// Positions of the nodes [mm] and pressures of the elements [kPa]: all unknowns, on every rank.
+/// The cavity's pressure is one of them where the cavity's volume is given instead.
 struct State {
   std::vector<Vec3> positions;
   std::vector<double> pressures;
+  double cavity_pressure = 0.0;  ///< [kPa]
 };
 
 /// The unknowns of one element.
@@ -83,20 +90,49 @@ class Equations {
   /// Which unknowns the tangent joins.
   [[nodiscard]] Pattern pattern() const;
 
-  /// R, complete on every rank; empty when an element is turned inside out at some point of any
-  /// rank.
-  [[nodiscard]] std::vector<double> residual(const State& state, const Loads& loads) const;
+  /// The steady tension of an activation, the same at all points.
+  [[nodiscard]] TensionAt steady(double activation) const;
+
+  /// R under a pressure in the cavity [kPa], complete on every rank; empty when an element is
+  /// turned inside out at some point of any rank.
+  [[nodiscard]] std::vector<double> residual(const State& state, double pressure,
+                                             const TensionAt& tension) const;
+
+  /// The same under loads, with steady tension.
+  [[nodiscard]] std::vector<double> residual(const State& state, const Loads& loads) const {
+    return residual(state, loads.pressure, steady(loads.activation));
+  }
 
   /// Sets a matrix to dR/d(unknowns), and its pressure mass.
-  void tangent(const State& state, const Loads& loads, SparseMatrix& K) const;
+  void tangent(const State& state, double pressure, const TensionAt& tension,
+               SparseMatrix& K) const;
+  void tangent(const State& state, const Loads& loads, SparseMatrix& K) const {
+    tangent(state, loads.pressure, steady(loads.activation), K);
+  }
+
+  /// dV/dx of the cavity, complete on every rank, as long as R [mm^2].
+  [[nodiscard]] std::vector<double> cavity_gradient(const State& state) const;
+
+  /// This rank's elements, and the quadrature points of each.
+  [[nodiscard]] std::size_t own_elements() const { return wall_.points.size(); }
+  [[nodiscard]] std::size_t points_per_element() const {
+    return static_cast<std::size_t>(wall_.pressure_shapes.value.rows());
+  }
+  /// The number among all elements of one of this rank's.
+  [[nodiscard]] int element_number(std::size_t own) const { return wall_.own.at(own); }
+  [[nodiscard]] std::size_t element_count() const { return wall_.owners.size(); }
+
+  /// The fibre stretch at the quadrature points of this rank's elements, one after the other.
+  [[nodiscard]] std::vector<double> fibre_stretch(const State& state) const;
 
   /// Volume-weighted mean over the wall of T with the infarct's factor [kPa].
-  [[nodiscard]] double mean_tension(const State& state, double activation) const;
+  [[nodiscard]] double mean_tension(const State& state, const TensionAt& tension) const;
 
   /// Stress in every linear cell of the mesh, complete on every rank: means over the cell of what
-  /// the elements' own displacement and pressure give. Collective.
+  /// the elements' own displacement and pressure give, with the tension of the nearest quadrature
+  /// point's muscle. Collective.
   [[nodiscard]] std::vector<solid::CellStress> cell_stress(const State& state,
-                                                           double activation) const;
+                                                           const TensionAt& tension) const;
 
  private:
   const mesh::Mesh& mesh_;

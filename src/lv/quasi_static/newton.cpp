@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 namespace lv::quasi_static {
@@ -29,7 +30,13 @@ State moved(const State& from, const std::vector<double>& correction, double by)
       x[i] += by * *next++;
   for (double& p : to.pressures)
     p += by * *next++;
+  if (next != correction.data() + correction.size())
+    to.cavity_pressure += by * *next;
   return to;
+}
+
+double dot(const std::vector<double>& a, const std::vector<double>& b) {
+  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
 }
 
 }  // namespace
@@ -37,11 +44,8 @@ State moved(const State& from, const std::vector<double>& correction, double by)
 /// One search for an equilibrium.
 class Newton::Attempt {
  public:
-  Attempt(Newton& newton, const State& start, const Loads& loads)
-      : newton_(newton),
-        loads_(loads),
-        state_(start),
-        residual_(newton.equations_.residual(start, loads)) {}
+  Attempt(Newton& newton, const State& start, const Equilibrium& equilibrium)
+      : newton_(newton), equilibrium_(equilibrium), state_(start), residual_(residual_of(start)) {}
 
   NewtonReport run() {
     if (residual_.empty())
@@ -64,7 +68,39 @@ class Newton::Attempt {
   void give_up(const std::string& why) { report_.why = why; }
   [[nodiscard]] bool gave_up() const { return !report_.why.empty(); }
 
-  /// Nothing when there is no solution, which ends the attempt.
+  [[nodiscard]] bool has_volume() const { return static_cast<bool>(equilibrium_.volume); }
+  [[nodiscard]] double pressure_of(const State& state) const {
+    return has_volume() ? state.cavity_pressure : equilibrium_.pressure;
+  }
+
+  /// R, with r_V at its end where a volume is given; empty when elements are turned inside out.
+  [[nodiscard]] std::vector<double> residual_of(const State& state) {
+    std::vector<double> R =
+        newton_.equations_.residual(state, pressure_of(state), equilibrium_.tension);
+    if (has_volume() && !R.empty()) {
+      given_ = equilibrium_.volume(state.cavity_pressure);
+      R.push_back(newton_.equations_.endocardium().volume(state.positions) - given_.volume);
+    }
+    return R;
+  }
+
+  /// The solution of the whole system for a residual. Nothing when there is none, which ends the
+  /// attempt.
+  std::optional<std::vector<double>> solve_for(const std::vector<double>& residual) {
+    if (!has_volume())
+      return solve_linear(residual);
+    auto u = solve_linear({residual.begin(), residual.end() - 1});
+    if (!u)
+      return {};
+    const double p = (dot(newton_.gradient_, *u) - residual.back()) /
+                     (given_.per_pressure - dot(newton_.gradient_, newton_.response_));
+    for (std::size_t k = 0; k < u->size(); ++k)
+      (*u)[k] += p * newton_.response_[k];
+    u->push_back(p);
+    return u;
+  }
+
+  /// K x = b.
   std::optional<std::vector<double>> solve_linear(const std::vector<double>& b) {
     const auto x = newton_.tangent_.solve(b);
     ++report_.linear_solves;
@@ -77,7 +113,7 @@ class Newton::Attempt {
 
   /// The correction that the tangent at hand asks for.
   void correct() {
-    if (auto against = solve_linear(residual_))
+    if (auto against = solve_for(residual_))
       set_correction(std::move(*against));
     fresh_ = false;
   }
@@ -90,11 +126,21 @@ class Newton::Attempt {
   }
 
   void renew_tangent() {
-    newton_.equations_.tangent(state_, loads_, newton_.tangent_);
+    newton_.equations_.tangent(state_, pressure_of(state_), equilibrium_.tension, newton_.tangent_);
     newton_.has_tangent_ = true;
     ++report_.factorisations;
+    if (has_volume() && !renew_response())
+      return;
     correct();
     fresh_ = true;
+  }
+
+  bool renew_response() {
+    newton_.gradient_ = newton_.equations_.cavity_gradient(state_);
+    auto response = solve_linear(newton_.gradient_);
+    if (response)
+      newton_.response_ = std::move(*response);
+    return response.has_value();
   }
 
   void iterate() {
@@ -107,12 +153,12 @@ class Newton::Attempt {
       return;
     }
     const State trial = moved(state_, correction_, damping_);
-    std::vector<double> residual = newton_.equations_.residual(trial, loads_);
+    std::vector<double> residual = residual_of(trial);
     if (residual.empty()) {
       reject("elements turn inside out");
       return;
     }
-    const auto next = solve_linear(residual);
+    const auto next = solve_for(residual);
     if (!next)
       return;
     const double contraction = size(*next, state_.positions.size()) / correction_size_;
@@ -143,7 +189,8 @@ class Newton::Attempt {
   }
 
   Newton& newton_;
-  Loads loads_;
+  const Equilibrium& equilibrium_;
+  GivenVolume given_;  ///< for the residual computed last
   State state_;
   std::vector<double> residual_, correction_;
   double correction_size_ = 0.0;
@@ -157,8 +204,8 @@ Newton::Newton(const Equations& equations, const NewtonParameters& parameters)
       parameters_(parameters),
       tangent_(equations.pattern(), parameters.linear, equations.undeformed()) {}
 
-NewtonReport Newton::solve(State& state, const Loads& loads) {
-  Attempt attempt(*this, state, loads);
+NewtonReport Newton::solve(State& state, const Equilibrium& equilibrium) {
+  Attempt attempt(*this, state, equilibrium);
   NewtonReport report = attempt.run();
   if (report.converged)
     state = attempt.state();

@@ -96,11 +96,13 @@ Panel open_wall_panel(const std::string& title, const Mesh& mesh, std::span<cons
 Camera camera_for(const Mesh& mesh, const heartbeat::Beat& beat) {
   const std::vector<double> none(mesh.nodes.size(), 0.0);
   Scene all;
-  for (const std::vector<Vec3>* x :
-       {&mesh.nodes, &beat.end_diastole.positions, &beat.end_systole.positions}) {
-    const Scene one = open_wall(mesh, *x, none, {});
+  const auto add = [&](const std::vector<Vec3>& x) {
+    const Scene one = open_wall(mesh, x, none, {});
     all.items.insert(all.items.end(), one.items.begin(), one.items.end());
-  }
+  };
+  add(mesh.nodes);
+  for (const heartbeat::NamedMoment& moment : beat.moments)
+    add(moment.wall.positions);
   all.cut = half;
   return fitted(all, from_the_side);
 }
@@ -214,19 +216,17 @@ Figure states_figure(const Mesh& mesh, const heartbeat::Beat& beat,
   const auto stretch = [](const CellFields& c) { return c.fibre_stretch; };
   const Camera camera = camera_for(mesh, beat);
   const ColourScale scale{diverging(), 0.75, 1.25};
-  const auto title = [](const char* state, const heartbeat::Snapshot& s) {
-    return fmt::format("{}: {:.0f} mmHg, {:.1f} ml", state, s.pressure / mmHg, 1e-3 * s.volume);
-  };
-  return {.panels = {open_wall_panel("early diastole: free of stress", mesh, mesh.nodes,
-                                     at_nodes(mesh, fields.early_diastole, stretch), scale, camera),
-                     open_wall_panel(title("end-diastole", beat.end_diastole), mesh,
-                                     beat.end_diastole.positions,
-                                     at_nodes(mesh, fields.end_diastole, stretch), scale, camera),
-                     open_wall_panel(title("end-systole", beat.end_systole), mesh,
-                                     beat.end_systole.positions,
-                                     at_nodes(mesh, fields.end_systole, stretch), scale, camera)},
-          .columns = 3,
-          .colour_bar = ColourBar{"fibre stretch from early diastole", scale}};
+  Figure figure{
+      .panels = {open_wall_panel("early diastole: free of stress", mesh, mesh.nodes,
+                                 at_nodes(mesh, fields.early_diastole, stretch), scale, camera)},
+      .columns = static_cast<int>(1 + beat.moments.size()),
+      .colour_bar = ColourBar{"fibre stretch from early diastole", scale}};
+  for (const auto& [name, phase, by_criterion, wall] : beat.moments)
+    figure.panels.push_back(open_wall_panel(
+        fmt::format("{}: {:.0f} mmHg, {:.1f} ml", heartbeat::title(name), wall.pressure / mmHg,
+                    1e-3 * wall.volume),
+        mesh, wall.positions, at_nodes(mesh, fields.at(name), stretch), scale, camera));
+  return figure;
 }
 
 Figure stress_figure(const Mesh& mesh, const heartbeat::Beat& beat,
@@ -234,19 +234,17 @@ Figure stress_figure(const Mesh& mesh, const heartbeat::Beat& beat,
   const auto stress = [](const CellFields& c) { return c.fibre_stress(); };
   const auto tension = [](const CellFields& c) { return c.tension; };
   const Camera camera = camera_for(mesh, beat);
-  const auto panel = [&](const char* title, const heartbeat::Snapshot& state,
-                         const std::vector<double>& nodal, const char* label) {
+  const auto panel = [&](const char* moment, const auto& value, const char* label) {
+    const std::vector<double> nodal = at_nodes(mesh, fields.at(moment), value);
     const ColourScale scale = scale_of(nodal);
-    Panel p = open_wall_panel(title, mesh, state.positions, nodal, scale, camera);
+    Panel p = open_wall_panel(heartbeat::title(moment), mesh, beat.at(moment).positions, nodal,
+                              scale, camera);
     p.colour_bar = ColourBar{label, scale};
     return p;
   };
-  return {.panels = {panel("end-diastole", beat.end_diastole,
-                           at_nodes(mesh, fields.end_diastole, stress), "fibre stress [kPa]"),
-                     panel("end-systole", beat.end_systole,
-                           at_nodes(mesh, fields.end_systole, stress), "fibre stress [kPa]"),
-                     panel("end-systole", beat.end_systole,
-                           at_nodes(mesh, fields.end_systole, tension), "active tension [kPa]")},
+  return {.panels = {panel(heartbeat::end_diastole, stress, "fibre stress [kPa]"),
+                     panel(heartbeat::end_systole, stress, "fibre stress [kPa]"),
+                     panel(heartbeat::end_systole, tension, "active tension [kPa]")},
           .columns = 3};
 }
 

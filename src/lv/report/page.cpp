@@ -4,6 +4,7 @@
 #include "lv/base/json_file.hpp"
 #include "lv/base/table.hpp"
 #include "lv/base/units.hpp"
+#include "lv/heartbeat/beat.hpp"
 #include "lv/mesh/cell.hpp"
 #include "lv/report/bundle.hpp"
 #include "lv/report/flow_series.hpp"
@@ -197,7 +198,7 @@ Json wall_json(const WallSeries& wall, Arrays& arrays) {
     const Range range = range_of(series);
     if (series.size() != wall.times.size() || !(range.max > range.min))
       continue;
-    arrays.is_first = name == "active_tension";  // the page opens with it
+    arrays.is_first = name == "circumferential_strain";  // the page opens with it
     json["quantities"][name] =
         modes_json(modes(series, quantity_tolerance * (range.max - range.min)), arrays);
     json["quantities"][name]["min"] = rounded(range.min);
@@ -261,21 +262,24 @@ struct PageFile {
   const char* name;
 };
 
-constexpr std::array<PageFile, 16> page_files{{
+constexpr std::array<PageFile, 19> page_files{{
     {"results", "summary.json", "summary.json"},
     {"results", "regions.csv", "regions.csv"},
     {"results", "rotation.csv", "rotation.csv"},
     {"results", "infarct.csv", "infarct.csv"},
+    {"results", "stress_stretch.csv", "stress_stretch.csv"},
     {"results", "strain_comparison_circumferential.csv", "strain_comparison_circumferential.csv"},
     {"results", "strain_comparison_radial.csv", "strain_comparison_radial.csv"},
     {"results", "strain_agreement.json", "strain_agreement.json"},
     {"results", "outline_distances.csv", "outline_distances.csv"},
     {"beat", "curves.csv", "curves.csv"},
+    {"beat", "moments.csv", "moments.csv"},
     {"beat", "confirmation.json", "confirmation.json"},
     {"calibrate", "calibration.json", "calibration.json"},
     {"mesh", "quality.csv", "quality.csv"},
     {"anatomy", "quality.csv", "anatomy_quality.csv"},
     {"anatomy", "fit.csv", "fit.csv"},
+    {"anatomy", "frame.json", "frame.json"},
     {"strain", "slices.csv", "strain_slices.csv"},
     {"strain", "rotation.csv", "strain_rotation.csv"},
 }};
@@ -289,23 +293,44 @@ Json files_json(const fs::path& work) {
   return json;
 }
 
-/// The time of the last row of a curves.csv in the filling phase, if contraction follows [s].
-double end_of_filling(const Table& curves) {
-  const auto phases = curves.words("phase");
-  const auto next = std::find_if(phases.begin(), phases.end(),
-                                 [](const std::string& phase) { return phase != "filling"; });
-  if (next == phases.end())
-    return std::numeric_limits<double>::infinity();
-  return next == phases.begin() ? 0.0 : curves.numbers("time_s")[next - phases.begin() - 1];
+/// What the mesh was made with, as its record tells: where the septum is, and the engine.
+void add_mesh_facts(Json& json, const fs::path& work) {
+  const fs::path record = file_of(work, "mesh", "stage.json");
+  if (record.empty())
+    return;
+  const Json ingredients =
+      from_json_file(record, [](const Json& all) -> Json { return all.at("ingredients"); });
+  const auto words = [&](const char* name) {
+    const std::string quoted = ingredients.value(name, "");
+    return quoted.substr(std::min<std::size_t>(1, quoted.size()),
+                         quoted.size() < 2 ? 0 : quoted.size() - 2);
+  };
+  if (const std::string angle = words("regions.septum_angle"); !angle.empty())
+    json["septum_deg"] = std::stod(angle);  // printed in degrees
+  if (const std::string engine = words("engine"); !engine.empty())
+    json["engine"] = engine;
 }
 
 /// When the beat was at end-diastole; infinite when it has not been there [s].
 double end_diastole(const fs::path& work) {
-  if (const fs::path summary = file_of(work, "results", "summary.json"); !summary.empty())
-    return from_json_file(
-        summary, [](const Json& json) -> double { return json.at("end_diastole").at("time_s"); });
-  const auto curves = table_of(work, "beat", "curves.csv");
-  return curves ? end_of_filling(*curves) : std::numeric_limits<double>::infinity();
+  if (const auto moments = table_of(work, "beat", "moments.csv")) {
+    const auto names = moments->words("moment");
+    const auto found = std::find(names.begin(), names.end(), heartbeat::end_diastole);
+    if (found != names.end())
+      return moments->numbers("time_s").at(static_cast<std::size_t>(found - names.begin()));
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+/// What the page says of a case's state.
+std::vector<std::string> state_of(const PageCase& shown) {
+  std::vector<std::string> state = shown.state;
+  if (!file_of(shown.work, "beat", "wall.pvd").empty() &&
+      file_of(shown.work, "beat", "moments.csv").empty())
+    state.push_back(
+        "03_beat has no moments.csv: strains are from early diastole at all times, and no moment "
+        "has a name.");
+  return state;
 }
 
 /// Frames of the beat; without any, the undeformed mesh.
@@ -324,13 +349,11 @@ Data case_html(const PageCase& shown, int number, std::size_t count) {
   Arrays arrays(number);
   Json json{{"folder", count < 2 ? "the work folder" : folders.at(number)},
             {"complete", shown.complete},
-            {"state", shown.state},
+            {"state", state_of(shown)},
             {"files", files_json(shown.work)}};
-  const double ed = end_diastole(shown.work);
-  if (std::isfinite(ed))
-    json["end_diastole_s"] = ed;
+  add_mesh_facts(json, shown.work);
   if (const auto frames = wall_frames(shown.work); !frames.empty()) {
-    const WallSeries wall = read_wall_series(frames, ed);
+    const WallSeries wall = read_wall_series(frames, end_diastole(shown.work));
     json["wall"] = wall_json(wall, arrays);
     const auto blood = frames_of(file_of(shown.work, "beat", "blood.pvd"));
     const auto [lower, upper] = surroundings(wall);

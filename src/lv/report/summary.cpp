@@ -43,11 +43,12 @@ Json statistics_json(const Statistics& s, const std::string& unit) {
           {"p50", number(s.p50)},   {"p99", number(s.p99)}, {"unit", unit}};
 }
 
-Json region_json(const Results& results, const std::string& state, const std::string& region) {
+/// The statistics of a region at every moment, by the moment's name and the quantity's.
+Json region_json(const Results& results, const std::string& region) {
   Json json;
   for (const auto& r : results.regional)
-    if (r.state == state && r.region == region)
-      json[r.quantity] = statistics_json(r.statistics, r.unit);
+    if (r.region == region)
+      json[r.state][r.quantity] = statistics_json(r.statistics, r.unit);
   return json;
 }
 
@@ -63,16 +64,16 @@ const RegionalValue& at_end_systole(const Results& results, const std::string& r
                                     const std::string& quantity) {
   return *std::find_if(
       results.regional.begin(), results.regional.end(), [&](const RegionalValue& r) {
-        return r.state == "end_systole" && r.region == region && r.quantity == quantity;
+        return r.state == heartbeat::end_systole && r.region == region && r.quantity == quantity;
       });
 }
 
 Json zones_json(const Results& results) {
   Json json;
-  for (const char* zone : zones)
-    json[zone] = {{"volume_ml", number(1e-3 * at_end_systole(results, zone, "J").volume)},
-                  {"end_diastole", region_json(results, "end_diastole", zone)},
-                  {"end_systole", region_json(results, "end_systole", zone)}};
+  for (const char* zone : zones) {
+    json[zone] = {{"volume_ml", number(1e-3 * at_end_systole(results, zone, "J").volume)}};
+    json[zone].update(region_json(results, zone));
+  }
   return json;
 }
 
@@ -125,21 +126,23 @@ Json pairs(const std::vector<std::pair<std::string, std::string>>& list) {
   return json;
 }
 
+bool smaller_in_size(double a, double b) {
+  return std::abs(a) < std::abs(b);
+}
+
 }  // namespace
 
 std::vector<Observation> observations(const Results& r) {
   const double apex = r.rotation.back().from_end_diastole / degree;
   const double shortening = 100.0 * r.fibre_shortening;
-  const double shift = std::max(r.end_diastole.base_axial_shift, r.end_systole.base_axial_shift);
-  const auto off_mean = [](const Statistics& J) { return 100.0 * (J.mean - 1.0); };
-  const auto off_percentiles = [](const Statistics& J) {
-    return 100.0 * std::max(std::abs(J.p1 - 1.0), std::abs(J.p99 - 1.0));
-  };
-  const double mean_J = std::abs(off_mean(r.J_end_diastole)) > std::abs(off_mean(r.J_end_systole))
-                            ? off_mean(r.J_end_diastole)
-                            : off_mean(r.J_end_systole);
-  const double tail_J =
-      std::max(off_percentiles(r.J_end_diastole), off_percentiles(r.J_end_systole));
+  double shift = 0.0, mean_J = 0.0, tail_J = 0.0;  // the worst of all moments
+  for (const auto& [moment, shape] : r.moments) {
+    const Statistics& J = r.whole(moment, "J");
+    shift = std::max(shift, shape.base_axial_shift);
+    mean_J = std::max(mean_J, 100.0 * (J.mean - 1.0), smaller_in_size);
+    for (const double percentile : {J.p1, J.p99})
+      tail_J = std::max(tail_J, 100.0 * std::abs(percentile - 1.0));
+  }
   return {
       {"apex_rotation", apex, "deg", "positive: anticlockwise seen from the apex", apex > 0.0},
       {"wall_thickening", 100.0 * r.thickening, "%", "positive", r.thickening > 0.0},
@@ -164,13 +167,13 @@ std::string summary_json(const RunFacts& facts, const heartbeat::Beat& beat, con
                         {"retries", beat.retries},
                         {"wall_clock_s", number(facts.wall_clock)}};
   json["early_diastole"] = shape_json(r.early_diastole);
-  json["end_diastole"] = shape_json(r.end_diastole);
-  json["end_systole"] = shape_json(r.end_systole);
-  json["edv_ml"] = number(1e-3 * r.end_diastole.cavity_volume);
-  json["esv_ml"] = number(1e-3 * r.end_systole.cavity_volume);
+  for (const auto& [moment, shape] : r.moments)
+    json[moment] = shape_json(shape);
+  json["edv_ml"] = number(1e-3 * r.at(heartbeat::end_diastole).cavity_volume);
+  json["esv_ml"] = number(1e-3 * r.at(heartbeat::end_systole).cavity_volume);
   json["ejection_fraction_percent"] = number(100.0 * r.ejection_fraction());
-  json["filling_was_steady"] = beat.filling_was_steady;
-  json["contraction_was_steady"] = beat.contraction_was_steady;
+  for (const heartbeat::NamedMoment& m : beat.moments)
+    json[m.phase + "_was_steady"] = m.by_criterion;
   json["strain"] =
       std::string(
           "Green-Lagrange; at end-systole relative to end-diastole, at end-diastole "
@@ -178,8 +181,7 @@ std::string summary_json(const RunFacts& facts, const heartbeat::Beat& beat, con
       (facts.unloaded ? "the wall without load (named early_diastole)" : "early diastole");
   if (facts.unloaded)
     json["unloaded"] = unloaded_json(*facts.unloaded);
-  json["whole_wall"] = {{"end_diastole", region_json(r, "end_diastole", "wall")},
-                        {"end_systole", region_json(r, "end_systole", "wall")}};
+  json["whole_wall"] = region_json(r, "wall");
   if (has_zones(r))
     json["zones"] = zones_json(r);
   json["fibre_shortening_percent"] = number(100.0 * r.fibre_shortening);
@@ -224,8 +226,8 @@ std::string summary_text(const RunFacts& facts, const heartbeat::Beat& beat, con
     text += fmt::format("  {:<34}{:>14.2f}{:>14.2f}{:>14.2f}\n", what, a, b, c);
   };
   const VentricleShape& e = r.early_diastole;
-  const VentricleShape& d = r.end_diastole;
-  const VentricleShape& s = r.end_systole;
+  const VentricleShape& d = r.at(heartbeat::end_diastole);
+  const VentricleShape& s = r.at(heartbeat::end_systole);
   row("endocardial pressure (mmHg)", 0.0, d.pressure / mmHg, s.pressure / mmHg);
   row("cavity volume (ml)", 1e-3 * e.cavity_volume, 1e-3 * d.cavity_volume, 1e-3 * s.cavity_volume);
   row("wall volume (ml)", 1e-3 * e.wall_volume, 1e-3 * d.wall_volume, 1e-3 * s.wall_volume);
@@ -244,7 +246,7 @@ std::string summary_text(const RunFacts& facts, const heartbeat::Beat& beat, con
     text += "\n";
   text += fmt::format("  {:<34}{:>18}\n", "at end-systole, whole wall", "mean +- sd");
   for (const auto& v : r.regional)
-    if (v.state == "end_systole" && v.scheme == "whole")
+    if (v.state == heartbeat::end_systole && v.scheme == "whole")
       text += fmt::format("  {:<34}{:>9.3f} +- {:.3f}{}\n", v.quantity, v.statistics.mean,
                           v.statistics.sd, v.unit == "1" ? "" : " " + v.unit);
   text += "\n";

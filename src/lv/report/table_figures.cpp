@@ -1,10 +1,6 @@
 #include "lv/report/table_figures.hpp"
 
-#include "lv/base/json_file.hpp"
-#include "lv/base/tensor.hpp"
-#include "lv/material/guccione.hpp"
-#include "lv/material/holzapfel_ogden.hpp"
-#include "lv/material/neo_hookean.hpp"
+#include "lv/heartbeat/beat.hpp"
 #include "lv/report/work_folder.hpp"
 #include "lv/strain/agreement.hpp"
 
@@ -12,8 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
+#include <set>
 
 namespace lv::report {
 namespace {
@@ -37,7 +33,7 @@ bool is_strain(const std::string& quantity) {
 
 // ---- curves ----
 
-/// Filling and contraction as curves.csv has them.
+/// The phases as curves.csv has them.
 std::vector<Phase> phases_of(const Table& curves) {
   const auto time = curves.numbers("time_s");
   const auto name = curves.words("phase");
@@ -110,65 +106,9 @@ Panel bulls_eye_panel(const std::string& title, const std::vector<double>& value
 
 /// The value of every AHA segment at end-systole.
 Panel segment_panel(const Table& regions, const std::string& quantity, int digits) {
-  const RegionalMeans found = means(regions, quantity, "end_systole", "aha17");
+  const RegionalMeans found = means(regions, quantity, heartbeat::end_systole, "aha17");
   return bulls_eye_panel(with_unit(quantity, found.unit), found.values,
                          scale_of(found.values, quantity), digits);
-}
-
-// ---- muscle ----
-
-/// Cauchy stress along the fibre [kPa] at a stretch of 1 or more.
-using Law = std::function<double(double stretch)>;
-
-template <class Material>
-Law pulled_along_fibre(const Material& material) {
-  return [material](double l) {
-    const double w = 1.0 / std::sqrt(l);
-    Mat3 F = Mat3::Zero();
-    F.diagonal() << l, w, w;
-    const Mat3 P = material.stress(F);
-    return P(0, 0) * l - P(1, 1) * w;
-  };
-}
-
-/// The number before the unit of `"0.24 kPa"`.
-double number_in(const ParameterTexts& parameters, const std::string& name) {
-  std::string text = parameters.at(name);
-  std::erase(text, '"');
-  return std::stod(text);
-}
-
-Law case_law(const ParameterTexts& parameters) {
-  const auto p = [&](const char* name) {
-    return number_in(parameters, std::string("passive.") + name);
-  };
-  std::string law = parameters.at("passive.law");
-  std::erase(law, '"');
-  if (law == "guccione")
-    return pulled_along_fibre(material::Guccione{p("guccione.C"), p("guccione.b_f"),
-                                                 p("guccione.b_t"), p("guccione.b_fs")});
-  if (law == "neo_hookean")
-    return pulled_along_fibre(material::NeoHookean{p("neo_hookean.mu")});
-  const material::HolzapfelOgden own{p("holzapfel_ogden.a"),    p("holzapfel_ogden.b"),
-                                     p("holzapfel_ogden.a_f"),  p("holzapfel_ogden.b_f"),
-                                     p("holzapfel_ogden.a_s"),  p("holzapfel_ogden.b_s"),
-                                     p("holzapfel_ogden.a_fs"), p("holzapfel_ogden.b_fs")};
-  return pulled_along_fibre(own.with_anisotropy_scaled(p("C_a")));
-}
-
-/// Up to where the stress reaches 12 kPa, at most to a stretch of 1.3.
-Series muscle_series(const std::string& label, const Law& law, bool is_published) {
-  constexpr double highest = 12.0;
-  constexpr int steps = 120;
-  Series series{.label = label, .dashed = is_published};
-  for (int i = 0; i <= steps; ++i) {
-    const double l = 1.0 + 0.3 * i / steps;
-    if (law(l) > highest)
-      break;
-    series.x.push_back(l);
-    series.y.push_back(law(l));
-  }
-  return series;
 }
 
 // ---- agreement ----
@@ -223,13 +163,15 @@ class FigureFolder {
     const auto table = table_of(work_, "results", "regions.csv");
     if (!table)
       return;
+    const auto states = table->words("state");
+    const std::set<std::string> moments(states.begin(), states.end());
     for (const char* quantity :
          {"active_tension", "fibre_stress", "fibre_stress_passive", "fibre_strain",
           "circumferential_strain", "radial_strain", "longitudinal_strain", "J"})
-      for (const char* state : {"end_diastole", "end_systole"})
-        if (!means(*table, quantity, state, "aha17").values.empty())
-          write(bulls_eyes_figure(*table, quantity, state),
-                fmt::format("bulls_eyes_{}_{}", quantity, state));
+      for (const std::string& moment : moments)
+        if (!means(*table, quantity, moment, "aha17").values.empty())
+          write(bulls_eyes_figure(*table, quantity, moment),
+                fmt::format("bulls_eyes_{}_{}", quantity, moment));
   }
 
   void rotation() const {
@@ -238,13 +180,8 @@ class FigureFolder {
   }
 
   void muscle() const {
-    const fs::path file = file_of(work_, "results", "summary.json");
-    if (file.empty())
-      return;
-    const auto parameters = from_json_file(
-        file, [](const auto& summary) { return summary.value("parameters", ParameterTexts{}); });
-    if (!parameters.empty())
-      write(muscle_figure(parameters), "stress_stretch");
+    if (const auto table = table_of(work_, "results", "stress_stretch.csv"))
+      write(muscle_figure(*table), "stress_stretch");
   }
 
   void agreement() const {
@@ -316,12 +253,13 @@ Figure bulls_eyes_figure(const Table& regions, const std::string& quantity,
   const ColourScale scale = scale_of(all, quantity);
   const int digits = decimals(scale);
   const std::string label = with_unit(quantity, segments.unit);
-  const std::string strain = fmt::format(
-      "Green-Lagrange strain from {}", state == "end_systole" ? "end-diastole" : "early diastole");
+  const std::string strain =
+      fmt::format("Green-Lagrange strain from {}", state == heartbeat::end_diastole
+                                                       ? "early diastole"
+                                                       : heartbeat::title(heartbeat::end_diastole));
   return {.panels = {bulls_eye_panel("seven slices", slices.values, scale, digits),
                      bulls_eye_panel("17 segments (AHA)", segments.values, scale, digits)},
-          .title = fmt::format("{}, mean at {}", label,
-                               state == "end_systole" ? "end-systole" : "end-diastole"),
+          .title = fmt::format("{}, mean at {}", label, heartbeat::title(state)),
           .footnote = is_strain(quantity) ? strain : "",
           .colour_bar = ColourBar{label, scale}};
 }
@@ -347,19 +285,18 @@ Figure rotation_figure(const Table& rotation) {
           .footnote = "Anticlockwise seen from the apex is positive"};
 }
 
-Figure muscle_figure(const ParameterTexts& parameters) {
-  const material::HolzapfelOgden healthy;
-  const material::HolzapfelOgden excised{0.059, 8.023, 18.472, 16.026, 2.481, 11.12, 0.216, 11.436};
-  const LineChart chart{
-      .x = {"fibre stretch"},
-      .y = {"Cauchy stress [kPa]"},
-      .series = {
-          muscle_series("this case", case_law(parameters), false),
-          muscle_series("Gao et al. 2014, healthy subject", pulled_along_fibre(healthy), true),
-          muscle_series("Gao et al. 2014, patient's remote muscle",
-                        pulled_along_fibre(healthy.with_anisotropy_scaled(7.5)), true),
-          muscle_series("Holzapfel & Ogden 2009, excised pig muscle", pulled_along_fibre(excised),
-                        true)}};
+Figure muscle_figure(const Table& curves) {
+  const auto muscle = curves.words("muscle");
+  const auto published = curves.words("published");
+  const auto stretch = curves.numbers("fibre_stretch");
+  const auto stress = curves.numbers("cauchy_stress_kPa");
+  LineChart chart{.x = {"fibre stretch"}, .y = {"Cauchy stress [kPa]"}};
+  for (std::size_t i = 0; i < muscle.size(); ++i) {
+    if (i == 0 || muscle[i] != muscle[i - 1])
+      chart.series.push_back({.label = muscle[i], .dashed = published[i] == "yes"});
+    chart.series.back().x.push_back(stretch[i]);
+    chart.series.back().y.push_back(stress[i]);
+  }
   return {.panels = {{.content = chart}}, .columns = 1, .panel_width = 480.0};
 }
 

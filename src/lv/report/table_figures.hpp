@@ -4,7 +4,6 @@
 #include "lv/report/figure.hpp"
 
 #include <filesystem>
-#include <map>
 #include <string>
 
 namespace lv::report {
@@ -28,13 +27,9 @@ namespace lv::report {
 /// Rotation of the slices, from rotation.csv.
 [[nodiscard]] Figure rotation_figure(const Table& rotation);
 
-/// Parameters as a case file gives them, by name, as in summary.json.
-using ParameterTexts = std::map<std::string, std::string>;
-
-/// Cauchy stress against stretch along the fibre of the case's passive muscle and of published
-/// ones; incompressible, sides free: sigma = (P F^T)_ff - (P F^T)_ss with F = diag(l, l^-1/2,
-/// l^-1/2) [kPa].
-[[nodiscard]] Figure muscle_figure(const ParameterTexts& parameters);
+/// Stress against stretch of the case's passive muscle and of published ones, from
+/// stress_stretch.csv.
+[[nodiscard]] Figure muscle_figure(const Table& curves);
 
 /// Strain of the model against that from images, and their difference against their mean with bias
 /// and 95% limits of agreement (Bland & Altman, Lancet 327:307, 1986), of the pairs of one scheme

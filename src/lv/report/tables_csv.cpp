@@ -17,10 +17,17 @@ Table curves_table(const std::vector<heartbeat::CurveRow>& curves) {
                "mean_active_tension_kPa", "kinetic_energy_mJ", "largest_velocity_m_per_s", "min_J",
                "max_J", "step_s"});
   for (const heartbeat::CurveRow& r : curves)
-    table.add_row({number(r.time), heartbeat::name(r.phase), number(r.pressure / mmHg),
-                   number(1e-3 * r.volume), number(r.calcium), number(r.mean_tension),
-                   number(1e-3 * r.kinetic_energy), number(1e-3 * r.largest_velocity),
-                   number(r.min_J), number(r.max_J), number(r.step)});
+    table.add_row({number(r.time), r.phase, number(r.pressure / mmHg), number(1e-3 * r.volume),
+                   number(r.calcium), number(r.mean_tension), number(1e-3 * r.kinetic_energy),
+                   number(1e-3 * r.largest_velocity), number(r.min_J), number(r.max_J),
+                   number(r.step)});
+  return table;
+}
+
+Table moments_table(const std::vector<heartbeat::NamedMoment>& moments) {
+  Table table({"moment", "phase", "time_s", "by_criterion"});
+  for (const heartbeat::NamedMoment& m : moments)
+    table.add_row({m.name, m.phase, number(m.wall.time), m.by_criterion ? "yes" : "no"});
   return table;
 }
 
@@ -40,6 +47,15 @@ Table rotation_table(const analysis::Results& results) {
   for (const analysis::SliceRotation& r : results.rotation)
     table.add_row({std::to_string(r.slice), number(r.from_end_diastole / degree),
                    number(r.from_early_diastole / degree), number(r.filling / degree)});
+  return table;
+}
+
+Table stress_stretch_table(const std::vector<material::StressStretch>& curves) {
+  Table table({"muscle", "published", "fibre_stretch", "cauchy_stress_kPa"});
+  for (const material::StressStretch& curve : curves)
+    for (std::size_t i = 0; i < curve.stretch.size(); ++i)
+      table.add_row({curve.muscle, curve.is_published ? "yes" : "no", number(curve.stretch[i]),
+                     number(curve.stress[i])});
   return table;
 }
 

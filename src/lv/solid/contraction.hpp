@@ -1,7 +1,7 @@
 #pragma once
 
+#include "lv/material/active_law.hpp"
 #include "lv/material/law.hpp"
-#include "lv/material/niederer_hunter_smith.hpp"
 #include "lv/mesh/mesh.hpp"
 #include "lv/solid/rate_filter.hpp"
 
@@ -37,8 +37,8 @@ struct ContractingNodes {
 class Contraction {
  public:
   /// `density` of the muscle [kg/mm^3]; `shortest_wave` h, the grid's spacing [mm].
-  Contraction(const material::NiedererHunterSmith& law, const ContractingNodes& nodes,
-              double density, double shortest_wave);
+  Contraction(const material::KineticLaw& law, const ContractingNodes& nodes, double density,
+              double shortest_wave);
 
   /// Brings every node to its steady state at this calcium [uM] and a stretch of 1.
   void relax(double Ca);
@@ -49,31 +49,39 @@ class Contraction {
   /// The same tension at every node instead [kPa].
   void prescribe(double tension);
 
-  /// Speed of the fastest fibre wave, sqrt((1+a) sum A_i max T_0 / rho) [mm/s].
+  /// Speed of the fastest fibre wave, sqrt(max dT/dlambda / rho), with the stiffness that a sudden
+  /// stretch meets: (1+a) sum A_i T_0 of Niederer, Hunter and Smith [mm/s].
   [[nodiscard]] double wave_speed() const;
 
   /// Tension per node, with the damping of short waves, which is zero in a steady state, and
   /// without the infarct's factor, which the wall's elements apply [kPa].
   [[nodiscard]] std::span<const double> tension() const { return tension_; }
 
-  /// The state as numbers, seven per node and the filter's width, and back: for checkpoints.
+  /// The state as numbers, those of the law at each node and the filter's width, and back: for
+  /// checkpoints.
   [[nodiscard]] std::vector<double> state() const;
   void set_state(std::span<const double> numbers);
 
  private:
+  /// A law and its states at the nodes, pack_size each.
+  template <class Law>
+  struct Muscle {
+    Law law;
+    std::vector<typename Law::template State<Pack>> packs;
+  };
+
   void damp_what_is_smoothed_away(double dt);
   void publish_tension();
 
-  material::NiedererHunterSmith law_;
+  std::variant<Muscle<material::NiedererHunterSmith>, Muscle<material::Land2017>> muscle_;
   double density_;
   double shortest_wave_;
   RateFilter filter_;
   double filter_width_ = 0.0;  ///< changes in steps: a lattice that moves with every breath of T_0
                                ///< would make noise [mm]
-  std::vector<material::Sarcomere<Pack>> sarcomeres_;  ///< pack_size nodes each
   std::vector<double> tension_;
   std::vector<double> strength_;
-  std::vector<double> isometric_tension_;  ///< with the infarct's factor
+  std::vector<double> stiffness_;  ///< of a sudden stretch, with the infarct's factor [kPa]
   std::vector<double> stretch_rate_;
   std::vector<double> damping_;
 };

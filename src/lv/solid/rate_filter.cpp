@@ -55,7 +55,7 @@ RateFilter::RateFilter(std::span<const Vec3> nodes, std::span<const double> volu
   }
 }
 
-void RateFilter::smooth(std::span<const double> isometric_tension, double width,
+void RateFilter::smooth(std::span<const double> stiffness, double width,
                         std::span<double> rates) {
   if (!(width >= narrowest_))  // nor where an unstable step has made it no number
     return;
@@ -63,7 +63,7 @@ void RateFilter::smooth(std::span<const double> isometric_tension, double width,
   weighted_rate_.assign(lattice.size(), 0.0);
   weight_.assign(lattice.size(), 0.0);
   for (std::size_t a = 0; a < nodes_.size(); ++a) {
-    const double w = volumes_[a] * isometric_tension[a];
+    const double w = volumes_[a] * stiffness[a];
     lattice.for_corners(nodes_[a], [&](std::size_t c, double hat) {
       weighted_rate_[c] += hat * w * rates[a];
       weight_[c] += hat * w;

@@ -59,14 +59,14 @@ heartbeat::BeatSetup setup(const LandProblem& problem, const Protocol& protocol,
   return s;
 }
 
-void compare(const LandProblem& problem, const Protocol& protocol, Snapshot heartbeat::Beat::*state,
+void compare(const LandProblem& problem, const Protocol& protocol, const std::string& moment,
              const LandReference& reference, Findings& found) {
   for (const double h : {1.0, 0.7}) {
     const mesh::Mesh mesh = LandEllipsoid::mesh({.edge_length = 0.9 * h});
     log::info("{} elements, mesh width {} mm", mesh.cell_count(), h);
     const auto beat = heartbeat::run_immersed_beat(setup(problem, protocol, mesh, h),
                                                    found.scratch() / fmt::format("{}", h), {});
-    const Snapshot& end = beat.*state;
+    const Snapshot& end = beat.at(moment);
     const LandApex apex = land_apex(mesh, end.positions);
     const std::string which = fmt::format(", mesh width {} mm", h);
     // of first order in the mesh width where blood and muscle meet
@@ -80,14 +80,12 @@ void compare(const LandProblem& problem, const Protocol& protocol, Snapshot hear
 
 void land2015_problem2_immersed(Findings& found) {
   const LandProblem problem = land_inflation();
-  compare(problem, inflation(problem), &heartbeat::Beat::end_diastole, land_inflation_reference,
-          found);
+  compare(problem, inflation(problem), heartbeat::end_diastole, land_inflation_reference, found);
 }
 
 void land2015_problem3_immersed(Findings& found) {
   const LandProblem problem = land_contraction();
-  compare(problem, contraction(problem), &heartbeat::Beat::end_systole, land_contraction_reference,
-          found);
+  compare(problem, contraction(problem), heartbeat::end_systole, land_contraction_reference, found);
 }
 
 }  // namespace lv::verify

@@ -11,7 +11,14 @@ void holzapfel_ogden_curves(Findings& found);
 void niederer_steady(Findings& found);
 void niederer_twitch(Findings& found);
 void niederer_release(Findings& found);
+void land2017_steady(Findings& found);
+void land2017_twitch(Findings& found);
+void land2017_ramp(Findings& found);
 void tangent_is_derivative(Findings& found);
+
+// circulation alone
+void circulation_windkessel(Findings& found);
+void circulation_closed_loop(Findings& found);
 
 // blood alone
 void stokes_modes(Findings& found);
@@ -24,8 +31,9 @@ void spread_interpolate_adjoint(Findings& found);
 void force_and_torque_conserved(Findings& found);
 void thick_sphere_at_rest(Findings& found);
 
-// equilibrium without time
+// equilibrium without time, and through it
 void thick_sphere_static(Findings& found);
+void coupled_sphere(Findings& found);
 void no_locking(Findings& found);
 void land2015_problem1(Findings& found);
 void land2015_problem2(Findings& found);

@@ -107,9 +107,10 @@ std::vector<double> numbers(const heartbeat::Beat& beat) {
   heartbeat::Archive archive;
   heartbeat::store(beat.curves, archive);
   std::vector<double> all = archive.get("curves");
-  for (const heartbeat::Snapshot* s : {&beat.end_diastole, &beat.end_systole}) {
-    all.insert(all.end(), {s->time, s->pressure, s->volume});
-    for (const auto& part : {flat(s->positions), s->tension})
+  for (const heartbeat::NamedMoment& moment : beat.moments) {
+    const heartbeat::Snapshot& s = moment.wall;
+    all.insert(all.end(), {s.time, s.pressure, s.volume});
+    for (const auto& part : {flat(s.positions), s.tension})
       all.insert(all.end(), part.begin(), part.end());
   }
   all.insert(all.end(), {static_cast<double>(beat.steps), static_cast<double>(beat.retries)});

@@ -51,10 +51,9 @@ Vec3 mean_displacement(const std::vector<CellFields>& cells, const std::vector<i
 
 /// The largest distance between the places to which both answers move the middle of one of the 38
 /// sectors [mm].
-double largest_difference(const Answer& a, const Answer& b,
-                          std::vector<CellFields> analysis::BeatFields::*state) {
-  const auto& cells_a = a.analysis.fields.*state;
-  const auto& cells_b = b.analysis.fields.*state;
+double largest_difference(const Answer& a, const Answer& b, const std::string& moment) {
+  const auto& cells_a = a.analysis.fields.at(moment);
+  const auto& cells_b = b.analysis.fields.at(moment);
   const auto list_a = analysis::region_list(a.regions, cells_a);
   const auto list_b = analysis::region_list(b.regions, cells_b);
   double largest = 0.0;
@@ -75,28 +74,24 @@ void engines_agree(Findings& found) {
   const Answer quasi_static = quasi_static_answer();
   if (!parallel::is_root())
     return;
-  const auto compare = [&](const char* state,
-                           const analysis::VentricleShape analysis::Results::*shape,
-                           std::vector<CellFields> analysis::BeatFields::*fields) {
+  for (const char* state : {heartbeat::end_diastole, heartbeat::end_systole}) {
     const analysis::Results& a = immersed.analysis.results;
     const analysis::Results& b = quasi_static.analysis.results;
     const auto name = [&](const char* quantity) { return fmt::format("{}, {}", quantity, state); };
-    found.add_within(name("cavity volume"), (a.*shape).cavity_volume / ml,
-                     (b.*shape).cavity_volume / ml, 0.03, "ml");
-    found.add(name("z of the endocardial apex"), (a.*shape).apex_endo_z, (b.*shape).apex_endo_z,
+    found.add_within(name("cavity volume"), a.at(state).cavity_volume / ml,
+                     b.at(state).cavity_volume / ml, 0.03, "ml");
+    found.add(name("z of the endocardial apex"), a.at(state).apex_endo_z, b.at(state).apex_endo_z,
               0.5, "mm");
-    found.add(name("z of the epicardial apex"), (a.*shape).apex_epi_z, (b.*shape).apex_epi_z, 0.5,
+    found.add(name("z of the epicardial apex"), a.at(state).apex_epi_z, b.at(state).apex_epi_z, 0.5,
               "mm");
     found.add_error(name("largest difference of a sector's displacement"),
-                    largest_difference(immersed, quasi_static, fields), 0.5, "mm");
+                    largest_difference(immersed, quasi_static, state), 0.5, "mm");
     for (const auto& [quantity, fraction, unit] :
          {std::tuple{"fibre_stretch", 0.01, ""}, std::tuple{"fibre_stress", 0.03, "kPa"}})
       found.add_within(name(fmt::format("mean {}", quantity).c_str()),
                        a.whole(state, quantity).mean, b.whole(state, quantity).mean, fraction,
                        unit);
-  };
-  compare("end_diastole", &analysis::Results::end_diastole, &analysis::BeatFields::end_diastole);
-  compare("end_systole", &analysis::Results::end_systole, &analysis::BeatFields::end_systole);
+  }
 }
 
 }  // namespace lv::verify

@@ -55,8 +55,8 @@ void compare(const std::string& where, const Beat& beat, const Beat& with, const
     found.add_error(fmt::format("{}: rms displacement difference, {}", name, where),
                     rms_distance(a.positions, b.positions), bounds.rms, "mm");
   };
-  state("end-diastole", beat.end_diastole, with.end_diastole);
-  state("end-systole", beat.end_systole, with.end_systole);
+  state("end-diastole", beat.at(heartbeat::end_diastole), with.at(heartbeat::end_diastole));
+  state("end-systole", beat.at(heartbeat::end_systole), with.at(heartbeat::end_systole));
 }
 
 }  // namespace
@@ -83,8 +83,8 @@ void time_step(Findings& found) {
     found.add_within(fmt::format("{} volume, step of 0.1 ms and a third of it", name),
                      a.volume / ml, b.volume / ml, 0.005, "ml");
   };
-  state("end-diastolic", whole.end_diastole, third.end_diastole);
-  state("end-systolic", whole.end_systole, third.end_systole);
+  state("end-diastolic", whole.at(heartbeat::end_diastole), third.at(heartbeat::end_diastole));
+  state("end-systolic", whole.at(heartbeat::end_systole), third.at(heartbeat::end_systole));
 }
 
 // The reference values below are from an independent quasi-static solver: axisymmetric with
@@ -100,10 +100,10 @@ void idealised_ventricle(Findings& found) {
   const analysis::Results r = analyse(mesh, beat, {}).results;
   constexpr double volumes = 0.025;
   constexpr double stresses = 0.03;
-  found.add_within("end-diastolic volume at 8 mmHg", beat.end_diastole.volume / ml, 144.72, volumes,
-                   "ml");
-  found.add_within("end-systolic volume at 150 mmHg", beat.end_systole.volume / ml, 59.60, volumes,
-                   "ml");
+  found.add_within("end-diastolic volume at 8 mmHg", beat.at(heartbeat::end_diastole).volume / ml,
+                   144.72, volumes, "ml");
+  found.add_within("end-systolic volume at 150 mmHg", beat.at(heartbeat::end_systole).volume / ml,
+                   59.60, volumes, "ml");
   const auto mean = [&](const char* state, const char* quantity) {
     return r.whole(state, quantity).mean;
   };
@@ -117,17 +117,22 @@ void idealised_ventricle(Findings& found) {
                    stresses, "kPa");
   found.add_within("mean active tension at end-systole", mean("end_systole", "active_tension"),
                    59.54, stresses, "kPa");
-  found.add("filling was steady", beat.filling_was_steady ? 1.0 : 0.0, 1.0, 0.0);
-  found.add("contraction was steady", beat.contraction_was_steady ? 1.0 : 0.0, 1.0, 0.0);
+  found.add("filling was steady", beat.find(heartbeat::end_diastole)->by_criterion ? 1.0 : 0.0, 1.0,
+            0.0);
+  found.add("contraction was steady", beat.find(heartbeat::end_systole)->by_criterion ? 1.0 : 0.0,
+            1.0, 0.0);
   found.add("rotation of the apex, anticlockwise seen from the apex",
             r.rotation.back().from_end_diastole / units::degree, 25.0, 20.0, "deg");
   found.add_within("fibre shortening from end-diastole", r.fibre_shortening, 0.198, 0.03);
   found.add("thickening of the wall from end-diastole", r.thickening, 0.45, 0.25);
-  found.add("axial displacement of the base", r.end_systole.base_axial_shift, 0.0, 0.5, "mm");
-  found.add("mean J at end-diastole", r.J_end_diastole.mean, 1.0, 0.005);
-  found.add("mean J at end-systole", r.J_end_systole.mean, 1.0, 0.005);
-  found.add("first percentile of J at end-systole", r.J_end_systole.p1, 1.0, 0.05);
-  found.add("99th percentile of J at end-systole", r.J_end_systole.p99, 1.0, 0.05);
+  found.add("axial displacement of the base", r.at(heartbeat::end_systole).base_axial_shift, 0.0,
+            0.5, "mm");
+  found.add("mean J at end-diastole", r.whole(heartbeat::end_diastole, "J").mean, 1.0, 0.005);
+  found.add("mean J at end-systole", r.whole(heartbeat::end_systole, "J").mean, 1.0, 0.005);
+  found.add("first percentile of J at end-systole", r.whole(heartbeat::end_systole, "J").p1, 1.0,
+            0.05);
+  found.add("99th percentile of J at end-systole", r.whole(heartbeat::end_systole, "J").p99, 1.0,
+            0.05);
 }
 
 /// The passive pressure-volume curve of the default ventricle.
@@ -140,8 +145,8 @@ void pressure_volume(Findings& found) {
     setup.protocol.ed_pressure = pressure * units::mmHg;
     setup.protocol.contraction_longest = 1e-3;  // filling is all that is asked for
     const Beat beat = heartbeat::run_immersed_beat(setup, found.scratch(), {});
-    found.add_within(fmt::format("volume at {} mmHg", pressure), beat.end_diastole.volume / ml,
-                     volume, 0.025, "ml");
+    found.add_within(fmt::format("volume at {} mmHg", pressure),
+                     beat.at(heartbeat::end_diastole).volume / ml, volume, 0.025, "ml");
   }
 }
 
@@ -165,9 +170,9 @@ void other_ventricles(Findings& found) {
     setup.heart.myocardium.passive = material::HolzapfelOgden{}.scaled(other.stiffness);
     const Beat beat = heartbeat::run_immersed_beat(setup, found.scratch(), {});
     found.add_within(fmt::format("end-diastolic volume, {}", other.name),
-                     beat.end_diastole.volume / ml, other.edv, 0.025, "ml");
+                     beat.at(heartbeat::end_diastole).volume / ml, other.edv, 0.025, "ml");
     found.add_within(fmt::format("end-systolic volume, {}", other.name),
-                     beat.end_systole.volume / ml, other.esv, 0.025, "ml");
+                     beat.at(heartbeat::end_systole).volume / ml, other.esv, 0.025, "ml");
   }
 }
 

@@ -13,11 +13,13 @@ using namespace lv;
 struct PrescribedBeat {
   PrescribedBeat(const Mat3& filling, const Mat3& contraction) {
     const analysis::FieldAnalysis analysis(mesh, {.base = {.stiffness = 0.0}});
-    beat.end_diastole = snapshot(0.6, 1.07, filling);
-    beat.end_systole = snapshot(0.9, 20.0, contraction * filling);
-    results = analysis::results(mesh, mesh::divide(mesh, {}), beat,
-                                {analysis.at_rest(), analysis.fields(beat.end_diastole),
-                                 analysis.fields(beat.end_systole)});
+    beat.moments = {
+        {heartbeat::end_diastole, "filling", true, snapshot(0.6, 1.07, filling)},
+        {heartbeat::end_systole, "contraction", true, snapshot(0.9, 20.0, contraction * filling)}};
+    analysis::BeatFields fields{analysis.at_rest(), {}};
+    for (const heartbeat::NamedMoment& m : beat.moments)
+      fields.moments.push_back({m.name, analysis.fields(m.wall)});
+    results = analysis::results(mesh, mesh::divide(mesh, {}), beat, fields);
   }
 
   [[nodiscard]] heartbeat::Snapshot snapshot(double time, double pressure, const Mat3& F) const {
@@ -42,19 +44,22 @@ TEST_CASE("volumes, lengths and times of a beat are those of its states", "[unit
   const PrescribedBeat lv(filling, contraction);
   const analysis::Results& r = lv.results;
   const double V = r.early_diastole.cavity_volume;
-  CHECK(r.end_diastole.cavity_volume == Approx(1.2 * 1.2 * 1.1 * V));
-  CHECK(r.end_systole.cavity_volume == Approx(0.8 * 0.8 * 0.9 * 1.2 * 1.2 * 1.1 * V));
+  CHECK(r.at(heartbeat::end_diastole).cavity_volume == Approx(1.2 * 1.2 * 1.1 * V));
+  CHECK(r.at(heartbeat::end_systole).cavity_volume ==
+        Approx(0.8 * 0.8 * 0.9 * 1.2 * 1.2 * 1.1 * V));
   CHECK(r.ejection_fraction() == Approx(1.0 - 0.8 * 0.8 * 0.9));
-  CHECK(r.end_diastole.wall_volume == Approx(1.2 * 1.2 * 1.1 * r.early_diastole.wall_volume));
+  CHECK(r.at(heartbeat::end_diastole).wall_volume ==
+        Approx(1.2 * 1.2 * 1.1 * r.early_diastole.wall_volume));
   CHECK(r.early_diastole.wall_volume == Approx(test::volume(lv.mesh)));
   CHECK(r.early_diastole.apex_endo_z == Approx(-80.0).epsilon(1e-3));  // 60 + 20 mm
-  CHECK(r.end_diastole.apex_epi_z == Approx(1.1 * r.early_diastole.apex_epi_z));
-  CHECK(r.end_systole.base_endo_radius == Approx(0.96 * r.early_diastole.base_endo_radius));
-  CHECK(r.end_systole.base_axial_shift == Approx(0.0).margin(1e-12));
-  CHECK(r.end_diastole.time == 0.6);
-  CHECK(r.end_systole.pressure == 20.0);
-  CHECK(r.J_end_diastole.mean == Approx(1.2 * 1.2 * 1.1));
-  CHECK(r.J_end_systole.sd == Approx(0.0).margin(1e-7));
+  CHECK(r.at(heartbeat::end_diastole).apex_epi_z == Approx(1.1 * r.early_diastole.apex_epi_z));
+  CHECK(r.at(heartbeat::end_systole).base_endo_radius ==
+        Approx(0.96 * r.early_diastole.base_endo_radius));
+  CHECK(r.at(heartbeat::end_systole).base_axial_shift == Approx(0.0).margin(1e-12));
+  CHECK(r.at(heartbeat::end_diastole).time == 0.6);
+  CHECK(r.at(heartbeat::end_systole).pressure == 20.0);
+  CHECK(r.whole(heartbeat::end_diastole, "J").mean == Approx(1.2 * 1.2 * 1.1));
+  CHECK(r.whole(heartbeat::end_systole, "J").sd == Approx(0.0).margin(1e-7));
 }
 
 TEST_CASE("shortening and thickening are from end-diastole", "[unit][analysis]") {

@@ -48,11 +48,40 @@ TEST_CASE("a base plane in an annulus too far above the slices is laid at the en
   SplineFitParameters fit;
   fit.frame.base_at = BaseAt::annulus;
   const DrawnWall wall = fit_drawn_wall(contours, fit, true);
-  CHECK(wall.base_at == BaseAt::slab);
+  CHECK_THAT(wall.base, Contains("where its slab ends"));
   CHECK_THAT(notes(wall), Contains("through the mitral annulus there is no wall"));
   CHECK(wall.wall.report().base_height == Approx(0.5 * drawing.spacing).margin(0.1));
   CHECK_THROWS_WITH(fit_drawn_wall(contours, fit, false),
                     Contains("There is a wall with anatomy.contours.base_at = \"slab\""));
+}
+
+TEST_CASE("the base of a wall with long-axis curves moves with the muscle, not with the slices",
+          "[unit][geometry]") {
+  Drawing drawing;
+  drawing.frame = oblique_frame();
+  drawing.spacing = 12.0;
+  drawing.slices = 6;
+  Contours contours = draw(drawing);
+  for (Contour& curve : contours.long_axis)  // drawn higher on one side
+    std::erase_if(curve.points, [&](const lv::Vec3& x) {
+      const lv::Vec3 at = drawing.frame.to_model(x);
+      return at.z() > (at.x() > 0.0 ? 0.0 : -8.0);
+    });
+  const auto wall_without = [&](int slice) {
+    std::erase_if(contours.short_axis, [&](const Contour& c) { return c.slice == slice; });
+    SplineFitParameters fit;
+    fit.frame.base_at = BaseAt::annulus;
+    return fit_drawn_wall(contours, fit, true);
+  };
+  const DrawnWall more = wall_without(1);
+  CHECK_THAT(more.base, Contains("as high as the long-axis curves show muscle all round"));
+  CHECK((more.wall.frame().origin - drawing.frame.to_image({0.0, 0.0, -11.0})).norm() < 4.0);
+  const DrawnWall fewer = wall_without(2);
+  CHECK((fewer.wall.frame().origin - more.wall.frame().origin).norm() < 0.5);
+  const FitReport& a = more.wall.report();
+  const FitReport& b = fewer.wall.report();
+  CHECK(b.volume_cavity == Approx(a.volume_cavity).epsilon(0.02));
+  CHECK(b.volume_wall == Approx(a.volume_wall).epsilon(0.02));
 }
 
 TEST_CASE("slices shifted by the breath bring a proposal to align them, with its numbers",

@@ -58,7 +58,7 @@ TEST_CASE("a model goes on from a checkpoint bit for bit", "[unit][heartbeat]") 
   advance(model, 3);
   test::write_bytes(folder / "checkpoint.bin", checkpoint_bytes(model));
   immersed::Model resumed = model_in(mesh, cells);
-  const Checkpoint checkpoint = read_checkpoint(folder / "checkpoint.bin", resumed, {});
+  const Checkpoint checkpoint = read_checkpoint(folder / "checkpoint.bin", resumed, phases({}));
   resumed.restore(checkpoint.now.model);
   for (int n = 0; n < 3; ++n) {
     const auto one = model.step({1.0, 0.5, 0.0}, 2e-4);
@@ -75,7 +75,7 @@ TEST_CASE("a checkpoint of another box or wall is refused", "[unit][heartbeat]")
   immersed::Model model = model_in(mesh, cells);
   test::write_bytes(folder / "checkpoint.bin", checkpoint_bytes(model));
   immersed::Model other = model_in(mesh, {14, 12, 16});
-  CHECK_THROWS_AS(read_checkpoint(folder / "checkpoint.bin", other, {}), RunError);
+  CHECK_THROWS_AS(read_checkpoint(folder / "checkpoint.bin", other, phases({})), RunError);
 }
 
 TEST_CASE("a checkpoint with a number that cannot be is refused", "[unit][heartbeat]") {
@@ -94,7 +94,7 @@ TEST_CASE("a checkpoint with a number that cannot be is refused", "[unit][heartb
       now.set(name, numbers);
       whole.add("now", std::move(now));
       whole.write(folder / "bad.bin");
-      CHECK_THROWS_AS(read_checkpoint(folder / "bad.bin", model, {}), RunError);
+      CHECK_THROWS_AS(read_checkpoint(folder / "bad.bin", model, phases({})), RunError);
     }
 }
 
@@ -104,7 +104,7 @@ TEST_CASE("a damaged checkpoint is refused, or a run goes on from it and finds o
   immersed::Model model = model_in(mesh, cells);
   model.relax(0.3);
   const auto go_on = [&](const std::filesystem::path& file) {
-    const Checkpoint checkpoint = read_checkpoint(file, model, {});
+    const Checkpoint checkpoint = read_checkpoint(file, model, phases({}));
     for (const Moment& moment : {checkpoint.now, checkpoint.kept}) {
       model.restore(moment.model);
       for (int n = 0; n < 2; ++n)

@@ -5,8 +5,6 @@
 #include "support/temporary_folder.hpp"
 #include <catch2/catch.hpp>
 
-#include <algorithm>
-
 namespace {
 
 using namespace lv;
@@ -30,13 +28,12 @@ mesh::Mesh coarse_mesh() {
 }
 
 /// The row of the contraction with the smallest volume.
-const CurveRow& least(const Beat& beat) {
-  return *std::min_element(
-      beat.curves.begin(), beat.curves.end(), [](const CurveRow& a, const CurveRow& b) {
-        if ((a.phase == heartbeat::Phase::filling) != (b.phase == heartbeat::Phase::filling))
-          return b.phase == heartbeat::Phase::filling;
-        return a.volume < b.volume;
-      });
+CurveRow least(const Beat& beat) {
+  CurveRow smallest{.volume = 1e9};
+  for (const CurveRow& row : beat.curves)
+    if (row.phase == "contraction" && row.volume < smallest.volume)
+      smallest = row;
+  return smallest;
 }
 
 }  // namespace
@@ -46,12 +43,15 @@ TEST_CASE("end-systole of a calcium transient is where the cavity is smallest", 
   const BeatSetup setup = twitch(mesh);
   const test::TemporaryFolder folder;
   const Beat beat = heartbeat::run_immersed_beat(setup, folder / "", {});
-  CHECK(beat.contraction_was_steady);  // it ended because the ventricle filled again
-  CHECK(beat.end_systole.volume < beat.end_diastole.volume);
-  CHECK(beat.end_systole.volume == Approx(least(beat).volume).epsilon(1e-3));
-  CHECK(beat.end_systole.time == Approx(least(beat).time).margin(2e-3));
-  CHECK(beat.curves.back().time > beat.end_systole.time);
-  CHECK(beat.curves.back().volume > 1.02 * beat.end_systole.volume);
+  REQUIRE(beat.moments.size() == 2);
+  CHECK(beat.moments[0].name == heartbeat::end_diastole);
+  CHECK(beat.moments[1].phase == "contraction");
+  CHECK(beat.moments[1].by_criterion);  // it ended because the ventricle filled again
+  CHECK(beat.at(heartbeat::end_systole).volume < beat.at(heartbeat::end_diastole).volume);
+  CHECK(beat.at(heartbeat::end_systole).volume == Approx(least(beat).volume).epsilon(1e-3));
+  CHECK(beat.at(heartbeat::end_systole).time == Approx(least(beat).time).margin(2e-3));
+  CHECK(beat.curves.back().time > beat.at(heartbeat::end_systole).time);
+  CHECK(beat.curves.back().volume > 1.02 * beat.at(heartbeat::end_systole).volume);
   CHECK(beat.curves.back().calcium < beat.curves[beat.curves.size() / 2].calcium);
 }
 
@@ -61,6 +61,6 @@ TEST_CASE("a transient that is cut short ends with what it has, and says so", "[
   setup.protocol.contraction_longest = 0.02;
   const test::TemporaryFolder folder;
   const Beat beat = heartbeat::run_immersed_beat(setup, folder / "", {});
-  CHECK_FALSE(beat.contraction_was_steady);
-  CHECK(beat.end_systole.time == Approx(0.07).margin(1e-3));
+  CHECK_FALSE(beat.find(heartbeat::end_systole)->by_criterion);
+  CHECK(beat.at(heartbeat::end_systole).time == Approx(0.07).margin(1e-3));
 }

@@ -21,7 +21,7 @@ std::string checkpoint() {
   run.beat.curves.resize(2);
   run.least.positions.resize(3, Vec3::Ones());
   run.least.stress.resize(2);
-  run.beat.end_diastole = run.least;
+  run.beat.moments = {{end_diastole, "filling", true, run.least}};
   Archive archive;
   store(run, archive);
   archive.write(folder / "checkpoint.bin");
@@ -29,7 +29,7 @@ std::string checkpoint() {
 }
 
 void read_checkpoint(const std::filesystem::path& file) {
-  static_cast<void>(load_run_state(Archive::read(file), {}));
+  static_cast<void>(load_run_state(Archive::read(file), phases({})));
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "lv/heartbeat/protocol.hpp"
 
+#include "lv/heartbeat/beat.hpp"
+
 #include <catch2/catch.hpp>
 
 #include <cmath>
@@ -8,6 +10,7 @@ namespace {
 
 using namespace lv;
 using heartbeat::Phase;
+using heartbeat::phases;
 using heartbeat::Protocol;
 using heartbeat::SteadyVolume;
 
@@ -46,56 +49,70 @@ TEST_CASE("the smooth step rises from 0 to 1 without slope or curvature at its e
 
 TEST_CASE("filling raises the pressure from zero to its end-diastolic value at resting calcium",
           "[unit][heartbeat]") {
-  const Protocol p;
-  const auto at = [&](double t) { return heartbeat::loads(p, Phase::filling, t); };
-  CHECK(at(0.0).pressure == 0.0);
-  CHECK(at(0.15).pressure == Approx(4.0 * mmHg));
-  CHECK(at(0.3).pressure == 8.0 * mmHg);
-  CHECK(at(2.0).pressure == 8.0 * mmHg);
-  for (const double t : {0.0, 0.1, 0.5})
-    CHECK(at(t).calcium == 0.01);
+  const Phase filling = phases({})[0];
+  CHECK(filling.name == "filling");
+  CHECK(filling.marks == std::string(heartbeat::end_diastole));
+  CHECK(filling.loads(0.0).pressure == 0.0);
+  CHECK(filling.loads(0.15).pressure == Approx(4.0 * mmHg));
+  CHECK(filling.loads(0.3).pressure == 8.0 * mmHg);
+  CHECK(filling.loads(2.0).pressure == 8.0 * mmHg);
+  for (const double t : {0.0, 0.1, 0.5}) {
+    CHECK(filling.loads(t).calcium == 0.01);
+    CHECK(filling.loads(t).activation == 0.0);
+  }
 }
 
 TEST_CASE("contraction begins with the loads that end filling", "[unit][heartbeat]") {
-  const Protocol p;
-  const auto end = heartbeat::loads(p, Phase::filling, 1.0);
-  const auto begin = heartbeat::loads(p, Phase::contraction, 0.0);
-  CHECK(begin.pressure == end.pressure);
-  CHECK(begin.calcium == end.calcium);
+  const auto all = phases({});
+  REQUIRE(all.size() == 2);
+  CHECK(all[1].loads(0.0) == all[0].loads(1.0));
 }
 
-TEST_CASE("contraction raises pressure and calcium to their plateaus", "[unit][heartbeat]") {
+TEST_CASE("contraction raises pressure, activation and calcium to their plateaus",
+          "[unit][heartbeat]") {
   const Protocol p;
-  const auto at = [&](double t) { return heartbeat::loads(p, Phase::contraction, t); };
-  CHECK(at(0.1).pressure == Approx(79.0 * mmHg));  // half way from 8 to 150
-  CHECK(at(0.2).pressure == Approx(150.0 * mmHg).epsilon(1e-15));
-  CHECK(at(0.03).calcium == p.calcium.at(0.03));
-  CHECK(at(0.06).calcium == 1.0);
-  CHECK(at(1.0).calcium == 1.0);
+  const Phase contraction = phases(p)[1];
+  CHECK(contraction.marks == std::string(heartbeat::end_systole));
+  CHECK(contraction.loads(0.1).pressure == Approx(79.0 * mmHg));  // half way from 8 to 150
+  CHECK(contraction.loads(0.2).pressure == p.es_pressure);
+  CHECK(contraction.loads(0.1).activation == Approx(0.5));
+  CHECK(contraction.loads(0.2).activation == 1.0);
+  CHECK(contraction.loads(0.03).calcium == p.calcium.at(0.03));
+  CHECK(contraction.loads(0.06).calcium == 1.0);
+  CHECK(contraction.loads(1.0).calcium == 1.0);
+  CHECK(contraction.end == Phase::End::steady);
+}
+
+TEST_CASE("a calcium transient decays, and its phase ends when the cavity fills again",
+          "[unit][heartbeat]") {
   Protocol transient;
   transient.calcium.mode = material::Calcium::Mode::transient;
-  CHECK(heartbeat::loads(transient, Phase::contraction, 0.3).calcium < 0.11);  // 0.01 + 0.09
+  transient.contraction_drag = 7.0;
+  const Phase contraction = phases(transient)[1];
+  CHECK(contraction.loads(0.3).calcium < 0.11);  // 0.01 + 0.09
+  CHECK(contraction.end == Phase::End::refilling);
+  CHECK(contraction.drag == 0.0);
+}
+
+TEST_CASE("a phase ends at exactly the pressure that was asked for", "[unit][heartbeat]") {
+  Protocol p;
+  for (p.es_pressure = 10.0; p.es_pressure < 20.0; p.es_pressure += 0.137)
+    CHECK(phases(p)[1].loads(0.3).pressure == p.es_pressure);
+}
+
+TEST_CASE("a moment's name is written as readers know it", "[unit][heartbeat]") {
+  CHECK(heartbeat::title(heartbeat::end_diastole) == "end-diastole");
+  CHECK(heartbeat::title(heartbeat::end_systole) == "end-systole");
+  CHECK(heartbeat::title("mitral_valve_opening") == "mitral valve opening");
 }
 
 TEST_CASE("the loads are final when the slower of pressure and calcium has arrived",
           "[unit][heartbeat]") {
   Protocol p;
-  CHECK_FALSE(heartbeat::loads_are_final(p, Phase::filling, 0.299));
-  CHECK(heartbeat::loads_are_final(p, Phase::filling, 0.3));
-  CHECK_FALSE(heartbeat::loads_are_final(p, Phase::contraction, 0.199));
-  CHECK(heartbeat::loads_are_final(p, Phase::contraction, 0.2));
+  CHECK(phases(p)[0].settled == 0.3);
+  CHECK(phases(p)[1].settled == 0.2);
   p.contraction_ramp = 0.01;
-  CHECK_FALSE(heartbeat::loads_are_final(p, Phase::contraction, 0.059));
-  CHECK(heartbeat::loads_are_final(p, Phase::contraction, 0.06));
-}
-
-TEST_CASE("drag acts only when the loads are final", "[unit][heartbeat]") {
-  Protocol p;
-  p.contraction_drag = 7.0;
-  CHECK(heartbeat::drag(p, Phase::filling, 0.29) == 0.0);
-  CHECK(heartbeat::drag(p, Phase::filling, 0.3) == 40.0);
-  CHECK(heartbeat::drag(p, Phase::contraction, 0.19) == 0.0);
-  CHECK(heartbeat::drag(p, Phase::contraction, 0.2) == 7.0);
+  CHECK(phases(p)[1].settled == 0.06);
 }
 
 TEST_CASE("a constant volume is steady after one window, not before", "[unit][heartbeat]") {

@@ -27,9 +27,8 @@ solid::CellStress stress(double seed) {
 }
 
 /// A snapshot whose every number differs from those of other seeds.
-Snapshot snapshot(double seed, Phase phase) {
+Snapshot snapshot(double seed) {
   return {seed + 0.1,
-          phase,
           seed + 0.2,
           seed + 0.3,
           {{seed, 1.0, 2.0}, {3.0, seed, 4.0}},
@@ -39,7 +38,6 @@ Snapshot snapshot(double seed, Phase phase) {
 
 void check_equal(const Snapshot& a, const Snapshot& b) {
   CHECK(a.time == b.time);
-  CHECK(a.phase == b.phase);
   CHECK(a.pressure == b.pressure);
   CHECK(a.volume == b.volume);
   CHECK(a.positions == b.positions);
@@ -70,10 +68,10 @@ void check_equal(const CurveRow& a, const CurveRow& b) {
 }
 
 /// A run in the middle of its contraction, no two members alike and none at its default.
-RunState example(const Protocol& protocol) {
+RunState example(const std::vector<Phase>& phases) {
   RunState run;
   run.time = 0.91;
-  run.phase = Phase::contraction;
+  run.phase = 1;
   run.phase_start = 0.62;
   run.next_frame = 1.0;
   run.next_curve = 0.92;
@@ -84,34 +82,34 @@ RunState example(const Protocol& protocol) {
   run.good_steps = 117;
   run.patience = 1000;
   run.flips = 13;
-  run.steady = criterion(protocol, run.phase);
+  run.steady = criterion(phases[run.phase]);
   for (int i = 0; i < 500; ++i)
     run.steady.record(0.62 + 1e-3 * i, 100.0 + 0.01 * (i % 7));
   run.volume_was_falling = true;
-  run.least = snapshot(10.0, Phase::contraction);
-  run.beat.curves = {{0.1, Phase::filling, 2, 3, 4, 5, 6, 7, 8, 9, 10},
-                     {0.2, Phase::contraction, 12, 13, 14, 15, 16, 17, 18, 19, 20}};
-  run.beat.end_diastole = snapshot(20.0, Phase::filling);
-  run.beat.filling_was_steady = true;
+  run.least = snapshot(10.0);
+  run.beat.curves = {{0.1, "filling", 2, 3, 4, 5, 6, 7, 8, 9, 10},
+                     {0.2, "contraction", 12, 13, 14, 15, 16, 17, 18, 19, 20}};
+  run.beat.moments = {{end_diastole, "filling", true, snapshot(20.0)},
+                      {"early_systole", "isovolumic", false, snapshot(30.0)}};
   run.beat.steps = 9100;
   run.beat.retries = 5;
   return run;
 }
 
-RunState through_file(const RunState& run, const Protocol& protocol) {
+RunState through_file(const RunState& run, const std::vector<Phase>& phases) {
   const test::TemporaryFolder folder;
   Archive archive;
   store(run, archive);
   archive.write(folder / "checkpoint.bin");
-  return load_run_state(Archive::read(folder / "checkpoint.bin"), protocol);
+  return load_run_state(Archive::read(folder / "checkpoint.bin"), phases);
 }
 
 }  // namespace
 
 TEST_CASE("a run's state comes back from a checkpoint as it was", "[unit][heartbeat]") {
-  const Protocol protocol;
-  const RunState run = example(protocol);
-  const RunState loaded = through_file(run, protocol);
+  const std::vector<Phase> all = phases({});
+  const RunState run = example(all);
+  const RunState loaded = through_file(run, all);
   CHECK(loaded.time == run.time);
   CHECK(loaded.phase == run.phase);
   CHECK(loaded.phase_start == run.phase_start);
@@ -125,20 +123,25 @@ TEST_CASE("a run's state comes back from a checkpoint as it was", "[unit][heartb
   CHECK(loaded.patience == run.patience);
   CHECK(loaded.flips == run.flips);
   CHECK(loaded.volume_was_falling == run.volume_was_falling);
-  CHECK(loaded.beat.filling_was_steady == run.beat.filling_was_steady);
   CHECK(loaded.beat.steps == run.beat.steps);
   CHECK(loaded.beat.retries == run.beat.retries);
   check_equal(loaded.least, run.least);
-  check_equal(loaded.beat.end_diastole, run.beat.end_diastole);
+  REQUIRE(loaded.beat.moments.size() == 2);
+  for (int i = 0; i < 2; ++i) {
+    CHECK(loaded.beat.moments[i].name == run.beat.moments[i].name);
+    CHECK(loaded.beat.moments[i].phase == run.beat.moments[i].phase);
+    CHECK(loaded.beat.moments[i].by_criterion == run.beat.moments[i].by_criterion);
+    check_equal(loaded.beat.moments[i].wall, run.beat.moments[i].wall);
+  }
   REQUIRE(loaded.beat.curves.size() == 2);
   for (int i = 0; i < 2; ++i)
     check_equal(loaded.beat.curves[i], run.beat.curves[i]);
 }
 
 TEST_CASE("the steadiness criterion goes on where it was", "[unit][heartbeat]") {
-  const Protocol protocol;
-  RunState run = example(protocol);
-  RunState loaded = through_file(run, protocol);
+  const std::vector<Phase> all = phases({});
+  RunState run = example(all);
+  RunState loaded = through_file(run, all);
   CHECK(loaded.steady.samples() == run.steady.samples());
   CHECK(loaded.steady.variation() == run.steady.variation());
   CHECK(loaded.steady.reached() == run.steady.reached());
@@ -150,11 +153,11 @@ TEST_CASE("the steadiness criterion goes on where it was", "[unit][heartbeat]") 
 }
 
 TEST_CASE("a fresh run comes back as a fresh run", "[unit][heartbeat]") {
-  const RunState loaded = through_file(RunState{}, {});
-  CHECK(loaded.phase == Phase::filling);
+  const RunState loaded = through_file(RunState{}, phases({}));
+  CHECK(loaded.phase == 0);
   CHECK(loaded.beat.curves.empty());
   CHECK(loaded.least.positions.empty());
-  CHECK_FALSE(loaded.beat.filling_was_steady);
+  CHECK(loaded.beat.find(end_diastole) == nullptr);
   CHECK_FALSE(loaded.steady.reached());
 }
 
@@ -162,8 +165,8 @@ TEST_CASE("each phase has its own criterion", "[unit][heartbeat]") {
   Protocol protocol;
   protocol.filling_window = 0.05;
   protocol.contraction_window = 0.2;
-  for (const auto& [phase, window] : {std::pair{Phase::filling, 0.05}, {Phase::contraction, 0.2}}) {
-    SteadyVolume steady = criterion(protocol, phase);
+  for (const auto& [phase, window] : {std::pair{0, 0.05}, {1, 0.2}}) {
+    SteadyVolume steady = criterion(phases(protocol)[phase]);
     steady.record(0.0, 1.0);
     steady.record(0.9 * window, 1.0);
     CHECK_FALSE(steady.reached());
@@ -178,11 +181,11 @@ TEST_CASE("a checkpoint without the run's state is refused", "[unit][heartbeat]"
 
 TEST_CASE("a checkpoint of a run that cannot be is refused", "[unit][heartbeat]") {
   const auto refused = [](const std::function<void(RunState&)>& change) {
-    RunState run = example({});
+    RunState run = example(phases({}));
     change(run);
     Archive archive;
     store(run, archive);
-    CHECK_THROWS_AS(load_run_state(archive, {}, 2), RunError);
+    CHECK_THROWS_AS(load_run_state(archive, phases({}), 2), RunError);
   };
   refused([](RunState& run) { run.time = std::nan(""); });
   refused([](RunState& run) { run.time = -1.0; });
@@ -190,7 +193,8 @@ TEST_CASE("a checkpoint of a run that cannot be is refused", "[unit][heartbeat]"
   refused([](RunState& run) { run.frames = 4; });
   refused([](RunState& run) { run.frame_times[1] = std::numeric_limits<double>::infinity(); });
   refused([](RunState& run) { run.beat.steps = -1; });
-  refused([](RunState& run) { run.beat.end_diastole = {}; });
-  refused([](RunState& run) { run.beat.end_diastole.positions.resize(3, Vec3::Zero()); });
+  refused([](RunState& run) { run.phase = 2; });
+  refused([](RunState& run) { run.beat.moments.clear(); });
+  refused([](RunState& run) { run.beat.moments[0].wall.positions.resize(3, Vec3::Zero()); });
   refused([](RunState& run) { run.least.tension.resize(7); });
 }

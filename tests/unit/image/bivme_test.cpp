@@ -33,7 +33,8 @@ geometry::FitReport fitted(const std::string& file) {
 
 }  // namespace
 
-// 160.7 and 61.2 ml are the volumes of the model that the points' makers fitted.
+// 160.7 ml is the volume of the model that the points' makers fitted. Muscle keeps its volume, so
+// that the two times must agree about the wall.
 TEST_CASE("a person's guide points give a wall as they are", "[unit][image][data]") {
   if (!std::filesystem::exists(person())) {
     WARN("skipped: no folder " << person() << "; set VENTRICLE_DATA to the folder that holds it");
@@ -42,6 +43,6 @@ TEST_CASE("a person's guide points give a wall as they are", "[unit][image][data
   const auto diastole = fitted("GPFile_000.txt");
   const auto early = fitted("GPFile_012.txt");
   CHECK(diastole.volume_cavity == Approx(160.7e3).epsilon(0.05));
-  CHECK(early.volume_cavity == Approx(61.2e3).epsilon(0.05));
-  CHECK(diastole.volume_wall == Approx(early.volume_wall).epsilon(0.15));
+  CHECK(early.volume_cavity == Approx(61.2e3).epsilon(0.1));
+  CHECK(diastole.volume_wall == Approx(early.volume_wall).epsilon(0.05));
 }

@@ -100,10 +100,13 @@ TEST_CASE("a damaged beat of an earlier run is read or refused",
   };
   heartbeat::Beat beat;
   beat.curves.resize(2);
-  beat.end_diastole.positions = mesh.nodes;
-  beat.end_diastole.tension.resize(mesh.nodes.size());
-  beat.end_systole.positions = mesh.nodes;
-  beat.end_systole.stress.resize(static_cast<std::size_t>(mesh.cell_count()), zero_stress());
+  beat.moments.resize(2);
+  beat.moments[0].name = heartbeat::end_diastole;
+  beat.moments[0].wall.positions = mesh.nodes;
+  beat.moments[0].wall.tension.resize(mesh.nodes.size());
+  beat.moments[1].name = heartbeat::end_systole;
+  beat.moments[1].wall.positions = mesh.nodes;
+  beat.moments[1].wall.stress.resize(static_cast<std::size_t>(mesh.cell_count()), zero_stress());
   const std::string bytes =
       made("beat.bin", [&](const auto& folder) { job::write_beat(beat, folder); });
   try_damaged("beat.bin", bytes, read, {}, test::repair_checksum);

@@ -28,8 +28,8 @@ const geometry::Frame frame{
     Vec3(120.0, -35.0, 410.0)};
 
 /// Empty images on a plane of the model frame, its middle at `centre`.
-image::CineSlice cine(const Vec3& centre, const Vec3& along_row, const Vec3& along_column,
-                      int images) {
+image::CineSlice cine_slice(const Vec3& centre, const Vec3& along_row, const Vec3& along_column,
+                            int images) {
   constexpr int pixels = 70;
   constexpr double spacing = 2.0;
   const Vec3 corner = centre - 0.5 * (pixels - 1) * spacing * (along_row + along_column);
@@ -66,12 +66,13 @@ CineStudy study() {
   constexpr double u = 0.8;
   CineStudy s;
   const double z = ellipsoid.point(u, 0.0, 0.0).z();
-  s.cine.slices = {cine(Vec3(0.0, 0.0, z), Vec3::UnitX(), Vec3::UnitY(), 10)};
+  s.cine.slices = {cine_slice(Vec3(0.0, 0.0, z), Vec3::UnitX(), Vec3::UnitY(), 10)};
   s.drawn.short_axis = {short_axis_loop(4, Side::endo, u)};
   s.slice_of = {0};
-  s.long_axis.push_back({{{cine(Vec3(0.0, 0.0, -40.0), Vec3::UnitY(), -Vec3::UnitZ(), 25)}, {}},
-                         long_axis_curve(Side::endo),
-                         long_axis_curve(Side::epi)});
+  s.long_axis.push_back(
+      {{{cine_slice(Vec3(0.0, 0.0, -40.0), Vec3::UnitY(), -Vec3::UnitZ(), 25)}, {}},
+       long_axis_curve(Side::endo),
+       long_axis_curve(Side::epi)});
   return s;
 }
 
@@ -102,8 +103,10 @@ TEST_CASE("outlines on a long axis are the ventricle's, beside those on short ax
   const auto wall = [](double u, double theta, double t) { return ellipsoid.point(u, theta, t); };
   const job::MeshResult mesh{mesh::wall_mesh(wall, {.edge_length = 6.0}), {}, {}};
   heartbeat::Beat beat;
-  beat.end_diastole.positions = mesh.mesh.nodes;
-  beat.end_systole.positions = mesh.mesh.nodes;
+  for (const char* name : {heartbeat::end_diastole, heartbeat::end_systole}) {
+    beat.moments.push_back({.name = name});
+    beat.moments.back().wall.positions = mesh.mesh.nodes;
+  }
   const analysis::BeatFields fields;
   const std::string words = job::write_outlines({mesh, beat, fields, frame}, study(), 9, 3, folder);
   CHECK(words.find("at end_diastole") != std::string::npos);

@@ -66,6 +66,8 @@ const std::vector<Lines>& bases() {
       {{"coupling.kind", "\"quadrature\""}},
       {{"calcium.mode", "\"transient\""}},
       {{"active.law", "\"cauchy\""}},
+      {{"active.law", "\"land2017\""}, {"calcium.shape", "\"double_exponential\""}},
+      with(static_engine, "active.law", "\"land2017\""),
       with(static_engine, "active.law", "\"second_piola\""),
       {{"passive.law", "\"guccione\""}},
       {{"passive.law", "\"neo_hookean\""}},
@@ -90,6 +92,8 @@ const std::vector<Lines>& bases() {
        {"calibrate.esv", "\"60 ml\""},
        {"calibrate.strains", "\"strains.csv\""}},
       {{"unloaded.pressure", "\"2 mmHg\""}},
+      {{"circulation.kind", "\"windkessel\""}},
+      {{"circulation.kind", "\"closed_loop\""}, {"circulation.valves.law", "\"arctangent\""}},
       {{"strain.cine", "\"cine\""}, {"strain.contours", "\"loops.csv\""}},
       {{"strain.cine", "\"cine\""}, {"strain.long_axis_cine", "[\"view\"]"}},
       {{"strain.measured", "\"measured.csv\""}, {"strain.measured_column", "\"es\""}}};
@@ -206,8 +210,9 @@ TEST_CASE("a parameter that is set and that no stage of the case reads is refuse
           "[unit][job]") {
   for (const Lines& base : bases())
     for (const Parameter& p : job::parameters()) {
-      if (base.contains(p.name) || std::string(p.name) == "strain.cine")
-        continue;  // the latter brings its stage with it
+      const std::string name = p.name;
+      if (base.contains(name) || name == "strain.cine" || name == "circulation.kind")
+        continue;  // these two bring their stages with them
       const Case c = parsed(base);
       const std::string words = job::counts_only(p, c);
       INFO(p.name << " in\n" << text_of(base));
@@ -410,18 +415,26 @@ Numbers immersed_beat_of(const Case& c) {
   add_muscle(c, numbers);
   numbers.push_back(job::myocardium(c).volumetric.beta_s);
   const heartbeat::Protocol& p = c.protocol;
-  for (const auto phase : {heartbeat::Phase::filling, heartbeat::Phase::contraction})
+  for (const heartbeat::Phase& phase : heartbeat::phases(p)) {
+    numbers.insert(numbers.end(), {phase.drag, phase.settled});
     for (const double time : {0.01, 0.05, 0.15, 1.0}) {
-      const solid::Loads loads = heartbeat::loads(p, phase, time);
-      numbers.insert(numbers.end(), {loads.pressure, loads.calcium, loads.activation,
-                                     heartbeat::drag(p, phase, time)});
+      const solid::Loads loads = phase.loads(time);
+      numbers.insert(numbers.end(), {loads.pressure, loads.calcium, loads.activation});
     }
-  if (c.active_form == material::ActiveForm::niederer)
+  }
+  if (c.active_law == job::ActiveLaw::niederer)
     for (const double rate : {-5.0, 0.0, 20.0}) {
       material::Sarcomere<double> state = c.active.steady_state(1.0, 0.7 + 0.01 * rate);
       for (int step = 1; step <= 20; ++step)
         c.active.advance(state, state.stretch + 1e-3 * rate, 0.5, 1.0, 1e-3);
       numbers.insert(numbers.end(), {state.tension, state.z, state.Ca_trpn, state.Q[0]});
+    }
+  if (c.active_law == job::ActiveLaw::land2017)
+    for (const double rate : {-5.0, 20.0}) {
+      material::CrossBridges<double> state = c.land2017.steady_state(0.3, 1.0);
+      for (int step = 1; step <= 20; ++step)
+        c.land2017.advance(state, state.stretch + 1e-3 * rate, 0.5, 1.0, 1e-3);
+      numbers.insert(numbers.end(), {state.tension, state.B, state.CaTRPN});
     }
   mesh::Mesh point;
   point.nodes = {Vec3::Zero()};
@@ -476,18 +489,21 @@ bool same(const Numbers& a, const Numbers& b) {
 const Lines coarse{{"mesh.edge_length", "\"9 mm\""}};
 
 std::vector<Lines> cases_without_files() {
-  std::vector<Lines> all{coarse,
-                         with(coarse, "coupling.kind", "\"quadrature\""),
-                         with(coarse, "active.law", "\"cauchy\""),
-                         with(coarse, "calcium.mode", "\"transient\""),
-                         with(coarse, "infarct.source", "\"described\""),
-                         with(coarse, "unloaded.pressure", "\"2 mmHg\"")};
+  std::vector<Lines> all{
+      coarse,
+      with(coarse, "coupling.kind", "\"quadrature\""),
+      with(coarse, "active.law", "\"cauchy\""),
+      with(with(coarse, "active.law", "\"land2017\""), "calcium.shape", "\"double_exponential\""),
+      with(coarse, "calcium.mode", "\"transient\""),
+      with(coarse, "infarct.source", "\"described\""),
+      with(coarse, "unloaded.pressure", "\"2 mmHg\"")};
   for (const char* law : {"guccione", "neo_hookean"})
     all.push_back(with(coarse, "passive.law", fmt::format("\"{}\"", law)));
   Lines quasi_static = with(static_engine, "quasi_static.edge_length", "\"18 mm\"");
   all.push_back(quasi_static);
   all.push_back(with(quasi_static, "infarct.source", "\"described\""));
   all.push_back(with(quasi_static, "active.law", "\"second_piola\""));
+  all.push_back(with(quasi_static, "active.law", "\"land2017\""));
   all.push_back(with(quasi_static, "quasi_static.linear_solver", "\"iterative\""));
   all.push_back(
       with(with(static_engine, "quasi_static.order", "1"), "mesh.edge_length", "\"9 mm\""));
@@ -509,6 +525,7 @@ bool is_tried_elsewhere(const std::string& name) {
                                                "infarct.shift",
                                                "infarct.length_unit",
                                                "calibrate.",
+                                               "circulation.",
                                                "strain.",
                                                "unloaded.",
                                                "quasi_static.order",

@@ -43,3 +43,22 @@ TEST_CASE("before activation calcium rests", "[unit][material]") {
     CHECK(Calcium{mode}.at(0.0) == 0.01);
   }
 }
+
+TEST_CASE("a double-exponential transient peaks at Ca_max and starts from rest",
+          "[unit][material]") {
+  const Calcium calcium{.mode = Calcium::Mode::transient,
+                        .Ca_0 = 0.1,
+                        .Ca_max = 0.7,
+                        .shape = Calcium::Shape::double_exponential};
+  CHECK(calcium.at(0.0) == 0.1);
+  CHECK(calcium.at(calcium.peak_time()) == Approx(0.7).epsilon(1e-14));
+  for (double t = 0.0; t < 2.0; t += 0.001)
+    CHECK(calcium.at(t) <= 0.7 * (1.0 + 1e-14));
+  CHECK(calcium.at(3.0) == Approx(0.1).epsilon(1e-4));
+}
+
+TEST_CASE("held double-exponential calcium stays at its peak", "[unit][material]") {
+  const Calcium calcium{.Ca_0 = 0.1, .Ca_max = 0.7, .shape = Calcium::Shape::double_exponential};
+  CHECK(calcium.at(0.5 * calcium.peak_time()) < 0.7);
+  CHECK(calcium.at(1.5 * calcium.peak_time()) == 0.7);
+}

@@ -1,5 +1,7 @@
 #include "lv/material/holzapfel_ogden.hpp"
 
+#include "lv/material/tangent_algebra.hpp"
+
 #include "support/law_checks.hpp"
 #include "support/tangent_checks.hpp"
 

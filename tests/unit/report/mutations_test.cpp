@@ -37,9 +37,10 @@ TEST_CASE("damaged series, tables and summaries of a beat are read or refused",
               "<DataSet timestep=\"0.25\" file=\"wall_0.vtu\"/>\n"
               "<DataSet timestep=\"0.5\" file=\"wall_1.vtu\"/>\n</Collection>\n</VTKFile>\n",
               series);
-  try_damaged("curves.csv",
-              "time_s,phase,pressure_mmHg\n0.1,filling,8\n0.2,\"filling\",9\n0.3,contraction,90\n",
-              page_with("03_beat", "curves.csv"));
+  try_damaged("moments.csv",
+              "moment,phase,time_s,by_criterion\nend_diastole,filling,0.6,yes\n"
+              "\"end_systole\",contraction,1.2,no\n",
+              page_with("03_beat", "moments.csv"));
   try_damaged("summary.json", "{\"end_diastole\": {\"time_s\": 0.6, \"volume_ml\": 120}}\n",
               page_with("04_results", "summary.json"));
   const auto pictures = [](const std::filesystem::path& file) {

@@ -84,6 +84,18 @@ TEST_CASE("a page of an empty work folder has its state and no wall", "[report]"
   CHECK(page.find("\"wall\":") == std::string::npos);
 }
 
+TEST_CASE("a page of frames without named moments says so", "[report]") {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path beat = folder / "work" / "03_beat";
+  std::filesystem::create_directories(beat);
+  const auto page = [&] { return report::page({{folder / "work", true, {}}}, "1"); };
+  CHECK(page().find("no moments.csv") == std::string::npos);
+  write_file(beat / "wall.pvd", "<VTKFile type=\"Collection\"><Collection/></VTKFile>\n");
+  CHECK(page().find("03_beat has no moments.csv") != std::string::npos);
+  write_file(beat / "moments.csv", "moment,phase,time_s,by_criterion\n");
+  CHECK(page().find("no moments.csv") == std::string::npos);
+}
+
 TEST_CASE("the script for ParaView names the series beside it", "[report]") {
   const std::string script = report::paraview_script("../03_beat");
   CHECK(script.find("os.path.join(here, \"../03_beat\")") != std::string::npos);

@@ -13,6 +13,7 @@ using nlohmann::json;
 analysis::Results results(bool infarcted) {
   analysis::Results r;
   r.rotation.push_back({7, 0.1, 0.1, 0.0});
+  r.moments = {{"end_diastole", {}}, {"end_systole", {}}};
   double mean = 100.0;
   std::vector<std::pair<std::string, std::string>> regions{{"whole", "wall"}};
   if (infarcted)

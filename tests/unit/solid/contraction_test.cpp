@@ -10,6 +10,7 @@
 namespace {
 
 using namespace lv;
+using material::Land2017;
 using material::NiedererHunterSmith;
 using solid::Contraction;
 
@@ -17,13 +18,13 @@ constexpr std::size_t count = 3 * pack_size + 1;  // the last pack is not full
 constexpr double density = 1e-6;
 
 /// Muscle at nodes in a row, 2 mm apart.
-Contraction row_of_nodes() {
+Contraction row_of_nodes(const material::KineticLaw& law = NiedererHunterSmith{}) {
   std::vector<Vec3> nodes;
   for (std::size_t i = 0; i < count; ++i)
     nodes.emplace_back(2.0 * static_cast<double>(i), 0.0, 0.0);
   const std::vector<double> volumes(count, 8.0);
   const std::vector<double> strength(count, 1.0);
-  return {NiedererHunterSmith{}, {nodes, volumes, strength}, density, 1.5};
+  return {law, {nodes, volumes, strength}, density, 1.5};
 }
 
 std::vector<double> uneven_stretch(double time) {
@@ -45,10 +46,11 @@ std::vector<double> tension_of(const Contraction& muscle) {
 
 }  // namespace
 
-TEST_CASE("relaxed muscle has the steady tension of its calcium at every node", "[unit][solid]") {
-  Contraction muscle = row_of_nodes();
+TEMPLATE_TEST_CASE("relaxed muscle has the steady tension of its calcium at every node",
+                   "[unit][solid]", NiedererHunterSmith, Land2017) {
+  Contraction muscle = row_of_nodes(TestType{});
   muscle.relax(0.3);
-  const double steady = NiedererHunterSmith{}.steady_state(0.3, 1.0).tension;
+  const double steady = TestType{}.steady_state(0.3, 1.0).tension;
   REQUIRE(muscle.tension().size() == count);
   for (const double T : muscle.tension())
     CHECK(T == Approx(steady).epsilon(1e-12));
@@ -64,11 +66,12 @@ TEST_CASE("steady muscle stays steady: smoothing and damping see nothing", "[uni
     CHECK(muscle.tension()[a] == Approx(before[a]).epsilon(1e-11));
 }
 
-TEST_CASE("muscle that is stretched the same everywhere contracts like one cell", "[unit][solid]") {
-  const NiedererHunterSmith law;
-  Contraction muscle = row_of_nodes();
+TEMPLATE_TEST_CASE("muscle that is stretched the same everywhere contracts like one cell",
+                   "[unit][solid]", NiedererHunterSmith, Land2017) {
+  const TestType law;
+  Contraction muscle = row_of_nodes(law);
   muscle.relax(0.01);
-  material::Sarcomere<double> cell = law.steady_state(0.01, 1.0);
+  typename TestType::template State<double> cell = law.steady_state(0.01, 1.0);
   for (int i = 1; i <= 300; ++i) {
     const double stretch = 1.0 + 0.1 * std::sin(0.02 * i);
     muscle.advance(std::vector<double>(count, stretch), 0.9, 0.9, 1e-4);
@@ -79,14 +82,15 @@ TEST_CASE("muscle that is stretched the same everywhere contracts like one cell"
     CHECK(T == Approx(cell.tension).epsilon(1e-9));
 }
 
-TEST_CASE("muscle restored from its state goes on bit for bit", "[unit][solid]") {
-  Contraction muscle = row_of_nodes();
+TEMPLATE_TEST_CASE("muscle restored from its state goes on bit for bit", "[unit][solid]",
+                   NiedererHunterSmith, Land2017) {
+  Contraction muscle = row_of_nodes(TestType{});
   muscle.relax(0.01);
   contract(muscle, 1, 200);
   const auto state = muscle.state();
   contract(muscle, 201, 50);
 
-  Contraction restored = row_of_nodes();
+  Contraction restored = row_of_nodes(TestType{});
   restored.set_state(state);
   CHECK(restored.state() == state);
   contract(restored, 201, 50);

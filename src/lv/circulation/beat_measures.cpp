@@ -1,0 +1,140 @@
+#include "lv/circulation/beat_measures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lv::circulation {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+using Beat = std::span<const Sample>;
+using Value = double Signals::*;
+
+/// Where a signal changes its sign for the first time after a time: the sample before it and the
+/// share of the way to the next; upwards or downwards.
+struct Crossing {
+  std::size_t before = 0;
+  double share = 0.0;
+  bool found = false;
+
+  [[nodiscard]] double of(Beat beat, Value value) const {
+    return found ? std::lerp(beat[before].signals.*value, beat[before + 1].signals.*value, share)
+                 : none;
+  }
+  [[nodiscard]] double time(Beat beat) const {
+    return found ? std::lerp(beat[before].time, beat[before + 1].time, share) - beat[0].time : none;
+  }
+};
+
+Crossing crossing(Beat beat, Value value, bool upwards, std::size_t from = 0) {
+  for (std::size_t i = from; i + 1 < beat.size(); ++i) {
+    const double a = beat[i].signals.*value;
+    const double b = beat[i + 1].signals.*value;
+    if ((a > 0.0) != (b > 0.0) && (b > 0.0) == upwards)
+      return {i, a / (a - b), true};
+  }
+  return {};
+}
+
+double largest(Beat beat, Value value) {
+  double result = -std::numeric_limits<double>::infinity();
+  for (const Sample& s : beat)
+    result = std::max(result, s.signals.*value);
+  return result;
+}
+
+double least(Beat beat, Value value) {
+  double result = std::numeric_limits<double>::infinity();
+  for (const Sample& s : beat)
+    result = std::min(result, s.signals.*value);
+  return result;
+}
+
+double mean(Beat beat, Value value) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i + 1 < beat.size(); ++i)
+    sum += 0.5 * (beat[i].signals.*value + beat[i + 1].signals.*value) *
+           (beat[i + 1].time - beat[i].time);
+  return sum / (beat.back().time - beat.front().time);
+}
+
+double work(Beat beat) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i + 1 < beat.size(); ++i)
+    sum -= 0.5 * (beat[i].signals.pressure + beat[i + 1].signals.pressure) *
+           (beat[i + 1].signals.volume - beat[i].signals.volume);
+  return sum;
+}
+
+double rate(Beat beat, std::size_t i) {
+  return (beat[i + 1].signals.pressure - beat[i].signals.pressure) /
+         (beat[i + 1].time - beat[i].time);
+}
+
+/// Least squares of log p against time between two samples.
+double relaxation(Beat beat, std::size_t from, std::size_t to) {
+  double n = 0.0;
+  double t1 = 0.0;
+  double t2 = 0.0;
+  double y1 = 0.0;
+  double ty = 0.0;
+  for (std::size_t i = from; i <= to; ++i) {
+    if (!(beat[i].signals.pressure > 0.0))
+      return none;
+    const double t = beat[i].time - beat[from].time;
+    const double y = std::log(beat[i].signals.pressure);
+    n += 1.0;
+    t1 += t;
+    t2 += t * t;
+    y1 += y;
+    ty += t * y;
+  }
+  const double slope = (n * ty - t1 * y1) / (n * t2 - t1 * t1);
+  return slope < 0.0 ? -1.0 / slope : none;
+}
+
+}  // namespace
+
+BeatMeasures measure_beat(Beat beat) {
+  const Crossing mitral_closes = crossing(beat, &Signals::mitral_gradient, false);
+  const Crossing aortic_opens = crossing(beat, &Signals::aortic_gradient, true);
+  const Crossing aortic_closes =
+      crossing(beat, &Signals::aortic_gradient, false, aortic_opens.before);
+  const Crossing mitral_opens =
+      crossing(beat, &Signals::mitral_gradient, true, aortic_closes.before);
+  std::size_t fastest_rise = 0;
+  std::size_t fastest_fall = 0;
+  for (std::size_t i = 0; i + 1 < beat.size(); ++i) {
+    fastest_rise = rate(beat, i) > rate(beat, fastest_rise) ? i : fastest_rise;
+    fastest_fall = rate(beat, i) < rate(beat, fastest_fall) ? i : fastest_fall;
+  }
+  BeatMeasures m{};
+  m.end_diastolic_volume = mitral_closes.of(beat, &Signals::volume);
+  m.end_systolic_volume = aortic_closes.of(beat, &Signals::volume);
+  m.stroke_volume = m.end_diastolic_volume - m.end_systolic_volume;
+  m.ejection_fraction = m.stroke_volume / m.end_diastolic_volume;
+  m.end_diastolic_pressure = mitral_closes.of(beat, &Signals::pressure);
+  m.end_systolic_pressure = aortic_closes.of(beat, &Signals::pressure);
+  m.peak_pressure = largest(beat, &Signals::pressure);
+  m.aortic_systolic = largest(beat, &Signals::aortic_pressure);
+  m.aortic_diastolic = least(beat, &Signals::aortic_pressure);
+  m.aortic_mean = mean(beat, &Signals::aortic_pressure);
+  m.stroke_work = work(beat);
+  m.largest_pressure_rate = rate(beat, fastest_rise);
+  m.least_pressure_rate = rate(beat, fastest_fall);
+  m.mitral_closes = mitral_closes.time(beat);
+  m.aortic_opens = aortic_opens.time(beat);
+  m.aortic_closes = aortic_closes.time(beat);
+  m.mitral_opens = mitral_opens.time(beat);
+  m.isovolumic_contraction = m.aortic_opens - m.mitral_closes;
+  m.ejection_time = m.aortic_closes - m.aortic_opens;
+  m.isovolumic_relaxation = m.mitral_opens - m.aortic_closes;
+  m.relaxation_constant = mitral_opens.found && mitral_opens.before > fastest_fall + 1
+                              ? relaxation(beat, fastest_fall, mitral_opens.before)
+                              : none;
+  return m;
+}
+
+}  // namespace lv::circulation

@@ -1,0 +1,101 @@
+#include "lv/circulation/cycle.hpp"
+
+#include "lv/base/interrupt.hpp"
+#include "lv/circulation/closed_loop.hpp"
+#include "lv/circulation/implicit_step.hpp"
+#include "lv/circulation/windkessel.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lv::circulation {
+namespace {
+
+/// A circuit with an elastance as its left ventricle.
+template <class Circuit>
+class Alone {
+ public:
+  static constexpr int size = Circuit::size;
+
+  Alone(const Parameters& p, const Circuit& circuit)
+      : p_(p),
+        circuit_(circuit),
+        ventricle_(p.left_ventricle, p.period),
+        history_{Circuit::start(p.start)} {}
+
+  Cycle run() {
+    cycle_.columns = Circuit::columns();
+    observe();
+    while (static_cast<int>(cycle_.beats.size()) < p_.beats && !cycle_.is_limit) {
+      interrupt::check();
+      beat();
+    }
+    return std::move(cycle_);
+  }
+
+  [[nodiscard]] const std::array<double, size>& states() const { return history_.now; }
+
+ private:
+  void beat() {
+    const auto before = history_.now;
+    const std::size_t first = cycle_.samples.size() - 1;
+    const long steps = std::lround(std::ceil(p_.period / p_.step - 1e-9));
+    const double dt = p_.period / static_cast<double>(steps);
+    const double begin = static_cast<double>(cycle_.beats.size()) * p_.period;
+    for (long i = 1; i <= steps; ++i)
+      step(begin + static_cast<double>(i) * dt, dt);
+    cycle_.beats.push_back(measure_beat(std::span(cycle_.samples).subspan(first)));
+    cycle_.change = largest_change(before, history_.now);
+    cycle_.is_limit = cycle_.change <= p_.tolerance;
+  }
+
+  void step(double t, double dt) {
+    const auto rates = [&]<class T>(const std::array<T, size>& y, const T&) {
+      return circuit_.rates(t, y, ventricle_.pressure(t, y[0]));
+    };
+    const auto next =
+        implicit_step<size>(rates, backward_difference(history_, dt), 0.0, history_.now);
+    history_.push(next.y, dt);
+    time_ = t;
+    observe();
+  }
+
+  void observe() {
+    const double p = ventricle_.pressure(time_, history_.now[0]);
+    cycle_.samples.push_back({time_, circuit_.signals(time_, history_.now, p)});
+  }
+
+  const Parameters& p_;
+  Circuit circuit_;
+  Elastance ventricle_;
+  History<size> history_;
+  double time_ = 0.0;
+  Cycle cycle_;
+};
+
+Cycle run_closed_loop(const Parameters& p) {
+  const ClosedLoop circuit(p.closed_loop, p.valves, p.period);
+  Alone<ClosedLoop> heart(p, circuit);
+  Cycle cycle = heart.run();
+  cycle.blood_lost =
+      std::abs(circuit.blood(heart.states()) / circuit.blood(ClosedLoop::start(p.start)) - 1.0);
+  return cycle;
+}
+
+}  // namespace
+
+double largest_change(std::span<const double> before, std::span<const double> after) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < before.size(); ++i)
+    largest = std::max(largest, std::abs(after[i] - before[i]) /
+                                    std::max(std::abs(after[i]), std::abs(before[i])));
+  return largest;
+}
+
+Cycle run_alone(const Parameters& p) {
+  if (p.kind == Kind::closed_loop)
+    return run_closed_loop(p);
+  return Alone<Windkessel>(p, Windkessel(p.windkessel, p.valves)).run();
+}
+
+}  // namespace lv::circulation

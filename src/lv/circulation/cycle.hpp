@@ -1,0 +1,28 @@
+#pragma once
+
+#include "lv/circulation/beat_measures.hpp"
+#include "lv/circulation/parameters.hpp"
+
+#include <functional>
+#include <vector>
+
+namespace lv::circulation {
+
+/// Beats of a circulation, up to its limit cycle or their largest number.
+struct Cycle {
+  std::vector<Sample> samples;  ///< of every step, the start included
+  std::vector<BeatMeasures> beats;
+  std::vector<Column> columns;  ///< of Signals::others
+  bool is_limit = false;        ///< the last beat changed no state by more than the tolerance
+  double change = 0.0;          ///< largest relative change of a state over the last beat
+  double blood_lost = 0.0;      ///< |blood at the end/blood at the start - 1| of a closed loop
+};
+
+/// Runs a circulation whose left ventricle is an elastance, by implicit steps of second order.
+/// Throws RunError as implicit_step does, and Interrupted between beats.
+[[nodiscard]] Cycle run_alone(const Parameters& parameters);
+
+/// The largest relative change of a state.
+[[nodiscard]] double largest_change(std::span<const double> before, std::span<const double> after);
+
+}  // namespace lv::circulation

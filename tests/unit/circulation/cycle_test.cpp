@@ -1,0 +1,117 @@
+#include "lv/circulation/cycle.hpp"
+
+#include "lv/circulation/closed_loop.hpp"
+#include "lv/circulation/elastance.hpp"
+#include "lv/circulation/implicit_step.hpp"
+#include "lv/circulation/windkessel.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+namespace {
+
+using namespace lv::circulation;
+using lv::units::mmHg;
+
+Parameters quick(Kind kind) {
+  Parameters p;
+  p.kind = kind;
+  p.step = 2e-3;
+  return p;
+}
+
+}  // namespace
+
+TEST_CASE("an elastance is periodic and stays between its passive and its whole stiffness",
+          "[unit][circulation]") {
+  const ElastanceParameters p{2.0, 0.1, 0.2, 0.3, 0.7, 5.0};
+  const Elastance chamber(p, 0.8);
+  for (double t = 0.0; t < 0.8; t += 0.01) {
+    CHECK(chamber.at(t) >= 0.1);
+    CHECK(chamber.at(t) <= 2.1);
+    CHECK(chamber.at(t + 1.6) == Approx(chamber.at(t)).margin(1e-12));
+  }
+  CHECK(chamber.at(0.9) == Approx(2.1));  // the peak is in the next beat
+  CHECK(chamber.pressure(0.9, 15.0) == Approx(21.0));
+}
+
+TEST_CASE("backward differences are exact for parabolas, whatever the steps",
+          "[unit][circulation]") {
+  const auto y = [](double t) { return 3.0 - 2.0 * t + 5.0 * t * t; };
+  const auto rate = [](double t) { return -2.0 + 10.0 * t; };
+  const History<1> history{{y(0.4)}, {y(0.1)}, 0.3};
+  const auto difference = backward_difference(history, 0.2);
+  CHECK(difference.known[0] + difference.weight * rate(0.6) == Approx(y(0.6)).epsilon(1e-13));
+}
+
+TEST_CASE("without a value before, the step is backward Euler's", "[unit][circulation]") {
+  const auto difference = backward_difference(History<1>{{7.0}}, 0.2);
+  CHECK(difference.known[0] == 7.0);
+  CHECK(difference.weight == 0.2);
+}
+
+TEST_CASE("an implicit step knows how its volume follows the ventricle's pressure",
+          "[unit][circulation]") {
+  const Windkessel circuit({}, {});
+  const History<2> history{{100.0 * ml, 80.0 * mmHg}};
+  const auto step = [&](double p) {
+    const auto rates = [&]<class T>(const std::array<T, 2>& y, const T& pressure) {
+      return circuit.rates(0.0, y, pressure);
+    };
+    return implicit_step<2>(rates, backward_difference(history, 1e-3), p, history.now);
+  };
+  for (const double p : {5.0 * mmHg, 40.0 * mmHg, 100.0 * mmHg}) {
+    const double h = 1e-2;  // the flow is linear in the pressure away from the valves' events
+    const double slope = (step(p + h).y[0] - step(p - h).y[0]) / (2 * h);
+    CHECK(step(p).dy_dp[0] == Approx(slope).epsilon(1e-5).margin(1e-7));
+    CHECK(step(p).dy_dp[0] < 0.0);  // more pressure, less volume
+  }
+}
+
+TEST_CASE("a circulation comes to its limit cycle and stays there", "[unit][circulation]") {
+  for (const Kind kind : {Kind::windkessel, Kind::closed_loop}) {
+    const Cycle cycle = run_alone(quick(kind));
+    CHECK(cycle.is_limit);
+    CHECK(cycle.change <= 1e-3);
+    const BeatMeasures& last = cycle.beats.back();
+    const BeatMeasures& before = cycle.beats.at(cycle.beats.size() - 2);
+    CHECK(last.stroke_volume == Approx(before.stroke_volume).epsilon(5e-3));
+    CHECK(last.aortic_opens > last.mitral_closes);
+    CHECK(last.mitral_opens > last.aortic_closes);
+  }
+}
+
+TEST_CASE("a closed circulation keeps its blood", "[unit][circulation]") {
+  CHECK(run_alone(quick(Kind::closed_loop)).blood_lost < 1e-10);
+}
+
+TEST_CASE("what is ejected is what fills and what runs off in a limit cycle",
+          "[unit][circulation]") {
+  Parameters p = quick(Kind::windkessel);
+  p.tolerance = 1e-8;
+  const Cycle cycle = run_alone(p);
+  const BeatMeasures& m = cycle.beats.back();
+  const double arterial = m.aortic_mean / p.windkessel.R_p;  // not quite: Z hardly matters
+  CHECK(m.stroke_volume / p.period == Approx(arterial).epsilon(0.06));
+}
+
+TEST_CASE("the number of beats ends a circulation that has no limit cycle yet",
+          "[unit][circulation]") {
+  Parameters p = quick(Kind::windkessel);
+  p.beats = 2;
+  const Cycle cycle = run_alone(p);
+  CHECK(cycle.beats.size() == 2);
+  CHECK_FALSE(cycle.is_limit);
+}
+
+TEST_CASE("a ventricle too weak to open the aortic valve has no end-systole",
+          "[unit][circulation]") {
+  Parameters p = quick(Kind::windkessel);
+  p.beats = 1;
+  p.left_ventricle.E_A = 0.1 * elastance;
+  const BeatMeasures m = run_alone(p).beats.front();
+  CHECK(std::isnan(m.aortic_opens));
+  CHECK(std::isnan(m.end_systolic_volume));
+  CHECK(std::isnan(m.ejection_fraction));
+}

@@ -1,0 +1,61 @@
+#include "lv/report/cycle_tables.hpp"
+
+#include "lv/circulation/cycle.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <limits>
+
+namespace {
+
+using namespace lv;
+
+circulation::Cycle two_beats() {
+  circulation::Parameters p;
+  p.kind = circulation::Kind::windkessel;
+  p.step = 2e-3;
+  p.beats = 2;
+  return circulation::run_alone(p);
+}
+
+}  // namespace
+
+TEST_CASE("cycle.csv has every step with its beat, in clinical units", "[unit][report]") {
+  const circulation::Cycle cycle = two_beats();
+  const Table table = report::cycle_table(cycle.samples, cycle.columns, 0.8);
+  CHECK(table.rows().size() == 801);
+  CHECK(table.whole_numbers("beat").front() == 0);
+  CHECK(table.whole_numbers("beat").at(1) == 1);
+  CHECK(table.whole_numbers("beat").at(400) == 1);
+  CHECK(table.whole_numbers("beat").at(401) == 2);
+  CHECK(table.numbers("volume_ml").front() == Approx(118.52));
+  CHECK(table.numbers("arterial_pressure_mmHg").front() == Approx(87.675));
+}
+
+TEST_CASE("beats.csv has a row per beat, and nothing for what did not happen", "[unit][report]") {
+  circulation::Cycle cycle = two_beats();
+  cycle.beats.back().mitral_opens = std::numeric_limits<double>::quiet_NaN();
+  const Table table = report::beats_table(cycle.beats);
+  REQUIRE(table.rows().size() == 2);
+  CHECK(table.numbers("edv_ml").front() ==
+        Approx(1e-3 * cycle.beats.front().end_diastolic_volume).epsilon(1e-6));
+  CHECK(table.words("mitral_opens_ms").back().empty());
+  CHECK(report::beat_text(cycle.beats.back()).find("did not happen") != std::string::npos);
+}
+
+TEST_CASE("the loop marks the last beat, the Wiggers diagram its phases", "[unit][report]") {
+  const circulation::Cycle cycle = two_beats();
+  const Table table = report::cycle_table(cycle.samples, cycle.columns, 0.8);
+  const auto loop =
+      std::get<report::LineChart>(report::pressure_volume_figure(table).panels.at(0).content);
+  REQUIRE(loop.series.size() == 2);
+  CHECK(loop.series.back().label == "beat 2");
+  CHECK(loop.series.back().x.size() == 401);
+  const report::Figure wiggers = report::wiggers_figure(table);
+  const auto pressures = std::get<report::LineChart>(wiggers.panels.at(0).content);
+  std::vector<std::string> names;
+  for (const report::Phase& phase : pressures.phases)
+    names.push_back(phase.label);
+  CHECK(names ==
+        std::vector<std::string>{"filling", "contraction", "ejection", "relaxation", "filling"});
+}

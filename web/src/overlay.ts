@@ -1,0 +1,61 @@
+// What is written over a 3-D view, and saved and printed with it: case, moment, cut, letters, legend, scale bar.
+import { barParts } from "./bar.ts";
+import type { Scale } from "./colours.ts";
+import { ink, svg } from "./dom.ts";
+import { marked } from "./orientation.ts";
+import type { WallView } from "./wall_view.ts";
+
+const edge = 10;  // [pixels]
+
+export class Overlay {
+  readonly element = svg("svg", { class: "overlay", "font-family": "sans-serif", "font-size": 13, "aria-hidden": "true" });
+  private caption = svg("g", { fill: ink.text });
+  private region = svg("text", { class: "region", "text-anchor": "end", y: 20, fill: ink.text, "font-weight": 600 });
+  private legend = svg("g", { class: "legend", "font-size": 12 });
+  private letters = new Map<string, SVGTextElement>();
+  private bar = svg("path", { stroke: ink.text, "stroke-width": 2, fill: "none" });
+  private length = svg("text", { "text-anchor": "middle", fill: ink.text, "font-size": 12 }, "20 mm");
+  private star = svg("text", { "text-anchor": "end", fill: ink.text, "font-size": 11 });
+
+  constructor(private view: WallView) {
+    this.element.append(this.caption, this.region, this.legend, this.bar, this.length, this.star);
+    for (const { name } of view.letters()) {
+      const letter = svg("text", { class: "letter", "data-letter": name, "text-anchor": "middle", dy: "0.35em", "font-size": 18, "font-weight": 700,
+        fill: ink.text, stroke: ink.paper, "stroke-width": 4, "paint-order": "stroke" }, marked(name, view.heart.assumed));
+      this.letters.set(name, letter);
+      this.element.append(letter);
+    }
+    if (view.heart.assumed) this.star.textContent = "* the septum is assumed";
+  }
+
+  write(lines: string[], scale: Scale, title: string): void {
+    this.caption.replaceChildren(...lines.map((line, i) =>
+      svg("text", { x: edge, y: 20 + 17 * i, ...(i === 0 ? { "font-weight": 600 } : {}) }, line)));
+    this.legend.replaceChildren(...barParts(scale, title, 190));
+  }
+
+  /** The region that is marked. */
+  name(region: string): void { this.region.textContent = region; }
+
+  /** Follows the camera. */
+  place(): void {
+    const { clientWidth: width, clientHeight: height } = this.view.canvas;
+    this.element.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    this.element.setAttribute("width", String(width));
+    this.element.setAttribute("height", String(height));
+    this.legend.setAttribute("transform", `translate(${edge} ${height - 52})`);
+    this.region.setAttribute("x", String(width - edge));
+    const length = 20 * this.view.scale;
+    this.bar.setAttribute("d", `M${width - edge - length} ${height - 22}v6h${length}v-6`);
+    this.length.setAttribute("x", String(width - edge - length / 2));
+    this.length.setAttribute("y", String(height - 24));
+    this.star.setAttribute("x", String(width - edge));
+    this.star.setAttribute("y", String(height - 44));
+    for (const { name, x, y, seen } of this.view.letters()) {
+      const letter = this.letters.get(name)!;
+      letter.setAttribute("x", x.toFixed(1));
+      letter.setAttribute("y", y.toFixed(1));
+      letter.setAttribute("visibility", seen ? "visible" : "hidden");
+    }
+  }
+}
