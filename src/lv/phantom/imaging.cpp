@@ -1,5 +1,7 @@
 #include "lv/phantom/imaging.hpp"
 
+#include "lv/phantom/papillary.hpp"
+
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
@@ -169,7 +171,7 @@ Scanner::Place Scanner::place(const Motion& motion, const Vec3& x) const {
   const double theta = std::atan2(x.y(), x.x());
   const double r = std::hypot(x.x(), x.y());
   if (r < motion.radius(Side::endo, x.z(), theta))
-    return {cavity, false, X};
+    return {cavity, false, X, in_papillary(ventricle_, motion, x)};
   if (r >= motion.radius(Side::epi, x.z(), theta))
     return {background, in_right_ventricle(ventricle_, X), X};
   return {ventricle_.in_scar(X) ? scar : muscle, false, X};
@@ -185,6 +187,8 @@ double Scanner::texture(const Vec3& X) const {
 double Scanner::signal(const Place& at, const Vec3& x, Contrast contrast) const {
   const bool cine = contrast == Contrast::cine;
   const double blood = cine ? signals::blood : signals::enhanced_blood;
+  if (at.papillary)
+    return cine ? signals::muscle : signals::nulled_muscle;
   if (at.label == cavity || at.right_ventricle)
     return blood;
   if (at.label == background)

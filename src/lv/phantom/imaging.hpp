@@ -74,7 +74,8 @@ class Scanner {
   struct Place {
     Label label;
     bool right_ventricle;
-    Vec3 X;  ///< at end-diastole
+    Vec3 X;                  ///< at end-diastole
+    bool papillary = false;  ///< muscle that counts to the cavity
   };
   [[nodiscard]] Place place(const Motion& motion, const Vec3& x) const;
   [[nodiscard]] double signal(const Place& place, const Vec3& x, Contrast contrast) const;

@@ -1,0 +1,281 @@
+#include "lv/segment/borders.hpp"
+
+#include "lv/base/interrupt.hpp"
+#include "lv/base/median.hpp"
+#include "lv/segment/closed_path.hpp"
+#include "lv/segment/grey_levels.hpp"
+#include "lv/segment/smooth_border.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lv::segment {
+namespace {
+
+constexpr PolarGrid grid{};
+constexpr double wall_of_cost = 1e3;  // forbids a radius
+constexpr int epi_harmonics = 4;
+constexpr double thinnest = 2.5;   // wall that is drawn [mm]
+constexpr double agreement = 2.0;  // between what was found and what is drawn [mm]
+
+/// Radii of the grid, a row.
+Eigen::ArrayXd radii() {
+  return Eigen::ArrayXd::LinSpaced(grid.radii, grid.first, grid.last());
+}
+
+/// Distance of every radius from a line, positive outside.
+Polar distance_from(const Radii& line) {
+  return radii().transpose().replicate(grid.rays, 1) - line.replicate(1, grid.radii);
+}
+
+Polar forbid(const Polar& distance, double low, double high) {
+  return wall_of_cost * (distance < low || distance > high).cast<double>();
+}
+
+/// Mean of the values at offsets first..last along the radii; the ends go on.
+Polar mean_at(const Polar& values, int first, int last) {
+  Polar sum = Polar::Zero(values.rows(), values.cols());
+  for (int offset = first; offset <= last; ++offset)
+    for (Eigen::Index k = 0; k < values.cols(); ++k)
+      sum.col(k) += values.col(std::clamp<Eigen::Index>(k + offset, 0, values.cols() - 1));
+  return sum / (last - first + 1);
+}
+
+/// Integral from the centre along every ray [mm].
+Polar integral(const Polar& values) {
+  Polar sum = grid.step * values;
+  for (Eigen::Index k = 1; k < values.cols(); ++k)
+    sum.col(k) += sum.col(k - 1);
+  return sum;
+}
+
+/// 0 at the blood's grey value, 1 at the muscle's and below.
+Polar darkness(const Polar& values, const Levels& levels) {
+  const Polar muscle = levels.muscle.replicate(1, grid.radii);
+  return ((levels.blood - values) / (levels.blood - muscle)).max(0.0).min(1.0);
+}
+
+/// How unlike muscle a grey value is, 0 to 1: brighter by a third of the way to blood, or darker by
+/// six tenths of the muscle's own.
+Polar unlikeness(const Polar& values, const Levels& levels) {
+  constexpr double brighter = 0.35;
+  constexpr double darker = 0.6;
+  const Polar muscle = levels.muscle.replicate(1, grid.radii);
+  return (values > muscle)
+      .select((values - muscle) / (levels.blood - muscle) / brighter,
+              (muscle - values) / muscle / darker)
+      .min(1.0);
+}
+
+/// The edge of the blood, before muscle is known.
+Radii blood_edge(const Polar& values, const Levels& guess) {
+  constexpr double region = 0.3;  // weight of a millimetre beside the edge's
+  constexpr double edge_weight = 2.0;
+  const Polar dark = darkness(values, guess);
+  const Polar edge = mean_at(dark, 1, 4) - mean_at(dark, -4, -1);
+  const Polar cost = region * integral(dark - 0.5) - edge_weight * edge.max(0.0);
+  return closed_path(cost, {.reach = 2, .stiffness = 0.05}, grid);
+}
+
+/// The line along which a band is most like muscle, not far from the blood.
+Radii middle_of_wall(const Polar& values, const Radii& blood, const Levels& levels) {
+  constexpr int half_band = 2;     // radii
+  constexpr double nearer = 0.02;  // a millimetre farther costs so much
+  const Polar away = distance_from(blood);
+  const Polar cost = mean_at(unlikeness(values, levels), -half_band, half_band) +
+                     nearer * away.max(0.0) + forbid(away, 1.0, 16.0);
+  return closed_path(cost, {.reach = 1, .stiffness = 0.1}, grid);
+}
+
+/// What the epicardium costs: unlike muscle between it and the wall's middle, and no edge.
+Polar epicardial_cost(const Polar& values, const Radii& middle, const Levels& levels) {
+  constexpr double region = 0.5;
+  constexpr double strongest = 0.6;  // edge that counts, as a part of blood - muscle
+  const Polar sum = integral(unlikeness(values, levels) - 0.5);
+  const Polar contrast = (levels.blood - levels.muscle).replicate(1, grid.radii);
+  const Polar edge = (mean_at(values, 1, 3) - mean_at(values, -3, -1)).abs() / contrast;
+  return region * sum - edge.min(strongest) + forbid(distance_from(middle), 1.0, 14.0);
+}
+
+/// The median of each ray over neighbouring frames.
+std::vector<Radii> median_in_time(const std::vector<Radii>& lines, int reach) {
+  const int n = static_cast<int>(lines.size());
+  std::vector<Radii> result(lines);
+  for (int t = 0; t < n; ++t)
+    for (Eigen::Index i = 0; i < lines.front().size(); ++i) {
+      std::vector<double> near;
+      for (int d = -reach; d <= reach; ++d)
+        near.push_back(lines[static_cast<std::size_t>(((t + d) % n + n) % n)](i));
+      result[static_cast<std::size_t>(t)](i) = median(near);
+    }
+  return result;
+}
+
+/// The epicardium of all frames; the second and third time close to what the frames around it show.
+std::vector<Radii> epicardium(const std::vector<Polar>& costs) {
+  constexpr double pull = 0.02;  // [1/mm^2]
+  constexpr double most = 50.0;  // [mm^2]
+  constexpr PathRule rule{.reach = 1, .stiffness = 0.15};
+  std::vector<Radii> lines;
+  for (const Polar& cost : costs)
+    lines.push_back(closed_path(cost, rule, grid));
+  for (int round = 0; round < 2; ++round) {
+    const std::vector<Radii> usual = median_in_time(lines, 2);
+    for (std::size_t t = 0; t < costs.size(); ++t) {
+      const Polar away = distance_from(harmonics_of(usual[t], epi_harmonics));
+      lines[t] = closed_path(costs[t] + pull * away.square().min(most), rule, grid);
+    }
+  }
+  return lines;
+}
+
+/// Where the grey value has fallen by a part of the way to muscle, inside the middle of the wall.
+Radii endocardium(const Polar& values, const Radii& outside, const Levels& levels, double fall) {
+  const Polar cost = integral(darkness(values, levels) - fall) +
+                     wall_of_cost * (distance_from(outside) > -2.0).cast<double>();
+  return closed_path(cost, {.reach = 1, .stiffness = 0.2}, grid);
+}
+
+/// How much muscle lies within 4 mm outside a line, 0 to 1.
+Radii wall_behind(const Polar& values, const Radii& line, const Levels& levels) {
+  const Polar away = distance_from(line);
+  const Polar here = (away > 0.5 && away < 4.0).cast<double>();
+  return ((1.0 - unlikeness(values, levels)) * here).rowwise().sum() /
+         here.rowwise().sum().max(1.0);
+}
+
+/// One slice while its borders are looked for.
+struct Work {
+  std::vector<Polar> values;
+  std::vector<Radii> blood, middle, epi, endo, wall;
+  Levels levels;
+};
+
+void find_middle(Work& work) {
+  constexpr int rounds = 2;         // of levels along the rays
+  constexpr double faintest = 1.2;  // blood beside muscle; a slice without either is left out later
+  const double of_slice = work.levels.muscle.mean();
+  for (int round = 0; round <= rounds; ++round) {
+    if (round > 0)
+      work.levels.muscle = muscle_along(work.values, work.middle, of_slice, grid);
+    work.levels.blood = std::max(work.levels.blood, faintest * work.levels.muscle.maxCoeff());
+    work.middle.clear();
+    for (std::size_t t = 0; t < work.values.size(); ++t)
+      work.middle.push_back(middle_of_wall(work.values[t], work.blood[t], work.levels));
+  }
+}
+
+void find_borders(Work& work, double fall) {
+  find_middle(work);
+  std::vector<Polar> costs;
+  for (std::size_t t = 0; t < work.values.size(); ++t)
+    costs.push_back(epicardial_cost(work.values[t], work.middle[t], work.levels));
+  work.epi = epicardium(costs);
+  for (std::size_t t = 0; t < work.values.size(); ++t) {
+    const Radii outside = harmonics_of(work.epi[t], epi_harmonics).min(work.middle[t] + 3.0);
+    work.endo.push_back(endocardium(work.values[t], outside, work.levels, fall));
+    work.wall.push_back(wall_behind(work.values[t], work.endo[t], work.levels));
+  }
+}
+
+/// The shape of a line, as large as another where that one can be trusted.
+Radii scaled_to(const Radii& shape, const Radii& seen, const Radii& trusted) {
+  std::vector<double> ratios;
+  for (Eigen::Index i = 0; i < seen.size(); ++i)
+    if (trusted(i) > 0.5)
+      ratios.push_back(seen(i) / shape(i));
+  return 4 * ratios.size() < static_cast<std::size_t>(seen.size()) ? shape
+                                                                   : Radii(median(ratios) * shape);
+}
+
+constexpr double walled = 0.5;  // of wall_behind: muscle is seen
+
+/// The endocardium of a slice as it is drawn; `inner` is the slice before it, or null.
+std::vector<Radii> drawn_endocardium(const Work& work, const SliceBorders* inner) {
+  constexpr double unseen_weight = 0.05;
+  constexpr double trust = 0.1;
+  constexpr double unseen_trust = 0.3;
+  std::vector<Radii> lines;
+  for (std::size_t t = 0; t < work.endo.size(); ++t) {
+    const Radii sees = (work.wall[t] > walled).cast<double>();
+    const Radii& seen = work.endo[t];
+    const Radii expected = inner == nullptr ? seen : scaled_to(inner->frames[t].endo, seen, sees);
+    lines.push_back(convex(fit_border({.seen = seen,
+                                       .weight = sees.max(unseen_weight),
+                                       .expected = expected,
+                                       .trust = sees * trust + (1.0 - sees) * unseen_trust,
+                                       .harmonics = 3,
+                                       .within = 0.1})));
+  }
+  return median_in_time(lines, 1);
+}
+
+double part_within(const Radii& a, const Radii& b, double most) {
+  return ((a - b).abs() < most).cast<double>().mean();
+}
+
+SliceBorders finish(const Work& work, const Pixel& centre, const SliceBorders* inner) {
+  const std::vector<Radii> endo = drawn_endocardium(work, inner);
+  const double muscle = work.levels.muscle.mean();
+  SliceBorders slice{centre, (work.levels.blood - muscle) / muscle, {}};
+  for (std::size_t t = 0; t < endo.size(); ++t) {
+    const Radii smooth = harmonics_of(work.epi[t], epi_harmonics);
+    const Radii sees = (work.wall[t] > walled).cast<double>();
+    slice.frames.push_back(
+        {.endo = endo[t],
+         .epi = smooth.max(endo[t] + thinnest),
+         .wall_part = sees.mean(),
+         .endo_agrees = (sees * ((work.endo[t] - endo[t]).abs() < agreement).cast<double>()).mean(),
+         .epi_agrees = part_within(work.epi[t], smooth, agreement)});
+  }
+  return slice;
+}
+
+Work begin(const image::CineSlice& slice, const Centre& centre) {
+  Work work;
+  for (const image::Picture& frame : slice.frames)
+    work.values.push_back(sample(frame, centre.at, grid));
+  work.levels = guess_levels(work.values, centre.radius, grid);
+  for (const Polar& values : work.values)
+    work.blood.push_back(blood_edge(values, work.levels));
+  return work;
+}
+
+std::vector<Work> begin_all(const image::Cine& cine, const Heart& heart) {
+  std::vector<Work> all;
+  std::vector<std::vector<double>> outside;
+  for (std::size_t s = 0; s < cine.slices.size(); ++s) {
+    interrupt::check();
+    all.push_back(begin(cine.slices[s], heart.centres[s]));
+    outside.push_back(around_blood(all.back().values, all.back().blood, grid));
+  }
+  std::vector<double> blood;
+  for (const Work& work : all)
+    blood.push_back(work.levels.blood);
+  const std::vector<double> muscle = muscle_levels(outside, blood);
+  for (std::size_t s = 0; s < all.size(); ++s)
+    all[s].levels.muscle.setConstant(muscle[s]);
+  return all;
+}
+
+}  // namespace
+
+std::vector<SliceBorders> draw_borders(const image::Cine& cine, const Heart& heart, double fall) {
+  std::vector<Work> work = begin_all(cine, heart);
+  for (Work& slice : work) {
+    interrupt::check();
+    find_borders(slice, fall);
+  }
+  std::vector<SliceBorders> borders(work.size());
+  const auto finish_slice = [&](std::size_t s, const SliceBorders* inner) {
+    borders[s] = finish(work[s], heart.centres[s].at, inner);
+  };
+  finish_slice(heart.seed, nullptr);
+  for (std::size_t s = heart.seed + 1; s < work.size(); ++s)
+    finish_slice(s, &borders[s - 1]);
+  for (std::size_t s = heart.seed; s-- > 0;)
+    finish_slice(s, &borders[s + 1]);
+  return borders;
+}
+
+}  // namespace lv::segment

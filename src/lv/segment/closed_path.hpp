@@ -1,0 +1,26 @@
+#pragma once
+
+#include "lv/segment/polar.hpp"
+
+#include <vector>
+
+namespace lv::segment {
+
+/// How a path may run from ray to ray.
+struct PathRule {
+  int reach = 1;           ///< largest change of the radius' number between neighbouring rays
+  double stiffness = 0.1;  ///< cost of a change by one; grows with its square
+};
+
+/// The closed path, one radius k_i per ray, that makes
+///
+///   sum_i cost(i, k_i) + stiffness (k_i - k_(i-1))^2,    |k_i - k_(i-1)| <= reach,
+///
+/// least, ray 0 following the last. By dynamic programming from each start that an open path, whose
+/// cost is a lower bound, leaves a chance to be best. The costs must be finite.
+[[nodiscard]] std::vector<int> closed_path(const Polar& cost, const PathRule& rule);
+
+/// The same in mm.
+[[nodiscard]] Radii closed_path(const Polar& cost, const PathRule& rule, const PolarGrid& grid);
+
+}  // namespace lv::segment

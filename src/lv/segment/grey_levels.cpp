@@ -1,0 +1,108 @@
+#include "lv/segment/grey_levels.hpp"
+
+#include "lv/base/median.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace lv::segment {
+namespace {
+
+/// Weights of a Gaussian of three bins or rays, -9 to 9.
+std::array<double, 19> gaussian() {
+  std::array<double, 19> weights{};
+  double sum = 0.0;
+  for (int d = -9; d <= 9; ++d)
+    sum += weights.at(d + 9) = std::exp(-d * d / 18.0);
+  for (double& w : weights)
+    w /= sum;
+  return weights;
+}
+
+/// The most frequent value between two, from a histogram of 60 bins smoothed over three.
+double most_frequent(const std::vector<double>& values, double low, double high) {
+  constexpr int bins = 60;
+  const std::array<double, 19> weights = gaussian();
+  std::vector<double> density(bins, 0.0);
+  for (const double v : values) {
+    const int bin = static_cast<int>(std::floor((v - low) / (high - low) * bins));
+    if (v < low || bin >= bins)
+      continue;
+    for (int d = -9; d <= 9; ++d)
+      if (bin + d >= 0 && bin + d < bins)
+        density[static_cast<std::size_t>(bin + d)] += weights.at(d + 9);
+  }
+  const auto peak = std::max_element(density.begin(), density.end()) - density.begin();
+  return low + (static_cast<double>(peak) + 0.5) / bins * (high - low);
+}
+
+}  // namespace
+
+Levels guess_levels(const std::vector<Polar>& frames, double radius, const PolarGrid& grid) {
+  constexpr double usual = 0.35;
+  const int inner = grid.index(0.5 * radius) + 1;
+  std::vector<double> middle;
+  for (const Polar& values : frames)
+    for (const double v : values.leftCols(inner).reshaped())
+      middle.push_back(v);
+  const double blood = std::max(median(std::move(middle)), 1e-6);  // a black image has none
+  return {blood, Radii::Constant(grid.rays, usual * blood)};
+}
+
+std::vector<double> around_blood(const std::vector<Polar>& frames, const std::vector<Radii>& blood,
+                                 const PolarGrid& grid) {
+  constexpr double nearest = 2.0;
+  constexpr double farthest = 10.0;
+  std::vector<double> values;
+  for (std::size_t t = 0; t < frames.size(); ++t)
+    for (int i = 0; i < grid.rays; ++i)
+      for (int k = 0; k < grid.radii; ++k)
+        if (const double away = grid.radius(k) - blood[t](i); away > nearest && away < farthest)
+          values.push_back(frames[t](i, k));
+  return values;
+}
+
+std::vector<double> muscle_levels(const std::vector<std::vector<double>>& outside,
+                                  const std::vector<double>& blood) {
+  constexpr double own = 0.35;  // how far a slice may be from the study
+  std::vector<double> all;
+  for (const auto& values : outside)
+    all.insert(all.end(), values.begin(), values.end());
+  const double usual_blood = median(blood);
+  const double usual = most_frequent(all, 0.1 * usual_blood, 0.6 * usual_blood);
+  std::vector<double> slices;
+  for (const auto& values : outside)
+    slices.push_back(most_frequent(values, (1.0 - own) * usual, (1.0 + own) * usual));
+  std::vector<double> levels;
+  for (std::size_t s = 0; s < slices.size(); ++s) {
+    const auto from = slices.begin() + static_cast<std::ptrdiff_t>(s > 0 ? s - 1 : 0);
+    const auto to = slices.begin() + static_cast<std::ptrdiff_t>(std::min(s + 2, slices.size()));
+    levels.push_back(median({from, to}));
+  }
+  return levels;
+}
+
+Radii muscle_along(const std::vector<Polar>& frames, const std::vector<Radii>& middle,
+                   double of_slice, const PolarGrid& grid) {
+  constexpr double band = 1.6;      // [mm]
+  constexpr double darkest = 0.65;  // of the slice's level
+  constexpr double brightest = 1.5;
+  Radii along(grid.rays);
+  for (int i = 0; i < grid.rays; ++i) {
+    std::vector<double> near;
+    for (std::size_t t = 0; t < frames.size(); ++t)
+      for (int k = 0; k < grid.radii; ++k)
+        if (std::abs(grid.radius(k) - middle[t](i)) < band)
+          near.push_back(frames[t](i, k));
+    along(i) = std::clamp(median(near), darkest * of_slice, brightest * of_slice);
+  }
+  const std::array<double, 19> weights = gaussian();
+  Radii smooth = Radii::Zero(grid.rays);
+  for (int i = 0; i < grid.rays; ++i)
+    for (int d = -9; d <= 9; ++d)
+      smooth(i) += weights.at(d + 9) * along((i + d + grid.rays) % grid.rays);
+  return smooth;
+}
+
+}  // namespace lv::segment

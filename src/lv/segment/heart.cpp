@@ -1,0 +1,234 @@
+#include "lv/segment/heart.hpp"
+
+#include "lv/base/interrupt.hpp"
+#include "lv/base/median.hpp"
+#include "lv/segment/closed_path.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+namespace lv::segment {
+namespace {
+
+using image::CineSlice;
+using image::Picture;
+using image::Plane;
+
+constexpr PolarGrid grid{.rays = 48, .radii = 40, .first = 4.0, .step = 1.0};
+constexpr double seed_step = 6.0;    // between places that are tried first [mm]
+constexpr double follow_step = 4.0;  // between places tried near the slice before [mm]
+constexpr double follow_reach = 12.0;
+
+/// Fall of the grey value over 4 mm outwards, as a part of the blood's; half of it counts as all.
+Polar steepness(const Polar& values) {
+  constexpr double whole = 0.5;
+  const auto n = values.cols();
+  Polar fall = Polar::Zero(values.rows(), n);
+  fall.middleCols(1, n - 2) = 2.0 * (values.leftCols(n - 2) - values.rightCols(n - 2));
+  return fall.max(0.0).min(whole) / whole;
+}
+
+/// The parts of likeness that a closed path round a place has.
+struct Ring {
+  double muscle = 0.0, blood = 0.0;
+};
+
+Ring ring_of(const Polar& values, const std::vector<int>& path) {
+  constexpr double same_muscle = 0.15;  // parts of the blood's grey value
+  constexpr double same_blood = 0.3;
+  constexpr double darkest_muscle = 0.12;  // lung round an atrium or a vessel is darker
+  const int last = static_cast<int>(values.cols());
+  std::vector<double> around;
+  double blood = 0.0;
+  for (Eigen::Index i = 0; i < values.rows(); ++i) {
+    const int k = path[static_cast<std::size_t>(i)];
+    const int near = std::min(k + 3, last - 1);
+    around.push_back(values.row(i).segment(near, std::min(k + 7, last) - near).mean());
+    const int inside = std::max(k - 2, 1);
+    blood += ((values.row(i).head(inside) - 1.0).abs() < same_blood).cast<double>().mean();
+  }
+  const double level = median(around);
+  const auto alike = std::count_if(around.begin(), around.end(), [&](double v) {
+    return std::abs(v - level) < same_muscle && v > darkest_muscle;
+  });
+  const auto rays = static_cast<double>(values.rows());
+  return {static_cast<double>(alike) / rays, blood / rays};
+}
+
+double roundness(const Radii& r) {
+  const double deviation = std::sqrt((r - r.mean()).square().mean());
+  return std::max(0.0, 1.0 - 2.0 * deviation / r.mean());
+}
+
+Centre judge_one(const Picture& picture, const Pixel& place) {
+  Polar values = sample(picture, place, grid);
+  std::vector<double> middle;
+  for (const double v : values.leftCols(3).reshaped())
+    middle.push_back(v);
+  const double blood = median(middle);
+  if (!(blood > 0.0))
+    return {place, 0.0, 0.0};
+  values /= blood;
+  const Polar edge = steepness(values);
+  const std::vector<int> path = closed_path(1.0 - edge, {.reach = 1, .stiffness = 0.1});
+  Radii r(grid.rays);
+  double steep = 0.0;
+  for (int i = 0; i < grid.rays; ++i) {
+    r(i) = grid.radius(path[static_cast<std::size_t>(i)]);
+    steep += edge(i, path[static_cast<std::size_t>(i)]) / grid.rays;
+  }
+  const Ring ring = ring_of(values, path);
+  const Eigen::Vector2d moved = centroid(r);
+  const Plane& plane = picture.plane;
+  return {place + Pixel(moved.x() / plane.spacing_i, moved.y() / plane.spacing_j),
+          steep * ring.muscle * ring.blood * roundness(r), r.mean()};
+}
+
+std::vector<const Picture*> frames_of(const CineSlice& slice, std::size_t count) {
+  std::vector<const Picture*> frames;
+  for (std::size_t n = 0; n < count; ++n)
+    frames.push_back(&slice.frames[n * slice.frames.size() / count]);
+  return frames;
+}
+
+/// Twice the amplitude of the first harmonic over the cycle at a pixel.
+double motion_at(const CineSlice& slice, int i, int j) {
+  std::complex<double> sum = 0.0;
+  const auto n = static_cast<double>(slice.frames.size());
+  for (std::size_t t = 0; t < slice.frames.size(); ++t)
+    sum += static_cast<double>(slice.frames[t].at(i, j)) *
+           std::polar(1.0, -2.0 * std::numbers::pi * static_cast<double>(t) / n);
+  return 2.0 * std::abs(sum) / n;
+}
+
+/// A place that may be the heart's and how much moves round it.
+struct Place {
+  std::size_t slice;
+  Pixel at;
+  double motion = 0.0;
+};
+
+/// Places on a grid, each with the motion of its own square.
+std::vector<Place> squares(const CineSlice& slice, std::size_t number) {
+  const Plane& plane = slice.frames.front().plane;
+  const int across = std::max(1, static_cast<int>(std::lround(seed_step / plane.spacing_i)));
+  const int down = std::max(1, static_cast<int>(std::lround(seed_step / plane.spacing_j)));
+  std::vector<Place> places;
+  for (int j = 0; j + down <= plane.rows; j += down)
+    for (int i = 0; i + across <= plane.columns; i += across) {
+      double sum = 0.0;
+      for (int v = j; v < j + down; ++v)
+        for (int u = i; u < i + across; ++u)
+          sum += motion_at(slice, u, v);
+      places.push_back(
+          {number, Pixel(i + 0.5 * (across - 1), j + 0.5 * (down - 1)), sum / (across * down)});
+    }
+  return places;
+}
+
+/// The mean motion of the squares within 25 mm.
+double motion_around(const Place& place, const std::vector<Place>& squares, const Plane& plane) {
+  constexpr double reach = 25.0;
+  double sum = 0.0;
+  int count = 0;
+  for (const Place& other : squares)
+    if (std::hypot((other.at.x() - place.at.x()) * plane.spacing_i,
+                   (other.at.y() - place.at.y()) * plane.spacing_j) < reach) {
+      sum += other.motion;
+      ++count;
+    }
+  return sum / count;
+}
+
+std::vector<Place> moving_places(const image::Cine& cine) {
+  constexpr double part = 0.3;  // of the largest motion
+  std::vector<Place> places;
+  double most = 0.0;
+  for (std::size_t s = 0; s < cine.slices.size(); ++s) {
+    const std::vector<Place> own = squares(cine.slices[s], s);
+    for (Place place : own) {
+      place.motion = motion_around(place, own, cine.slices[s].frames.front().plane);
+      most = std::max(most, place.motion);
+      places.push_back(place);
+    }
+  }
+  std::erase_if(places, [&](const Place& place) { return place.motion < part * most; });
+  return places;
+}
+
+Centre better(const Centre& a, const Centre& b) {
+  return b.likeness > a.likeness ? b : a;
+}
+
+/// The likeliest place near another.
+Centre search_near(const CineSlice& slice, const Pixel& from) {
+  const std::vector<const Picture*> frames = frames_of(slice, 4);
+  const Plane& plane = slice.frames.front().plane;
+  Centre best{from, -1.0, 0.0};
+  for (double y = -follow_reach; y <= follow_reach; y += follow_step)
+    for (double x = -follow_reach; x <= follow_reach; x += follow_step)
+      best = better(best, judge(frames, from + Pixel(x / plane.spacing_i, y / plane.spacing_j)));
+  return best;
+}
+
+const Plane& plane_of(const image::Cine& cine, std::size_t slice) {
+  return cine.slices[slice].frames.front().plane;
+}
+
+/// The slice nearest to a point and its place there.
+Place given_place(const image::Cine& cine, const Vec3& point) {
+  std::size_t nearest = 0;
+  const auto distance = [&](std::size_t s) { return std::abs(plane_of(cine, s).pixel(point).z()); };
+  for (std::size_t s = 1; s < cine.slices.size(); ++s)
+    if (distance(s) < distance(nearest))
+      nearest = s;
+  return {nearest, plane_of(cine, nearest).pixel(point).head<2>()};
+}
+
+Place likeliest_place(const image::Cine& cine) {
+  Place best{0, Pixel::Zero()};
+  double most = -1.0;
+  for (const Place& place : moving_places(cine)) {
+    interrupt::check();
+    const Centre found = judge(frames_of(cine.slices[place.slice], 2), place.at);
+    if (found.likeness <= most)
+      continue;
+    most = found.likeness;
+    best = {place.slice, found.at};
+  }
+  return best;
+}
+
+}  // namespace
+
+Centre judge(const std::vector<const Picture*>& frames, const Pixel& place) {
+  Centre mean;
+  for (const Picture* frame : frames) {
+    const Centre one = judge_one(*frame, place);
+    mean.at += one.at;
+    mean.likeness += one.likeness;
+    mean.radius += one.radius;
+  }
+  const auto n = static_cast<double>(frames.size());
+  return {mean.at / n, mean.likeness / n, mean.radius / n};
+}
+
+Heart find_heart(const image::Cine& cine, const std::optional<Vec3>& given) {
+  const Place seed = given ? given_place(cine, *given) : likeliest_place(cine);
+  Heart heart{std::vector<Centre>(cine.slices.size()), seed.slice};
+  heart.centres[seed.slice] = search_near(cine.slices[seed.slice], seed.at);
+  const auto follow = [&](std::size_t slice, std::size_t before) {
+    const Pixel& at = heart.centres[before].at;
+    const Vec3 point = plane_of(cine, before).point(at.x(), at.y());
+    heart.centres[slice] =
+        search_near(cine.slices[slice], plane_of(cine, slice).pixel(point).head<2>());
+  };
+  for (std::size_t s = seed.slice + 1; s < cine.slices.size(); ++s)
+    follow(s, s - 1);
+  for (std::size_t s = seed.slice; s-- > 0;)
+    follow(s, s + 1);
+  return heart;
+}
+
+}  // namespace lv::segment

@@ -1,0 +1,55 @@
+#pragma once
+
+#include "lv/image/picture.hpp"
+
+#include <Eigen/Core>
+
+#include <numbers>
+#include <vector>
+
+namespace lv::segment {
+
+/// A place in a picture: column and row of pixels, whose centres have whole numbers.
+using Pixel = Eigen::Vector2d;
+
+/// Values round a centre: a row per ray, a column per radius.
+using Polar = Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// A radius per ray [mm].
+using Radii = Eigen::ArrayXd;
+
+/// The rays and radii of a polar picture: ray i points along 2 pi i / rays, from a picture's
+/// columns to its rows; radius k is first + k step.
+struct PolarGrid {
+  int rays = 72;
+  int radii = 79;
+  double first = 1.0;  ///< [mm]
+  double step = 0.75;  ///< [mm]
+
+  [[nodiscard]] double angle(int ray) const { return 2.0 * std::numbers::pi * ray / rays; }
+  [[nodiscard]] double radius(int k) const { return first + k * step; }
+  [[nodiscard]] double last() const { return radius(radii - 1); }
+  /// The nearest radius of the grid.
+  [[nodiscard]] int index(double radius) const;
+};
+
+/// Grey values round a centre, linear between pixels and those of the edge beyond it, smoothed over
+/// neighbours (deviations of half a ray and 0.7 radii).
+[[nodiscard]] Polar sample(const image::Picture& picture, const Pixel& centre,
+                           const PolarGrid& grid);
+
+/// The place in the picture that lies `radius` from the centre along a ray.
+[[nodiscard]] Pixel place(const image::Plane& plane, const Pixel& centre, double angle,
+                          double radius);
+
+/// The closed line of these radii round a centre in image space [mm].
+[[nodiscard]] std::vector<Vec3> line(const image::Plane& plane, const Pixel& centre,
+                                     const Radii& radii);
+
+/// The area within, 1/2 sum r_i r_(i+1) sin(2 pi/n) [mm^2].
+[[nodiscard]] double area(const Radii& radii);
+
+/// The centroid within, from the centre [mm].
+[[nodiscard]] Eigen::Vector2d centroid(const Radii& radii);
+
+}  // namespace lv::segment

@@ -1,0 +1,303 @@
+#include "lv/segment/segment.hpp"
+
+#include "lv/base/check.hpp"
+#include "lv/base/median.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace lv::segment {
+namespace {
+
+using geometry::Contour;
+using geometry::Side;
+using image::Cine;
+
+constexpr std::size_t fewest_frames = 5;
+constexpr std::size_t fewest_slices = 3;
+constexpr double surrounded = 0.5;  // part of the circumference with muscle
+
+void check_cine(const Cine& cine, const std::string& where) {
+  const auto& slices = cine.slices;
+  if (slices.size() < fewest_slices)
+    throw InputError(where, fmt::format("{} short-axis slices", slices.size()),
+                     fmt::format("Give a stack of {} or more", fewest_slices));
+  const std::size_t frames = slices.front().frames.size();
+  for (const image::CineSlice& slice : slices)
+    if (slice.frames.size() != frames || frames < fewest_frames)
+      throw InputError(
+          where,
+          fmt::format("{} has {} images and {} has {}", slices.front().name, frames, slice.name,
+                      slice.frames.size()),
+          fmt::format("Give a cine: images over the heart's cycle, equally many of every slice and "
+                      "at least {}",
+                      fewest_frames));
+}
+
+double spacing_of(const Cine& cine) {
+  const image::Plane& first = cine.slices.front().frames.front().plane;
+  const Vec3 last = first.pixel(cine.slices.back().frames.front().plane.origin);
+  return std::abs(last.z()) / static_cast<double>(cine.slices.size() - 1);
+}
+
+/// First and last slice of the ventricle, both included.
+struct Run {
+  std::size_t first, last;
+};
+
+double usual_wall(const SliceBorders& slice) {
+  std::vector<double> parts;
+  for (const FrameBorders& frame : slice.frames)
+    parts.push_back(frame.wall_part);
+  return median(std::move(parts));
+}
+
+/// The slices round the seed that muscle surrounds and whose blood is told from it.
+Run walled_run(const std::vector<SliceBorders>& borders, std::size_t seed) {
+  constexpr double told = 0.5;  // of the usual contrast
+  std::vector<double> contrasts;
+  for (const SliceBorders& slice : borders)
+    contrasts.push_back(slice.contrast);
+  const double usual = median(std::move(contrasts));
+  const auto belongs = [&](std::size_t s) {
+    return usual_wall(borders[s]) >= surrounded && borders[s].contrast >= told * usual;
+  };
+  Run run{seed, seed};
+  while (run.first > 0 && belongs(run.first - 1))
+    --run.first;
+  while (run.last + 1 < borders.size() && belongs(run.last + 1))
+    ++run.last;
+  return run;
+}
+
+std::vector<double> areas_of(const SliceBorders& slice) {
+  std::vector<double> areas;
+  for (const FrameBorders& frame : slice.frames)
+    areas.push_back(area(frame.endo));
+  return areas;
+}
+
+double mean(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (const double v : values)
+    sum += v;
+  return sum / static_cast<double>(values.size());
+}
+
+/// Covariance over the frames.
+double covariance(const std::vector<double>& a, const std::vector<double>& b) {
+  double sum = 0.0;
+  for (std::size_t t = 0; t < a.size(); ++t)
+    sum += (a[t] - mean(a)) * (b[t] - mean(b));
+  return sum / static_cast<double>(a.size());
+}
+
+/// Whether the base lies at the run's first slices.
+bool base_is_first(const std::vector<SliceBorders>& borders, const Run& run) {
+  const std::size_t third = std::max<std::size_t>(1, (run.last - run.first + 1) / 3);
+  double first = 0.0;
+  double last = 0.0;
+  for (std::size_t n = 0; n < third; ++n) {
+    first += mean(areas_of(borders[run.first + n]));
+    last += mean(areas_of(borders[run.last - n]));
+  }
+  return first >= last;
+}
+
+/// Slices in order from the base.
+std::vector<std::size_t> from_base(const Run& run, bool base_first) {
+  std::vector<std::size_t> slices;
+  for (std::size_t s = run.first; s <= run.last; ++s)
+    slices.push_back(s);
+  if (!base_first)
+    std::reverse(slices.begin(), slices.end());
+  return slices;
+}
+
+/// Drops slices at the base, of the upper half, whose blood grows while the others' shrinks.
+void drop_atrium(const std::vector<SliceBorders>& borders, std::vector<std::size_t>& slices) {
+  std::vector<double> lower(borders.front().frames.size(), 0.0);
+  for (std::size_t n = slices.size() / 2; n < slices.size(); ++n) {
+    const std::vector<double> areas = areas_of(borders[slices[n]]);
+    for (std::size_t t = 0; t < areas.size(); ++t)
+      lower[t] += areas[t];
+  }
+  std::size_t drop = 0;
+  while (drop < slices.size() / 2 && covariance(areas_of(borders[slices[drop]]), lower) < 0.0)
+    ++drop;
+  slices.erase(slices.begin(), slices.begin() + static_cast<std::ptrdiff_t>(drop));
+}
+
+/// The median over five frames of the part with muscle.
+double steady_wall(const SliceBorders& slice, std::size_t frame) {
+  const std::size_t n = slice.frames.size();
+  std::vector<double> near;
+  for (std::size_t d = 0; d < fewest_frames; ++d)
+    near.push_back(slice.frames[(frame + n + d - 2) % n].wall_part);
+  return median(std::move(near));
+}
+
+/// Marks, per slice and frame, what shows the ventricle.
+void mark(const std::vector<std::size_t>& slices, Segmentation& found) {
+  constexpr double least_radius = 3.0;  // [mm]
+  for (std::size_t t = 0; t < found.borders.front().frames.size(); ++t) {
+    auto begin = slices.begin();
+    auto end = slices.end();
+    while (begin != end && steady_wall(found.borders[*begin], t) < surrounded)
+      ++begin;
+    while (begin != end && found.borders[*(end - 1)].frames[t].endo.mean() < least_radius)
+      --end;
+    for (auto s = begin; s != end; ++s)
+      found.shows[*s][t] = 1;
+  }
+}
+
+/// Volume per frame of the slices for which `counts` holds.
+template <class Counts>
+std::vector<double> volumes_of(const Segmentation& found, const Counts& counts) {
+  std::vector<double> volumes(found.borders.front().frames.size(), 0.0);
+  for (std::size_t s = 0; s < found.borders.size(); ++s)
+    for (std::size_t t = 0; t < volumes.size(); ++t)
+      if (counts(s, t))
+        volumes[t] += found.spacing * area(found.borders[s].frames[t].endo);
+  return volumes;
+}
+
+bool always(const std::vector<char>& shows) {
+  return std::all_of(shows.begin(), shows.end(), [](char c) { return c != 0; });
+}
+
+/// From the slices that show the ventricle in all frames, if there are any: what comes and goes at
+/// the base would shift the extremes.
+image::Phases phases_of(const Segmentation& found) {
+  const std::vector<double> core =
+      volumes_of(found, [&](std::size_t s, std::size_t) { return always(found.shows[s]); });
+  return image::propose_phases(core.front() > 0.0 ? core : found.volumes);
+}
+
+/// "2, 5 to 7" of numbers in ascending order.
+std::string ranges(const std::vector<std::size_t>& numbers) {
+  std::string text;
+  for (std::size_t a = 0; a < numbers.size();) {
+    std::size_t b = a;
+    while (b + 1 < numbers.size() && numbers[b + 1] == numbers[b] + 1)
+      ++b;
+    text += fmt::format("{}{}", text.empty() ? "" : ", ", numbers[a]);
+    if (b > a)
+      text += fmt::format(" to {}", numbers[b]);
+    a = b + 1;
+  }
+  return text;
+}
+
+void doubt_ends(const std::vector<std::size_t>& slices, Segmentation& found) {
+  for (std::size_t s = 0; s < found.borders.size(); ++s)
+    if (std::find(slices.begin(), slices.end(), s) == slices.end())
+      found.doubts.push_back(
+          fmt::format("slice {} is left out: muscle surrounds {:.0f}% of its blood; an atrium, the "
+                      "outflow tract or beyond the tip",
+                      s + 1, 100.0 * usual_wall(found.borders[s])));
+  found.doubts.push_back(fmt::format(
+      "slice {} is taken for the most basal one and slice {} for the most apical one, by rule: "
+      "look whether a valve, an atrium or the tip is missed or taken in",
+      slices.front() + 1, slices.back() + 1));
+}
+
+void doubt_borders(Segmentation& found) {
+  for (std::size_t s = 0; s < found.borders.size(); ++s)
+    for (const auto side : {&Confidence::endo, &Confidence::epi}) {
+      std::vector<std::size_t> frames;
+      double least = 1.0;
+      for (std::size_t t = 0; t < found.shows[s].size(); ++t)
+        if (const double sure = found.sure[s][t].*side; found.shows[s][t] != 0 && sure < doubtful) {
+          frames.push_back(t + 1);
+          least = std::min(least, sure);
+        }
+      if (!frames.empty())
+        found.doubts.push_back(
+            fmt::format("slice {}: the {} is doubtful in phase{} {} (confidence {:.2f} and more)",
+                        s + 1, side == &Confidence::endo ? "endocardium" : "epicardium",
+                        frames.size() == 1 ? "" : "s", ranges(frames), least));
+    }
+}
+
+void doubt_places(const Cine& cine, const std::vector<std::size_t>& slices, Segmentation& found) {
+  constexpr double farthest = 8.0;  // from the middle between the slices beside it [mm]
+  const auto middle = [&](std::size_t s) {
+    const Pixel& at = found.borders[s].centre;
+    return cine.slices[s].frames.front().plane.point(at.x(), at.y());
+  };
+  for (std::size_t n = 1; n + 1 < slices.size(); ++n) {
+    const Vec3 between = 0.5 * (middle(slices[n - 1]) + middle(slices[n + 1]));
+    if (const double away = (middle(slices[n]) - between).norm(); away > farthest)
+      found.doubts.push_back(fmt::format(
+          "slice {} lies {:.0f} mm off the slices beside it: another breath, or not the ventricle",
+          slices[n] + 1, away));
+  }
+}
+
+void rate(Segmentation& found) {
+  for (const SliceBorders& slice : found.borders) {
+    std::vector<Confidence> sure;
+    for (const FrameBorders& frame : slice.frames)
+      sure.push_back({frame.endo_agrees, frame.epi_agrees});
+    found.sure.push_back(std::move(sure));
+  }
+}
+
+Contour loop_of(const Cine& cine, const Segmentation& found, std::size_t s, std::size_t frame,
+                Side side) {
+  const FrameBorders& borders = found.borders[s].frames[frame];
+  Contour loop;
+  loop.slice = static_cast<int>(s) + 1;
+  loop.side = side;
+  loop.points = line(cine.slices[s].frames[frame].plane, found.borders[s].centre,
+                     side == Side::endo ? borders.endo : borders.epi);
+  loop.file = cine.slices[s].name;
+  return loop;
+}
+
+}  // namespace
+
+Segmentation segment(const Cine& cine, const SegmentParameters& parameters,
+                     const std::string& where) {
+  check_cine(cine, where);
+  std::optional<Vec3> given;
+  if (parameters.centre)
+    given = Vec3(parameters.centre->data());
+  const Heart heart = find_heart(cine, given);
+  Segmentation found;
+  found.borders = draw_borders(cine, heart, parameters.fall);
+  found.spacing = spacing_of(cine);
+  found.shows.assign(cine.slices.size(), std::vector<char>(cine.slices.front().frames.size(), 0));
+  const Run run = walled_run(found.borders, heart.seed);
+  std::vector<std::size_t> slices = from_base(run, base_is_first(found.borders, run));
+  drop_atrium(found.borders, slices);
+  if (slices.size() < fewest_slices)
+    throw InputError(where,
+                     fmt::format("only {} slices show a ring of muscle round blood", slices.size()),
+                     "Set segment.centre to a point in the left ventricle's blood, or draw the "
+                     "contours and take anatomy.source = \"contours\"");
+  mark(slices, found);
+  rate(found);
+  found.volumes =
+      volumes_of(found, [&](std::size_t s, std::size_t t) { return found.shows[s][t] != 0; });
+  found.phases = phases_of(found);
+  doubt_ends(slices, found);
+  doubt_places(cine, slices, found);
+  doubt_borders(found);
+  return found;
+}
+
+geometry::Contours contours_at(const Cine& cine, const Segmentation& found, std::size_t frame) {
+  geometry::Contours contours;
+  for (std::size_t s = 0; s < found.borders.size(); ++s)
+    if (found.shows[s][frame] != 0)
+      for (const Side side : {Side::endo, Side::epi})
+        contours.short_axis.push_back(loop_of(cine, found, s, frame, side));
+  return contours;
+}
+
+}  // namespace lv::segment

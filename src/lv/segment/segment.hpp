@@ -1,0 +1,63 @@
+#pragma once
+
+#include "lv/geometry/contours.hpp"
+#include "lv/image/label_contours.hpp"
+#include "lv/segment/borders.hpp"
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lv::segment {
+
+/// How a cine is segmented.
+struct SegmentParameters {
+  /// A point in the left ventricle's blood, image space [mm]; none: it is found.
+  std::optional<std::array<double, 3>> centre;
+  double fall = 0.85;  ///< see draw_borders
+};
+
+/// How sure a border is, 0 to 1: the part of the circumference along which muscle is seen and the
+/// border drawn lies within 2 mm of where the image shows it.
+struct Confidence {
+  double endo = 0.0, epi = 0.0;
+};
+
+/// The ventricle in a short-axis cine. Slices and frames count from 0, in the cine's order.
+struct Segmentation {
+  std::vector<SliceBorders> borders;          ///< of every slice
+  std::vector<std::vector<char>> shows;       ///< slice, frame: whether it shows the ventricle
+  std::vector<std::vector<Confidence>> sure;  ///< slice, frame
+  double spacing = 0.0;                       ///< between slices [mm]
+  std::vector<double> volumes;                ///< of the cavity per frame, areas x spacing [mm^3]
+  image::Phases phases;
+  std::vector<std::string> doubts;  ///< what an observer should look at, in sentences
+};
+
+/// A contour is doubtful below this.
+inline constexpr double doubtful = 0.6;
+
+/// Draws both borders on every slice and frame and decides which slices show the ventricle.
+///
+/// - Slices belong to it, from the one that looks most like it outwards, while muscle surrounds
+/// half
+///   of the blood or more in half of the frames, and blood and muscle differ by half of what they
+///   do in most slices.
+/// - From the base (the end with larger areas) slices are dropped whose area changes against that
+///   of the others: an atrium fills while the ventricle empties. In a frame the most basal ones are
+///   left out where muscle surrounds less than half (median of five frames), the most apical ones
+///   where the cavity's mean radius is below 3 mm.
+/// - Phases are proposed from the volume of the slices that show the ventricle in all frames.
+///
+/// Throws InputError, with `where` naming the images, if slices have different numbers of images or
+/// fewer than five, pixels do not lie above each other within a slice, or fewer than three slices
+/// show a ring of muscle round blood.
+[[nodiscard]] Segmentation segment(const image::Cine& cine, const SegmentParameters& parameters,
+                                   const std::string& where);
+
+/// The loops of a frame, slices counted from 1 in the cine's order.
+[[nodiscard]] geometry::Contours contours_at(const image::Cine& cine, const Segmentation& found,
+                                             std::size_t frame);
+
+}  // namespace lv::segment

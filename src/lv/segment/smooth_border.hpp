@@ -1,0 +1,32 @@
+#pragma once
+
+#include "lv/segment/polar.hpp"
+
+namespace lv::segment {
+
+/// What a border is fitted to, ray by ray.
+struct BorderFit {
+  Radii seen;         ///< where the border was found [mm]
+  Radii weight;       ///< how far that counts
+  Radii expected;     ///< where it should be by what is known of its neighbours [mm]
+  Radii trust;        ///< how far that counts
+  int harmonics = 3;  ///< of the angle
+  double within =
+      1.0;  ///< part of its weight that a ray keeps where what was seen lies inside the fit
+};
+
+/// The sum of harmonics r(theta) that makes
+///
+///   sum w_i (r(theta_i) - seen_i)^2 + trust_i (r(theta_i) - expected_i)^2
+///
+/// least, w_i = weight_i, times `within` where seen_i < r(theta_i): papillary muscles, which push
+/// the border inwards, then count little.
+[[nodiscard]] Radii fit_border(const BorderFit& fit);
+
+/// The sum of as many harmonics nearest to a line.
+[[nodiscard]] Radii harmonics_of(const Radii& radii, int harmonics);
+
+/// The convex hull of a line round the centre, on the same rays.
+[[nodiscard]] Radii convex(const Radii& radii);
+
+}  // namespace lv::segment
