@@ -20,7 +20,7 @@ Exit codes:
     3  a defect of the program
   130  stopped by Ctrl-C or kill; the same command goes on)";
 
-inline constexpr std::array<std::pair<const char*, const char*>, 12> commands{{
+inline constexpr std::array<std::pair<const char*, const char*>, 13> commands{{
     {"new",
      R"(With --from the case holds what the source shows: labels, frame, phases, septum,
 unit, the pressure that a filled shape bears. What it cannot show stands there as
@@ -46,6 +46,11 @@ Ctrl-C stops it with a checkpoint (exit code 130); the same command goes on.)"},
      R"(Set calibrate.passive with calibrate.edv, calibrate.active with calibrate.esv, or
 both. Writes 02b_calibrate/: calibrated.toml (the parameters), calibration.txt, .json
 and .csv. `ventricle run` does it too.)"},
+    {"segment",
+     R"(Set anatomy.source = "cine" and segment.cine. Writes contours/ (a CSV file per phase, as
+anatomy.source = "contours" reads them), quality.csv (confidence of each contour),
+volumes.csv, pictures/ to look at and segmentation.txt: phases, and what is doubtful.
+`ventricle run` does it too.)"},
     {"strain",
      R"(Set strain.cine and strain.contours. Writes 00_strain/: strain and rotation per
 slice, sector and segment at every phase; strain.txt says what was found.)"},

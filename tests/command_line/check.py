@@ -8,7 +8,7 @@ import tempfile
 
 program = pathlib.Path(sys.argv[1]).resolve()
 failures = []
-commands = ["new", "validate", "run", "calibrate", "strain", "phantom", "verify", "images", "report", "compare",
+commands = ["new", "validate", "run", "calibrate", "segment", "strain", "phantom", "verify", "images", "report", "compare",
             "parameters", "bench"]
 
 

@@ -71,6 +71,7 @@ Shape from_drawn(const Case& c) {
   for (const auto& notes : {wall->report().notes, found.notes})
     shape.notes.insert(shape.notes.end(), notes.begin(), notes.end());
   shape.warnings = std::move(drawn.warnings);
+  shape.segmentation = std::move(drawn.segmentation);
   if (!fit.frame.septum && !c.origin.contains("regions.septum_angle"))
     shape.warnings.emplace_back(assumed_septum);
   shape.notes.insert(shape.notes.end(), shape.warnings.begin(), shape.warnings.end());
@@ -164,6 +165,8 @@ void write_anatomy(const Shape& shape, const fs::path& folder) {
                                      {"notes", shape.notes},
                                      {"warnings", shape.warnings}};
   write_file(folder / frame_name, json_text(frame) + "\n");
+  if (shape.segmentation)
+    write_segmentation(*shape.segmentation, folder / "segmentation");
   if (!shape.quality)
     return;
   report::fit_table(shape.quality->fit).write_csv(folder / "fit.csv");
