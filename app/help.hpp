@@ -47,6 +47,11 @@ Ctrl-C stops it with a checkpoint (exit code 130); the same command goes on.)"},
      R"(Set calibrate.passive with calibrate.edv, calibrate.active with calibrate.esv, or
 both. Writes 02b_calibrate/: calibrated.toml (the parameters), calibration.txt, .json
 and .csv. `ventricle run` does it too.)"},
+    {"segment",
+     R"(Set anatomy.source = "cine" and segment.cine. Writes contours/ (a CSV file per phase, as
+anatomy.source = "contours" reads them), quality.csv (confidence of each contour),
+volumes.csv, pictures/ to look at and segmentation.txt: phases, and what is doubtful.
+`ventricle run` does it too.)"},
     {"strain",
      R"(Set strain.cine and strain.contours. Writes 00_strain/: strain and rotation per
 slice, sector and segment at every phase; strain.txt says what was found.)"},

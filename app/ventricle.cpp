@@ -10,6 +10,7 @@
 #include "lv/job/propose_case.hpp"
 #include "lv/job/read_case.hpp"
 #include "lv/job/run.hpp"
+#include "lv/job/segmentation.hpp"
 #include "lv/job/validate.hpp"
 #include "lv/job/version.hpp"
 #include "lv/phantom/study.hpp"
@@ -153,6 +154,15 @@ int run_alone(Command& command, const std::string& stage, int argc, char** argv)
   const lv::parallel::Session session(&argc, &argv);
   command.run.until = stage;
   return until_stopped([&] { lv::job::run(c, command.run); });
+}
+
+int segment(const Command& command) {
+  const lv::job::Case c = lv::job::read_case(command.case_file);
+  std::filesystem::path folder = command.folder;
+  if (folder.empty())
+    folder = c.file.parent_path() / (c.file.stem().string() + ".segment");
+  lv::interrupt::install();
+  return until_stopped([&] { lv::print(lv::job::segment_case(c, folder)); });
 }
 
 int verify(const Command& command, int argc, char** argv) {
@@ -335,6 +345,11 @@ void add_cases(CLI::App& app, Command& command) {
   add_run_options(*fit, command);
   add_ranks(*fit, command);
 
+  auto* segment =
+      app.add_subcommand("segment", "draw both borders in the short-axis cine that a case names");
+  segment->add_option("CASE", command.case_file, "the case file")->required();
+  segment->add_option("--to", command.folder,
+                      "a new folder (default: the case file's name with .segment)");
   add_run_options(*app.add_subcommand(
                       "circulation", "run the circulation of a case by itself, to its limit cycle"),
                   command);
@@ -411,6 +426,8 @@ int perform(const CLI::App& app, Command& command, int argc, char** argv) {
     return run_parallel(command, argc, argv);
   if (name == "phantom")
     return phantom(command);
+  if (name == "segment")
+    return segment(command);
   if (name == "bench")
     return bench(command, argc, argv);
   if (name == "report" || name == "compare")

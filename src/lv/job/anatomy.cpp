@@ -85,6 +85,7 @@ Shape from_drawn(const Case& c) {
   shape.notes = std::move(drawn.notes);
   for (const auto& notes : {wall->report().notes, found.notes})
     shape.notes.insert(shape.notes.end(), notes.begin(), notes.end());
+  shape.segmentation = std::move(drawn.segmentation);
   if (!fit.frame.septum && !c.origin.contains("regions.septum_angle"))
     shape.warnings.push_back({"septum", assumed_septum});
   shape.assumed = wall->report().assumed;
@@ -191,6 +192,8 @@ void write_anatomy(const Shape& shape, const fs::path& folder) {
                                      {"assumed", json_of(shape.assumed)},
                                      {"warnings", json_of(shape.warnings)}};
   write_file(folder / frame_name, json_text(frame) + "\n");
+  if (shape.segmentation)
+    write_segmentation(*shape.segmentation, folder / "segmentation");
   if (!shape.quality)
     return;
   report::fit_table(shape.quality->fit).write_csv(folder / "fit.csv");

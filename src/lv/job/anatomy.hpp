@@ -3,10 +3,12 @@
 #include "lv/geometry/frame.hpp"
 #include "lv/geometry/spline_wall.hpp"
 #include "lv/job/case.hpp"
+#include "lv/job/segmentation.hpp"
 #include "lv/mesh/wall_mesh.hpp"
 #include "lv/report/quality_sheet.hpp"
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 
 namespace lv::job {
@@ -17,9 +19,10 @@ struct Shape {
   std::optional<mesh::Mesh> given;  ///< that mesh
   std::vector<bool> infarcted;      ///< its elements in infarct.elements.set, if that is the source
   geometry::Frame frame;
-  std::optional<report::QualitySheet> quality;  ///< for a drawn wall
-  std::vector<std::string> notes;               ///< what was assumed or changed
-  std::vector<geometry::Assumption> assumed;    ///< septum, early diastole, apex, base
+  std::optional<report::QualitySheet> quality;           ///< for a drawn wall
+  std::shared_ptr<const CineSegmentation> segmentation;  ///< of borders that the program drew
+  std::vector<std::string> notes;                        ///< what was assumed or changed
+  std::vector<geometry::Assumption> assumed;             ///< septum, early diastole, apex, base
   std::vector<geometry::Assumption>
       warnings;  ///< of these, what results may be wrong for: a septum that
                  ///< nothing shows, a filled wall taken as free of stress
@@ -32,7 +35,8 @@ struct Shape {
 [[nodiscard]] double cavity_of(const Shape& shape);
 
 /// Writes surfaces.vtu (in the model frame), frame.json and, for a drawn wall, fit.csv with the
-/// residual distances per image and the quality sheet as quality.csv, .json and .txt.
+/// residual distances per image and the quality sheet as quality.csv, .json and .txt; for borders
+/// that the program drew, segmentation/ with what write_segmentation makes.
 void write_anatomy(const Shape& shape, const std::filesystem::path& folder);
 
 /// What write_anatomy left in a folder of a shape's assumptions, and of its warnings.

@@ -10,6 +10,7 @@
 #include "lv/mesh/regions.hpp"
 #include "lv/mesh/wall_mesh.hpp"
 #include "lv/quasi_static/engine.hpp"
+#include "lv/segment/segment.hpp"
 #include "lv/strain/warp.hpp"
 
 #include <array>
@@ -22,12 +23,13 @@
 namespace lv::job {
 
 /// Where the ventricle's shape comes from.
-enum class AnatomySource { ellipsoid, contours, mesh, labels, sunnybrook, guide_points };
+enum class AnatomySource { ellipsoid, contours, mesh, labels, sunnybrook, guide_points, cine };
 
 /// Which passive law the wall follows.
 enum class PassiveLaw { holzapfel_ogden, guccione, neo_hookean };
 
-/// Which active law the wall follows; `second_piola` and `cauchy` are forms of a prescribed tension.
+/// Which active law the wall follows; `second_piola` and `cauchy` are forms of a prescribed
+/// tension.
 enum class ActiveLaw { niederer, second_piola, cauchy, land2017 };
 
 /// Which solver runs the beat.
@@ -67,6 +69,16 @@ struct GuidePointAnatomy {
   geometry::Side apex_point = geometry::Side::epi;
 };
 
+/// At which time of a cine the shape is taken.
+enum class ShapeMoment { early_diastole, end_diastole };
+
+/// A short-axis cine in which the program draws the borders.
+struct CineAnatomy {
+  std::string images, series;  ///< a DICOM folder or a NIfTI file
+  segment::SegmentParameters segmentation;
+  ShapeMoment moment = ShapeMoment::early_diastole;
+};
+
 /// A mesh made elsewhere.
 struct MeshAnatomy {
   mesh::ImportParameters import;  ///< file name as the case file gives it
@@ -81,6 +93,7 @@ struct Anatomy {
   LabelAnatomy labels;
   SunnybrookAnatomy sunnybrook;
   GuidePointAnatomy guide_points;
+  CineAnatomy cine;
 };
 
 struct Passive {

@@ -59,18 +59,19 @@ LV_CONDITION(from_sunnybrook, c.anatomy.source == Source::sunnybrook,
              "with anatomy.source = \"sunnybrook\"")
 LV_CONDITION(from_guide_points, c.anatomy.source == Source::guide_points,
              "with anatomy.source = \"guide_points\"")
+LV_CONDITION(from_cine, c.anatomy.source == Source::cine, "with anatomy.source = \"cine\"")
 LV_CONDITION(from_mesh, c.anatomy.source == Source::mesh, "with anatomy.source = \"mesh\"")
 LV_CONDITION(tagged, c.anatomy.mesh.import.sides == mesh::SideSource::tags,
              "with anatomy.mesh.sides = \"tags\"")
 LV_CONDITION(drawn, is_drawn_wall(c),
-             "for a wall that is drawn (anatomy.source = \"contours\", \"labels\", \"sunnybrook\" "
-             "or \"guide_points\")")
+             "for a wall that is drawn (anatomy.source = \"contours\", \"labels\", \"sunnybrook\", "
+             "\"guide_points\" or \"cine\")")
 LV_CONDITION(fitted, s == Stage::strain ? !c.strain.long_axis_cine.empty() : is_drawn_wall(c),
-             "for a wall that is drawn (anatomy.source = \"contours\", \"labels\", \"sunnybrook\" "
-             "or \"guide_points\"), or with strain.long_axis_cine")
+             "for a wall that is drawn (anatomy.source = \"contours\", \"labels\", \"sunnybrook\", "
+             "\"guide_points\" or \"cine\"), or with strain.long_axis_cine")
 LV_CONDITION(septum_shown, s == Stage::strain ? !c.strain.septum_point : is_drawn_wall(c),
-             "for a wall that is drawn (anatomy.source = \"contours\", \"labels\", \"sunnybrook\" "
-             "or \"guide_points\"), or with strain.cine and no strain.septum_point")
+             "for a wall that is drawn (anatomy.source = \"contours\", \"labels\", \"sunnybrook\", "
+             "\"guide_points\" or \"cine\"), or with strain.cine and no strain.septum_point")
 
 // fibres
 LV_CONDITION(fibres_given, !c.anatomy.mesh.import.fibres.empty(), "with anatomy.mesh.fibres")
@@ -121,12 +122,13 @@ LV_CONDITION(threshold_sd, c.scar.lge.threshold == mesh::ScarThreshold::sd,
 LV_CONDITION(threshold_fwhm, c.scar.lge.threshold == mesh::ScarThreshold::fwhm,
              "with infarct.lge.threshold = \"fwhm\"")
 LV_CONDITION(moved_lge, c.scar.lge.in_plane, "with infarct.lge.in_plane = true")
-LV_CONDITION(fitted_or_moved,
-             s == Stage::strain    ? !c.strain.long_axis_cine.empty()
-             : s == Stage::anatomy ? is_drawn_wall(c)
-                                   : c.scar.source == Scar::labels && c.scar.in_plane,
-             "for a wall that is drawn (anatomy.source = \"contours\", \"labels\", \"sunnybrook\" "
-             "or \"guide_points\"), with strain.long_axis_cine, or with infarct.labels.in_plane")
+LV_CONDITION(
+    fitted_or_moved,
+    s == Stage::strain    ? !c.strain.long_axis_cine.empty()
+    : s == Stage::anatomy ? is_drawn_wall(c)
+                          : c.scar.source == Scar::labels && c.scar.in_plane,
+    "for a wall that is drawn (anatomy.source = \"contours\", \"labels\", \"sunnybrook\", "
+    "\"guide_points\" or \"cine\"), with strain.long_axis_cine, or with infarct.labels.in_plane")
 
 // muscle and blood
 LV_CONDITION(holzapfel_ogden, c.passive.law == PassiveLaw::holzapfel_ogden,

@@ -188,6 +188,19 @@ Drawn from_guide_points(const Case& c) {
   return drawn;
 }
 
+Drawn from_cine(const Case& c) {
+  auto found = std::make_shared<const CineSegmentation>(segment_cine(c));
+  const std::size_t frame = shape_frame(c, *found);
+  Drawn drawn;
+  drawn.contours = segment::contours_at(found->cine, found->found, frame);
+  drawn.source = fmt::format("borders drawn by the program in a cine, phase {}", frame + 1);
+  drawn.usual_base = geometry::BaseAt::slab;
+  drawn.notes = found->cine.notes;
+  drawn.notes.insert(drawn.notes.end(), found->found.doubts.begin(), found->found.doubts.end());
+  drawn.segmentation = std::move(found);
+  return drawn;
+}
+
 Drawn read_source(const Case& c) {
   switch (c.anatomy.source) {
     case AnatomySource::labels:
@@ -196,6 +209,8 @@ Drawn read_source(const Case& c) {
       return from_sunnybrook(c);
     case AnatomySource::guide_points:
       return from_guide_points(c);
+    case AnatomySource::cine:
+      return from_cine(c);
     default:
       return from_csv(c);
   }

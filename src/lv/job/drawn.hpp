@@ -2,9 +2,11 @@
 
 #include "lv/geometry/contours.hpp"
 #include "lv/job/case.hpp"
+#include "lv/job/segmentation.hpp"
 
 #include <array>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +21,7 @@ struct Drawn {
   std::optional<double> label_cavity, label_muscle;       ///< volumes of voxels [mm^3]
   std::optional<std::array<double, 3>> septum;            ///< if the source shows where it is [mm]
   geometry::BaseAt usual_base = geometry::BaseAt::slice;  ///< unless the case says otherwise
+  std::shared_ptr<const CineSegmentation> segmentation;   ///< of borders that the program drew
   std::vector<std::string> notes;
   bool moment_is_known = false;       ///< it was chosen among several
   std::vector<std::string> warnings;  ///< of an end-diastolic shape that is taken as free of stress

@@ -33,7 +33,7 @@ constexpr Group of_anatomy[]{
      {},
      {
          choice("anatomy.source", LV_AT(anatomy.source),
-                "ellipsoid contours mesh labels sunnybrook guide_points",
+                "ellipsoid contours mesh labels sunnybrook guide_points cine",
                 "where the shape of the wall at early diastole comes from", "2.2"),
      }},
     {Stages(Stage::anatomy),
@@ -80,8 +80,8 @@ constexpr Group of_anatomy[]{
                 "the base plane lies in the most basal endocardial loop, half a slice spacing "
                 "above it where the slab of the slice ends, or at the mitral annulus (guide "
                 "points, ends of long-axis curves); automatic: slice for contours, slab for "
-                "labels and sunnybrook; for guide_points as high as long-axis curves show muscle "
-                "all round, else annulus, slab where that makes no wall"),
+                "labels, sunnybrook and cine; for guide_points as high as long-axis curves show "
+                "muscle all round, else annulus, slab where that makes no wall"),
      }},
     {Stages(Stage::strain, Stage::anatomy),
      {&septum_shown},
@@ -157,6 +157,23 @@ constexpr Group of_anatomy[]{
                 "first pixel"),
          choice("anatomy.sunnybrook.drawn", LV_AT(anatomy.sunnybrook.drawn_by), "manual auto",
                 "which contours to use, as the file names say"),
+     }},
+    {Stages(Stage::anatomy),
+     {&from_cine},
+     {
+         path("segment.cine", LV_AT(anatomy.cine.images),
+              "short-axis cine in which the program draws the borders: a folder of DICOM files or "
+              "a NIfTI file over time; names are relative to the case file"),
+         value("segment.series", LV_AT(anatomy.cine.series),
+               "DICOM: number, UID or description of the series; may be left out if there is one"),
+         number("segment.centre", LV_AT(anatomy.cine.segmentation.centre), "mm", any,
+                "a point in the left ventricle's blood in scanner coordinates; none: found from "
+                "motion and roundness"),
+         number("segment.fall", LV_AT(anatomy.cine.segmentation.fall), "", between(0.5, 0.95),
+                "the endocardium lies where this part of the way from the blood's grey value to "
+                "the muscle's is reached: 0.5 in the middle of an edge, more outside trabeculae"),
+         choice("segment.moment", LV_AT(anatomy.cine.moment), "early_diastole end_diastole",
+                "the time whose borders give the shape, proposed from the volume curve"),
      }},
     {Stages(Stage::anatomy),
      {&from_guide_points},
@@ -1293,12 +1310,15 @@ const std::vector<Section>& sections() {
        "ventricle"},
       {"anatomy.contours",
        "Contours drawn on images (source = \"contours\"), and how B-spline surfaces are fitted to "
-       "them: the latter holds for labels, sunnybrook and guide_points too"},
+       "them: the latter holds for labels, sunnybrook, guide_points and cine too"},
       {"anatomy.labels",
        "A label map (source = \"labels\"): its borders on the slices become contours"},
       {"anatomy.sunnybrook",
        "Contours in pixels with their DICOM images (source = \"sunnybrook\")"},
       {"anatomy.guide_points", "A list of points on the borders (source = \"guide_points\")"},
+      {"segment",
+       "Borders drawn by the program in a short-axis cine (anatomy.source = \"cine\", and "
+       "`ventricle segment`)"},
       {"anatomy.mesh", "A mesh made elsewhere (source = \"mesh\")"},
       {"mesh", "Hexahedral mesh of the wall (every source but \"mesh\")"},
       {"fibres", "Rule-based fibre and sheet directions"},

@@ -5,6 +5,7 @@
 #include "lv/base/table.hpp"
 #include "lv/base/units.hpp"
 #include "lv/geometry/contour_measures.hpp"
+#include "lv/geometry/contour_table.hpp"
 #include "lv/job/cine.hpp"
 #include "lv/job/through_plane.hpp"
 #include "lv/report/overlay.hpp"
@@ -115,18 +116,13 @@ Table volumes_table(const std::vector<TrackedSlice>& slices, double spacing) {
   return table;
 }
 
-Table contours_table(const std::vector<TrackedSlice>& slices, int phase) {
-  Table table({"slice", "contour", "point", "x_mm", "y_mm", "z_mm"});
-  const auto coordinate = [](double x) { return fmt::format("{:.3f}", x); };
+/// The loops of all slices at a phase.
+std::vector<Contour> loops_at(const std::vector<TrackedSlice>& slices, int phase) {
+  std::vector<Contour> loops;
   for (const TrackedSlice& s : slices)
-    for (const auto* loops : {&s.endo, &s.epi}) {
-      const Contour& loop = (*loops)[at_phase(s, phase)];
-      for (std::size_t i = 0; i < loop.points.size(); ++i)
-        table.add_row({std::to_string(loop.slice), name(loop.side), std::to_string(i + 1),
-                       coordinate(loop.points[i].x()), coordinate(loop.points[i].y()),
-                       coordinate(loop.points[i].z())});
-    }
-  return table;
+    for (const auto* side : {&s.endo, &s.epi})
+      loops.push_back((*side)[at_phase(s, phase)]);
+  return loops;
 }
 
 void draw(const CineStudy& study, const std::vector<strain::SliceTask>& tasks,
@@ -262,7 +258,7 @@ void make_strain(const Case& c, const fs::path& folder) {
     axial_table(*through).write_csv(folder / "axial_motion.csv");
   slices_table(study, slices, muscle, systole).write_csv(folder / "slices.csv");
   volumes_table(slices, study.spacing).write_csv(folder / "volumes.csv");
-  contours_table(slices, systole).write_csv(folder / "contours_es.csv");
+  geometry::contour_table(loops_at(slices, systole)).write_csv(folder / "contours_es.csv");
   draw(study, tasks, slices, c.strain.end_diastole, false, folder / "end_diastole.png");
   draw(study, tasks, slices, systole, true, folder / "end_systole.png");
   write_file(folder / "phases.json", fmt::format("{{\"end_diastole\": {}, \"end_systole\": {}}}\n",
