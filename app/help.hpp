@@ -20,7 +20,7 @@ Exit codes:
     3  a defect of the program
   130  stopped by Ctrl-C or kill; the same command goes on)";
 
-inline constexpr std::array<std::pair<const char*, const char*>, 13> commands{{
+inline constexpr std::array<std::pair<const char*, const char*>, 14> commands{{
     {"new",
      R"(With --from the case holds what the source shows: labels, frame, phases, septum,
 unit, the pressure that a filled shape bears. What it cannot show stands there as

@@ -91,7 +91,7 @@ TEST_CASE("a wall that is turned inside out is no start", "[unit][quasi_static]"
   State state = block.equations.rest();
   for (Vec3& x : state.positions)
     x.x() = -x.x();
-  const NewtonReport report = Newton(block.equations, {}).solve(state, {});
+  const NewtonReport report = Newton(block.equations, {}).solve(state, solid::Loads{});
   CHECK_FALSE(report.converged);
   CHECK_THAT(report.why, Catch::Matchers::Contains("inside out at the start"));
 }
