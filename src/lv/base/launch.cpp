@@ -87,6 +87,8 @@ void allow_mpirun(int ranks) {
   setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 0);
   if (ranks > processors())
     setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);
+  if (isatty(STDOUT_FILENO) == 0)
+    setenv("NO_COLOR", "1", 0);  // ranks write to a terminal that mpirun makes, whoever reads it
 }
 
 volatile std::sig_atomic_t times_asked = 0;

@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 
 namespace lv::job {
 namespace {
@@ -188,6 +189,18 @@ Drawn from_guide_points(const Case& c) {
   return drawn;
 }
 
+/// Phases count from 1.
+Moments moments_of(const segment::Segmentation& found) {
+  Moments m;
+  m.numbers.resize(found.volumes.size());
+  std::iota(m.numbers.begin(), m.numbers.end(), 1);
+  m.volumes = found.volumes;
+  m.end_diastole = found.phases.end_diastole + 1;
+  m.end_systole = found.phases.end_systole + 1;
+  m.early_diastole = found.phases.early_diastole + 1;
+  return m;
+}
+
 Drawn from_cine(const Case& c) {
   auto found = std::make_shared<const CineSegmentation>(segment_cine(c));
   const std::size_t frame = shape_frame(c, *found);
@@ -197,6 +210,8 @@ Drawn from_cine(const Case& c) {
   drawn.usual_base = geometry::BaseAt::slab;
   drawn.notes = found->cine.notes;
   drawn.notes.insert(drawn.notes.end(), found->found.doubts.begin(), found->found.doubts.end());
+  drawn.moment_is_known = true;
+  warn(end_diastole_note(c, moments_of(found->found), static_cast<int>(frame) + 1), drawn);
   drawn.segmentation = std::move(found);
   return drawn;
 }

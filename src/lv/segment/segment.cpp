@@ -25,15 +25,17 @@ void check_cine(const Cine& cine, const std::string& where) {
     throw InputError(where, fmt::format("{} short-axis slices", slices.size()),
                      fmt::format("Give a stack of {} or more", fewest_slices));
   const std::size_t frames = slices.front().frames.size();
+  const std::string remedy = fmt::format(
+      "Give a cine: images over the heart's cycle, equally many of every slice and at least {}",
+      fewest_frames);
+  if (frames < fewest_frames)
+    throw InputError(where, fmt::format("{} images of {}", frames, slices.front().name), remedy);
   for (const image::CineSlice& slice : slices)
-    if (slice.frames.size() != frames || frames < fewest_frames)
-      throw InputError(
-          where,
-          fmt::format("{} has {} images and {} has {}", slices.front().name, frames, slice.name,
-                      slice.frames.size()),
-          fmt::format("Give a cine: images over the heart's cycle, equally many of every slice and "
-                      "at least {}",
-                      fewest_frames));
+    if (slice.frames.size() != frames)
+      throw InputError(where,
+                       fmt::format("{} has {} images and {} has {}", slices.front().name, frames,
+                                   slice.name, slice.frames.size()),
+                       remedy);
 }
 
 double spacing_of(const Cine& cine) {

@@ -55,8 +55,7 @@ RateFilter::RateFilter(std::span<const Vec3> nodes, std::span<const double> volu
   }
 }
 
-void RateFilter::smooth(std::span<const double> stiffness, double width,
-                        std::span<double> rates) {
+void RateFilter::smooth(std::span<const double> stiffness, double width, std::span<double> rates) {
   if (!(width >= narrowest_))  // nor where an unstable step has made it no number
     return;
   const Lattice lattice(lower_, upper_, width);

@@ -10,10 +10,11 @@ namespace lv::solid {
 /// Smooths the stretch rate in space before it enters the fading memory (A.11), over a length that
 /// shrinks with the time step, so that a step longer than the explicit limit stays stable.
 ///
-/// Muscle whose tension rises by k = dT/dlambda under a sudden stretch, (1+a) sum A_i T_0 in (A.10),
-/// carries waves along its fibres at c = sqrt(k/rho), some 150 m/s in systole, and an explicit step can follow only waves with omega dt < 2.
-/// Shorter ones have nothing to do with the beat (their periods are below a millisecond) but blow
-/// up. With hat functions of width H around the points of a coarse lattice, the smoothed rate is
+/// Muscle whose tension rises by k = dT/dlambda under a sudden stretch, (1+a) sum A_i T_0 in
+/// (A.10), carries waves along its fibres at c = sqrt(k/rho), some 150 m/s in systole, and an
+/// explicit step can follow only waves with omega dt < 2. Shorter ones have nothing to do with the
+/// beat (their periods are below a millisecond) but blow up. With hat functions of width H around
+/// the points of a coarse lattice, the smoothed rate is
 ///
 ///   r_c = sum_a w_a hat_c(X_a) r_a / sum_a w_a hat_c(X_a),   r~_a = sum_c hat_c(X_a) r_c,   w_a = V_a k_a
 ///

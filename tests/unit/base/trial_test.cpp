@@ -58,7 +58,11 @@ TEST_CASE("a child that dies is told from one that refuses", "[unit][base]") {
 
 TEST_CASE("a child that somebody ends says nothing of the file", "[unit][base]") {
   for (const int signal : {SIGKILL, SIGTERM}) {
-    CHECK_THROWS_AS(tried([&] { std::raise(signal); }), RunError);
-    CHECK_THROWS_AS(check_survives("x", [&] { std::raise(signal); }), RunError);
+    const auto end = [&] {
+      std::signal(SIGTERM, SIG_DFL);  // not Catch's own, which writes a report
+      std::raise(signal);
+    };
+    CHECK_THROWS_AS(tried(end), RunError);
+    CHECK_THROWS_AS(check_survives("x", end), RunError);
   }
 }

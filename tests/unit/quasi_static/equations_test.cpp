@@ -175,7 +175,8 @@ TEST_CASE("cells have the stress of the elements they are parts of", "[unit][qua
       tension += mesh::cell_volume(mesh, c) * stress[c].tension;
       volume += mesh::cell_volume(mesh, c);
     }
-    CHECK(tension / volume == Approx(equations.mean_tension(s, equations.steady(1.0))).epsilon(0.02));
+    CHECK(tension / volume ==
+          Approx(equations.mean_tension(s, equations.steady(1.0))).epsilon(0.02));
   }
 }
 
