@@ -20,7 +20,7 @@ namespace lv::circulation {
 class ClosedLoop {
  public:
   static constexpr int size = 12;
-  enum Name {  // NOLINT(readability-enum-initial-value): indices
+  enum Name {
     V_lv,
     V_la,
     V_ra,

@@ -39,11 +39,11 @@ class Alone {
   void beat() {
     const auto before = history_.now;
     const std::size_t first = cycle_.samples.size() - 1;
-    const long steps = std::lround(std::ceil(p_.period / p_.step - 1e-9));
-    const double dt = p_.period / static_cast<double>(steps);
+    const int steps = static_cast<int>(std::ceil(p_.period / p_.step - 1e-9));
+    const double dt = p_.period / steps;
     const double begin = static_cast<double>(cycle_.beats.size()) * p_.period;
-    for (long i = 1; i <= steps; ++i)
-      step(begin + static_cast<double>(i) * dt, dt);
+    for (int i = 1; i <= steps; ++i)
+      step(begin + i * dt, dt);
     cycle_.beats.push_back(measure_beat(std::span(cycle_.samples).subspan(first)));
     cycle_.change = largest_change(before, history_.now);
     cycle_.is_limit = cycle_.change <= p_.tolerance;

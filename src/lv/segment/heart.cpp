@@ -166,9 +166,11 @@ Centre search_near(const CineSlice& slice, const Pixel& from) {
   const std::vector<const Picture*> frames = frames_of(slice, 4);
   const Plane& plane = slice.frames.front().plane;
   Centre best{from, -1.0, 0.0};
-  for (double y = -follow_reach; y <= follow_reach; y += follow_step)
-    for (double x = -follow_reach; x <= follow_reach; x += follow_step)
-      best = better(best, judge(frames, from + Pixel(x / plane.spacing_i, y / plane.spacing_j)));
+  const int steps = static_cast<int>(follow_reach / follow_step);
+  const Pixel step(follow_step / plane.spacing_i, follow_step / plane.spacing_j);
+  for (int y = -steps; y <= steps; ++y)
+    for (int x = -steps; x <= steps; ++x)
+      best = better(best, judge(frames, from + Pixel(x * step.x(), y * step.y())));
   return best;
 }
 
