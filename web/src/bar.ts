@@ -1,5 +1,5 @@
 // A colour bar: what the colours of a picture mean.
-import { colourTable, type Scale, uncoloured } from "./colours.ts";
+import { colourTable, cssOf, type Scale, uncoloured } from "./colours.ts";
 import { ink, svg } from "./dom.ts";
 import { shown } from "./quantities.ts";
 
@@ -10,13 +10,13 @@ export function barParts(scale: Scale, title: string, width: number): SVGElement
   const id = `bar-${++numbers}`;
   const table = colourTable(scale);
   const stops = Array.from({ length: 33 }, (_, i) =>
-    svg("stop", { offset: i / 32, "stop-color": `rgb(${table[Math.round((255 * i) / 32)].join(",")})` }));
+    svg("stop", { offset: i / 32, "stop-color": cssOf(table[Math.round((255 * i) / 32)]) }));
   const text = (x: number, y: number, anchor: string, words: string) => svg("text", { x, y, "text-anchor": anchor, fill: ink.text }, words);
   const place = (x: number) => Math.min(width, Math.max(0, ((x - scale.min) / (scale.max - scale.min)) * width));
   const [from, to] = [scale.middle - scale.floor, scale.middle + scale.floor].map(place);
   return [svg("defs", {}, svg("linearGradient", { id }, ...stops)), text(0, 12, "start", title),
     svg("rect", { x: 0, y: 18, width, height: 12, fill: `url(#${id})` }),
-    ...(to > from ? [svg("rect", { x: from, y: 18, width: to - from, height: 12, fill: `rgb(${uncoloured.join(",")})` })] : []),
+    ...(to > from ? [svg("rect", { x: from, y: 18, width: to - from, height: 12, fill: cssOf(uncoloured) })] : []),
     ...[0, 0.5, 1].map((t) => text(width * t, 43, t === 0 ? "start" : t === 1 ? "end" : "middle", shown(scale.min + t * (scale.max - scale.min))))];
 }
 

@@ -52,6 +52,8 @@ export interface Scale { min: number; max: number; diverging: boolean; middle: n
 export const uncoloured: Rgb = [236, 234, 231];
 const isColoured = (scale: Scale, x: number) => Math.abs(x - scale.middle) >= scale.floor;
 
+export const cssOf = (rgb: Rgb) => `rgb(${rgb.join(",")})`;
+
 export const colourTable = (scale: Scale) => (scale.diverging ? tables.diverging : tables.sequential);
 
 export function rgbOf(scale: Scale, x: number): Rgb {
@@ -61,7 +63,7 @@ export function rgbOf(scale: Scale, x: number): Rgb {
 }
 
 export function colourOf(scale: Scale, x: number): string {
-  return Number.isNaN(x) ? missingColour : `rgb(${rgbOf(scale, x).join(",")})`;
+  return Number.isNaN(x) ? missingColour : cssOf(rgbOf(scale, x));
 }
 
 /** Black or white letters on a colour. */

@@ -1,8 +1,7 @@
 // Curves against time, the pressure-volume path, rotation, passive muscle.
 import { type Chart, drawChart, type DrawnChart, type Line } from "./chart.ts";
 import { lineColours } from "./colours.ts";
-import { type Case, type Row, value } from "./data.ts";
-import { rowAt } from "./wall_section.ts";
+import { type Case, type Row, rowAt, value } from "./data.ts";
 import { el, figure, fileName, folded, missing, paperSwitch, section, table } from "./dom.ts";
 import { shown, stateMark } from "./quantities.ts";
 import type { Shared, Timeline } from "./shared.ts";
@@ -35,12 +34,13 @@ export function curvesSection(cases: Case[], shared: Shared, time: Timeline): HT
     { y: "mean_active_tension_kPa", title: "mean active tension (kPa)" },
     { y: "calcium_uM", title: "calcium (µM)" },
   ];
+  const named = shownCases.map(({ c }) => states(c));
   const drawn: { chart: DrawnChart; x: string; y: string }[] = [];
   const make = (caption: string, x: string, xTitle: string, y: string, yTitle: string) => {
     const chart: Chart = { x: xTitle, y: yTitle, zero: true,
       lines: shownCases.map(({ c, rows }, i): Line => ({ label: c.name, colour: lineColours[i], x: column(rows, x), y: column(rows, y) })) };
-    if (x === "time_s" && shownCases.length === 1) chart.marks = states(shownCases[0].c).map(({ time: at, label }) => ({ x: at, label }));
-    if (x !== "time_s") chart.points = shownCases.flatMap(({ c }) => states(c));
+    if (x === "time_s" && shownCases.length === 1) chart.marks = named[0].map(({ time: at, label }) => ({ x: at, label }));
+    if (x !== "time_s") chart.points = named.flat();
     const one = drawChart(chart);
     drawn.push({ chart: one, x, y });
     return figure(caption, fileName(joined(cases), y, "against", x), one.figure);

@@ -171,18 +171,19 @@ export class Wall {
 }
 
 /** A named moment of a beat, from moments.csv. */
-export interface Moment { name: string; phase: string; time: number }
+export interface Moment { name: string; time: number }
 
 export class Case {
   readonly regions: Row[];
   readonly moments: Moment[];
   private readonly phases: { name: string; end: number }[] = [];  // as far as curves.csv goes
+  private readonly tables = new Map<string, Row[]>();  // that have been read
   name: string;
   wall?: Wall;  // once it is loaded
   private constructor(readonly json: CaseJson, readonly summary: any) {
     this.name = summary?.case ?? json.folder;
-    this.regions = csv(json.files["regions.csv"]);
-    this.moments = csv(json.files["moments.csv"]).map((r) => ({ name: r.moment, phase: r.phase, time: value(r.time_s) }));
+    this.regions = this.table("regions.csv");
+    this.moments = this.table("moments.csv").map((r) => ({ name: r.moment, time: value(r.time_s) }));
     for (const r of this.table("curves.csv")) {
       if (this.phases.at(-1)?.name !== r.phase) this.phases.push({ name: r.phase, end: 0 });
       this.phases.at(-1)!.end = value(r.time_s);
@@ -206,7 +207,10 @@ export class Case {
   }
 
   get flow(): FlowJson | undefined { return this.json.flow; }
-  table(file: string): Row[] { return csv(this.json.files[file]); }
+  table(file: string): Row[] {
+    if (!this.tables.has(file)) this.tables.set(file, csv(this.json.files[file]));
+    return this.tables.get(file)!;
+  }
 
   /** Steps of the quasi-static engine are loads, not moments. */
   get isLoaded(): boolean { return this.json.engine === "quasi_static"; }
@@ -256,7 +260,7 @@ export class Case {
   }
 }
 
-export function csv(text: string | undefined): Row[] {
+function csv(text: string | undefined): Row[] {
   if (!text) return [];
   const [head, ...lines] = text.trim().split("\n").map((line) => line.split(","));
   return lines.map((fields) => Object.fromEntries(head.map((name, i) => [name, fields[i] ?? ""])));
@@ -266,6 +270,14 @@ export function csv(text: string | undefined): Row[] {
 export function value(field: string | undefined): number {
   return field === undefined || field === "" ? NaN : Number(field);
 }
+
+/** Number of the time that is nearest to a moment; 0 when there are none. */
+export function nearest(times: number[], time: number): number {
+  return times.reduce((best, t, i) => (Math.abs(t - time) < Math.abs(times[best] - time) ? i : best), 0);
+}
+
+/** The row of curves.csv that is nearest to a moment. */
+export const rowAt = (rows: Row[], time: number): Row | undefined => rows[nearest(rows.map((row) => value(row.time_s)), time)];
 
 export interface About { version: string; cases: number }
 export function about(): About { return JSON.parse(text("about")); }

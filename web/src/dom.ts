@@ -32,14 +32,16 @@ export function paperSwitch(): HTMLElement {
   } }), "beside the paper's two subjects");
 }
 
-export function section(id: string, title: string, help: string, ...children: Child[]): HTMLElement {
-  return el("section", { id, "aria-labelledby": `${id}-title` }, el("h2", { id: `${id}-title` }, title),
-    el("p", { class: "help" }, help), ...children);
-}
+/** A section that begins with its title. */
+export const titled = (id: string, title: string, attributes: Attributes, ...children: Child[]): HTMLElement =>
+  el("section", { id, ...attributes, "aria-labelledby": `${id}-title` }, el("h2", { id: `${id}-title` }, title), ...children);
+
+export const section = (id: string, title: string, help: string, ...children: Child[]) =>
+  titled(id, title, {}, el("p", { class: "help" }, help), ...children);
 
 /** A section without data: one line. */
 export const folded = (id: string, title: string, why: string) =>
-  el("section", { id, class: "folded", "aria-labelledby": `${id}-title` }, el("h2", { id: `${id}-title` }, title), missing(why));
+  titled(id, title, { class: "folded" }, missing(why));
 
 export const missing = (what: string) => el("p", { class: "missing" }, what);
 
@@ -109,7 +111,7 @@ export function table(name: string, head: string[], rows: (string | number)[][],
     const text = typeof cell === "number" ? (Number.isNaN(cell) ? "" : String(cell)) : cell === "–" ? "" : cell;
     return /[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
   };
-  const text = [head, ...rows].map((row) => row.map(quoted).join(",")).join("\n").replaceAll("−", "-") + "\n";
+  const text = () => [head, ...rows].map((row) => row.map(quoted).join(",")).join("\n").replaceAll("−", "-") + "\n";
   const kinds = head.map((_, i) => ({ class: `${ofPaper.includes(i) ? "of-paper" : ""} ${
     i > 0 && rows.some((row) => String(row[i]).length > 60) ? "long" : ""}`.trim() || false }));
   const cell = (content: string | number, i: number) =>
@@ -117,6 +119,5 @@ export function table(name: string, head: string[], rows: (string | number)[][],
   return el("div", { class: "table" },
     el("table", {}, el("thead", {}, el("tr", {}, ...head.map((title, i) => title === "" ? el("td") : el("th", { scope: "col", ...kinds[i] }, title)))),
       el("tbody", {}, ...rows.map((row) => el("tr", {}, ...row.map(cell))))),
-    el("div", { class: "buttons" }, el("button", { type: "button", class: "save", title: `Save as ${name}.csv`, "aria-label": `Save as ${name}.csv`,
-      click: () => save(`${name}.csv`, new Blob([text], { type: "text/csv" })) }, "CSV")));
+    el("div", { class: "buttons" }, saveButton(name, "csv", async () => new Blob([text()], { type: "text/csv" }))));
 }

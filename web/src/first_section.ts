@@ -1,7 +1,7 @@
 // The numbers that are read first, beside measured ones and usual ranges.
 import { measuredVolume } from "./calibration_section.ts";
 import { type Case, type Row, value } from "./data.ts";
-import { el, fileName, missing, table } from "./dom.ts";
+import { el, fileName, missing, table, titled } from "./dom.ts";
 import { shown } from "./quantities.ts";
 
 interface Figure {
@@ -50,7 +50,7 @@ interface Judgement { quantity: string; label: string; value: number; unit: stri
 
 export const judgements = (c: Case): Judgement[] => c.summary?.plausibility ?? [];
 
-const verdict = (j: Judgement) => (j.impossible ? "IMPOSSIBLE" : j.answer);
+export const answerOf = (j: Judgement) => (j.impossible ? "IMPOSSIBLE" : j.answer);
 
 export function rangeOf(j: Judgement, factor = 1): string {
   const end = (x: number | null) => (x === null ? "…" : String(Number((x * factor).toPrecision(3))).replace("-", "−"));
@@ -61,7 +61,7 @@ function ofOne(c: Case): (string | number)[][] {
   const judged = (name: string | undefined) => judgements(c).find((j) => j.quantity === name);
   return figures.filter((f) => f.of(c) !== undefined).map((f) => {
     const j = judged(f.range);
-    return [`${f.title} (${f.unit})`, shown(f.of(c)), shown(f.measured?.(c)), j ? rangeOf(j, j.unit === "1" ? 100 : 1) : "–", j ? verdict(j) : "–",
+    return [`${f.title} (${f.unit})`, shown(f.of(c)), shown(f.measured?.(c)), j ? rangeOf(j, j.unit === "1" ? 100 : 1) : "–", j ? answerOf(j) : "–",
       c.mark(f.path) ?? "–"];
   });
 }
@@ -97,7 +97,7 @@ export function firstSection(cases: Case[]): HTMLElement {
     : several ? table(name, ["", ...cases.flatMap((c) => [c.name, "measured"]), "difference"], ofTwo(cases))
     : table(name, ["", "model", "measured", "usual", "answer", "origin"], ofOne(cases[0]));
   const none = found && cases.every((c) => figures.every((f) => f.measured?.(c) === undefined));
-  return el("section", { id: "summary", "aria-labelledby": "summary-title" }, el("h2", { id: "summary-title" }, "Summary"), content,
+  return titled("summary", "Summary", {}, content,
     none ? el("p", { class: "help" }, "No measured volumes: the case is not fitted to any.") : undefined,
     el("p", { class: "help" }, "Strain at end-systole is Green-Lagrange, the mean over the wall; measured, the mean over the regions of the images. " +
       "Sources of the usual ranges and what was assumed are below."),

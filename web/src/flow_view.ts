@@ -2,7 +2,7 @@
 // the wall's section around it.
 import { barParts } from "./bar.ts";
 import { rgbOf, type Scale } from "./colours.ts";
-import { shorts, type FlowJson, type Wall } from "./data.ts";
+import { nearest, shorts, type FlowJson, type Wall } from "./data.ts";
 import { ink, svg } from "./dom.ts";
 import { type Heart, letterAt } from "./orientation.ts";
 import { shown } from "./quantities.ts";
@@ -43,20 +43,23 @@ function outline(section: Section): [number, number][] {
   return [...sides.values()];
 }
 
+/** Height of the highest point. */
+const topOf = (section: Section) => section.points.reduce((top, value, i) => (i % 3 === 2 ? Math.max(top, value) : top), -Infinity);
+
 /** Where the plane meets blood within the wall, row after row from the base down; above the base, between its inner rims. */
 function cavityOf(flow: FlowJson, section: Section, sides: [number, number][]): ([number, number] | undefined)[] {
   const x = (p: number) => section.points[3 * p];
   const z = (p: number) => section.points[3 * p + 2];
-  const base = section.points.reduce((top, value, i) => (i % 3 === 2 ? Math.max(top, value) : top), -Infinity);
+  const base = topOf(section);
   const rows: ([number, number] | undefined)[] = Array.from({ length: flow.cells[1] });
-  let [middle, inside] = [0, true];
-  for (let k = rows.length - 1; k >= 0 && inside; --k) {
+  let middle = 0;
+  for (let k = rows.length - 1; k >= 0; --k) {
     const height = Math.min(flow.lower[1] + (k + 0.5) * flow.spacing[1], base - 0.5);
     const crossings = sides.filter(([p, q]) => z(p) < height !== z(q) < height)
       .map(([p, q]) => x(p) + ((height - z(p)) / (z(q) - z(p))) * (x(q) - x(p)));
     const left = crossings.filter((at) => at < middle);
     const right = crossings.filter((at) => at >= middle);
-    inside = left.length > 1 && left.length % 2 === 0 && right.length > 1;  // a wall on both sides, and the middle in neither
+    const inside = left.length > 1 && left.length % 2 === 0 && right.length > 1;  // a wall on both sides, and the middle in neither
     if (!inside) break;
     rows[k] = [Math.max(...left), Math.min(...right)];
     middle = 0.5 * (rows[k]![0] + rows[k]![1]);
@@ -66,10 +69,8 @@ function cavityOf(flow: FlowJson, section: Section, sides: [number, number][]): 
 
 /** A frame of the blood with the wall at the nearest moment. */
 export async function readFlow(flow: FlowJson, frame: number, wall: Wall): Promise<FlowFrame> {
-  const away = (t: number) => Math.abs(t - flow.times[frame]);
-  const nearest = wall.times.reduce((best, t, i) => (away(t) < away(wall.times[best]) ? i : best), 0);
   const [velocity, p] = await Promise.all([velocityOf(flow, frame), shorts(flow.pressure.frames[frame])]);
-  const section = cutWall(wall, wall.positions(nearest), { normal: [0, 1, 0], offset: 0 });
+  const section = cutWall(wall, wall.positions(nearest(wall.times, flow.times[frame])), { normal: [0, 1, 0], offset: 0 });
   const sides = outline(section);
   return { velocity, pressure: Float32Array.from(p, (n) => (n * flow.pressure.step) / kPaPerMmHg), section, sides, cavity: cavityOf(flow, section, sides) };
 }
@@ -91,11 +92,15 @@ const isBlood = (flow: FlowJson, frame: FlowFrame, i: number, k: number) => {
   const row = frame.cavity[k];
   return row !== undefined && centreX(flow, i) > row[0] && centreX(flow, i) < row[1];
 };
+const bloodCells = (flow: FlowJson, frame: FlowFrame) =>
+  [...frame.pressure.keys()].filter((cell) => isBlood(flow, frame, cell % flow.cells[0], Math.floor(cell / flow.cells[0])));
 const valuesOf = (frame: FlowFrame, what: FlowQuantity) => (what === "speed" ? speeds(frame.velocity) : frame.pressure);
 
 export function flowScale(flows: { flow: FlowJson; frame: FlowFrame }[], what: FlowQuantity): Scale {
-  const all = flows.flatMap(({ flow, frame }) =>
-    Array.from(valuesOf(frame, what)).filter((_, i) => isBlood(flow, frame, i % flow.cells[0], Math.floor(i / flow.cells[0])))).sort((a, b) => a - b);
+  const all = flows.flatMap(({ flow, frame }) => {
+    const values = valuesOf(frame, what);
+    return bloodCells(flow, frame).map((cell) => values[cell]);
+  }).sort((a, b) => a - b);
   const at = (f: number) => all[Math.min(all.length - 1, Math.floor(f * all.length))] ?? 0;
   const bounds = what === "speed" ? { min: 0, max: Math.max(at(0.995), 1e-3) } : { min: Math.min(0, at(0.01)), max: Math.max(at(0.99), 0.01) };
   return { ...bounds, diverging: false, middle: 0, floor: 0 };
@@ -169,7 +174,7 @@ export class FlowView {
     context.fill();
     context.stroke();
     // the two surfaces; the base is where the model ends, not a border of the wall
-    const base = section.points.reduce((top, value, i) => (i % 3 === 2 ? Math.max(top, value) : top), -Infinity);
+    const base = topOf(section);
     const isBase = (p: number) => section.points[3 * p + 2] > base - 0.7;
     context.strokeStyle = "#333";
     context.lineWidth = 2;
@@ -182,12 +187,8 @@ export class FlowView {
   }
 
   private fastest(frame: FlowFrame): number {
-    const [nx] = this.flow.cells;
     const n = frame.pressure.length;
-    let most = 1e-9;
-    for (let i = 0; i < n; ++i)
-      if (isBlood(this.flow, frame, i % nx, Math.floor(i / nx))) most = Math.max(most, Math.hypot(frame.velocity[i], frame.velocity[2 * n + i]));
-    return most;
+    return bloodCells(this.flow, frame).reduce((most, i) => Math.max(most, Math.hypot(frame.velocity[i], frame.velocity[2 * n + i])), 1e-9);
   }
 
   /** Length of the arrow of the fastest blood. */

@@ -39,19 +39,20 @@ export class Overlay {
 
   /** Follows the camera. */
   place(): void {
+    // all is read before anything is written: the browser lays out once
     const { clientWidth: width, clientHeight: height } = this.view.canvas;
+    const [length, letters] = [20 * this.view.scale, this.view.letters()];
     this.element.setAttribute("viewBox", `0 0 ${width} ${height}`);
     this.element.setAttribute("width", String(width));
     this.element.setAttribute("height", String(height));
     this.legend.setAttribute("transform", `translate(${edge} ${height - 52})`);
     this.region.setAttribute("x", String(width - edge));
-    const length = 20 * this.view.scale;
     this.bar.setAttribute("d", `M${width - edge - length} ${height - 22}v6h${length}v-6`);
     this.length.setAttribute("x", String(width - edge - length / 2));
     this.length.setAttribute("y", String(height - 24));
     this.star.setAttribute("x", String(width - edge));
     this.star.setAttribute("y", String(height - 44));
-    for (const { name, x, y, seen } of this.view.letters()) {
+    for (const { name, x, y, seen } of letters) {
       const letter = this.letters.get(name)!;
       letter.setAttribute("x", x.toFixed(1));
       letter.setAttribute("y", y.toFixed(1));

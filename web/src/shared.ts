@@ -1,8 +1,7 @@
 // What all views show together: one quantity, one moment, one region, one cut.
-import { Case, type Selection } from "./data.ts";
+import { type Case, nearest, type Selection, value } from "./data.ts";
 import type { Scale } from "./colours.ts";
 import { quantity, stateMark } from "./quantities.ts";
-import { value } from "./data.ts";
 
 export interface Cut { kind: "none" | "long" | "short"; angle: number; height: number }  // degrees from the septum, mm
 
@@ -47,10 +46,6 @@ export interface Timeline {
   time: (number: number, step: number) => number;
   start: number;  // the step to begin with
   marks: { step: number; label: string; title: string }[];  // named moments
-}
-
-function nearest(times: number[], time: number): number {
-  return times.reduce((best, t, i) => (Math.abs(t - time) < Math.abs(times[best] - time) ? i : best), 0);
 }
 
 function ownTimeline(c: Case, times: number[]): Timeline {

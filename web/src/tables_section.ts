@@ -2,7 +2,7 @@
 import { type Case, type Row, value } from "./data.ts";
 import { el, fileName, folded, missing, paperSwitch, save, section, table } from "./dom.ts";
 import { calibration, measuredVolume } from "./calibration_section.ts";
-import { judgements, rangeOf } from "./first_section.ts";
+import { answerOf, judgements, rangeOf } from "./first_section.ts";
 import { transmurality } from "./regions_section.ts";
 import type { Shared } from "./shared.ts";
 import { healthyAdults, healthySubject, type MeanSd, paper, patient, volunteers } from "./published.ts";
@@ -54,7 +54,7 @@ function stateTable(c: Case): HTMLElement {
 function plausibilityTable(c: Case): HTMLElement | undefined {
   const all = judgements(c);
   return all.length === 0 ? undefined : table(fileName(c.name, "plausibility"), ["figure", "value", "usual", "answer", "why, source"], all.map((j) =>
-    [j.label, `${shown(j.value)}${j.unit === "1" ? "" : ` ${j.unit}`}`, rangeOf(j), j.impossible ? "IMPOSSIBLE" : j.answer, [j.reason, j.source].filter(Boolean).join("; ")]));
+    [j.label, `${shown(j.value)}${j.unit === "1" ? "" : ` ${j.unit}`}`, rangeOf(j), answerOf(j), [j.reason, j.source].filter(Boolean).join("; ")]));
 }
 
 function runTable(c: Case): HTMLElement {

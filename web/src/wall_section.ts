@@ -1,7 +1,7 @@
 // The 3-D views of all cases with one set of controls.
 import type { Scale } from "./colours.ts";
-import { Case, type Row, type Scheme, type Series, value } from "./data.ts";
-import { el, fileName, missing, overlaidPng, savePng } from "./dom.ts";
+import { type Case, rowAt, type Scheme, type Series, value } from "./data.ts";
+import { el, fileName, missing, overlaidPng, savePng, titled } from "./dom.ts";
 import { Fibres } from "./fibres.ts";
 import { cutName, heartOf, looks } from "./orientation.ts";
 import { Overlay } from "./overlay.ts";
@@ -24,12 +24,6 @@ function slider(title: string, min: number, max: number, step: number, unit: str
 
 export const regionName = (c: Case, scheme: Scheme, index: number) => c.regionNames(scheme)[index] ?? `${index + 1}`;
 
-/** The row of curves.csv that is nearest to a moment. */
-export function rowAt(rows: Row[], time: number): Row | undefined {
-  const away = (row: Row) => Math.abs(value(row.time_s) - time);
-  return rows.reduce<Row | undefined>((best, row) => (!best || away(row) < away(best) ? row : best), undefined);
-}
-
 /** One case's 3-D view. */
 class Panel {
   private view?: WallView;
@@ -37,11 +31,9 @@ class Panel {
   private series = new Map<string, Series | Float32Array | undefined>();
   readonly element: HTMLElement;
   private fibres?: Fibres;
-  private curves: Row[];
   private read = el("p", { class: "read", "aria-live": "polite" });
   constructor(private c: Case, private number: number, private shared: Shared, private time: Timeline, private scale: () => Scale) {
     this.element = el("div", { class: "panel" });
-    this.curves = c.table("curves.csv");
     if (!c.wall) {
       this.element.append(missing("No wall is shown: the work folder holds neither frames of a beat nor a mesh."));
       return;
@@ -102,7 +94,7 @@ class Panel {
 
   /** "end-systole, 150 mmHg, 59.5 ml" */
   private moment(t: number): string {
-    const row = rowAt(this.curves, t);
+    const row = rowAt(this.c.table("curves.csv"), t);
     return [this.c.words(t), this.c.isLoaded ? "" : `${t.toFixed(3)} s`, row && `${shown(value(row.pressure_mmHg))} mmHg`,
       row && `${shown(value(row.cavity_volume_ml))} ml`].filter(Boolean).join(", ");
   }
@@ -116,12 +108,12 @@ class Panel {
       const f0 = await this.c.wall!.fibres();
       this.fibres = f0 && new Fibres(this.c.wall!, f0);
     }
-    const q = quantity(state.quantity);
+    const [q, scale] = [quantity(state.quantity), this.scale()];
     const lines = [this.c.name, this.moment(this.time.time(this.number, state.step)), cutName(state.cut),
       ...(field ? [] : [`${q.title} is not in this case's frames`])];
-    this.overlay!.write(lines, this.scale(), label(q));
+    this.overlay!.write(lines, scale, label(q));
     this.view.canvas.setAttribute("aria-label", `The wall in 3-D, ${label(q)}: ${lines.join("; ")}. Arrow keys turn it.`);
-    this.view.show(frame, field, this.scale(), state.cut, state.fibres ? this.fibres : undefined);
+    this.view.show(frame, field, scale, state.cut, state.fibres ? this.fibres : undefined);
   }
 
   choose(): void {
@@ -236,7 +228,7 @@ export function wallSection(cases: Case[], shared: Shared, time: Timeline): Wall
   const colour = () => panels.forEach((panel) => panel.colour());
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", colour);
   addEventListener("beforeprint", () => panels.forEach((panel) => panel.print()));
-  const element = el("section", { id: "wall", "aria-labelledby": "wall-title" }, el("h2", { id: "wall-title" }, "The wall in 3-D"),
+  const element = titled("wall", "The wall in 3-D", {},
     el("div", { class: "controls" }, select("quantity", offered.map((q) => [q.name, label(q)]), shared.state.quantity,
       (name) => shared.set({ quantity: name, range: undefined })),
     el("div", { class: "looks", role: "group", "aria-label": "views" }, ...named)),

@@ -44,7 +44,7 @@ function dynamic(size: number, width: number): BufferAttribute {
   return new BufferAttribute(new Float32Array(size * width), width).setUsage(DynamicDrawUsage);
 }
 
-export function planeOf(cut: Cut, heart: Heart): Plane | undefined {
+function planeOf(cut: Cut, heart: Heart): Plane | undefined {
   if (cut.kind === "none") return undefined;
   if (cut.kind === "short") return { normal: [0, 0, 1], offset: cut.height };
   const [x, y] = unit(heart.septum + cut.angle);
