@@ -1,3 +1,4 @@
+#include "lv/anatomy/segmentation.hpp"
 #include "lv/base/check.hpp"
 #include "lv/base/interrupt.hpp"
 #include "lv/base/launch.hpp"
@@ -6,15 +7,14 @@
 #include "lv/base/processors.hpp"
 #include "lv/base/table.hpp"
 #include "lv/base/units.hpp"
-#include "lv/job/list_images.hpp"
-#include "lv/job/propose_case.hpp"
-#include "lv/job/read_case.hpp"
-#include "lv/job/run.hpp"
-#include "lv/job/segmentation.hpp"
-#include "lv/job/validate.hpp"
-#include "lv/job/version.hpp"
+#include "lv/case_file/read_case.hpp"
 #include "lv/phantom/study.hpp"
+#include "lv/pipeline/run.hpp"
+#include "lv/pipeline/validate.hpp"
+#include "lv/proposal/list_images.hpp"
+#include "lv/proposal/propose_case.hpp"
 #include "lv/verify/run.hpp"
+#include "lv/work/version.hpp"
 
 #include "documents.hpp"
 #include "help.hpp"
@@ -53,11 +53,11 @@ struct Command {
   std::string until;
   std::vector<std::filesystem::path> works;
   std::string page;
-  lv::job::RunOptions run;
+  lv::pipeline::RunOptions run;
   int ranks = 0;
   bool markdown = false;
-  lv::job::BenchOptions bench;
-  lv::job::ListOptions images;
+  lv::pipeline::BenchOptions bench;
+  lv::proposal::ListOptions images;
   bool list = false;
   lv::verify::Options verify;
   lv::phantom::Ventricle ventricle;
@@ -83,8 +83,9 @@ int until_stopped(const Work& work) {
 void write_new_case(const std::string& file, const std::string& source) {
   if (std::filesystem::exists(std::filesystem::symlink_status(file)))
     throw lv::InputError(file, "exists already", "Choose another name");
-  lv::write_file(file, source.empty() ? lv::job::starter_case(std::filesystem::path(file).stem())
-                                      : lv::job::proposed_case(source, file));
+  lv::write_file(file, source.empty()
+                           ? lv::case_file::starter_case(std::filesystem::path(file).stem())
+                           : lv::proposal::proposed_case(source, file));
   lv::print(fmt::format("wrote {}; next: ventricle validate {}\n", file, file));
 }
 
@@ -119,50 +120,51 @@ std::optional<int> run_on_ranks(const Command& command, int most, int argc, char
 
 int bench(const Command& command, int argc, char** argv) {
   const std::vector<int>& n = command.bench.cells;
-  const int most = lv::job::most_ranks({n.at(0), n.at(1), n.at(2)});
+  const int most = lv::pipeline::most_ranks({n.at(0), n.at(1), n.at(2)});
   if (const auto code = run_on_ranks(command, most, argc, argv))
     return *code;
   const lv::parallel::Session session(&argc, &argv);
-  const std::string result = lv::job::bench(command.bench);
+  const std::string result = lv::pipeline::bench(command.bench);
   if (lv::parallel::is_root())
     lv::print(result);
   return 0;
 }
 
 int run_parallel(Command& command, int argc, char** argv) {
-  const lv::job::Case c = lv::job::read_case(command.case_file);
-  const int most =
-      c.engine == lv::job::Engine::immersed ? lv::job::most_ranks(c.box.cells) : most_ranks;
+  const lv::case_file::Case c = lv::case_file::read_case(command.case_file);
+  const int most = c.engine == lv::case_file::Engine::immersed
+                       ? lv::pipeline::most_ranks(c.box.cells)
+                       : most_ranks;
   if (!command.run.dry_run)  // which is done at once
     if (const auto code = run_on_ranks(command, most, argc, argv))
       return *code;
   const lv::parallel::Session session(&argc, &argv);
   if (!command.until.empty())
     command.run.until = command.until;
-  return until_stopped([&] { lv::job::run(c, command.run); });
+  return until_stopped([&] { lv::pipeline::run(c, command.run); });
 }
 
 int validate(const Command& command, int argc, char** argv) {
   const lv::parallel::Session session(&argc, &argv);
-  lv::print(lv::job::validate(lv::job::read_case(command.case_file)));
+  lv::print(lv::pipeline::validate(lv::case_file::read_case(command.case_file)));
   return 0;
 }
 
 /// Runs the stages up to one that needs one rank.
 int run_alone(Command& command, const std::string& stage, int argc, char** argv) {
-  const lv::job::Case c = lv::job::read_case(command.case_file);
+  const lv::case_file::Case c = lv::case_file::read_case(command.case_file);
   const lv::parallel::Session session(&argc, &argv);
   command.run.until = stage;
-  return until_stopped([&] { lv::job::run(c, command.run); });
+  return until_stopped([&] { lv::pipeline::run(c, command.run); });
 }
 
 int segment(const Command& command) {
-  const lv::job::Case c = lv::job::read_case(command.case_file);
+  const lv::case_file::Case c = lv::case_file::read_case(command.case_file);
   std::filesystem::path folder = command.folder;
   if (folder.empty())
     folder = c.file.parent_path() / (c.file.stem().string() + ".segment");
   lv::interrupt::install();
-  return until_stopped([&] { lv::print(lv::job::segment_case(c, folder)); });
+  return until_stopped([&] { lv::print(lv::anatomy::segment_case(c, folder)); });
 }
 
 int verify(const Command& command, int argc, char** argv) {
@@ -196,7 +198,7 @@ void add_page(CLI::App& app, Command& command, const char* name, const char* hel
 int write_page(const Command& command, const std::string& name, int argc, char** argv) {
   const lv::parallel::Session session(&argc, &argv);
   const std::string file = command.page.empty() ? name + ".html" : command.page;
-  lv::job::write_page(command.works, file);
+  lv::pipeline::write_page(command.works, file);
   lv::print(fmt::format("wrote {}\n", file));
   return 0;
 }
@@ -384,7 +386,7 @@ void add_bench(CLI::App& app, Command& command) {
 /// completion.
 void declare(CLI::App& app, Command& command) {
   app.require_subcommand(0, 1);
-  app.set_version_flag("--version", "ventricle " + lv::job::version());
+  app.set_version_flag("--version", "ventricle " + lv::work::version());
   add_cases(app, command);
   add_phantom(app, command);
   add_verify(app, command);
@@ -402,11 +404,11 @@ void declare(CLI::App& app, Command& command) {
 /// What a command only prints.
 std::string printed(const CLI::App& app, const Command& command, const std::string& name) {
   if (name == "images")
-    return lv::job::list_images(command.images);
+    return lv::proposal::list_images(command.images);
   if (name == "parameters")
-    return lv::job::manual(command.markdown, command.filter);
+    return lv::case_file::manual(command.markdown, command.filter);
   if (name == "man")
-    return man_page(app, lv::job::version(), lv::job::manual(false));
+    return man_page(app, lv::work::version(), lv::case_file::manual(false));
   return bash_completion(app);
 }
 

@@ -8,7 +8,9 @@ option(LV_COVERAGE "Instrument for gcov" OFF)
 
 add_library(lv_options INTERFACE)
 target_compile_options(lv_options INTERFACE
-  -Wall -Wextra -Wpedantic -Wshadow -Wno-psabi
+  -Wall -Wextra -Wpedantic -Wno-psabi
+  # where a room is one unit, a local name may hide what a neighbour's unnamed namespace holds
+  $<IF:$<BOOL:${CMAKE_UNITY_BUILD}>,-Wshadow=local,-Wshadow>
   # false alarms from GCC 12's own AVX-512 headers
   -Wno-uninitialized $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>
   -fno-math-errno -fno-trapping-math)  # sqrt needs no errno; NaN keeps its meaning

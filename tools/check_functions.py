@@ -20,7 +20,7 @@ def blanked(text):
     """The same lines without comments and literals."""
     text = literal.sub(lambda m: "\n" * m[0].count("\n"), text)
     text = re.sub(r"\b(?:public|private|protected):", "", text)
-    return re.sub(r"^[ \t]*#.*(?:\\\n.*)*", lambda m: "\n" * m[0].count("\n"), text, flags=re.MULTILINE)
+    return re.sub(r"^[ \t]*#(?:.*\\\n)*.*", lambda m: "\n" * m[0].count("\n"), text, flags=re.MULTILINE)
 
 
 def parameters(head):

@@ -10,6 +10,7 @@
 namespace lv::units {
 
 inline constexpr double mmHg = 0.133322387415;          ///< [kPa]
+inline constexpr double ml = 1e3;                       ///< [mm^3]
 inline constexpr double degree = 0.017453292519943295;  ///< [rad]
 
 /// Powers of length, mass, time, concentration and angle.

@@ -20,7 +20,7 @@ constexpr double narrowest = 1e-7;  // bracket, of the unknown's logarithm
 // units of the accuracy, counts as a root
 constexpr double scatter = 20.0;
 constexpr std::uintmax_t most_trials = 60;
-constexpr double nowhere = -10.0;  // misfit where there is no equilibrium
+constexpr double misfit_nowhere = -10.0;  // misfit where there is no equilibrium
 
 class Search {
  public:
@@ -120,7 +120,7 @@ class Search {
     const auto [log_x, minus_f] = boost::math::tools::brent_find_minima(
         [this](double x) {
           const Outcome<double> f = misfit(x);
-          return f ? -*f : -nowhere;
+          return f ? -*f : -misfit_nowhere;
         },
         std::min(a.log_x, b.log_x), std::max(a.log_x, b.log_x), bits, trials);
     if (minus_f > 0.0)

@@ -10,9 +10,9 @@
 namespace lv::calibrate {
 namespace {
 
-constexpr double smallest_step = 1e-4;  // of x, relative to itself and at least of `longest`
-constexpr int most_evaluations = 40;    // besides those for derivatives
-constexpr double nowhere = 1e6;         // a residual where the model has no equilibrium
+constexpr double smallest_step = 1e-4;    // of x, relative to itself and at least of `longest`
+constexpr int most_evaluations = 40;      // besides those for derivatives
+constexpr double residual_nowhere = 1e6;  // a residual where the model has no equilibrium
 
 /// r(x) as Eigen's minimiser wants it. Outside the bounds x counts as at them.
 class Bounded {
@@ -33,7 +33,7 @@ class Bounded {
     if (found || evaluations == 1)
       r = found.value();
     else
-      r.setConstant(nowhere);
+      r.setConstant(residual_nowhere);
     return 0;
   }
 

@@ -19,8 +19,8 @@ double distance(const Loads& a, const Loads& b) {
 }  // namespace
 
 Ventricle::Ventricle(const mesh::Mesh& mesh, ModelOf model_of,
-                     const quasi_static::SolverParameters& solver,
-                     const quasi_static::UnloadParameters& unloading)
+                     const implicit::SolverParameters& solver,
+                     const implicit::UnloadParameters& unloading)
     : given_(mesh),
       model_of_(std::move(model_of)),
       solver_(solver),
@@ -31,8 +31,8 @@ Ventricle::Ventricle(const mesh::Mesh& mesh, ModelOf model_of,
 Outcome<double> Ventricle::unloaded_volume(const FitParameters& parameters) {
   if (unloading_.pressure == 0.0 || (unloaded_ && unloaded_with_ == parameters))
     return endocardium_.volume(wall_.nodes);
-  const auto unloaded = quasi_static::unload(given_, model_of_(parameters), unloading_, solver_,
-                                             unloaded_ ? &*unloaded_ : nullptr);
+  const auto unloaded = implicit::unload(given_, model_of_(parameters), unloading_, solver_,
+                                         unloaded_ ? &*unloaded_ : nullptr);
   if (!unloaded)
     return unloaded.why();
   unloaded_ = *unloaded;
@@ -73,7 +73,7 @@ Outcome<std::vector<Vec3>> Ventricle::positions(const FitParameters& parameters,
 }
 
 /// Brings the engine to equilibrium with the loads.
-Outcome<double> Ventricle::approach(const quasi_static::StaticModel& model, const Loads& loads) {
+Outcome<double> Ventricle::approach(const implicit::StaticModel& model, const Loads& loads) {
   if (!engine_)
     engine_.emplace(wall_, model, solver_);
   if (!known_.empty()) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "lv/quasi_static/unload.hpp"
+#include "lv/implicit/unload.hpp"
 
 #include <functional>
 #include <optional>
@@ -38,11 +38,11 @@ struct Model {
 /// the last result on.
 class Ventricle {
  public:
-  using ModelOf = std::function<quasi_static::StaticModel(const FitParameters&)>;
+  using ModelOf = std::function<implicit::StaticModel(const FitParameters&)>;
 
   /// The mesh must outlive it.
-  Ventricle(const mesh::Mesh& mesh, ModelOf model_of, const quasi_static::SolverParameters& solver,
-            const quasi_static::UnloadParameters& unloading = {});
+  Ventricle(const mesh::Mesh& mesh, ModelOf model_of, const implicit::SolverParameters& solver,
+            const implicit::UnloadParameters& unloading = {});
 
   // Each is collective.
 
@@ -57,34 +57,34 @@ class Ventricle {
   [[nodiscard]] const mesh::Mesh& wall() const { return wall_; }
   /// The same with its equilibrium under the load that it was seen with; nothing when it was given
   /// free of stress.
-  [[nodiscard]] const std::optional<quasi_static::Unloaded>& unloaded() const { return unloaded_; }
+  [[nodiscard]] const std::optional<implicit::Unloaded>& unloaded() const { return unloaded_; }
 
   struct Equilibrium {
     solid::Loads loads;
-    quasi_static::State state;
+    implicit::State state;
   };
   /// All that further answers depend on.
   struct Memory {
     std::vector<Equilibrium> known;
-    std::optional<quasi_static::Unloaded> unloaded;
+    std::optional<implicit::Unloaded> unloaded;
     FitParameters unloaded_with;
   };
   [[nodiscard]] Memory memory() const { return {known_, unloaded_, unloaded_with_}; }
   void restore(Memory memory);
 
  private:
-  Outcome<double> approach(const quasi_static::StaticModel& model, const solid::Loads& loads);
+  Outcome<double> approach(const implicit::StaticModel& model, const solid::Loads& loads);
   [[nodiscard]] Equilibrium& nearest(const solid::Loads& loads);
 
   const mesh::Mesh& given_;
   ModelOf model_of_;
-  quasi_static::SolverParameters solver_;
-  quasi_static::UnloadParameters unloading_;
+  implicit::SolverParameters solver_;
+  implicit::UnloadParameters unloading_;
   mesh::Mesh wall_;  ///< free of stress
   solid::EndocardialSurface endocardium_;
-  std::optional<quasi_static::Unloaded> unloaded_;
+  std::optional<implicit::Unloaded> unloaded_;
   FitParameters unloaded_with_;
-  std::optional<quasi_static::Engine> engine_;  ///< of wall_
+  std::optional<implicit::Engine> engine_;  ///< of wall_
   std::vector<Equilibrium> known_;
 };
 

@@ -5,7 +5,7 @@
 namespace lv::circulation {
 
 /// Clinical units in those of the inside [kPa, mm^3, s].
-inline constexpr double ml = 1e3;
+using units::ml;
 inline constexpr double resistance = units::mmHg / ml;  ///< of a mmHg s/ml, and an inertance
 inline constexpr double compliance = ml / units::mmHg;  ///< of a ml/mmHg
 inline constexpr double elastance = units::mmHg / ml;   ///< of a mmHg/ml

@@ -87,6 +87,8 @@ std::vector<Vec3> ends_of(const Contour& curve, const LongAxis& axis) {
 
 /// The lowest end of the long-axis curves of two or more images; none if they are fewer.
 std::optional<Vec3> end_of_muscle(const Contours& contours) {
+  if (contours.long_axis.empty())
+    return std::nullopt;
   std::set<int> images;
   std::optional<Vec3> lowest;
   const Vec3 basal = mean_of(loops_from_base(contours, Side::endo).front()->points);

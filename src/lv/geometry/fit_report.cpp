@@ -12,7 +12,7 @@
 namespace lv::geometry {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// The surfaces and the contours they belong to.
 struct Fitted {

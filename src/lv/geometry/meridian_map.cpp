@@ -10,7 +10,7 @@
 namespace lv::geometry {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr int angles = 48;  // of the mean over theta
 constexpr int steps = 400;  // along the mean meridians
 constexpr int waves = 6;    // of the matching

@@ -17,11 +17,11 @@
 namespace lv::geometry {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// "z = -12.3 mm, angle 45 degrees" of a point in the model frame.
-std::string place(const Vec3& x) {
+std::string place_on_wall(const Vec3& x) {
   const double angle = std::atan2(x.y(), x.x()) * 180.0 / pi;
   const double z = std::round(10.0 * x.z()) / 10.0 + 0.0;  // never "-0.0"
   return fmt::format("z = {:.1f} mm, angle {:.0f} degrees", z, angle < 0.0 ? angle + 360.0 : angle);
@@ -196,7 +196,7 @@ void check_star_shaped(const Contour& loop, const Frame& frame) {
     if (back > tolerance)
       throw InputError(loop.where(i % n),
                        fmt::format("{}: the loop is folded as seen from the long axis, at {}",
-                                   label(loop), place(frame.to_model(loop.points[i % n]))),
+                                   label(loop), place_on_wall(frame.to_model(loop.points[i % n]))),
                        "Leave papillary muscles and trabeculae out of the border there");
   }
 }
@@ -216,7 +216,8 @@ void check_wall(const Contours& contours, const Thickness& thinnest, double leas
   if (thinnest.value >= least)
     return;
   const Contour& loop = *find(contours.short_axis, thinnest.slice, Side::endo);
-  const std::string at = fmt::format("{}, near slice {}", place(thinnest.at), thinnest.slice);
+  const std::string at =
+      fmt::format("{}, near slice {}", place_on_wall(thinnest.at), thinnest.slice);
   if (thinnest.value <= 0.0)
     throw InputError(loop.where(),
                      fmt::format("the fitted endocardium lies {:.1f} mm outside the epicardium at "

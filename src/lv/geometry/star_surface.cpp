@@ -11,7 +11,7 @@
 namespace lv::geometry {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr int meridians = 256;  // for checks and integrals over theta
 
 /// Gauss-Legendre quadrature on [-1, 1], exact up to degree 9.

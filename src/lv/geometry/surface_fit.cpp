@@ -15,7 +15,7 @@
 namespace lv::geometry {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// One row of a least-squares system with few entries.
 struct SparseRow {

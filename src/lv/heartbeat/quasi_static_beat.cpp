@@ -12,13 +12,13 @@
 namespace lv::heartbeat {
 namespace {
 
-using quasi_static::Engine;
-using quasi_static::Step;
+using implicit::Engine;
+using implicit::Step;
 using solid::Loads;
 using units::mmHg;
 
 /// Steps short enough for curves: contraction begins steeply.
-quasi_static::SolverParameters smooth(quasi_static::SolverParameters p) {
+implicit::SolverParameters smooth(implicit::SolverParameters p) {
   constexpr double first_step = 0.002;
   constexpr double largest_change = 0.05;
   p.first_step = std::min(p.first_step, first_step);
@@ -62,7 +62,7 @@ class QuasiStaticRun {
   }
 
   void report_progress(const Step& step) {
-    const quasi_static::NewtonReport& n = step.newton;
+    const implicit::NewtonReport& n = step.newton;
     left_.record(run_.beat.steps);
     log::info("{} {:3.0f}%  {:.2f} mmHg  {:.2f} ml  tension {:.1f} kPa  {} corrections, {} {}{}{}",
               phase().name, 100.0 * step.progress, step.loads.pressure / mmHg, 1e-3 * step.volume,

@@ -1,14 +1,14 @@
 #pragma once
 
 #include "lv/heartbeat/observers.hpp"
-#include "lv/quasi_static/engine.hpp"
+#include "lv/implicit/engine.hpp"
 
 namespace lv::heartbeat {
 
 struct QuasiStaticSetup {
   const mesh::Mesh& mesh;
-  quasi_static::StaticModel model;
-  quasi_static::SolverParameters parameters;
+  implicit::StaticModel model;
+  implicit::SolverParameters parameters;
   Protocol protocol;  ///< its tolerances, drags and longest times mean nothing here
   /// Between frames [s]; the ends of the phases always have one, and so has every moment whose
   /// volume is off by a tenth from that of the last frame.

@@ -22,7 +22,7 @@ using geometry::Frame;
 using geometry::Side;
 using Vec2 = Eigen::Vector2d;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr int rays = 180;
 constexpr int most_missing = rays / 3;
 

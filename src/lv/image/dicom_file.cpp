@@ -33,11 +33,11 @@ using gdcm::Tag;
 
 constexpr int largest_side = 8192;       // pixels; no scanner makes larger slices
 constexpr int most_frames = 100000;      // of one file
-constexpr double unit_error = 1e-2;      // of direction cosines
+constexpr double cosine_error = 1e-2;    // of direction cosines
 constexpr double smallest_pixel = 1e-3;  // [mm]
 constexpr double largest_pixel = 1e3;
-constexpr double farthest = 1e6;  // of an image from the scanner's centre [mm]
-constexpr double seconds = 1e-3;  // per millisecond
+constexpr double farthest_image = 1e6;  // of an image from the scanner's centre [mm]
+constexpr double seconds = 1e-3;        // per millisecond
 
 /// GDCM speaks on the terminal unless told not to.
 void silence() {
@@ -167,11 +167,11 @@ std::string lay(const std::vector<double>& position, const std::vector<double>& 
     return fmt::format("its PixelSpacing is {:g} x {:g} mm", spacing[0], spacing[1]);
   const Vec3 row(orientation[0], orientation[1], orientation[2]);
   const Vec3 column(orientation[3], orientation[4], orientation[5]);
-  if (std::abs(row.norm() - 1.0) > unit_error || std::abs(column.norm() - 1.0) > unit_error ||
-      std::abs(row.dot(column)) > unit_error)
+  if (std::abs(row.norm() - 1.0) > cosine_error || std::abs(column.norm() - 1.0) > cosine_error ||
+      std::abs(row.dot(column)) > cosine_error)
     return "its ImageOrientationPatient holds no two unit vectors at right angles";
   plane.origin = Vec3(position[0], position[1], position[2]);
-  if (plane.origin.cwiseAbs().maxCoeff() > farthest)
+  if (plane.origin.cwiseAbs().maxCoeff() > farthest_image)
     return "its ImagePositionPatient is no place in a scanner";
   plane.along_row = row.normalized();
   plane.along_column = (column - column.dot(plane.along_row) * plane.along_row).normalized();

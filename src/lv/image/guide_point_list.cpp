@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double farthest = 1e7;  // more than a ventricle in micrometres
+constexpr double largest_coordinate = 1e7;  // more than a ventricle in micrometres
 constexpr const char* column_rule =
     "The first line names the columns x, y, z, contour type, slice (or sliceID, frameID) and time "
     "frame, separated by tabs";
@@ -113,7 +113,7 @@ class List {
 
   [[nodiscard]] double coordinate(std::string_view text) const {
     const double value = number(text);
-    if (std::abs(value) > farthest)
+    if (std::abs(value) > largest_coordinate)
       throw InputError(lines_.where(), fmt::format("\"{}\" is no place in a scanner", text),
                        "Give positions in scanner millimetres");
     return value;

@@ -25,9 +25,9 @@ namespace fs = std::filesystem;
 using geometry::Contour;
 using geometry::Side;
 
-constexpr double pi = std::numbers::pi;
-constexpr double widest_gap = pi / 3.0;  // of an epicardial loop
-constexpr std::size_t least_points = 8;  // of a loop
+using std::numbers::pi;
+constexpr double widest_gap = pi / 3.0;       // of an epicardial loop
+constexpr std::size_t least_loop_points = 8;  // of a loop
 using Groups = std::map<std::pair<std::string, int>, std::vector<GuidePoint>>;
 
 /// The points of a type on each slice.
@@ -86,7 +86,7 @@ double sort_round(std::vector<GuidePoint>& rows, const Vec3& centre) {
 /// Whether points, open over some angle, make a loop; says so if not.
 bool is_loop(const std::vector<GuidePoint>& rows, double gap, const Contour& as,
              std::vector<std::string>& notes) {
-  if (rows.size() >= least_points && gap <= widest_gap)
+  if (rows.size() >= least_loop_points && gap <= widest_gap)
     return true;
   notes.push_back(fmt::format("{}: {} points, open over {:.0f} degrees, make no loop: left out",
                               geometry::label(as), rows.size(), gap * 180.0 / pi));
@@ -220,9 +220,11 @@ std::size_t drop_in_valve(std::vector<GuidePoint>& rows, const std::vector<Vec3>
   const auto& [left, right] = *opening;
   const Vec3 along = (left - right).normalized();
   const Vec3 out = (angle.up - angle.up.dot(along) * along).normalized();
+  const double first = angle(left);
+  const double last = angle(right);
   return std::erase_if(rows, [&](const GuidePoint& p) {
     const double at = angle(p.x);
-    return (at > angle(left) || at < angle(right)) && (p.x - left).dot(out) > -sag;
+    return (at > first || at < last) && (p.x - left).dot(out) > -sag;
   });
 }
 

@@ -2,6 +2,7 @@
 
 #include "lv/base/check.hpp"
 #include "lv/base/median.hpp"
+#include "lv/image/lookup.hpp"
 #include "lv/image/plane_mask.hpp"
 #include "lv/image/short_axis_labels.hpp"
 
@@ -21,17 +22,12 @@ using geometry::Contour;
 using geometry::Side;
 using Vec2 = Eigen::Vector2d;
 
-constexpr double largest_island = 0.2;   // of the largest part
-constexpr double largest_hole = 0.3;     // of the filled cavity
-constexpr std::size_t least_points = 8;  // of a border
-constexpr double noted_angle = 15.0;     // of the slices' normal to the long axis [degrees]
-constexpr double largest_angle = 25.0;
+constexpr double largest_island = 0.2;          // of the largest part
+constexpr double largest_hole = 0.3;            // of the filled cavity
+constexpr std::size_t least_border_points = 8;  // of a border
+constexpr double noted_angle = 15.0;            // of the slices' normal to the long axis [degrees]
+constexpr double largest_obliqueness = 25.0;
 constexpr double distinct = 1.25;  // spread along a long axis to that across it
-
-bool is_one_of(float value, const std::vector<int>& labels) {
-  return std::any_of(labels.begin(), labels.end(),
-                     [value](int label) { return value == static_cast<float>(label); });
-}
 
 PlaneMask mask_of(const Picture& picture, const std::vector<int>& labels) {
   PlaneMask mask(picture.plane.columns, picture.plane.rows);
@@ -129,7 +125,7 @@ class Tracer {
     if (found.size() > 1) {
       const double second = static_cast<double>(found[1].count()) * slice.pixel_area();
       const double first = static_cast<double>(found[0].count()) * slice.pixel_area();
-      if (second >= largest_island * first && outline(found[0]).size() >= least_points)
+      if (second >= largest_island * first && outline(found[0]).size() >= least_border_points)
         refuse(slice,
                fmt::format("{} is in {} parts, the largest of {:.0f} and {:.0f} mm2", of,
                            found.size(), first, second),
@@ -160,7 +156,7 @@ class Tracer {
            fmt::format("{:.0f} mm2 inside the cavity (papillary muscles or holes) count to it",
                        enclosed * slice.pixel_area()));
     slice.endo = outline(cavity);
-    if (slice.endo.size() >= least_points)
+    if (slice.endo.size() >= least_border_points)
       return cavity;
     note(slice, fmt::format("a cavity of {:.0f} mm2 is too small for a border: left out",
                             whole * slice.pixel_area()));
@@ -184,7 +180,7 @@ class Tracer {
            fmt::format("holes of {:.0f} mm2 in the wall filled",
                        static_cast<double>(body.count() - part.count()) * slice.pixel_area()));
     slice.epi = outline(body);
-    if (slice.epi.size() < least_points)
+    if (slice.epi.size() < least_border_points)
       slice.epi.clear();
   }
 
@@ -306,8 +302,8 @@ void check_across(const std::vector<Slice>& slices, const Run& run, const std::s
       std::min(*seen, angle_to_spread(moments_on_line(shown), normal).value_or(*seen));
   const std::string what = fmt::format(
       "the normal of the slices lies {:.0f} degrees from the long axis of the cavity", angle);
-  if (angle > largest_angle)
-    throw InputError(file, fmt::format("{}; at most {:g} are allowed", what, largest_angle),
+  if (angle > largest_obliqueness)
+    throw InputError(file, fmt::format("{}; at most {:g} are allowed", what, largest_obliqueness),
                      "Resample the label map to slices across the long axis of the ventricle");
   if (angle > noted_angle)
     notes.push_back(what +

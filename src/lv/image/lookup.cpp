@@ -8,11 +8,6 @@
 namespace lv::image {
 namespace {
 
-bool is_one_of(float value, const std::vector<int>& labels) {
-  return std::any_of(labels.begin(), labels.end(),
-                     [value](int label) { return value == static_cast<float>(label); });
-}
-
 /// A slice and its signed distance from a point, along the normal of the first slice [mm].
 struct Level {
   const Picture* picture;
@@ -32,6 +27,11 @@ std::vector<Level> levels_by_distance(const Cine& stack, const Vec3& x) {
 }
 
 }  // namespace
+
+bool is_one_of(float value, const std::vector<int>& labels) {
+  return std::any_of(labels.begin(), labels.end(),
+                     [value](int label) { return value == static_cast<float>(label); });
+}
 
 bool has_label(const Volume& volume, const Vec3& x, const std::vector<int>& labels,
                std::span<const Vec3> moves) {

@@ -20,8 +20,8 @@ constexpr double right_angle_error = 0.1;  // [degrees]
 constexpr double same_length = 1e-2;       // relative
 constexpr double unit_error = 1e-3;        // of the length of a unit vector
 constexpr double same_place = 0.1;         // of a voxel, between sform and qform
-constexpr double farthest = 1e6;           // of an image from the scanner's centre [mm]
-constexpr double degrees = 180.0 / std::numbers::pi;
+constexpr double farthest_origin = 1e6;    // of an image from the scanner's centre [mm]
+constexpr double to_degrees = 180.0 / std::numbers::pi;
 
 [[noreturn]] void fail(const Volume& volume, const std::string& what, const std::string& remedy) {
   throw InputError(volume.file, what, remedy);
@@ -74,7 +74,7 @@ void straighten(Volume& volume) {
            "Correct the sform, or pixdim, in the header");
     const int e = (d + 1) % 3;
     const double cosine = volume.directions.col(d).dot(volume.directions.col(e));
-    const double angle = std::acos(std::clamp(cosine, -1.0, 1.0)) * degrees;
+    const double angle = std::acos(std::clamp(cosine, -1.0, 1.0)) * to_degrees;
     if (!(std::abs(angle - 90.0) < right_angle_error))
       fail(volume,
            fmt::format(
@@ -166,7 +166,7 @@ void check_sizes(const Volume& volume, const Unit& unit) {
          fmt::format("its voxels measure {:g} x {:g} x {:g} mm (unit of the file: {})",
                      volume.spacing.x(), volume.spacing.y(), volume.spacing.z(), unit.name),
          "Correct the unit (xyzt_units) or the sizes in the header");
-  if (volume.origin.cwiseAbs().maxCoeff() > farthest)
+  if (volume.origin.cwiseAbs().maxCoeff() > farthest_origin)
     fail(volume, fmt::format("its first voxel lies at {} mm", three(volume.origin)),
          "Correct the place in the header");
 }

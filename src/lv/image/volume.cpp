@@ -76,6 +76,28 @@ Cine cine_of(const Volume& volume) {
   return cine;
 }
 
+double spacing_of(const Cine& cine) {
+  std::vector<double> heights;
+  const Plane& first = cine.slices.front().frames.front().plane;
+  for (const CineSlice& slice : cine.slices)
+    heights.push_back(first.pixel(slice.frames.front().plane.origin).z());
+  std::sort(heights.begin(), heights.end());
+  return heights.size() < 2
+             ? 0.0
+             : (heights.back() - heights.front()) / static_cast<double>(heights.size() - 1);
+}
+
+std::size_t nearest_slice(const Cine& cine, const Vec3& x) {
+  const auto distance = [&](std::size_t s) {
+    return std::abs(cine.slices[s].frames.front().plane.pixel(x).z());
+  };
+  std::size_t nearest = 0;
+  for (std::size_t s = 1; s < cine.slices.size(); ++s)
+    if (distance(s) < distance(nearest))
+      nearest = s;
+  return nearest;
+}
+
 Volume frame_of(const Volume& volume, int frame, const std::string& where) {
   require_frame(volume, frame, where);
   Volume one = volume;

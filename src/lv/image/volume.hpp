@@ -51,6 +51,12 @@ struct Volume {
 /// step.
 [[nodiscard]] Cine cine_of(const Volume& volume);
 
+/// The mean distance of neighbouring slices along their normal; 0 of a single one [mm].
+[[nodiscard]] double spacing_of(const Cine& cine);
+
+/// The slice whose plane is the nearest to a point of image space [mm].
+[[nodiscard]] std::size_t nearest_slice(const Cine& cine, const Vec3& x);
+
 /// One frame, counted from 1, as a volume of its own. Throws InputError, which names `where` the
 /// frame was chosen, if there is no such frame.
 [[nodiscard]] Volume frame_of(const Volume& volume, int frame, const std::string& where);

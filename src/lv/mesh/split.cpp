@@ -8,9 +8,9 @@
 namespace lv::mesh {
 namespace {
 
-using Triangle = std::array<int, 3>;
+using Corners = std::array<int, 3>;
 
-std::array<Triangle, 2> split_face(const std::array<int, 4>& face) {
+std::array<Corners, 2> split_face(const std::array<int, 4>& face) {
   const auto first = std::min_element(face.begin(), face.end()) - face.begin();
   const auto at = [&](int i) { return face[(first + i) % 4]; };
   return {{{at(0), at(1), at(2)}, {at(0), at(2), at(3)}}};
@@ -21,7 +21,7 @@ Surface split_faces(const Surface& surface) {
   triangles.nodes_per_face = 3;
   for (int f = 0; f < surface.size(); ++f) {
     const auto face = surface.face(f);
-    for (const Triangle& t : split_face({face[0], face[1], face[2], face[3]}))
+    for (const Corners& t : split_face({face[0], face[1], face[2], face[3]}))
       triangles.nodes.insert(triangles.nodes.end(), t.begin(), t.end());
   }
   return triangles;
@@ -35,7 +35,7 @@ void split_cell(std::span<const int> cell, std::vector<int>& tetrahedra) {
     const std::array<int, 4> face{cell[local[0]], cell[local[1]], cell[local[2]], cell[local[3]]};
     if (std::find(face.begin(), face.end(), apex) != face.end())
       continue;
-    for (const Triangle& t : split_face(face))
+    for (const Corners& t : split_face(face))
       tetrahedra.insert(tetrahedra.end(), {apex, t[0], t[1], t[2]});
   }
 }

@@ -7,7 +7,7 @@
 namespace lv::mesh {
 namespace {
 
-constexpr int spread = 4;  // points along each direction
+constexpr int per_direction = 4;  // points along each direction
 
 /// Of the unit cube, in VTK's order.
 std::array<double, 8> trilinear(const Vec3& xi) {
@@ -42,11 +42,12 @@ double jacobian(const Mesh& mesh, int cell, const Vec3& xi) {
 
 std::vector<CellPoint> over_hexahedron(const Mesh& mesh, int cell) {
   std::vector<CellPoint> points;
-  for (int k = 0; k < spread; ++k)
-    for (int j = 0; j < spread; ++j)
-      for (int i = 0; i < spread; ++i) {
-        const Vec3 xi = (Vec3(i, j, k) + Vec3::Constant(0.5)) / spread;
-        points.push_back({trilinear(xi), jacobian(mesh, cell, xi) / (spread * spread * spread)});
+  for (int k = 0; k < per_direction; ++k)
+    for (int j = 0; j < per_direction; ++j)
+      for (int i = 0; i < per_direction; ++i) {
+        const Vec3 xi = (Vec3(i, j, k) + Vec3::Constant(0.5)) / per_direction;
+        points.push_back({trilinear(xi), jacobian(mesh, cell, xi) /
+                                             (per_direction * per_direction * per_direction)});
       }
   return points;
 }
@@ -54,10 +55,10 @@ std::vector<CellPoint> over_hexahedron(const Mesh& mesh, int cell) {
 /// The middles of the upright ones of the small tetrahedra that it is cut into.
 std::vector<CellPoint> over_tetrahedron(const Mesh& mesh, int cell) {
   std::vector<CellPoint> points;
-  for (int k = 0; k < spread; ++k)
-    for (int j = 0; j + k < spread; ++j)
-      for (int i = 0; i + j + k < spread; ++i) {
-        const Vec3 xi = (Vec3(i, j, k) + Vec3::Constant(0.25)) / spread;
+  for (int k = 0; k < per_direction; ++k)
+    for (int j = 0; j + k < per_direction; ++j)
+      for (int i = 0; i + j + k < per_direction; ++i) {
+        const Vec3 xi = (Vec3(i, j, k) + Vec3::Constant(0.25)) / per_direction;
         points.push_back({{1.0 - xi.sum(), xi.x(), xi.y(), xi.z()}, 0.0});
       }
   for (CellPoint& point : points)

@@ -7,7 +7,7 @@
 namespace lv::mesh {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr int meridian_samples = 400;
 constexpr int angle_samples = 24;
 

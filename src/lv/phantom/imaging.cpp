@@ -14,7 +14,7 @@ namespace {
 
 using geometry::Contour;
 using geometry::Side;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Signals, with the muscle of a cine at 300.
 namespace signals {

@@ -4,6 +4,7 @@
 #include "lv/base/processors.hpp"
 #include "lv/base/table.hpp"
 #include "lv/base/time_left.hpp"
+#include "lv/geometry/contour_table.hpp"
 #include "lv/phantom/files.hpp"
 
 #include <fmt/format.h>
@@ -70,18 +71,9 @@ std::vector<LabelPicture> without_scar(std::vector<LabelPicture> stack) {
   return stack;
 }
 
-void write_contours(const std::vector<Contour>& contours, std::string_view side,
-                    const fs::path& file) {
-  Table table({"slice", "contour", "point", "x_mm", "y_mm", "z_mm"});
-  const auto number = [](double x) { return fmt::format("{:.4f}", x); };
-  for (const Contour& c : contours) {
-    if (!side.empty() && side != name(c.side))
-      continue;
-    for (std::size_t i = 0; i < c.points.size(); ++i)
-      table.add_row({std::to_string(c.slice), name(c.side), std::to_string(i + 1),
-                     number(c.points[i].x()), number(c.points[i].y()), number(c.points[i].z())});
-  }
-  table.write_csv(file);
+void write_contours(std::vector<Contour> contours, std::string_view side, const fs::path& file) {
+  std::erase_if(contours, [&](const Contour& c) { return !side.empty() && side != name(c.side); });
+  geometry::contour_table(contours, 4).write_csv(file);
 }
 
 void write_all_contours(const Ventricle& v, const Scan& scan, const ScanPlanes& planes,

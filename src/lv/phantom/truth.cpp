@@ -13,8 +13,8 @@ namespace {
 
 using geometry::Side;
 using nlohmann::ordered_json;
+using std::numbers::pi;
 using units::degree;
-constexpr double pi = std::numbers::pi;
 
 /// Refilled by this part of the stroke volume, the ventricle is in early diastole.
 constexpr double early_share = 0.15;

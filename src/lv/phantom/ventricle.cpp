@@ -7,7 +7,7 @@ namespace lv::phantom {
 namespace {
 
 using geometry::Side;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// An angle brought into (-pi, pi].
 double wrapped(double angle) {

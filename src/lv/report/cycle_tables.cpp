@@ -112,9 +112,10 @@ std::string phase_name(double mitral, double aortic, bool has_ejected) {
   return has_ejected ? "relaxation" : "contraction";
 }
 
-std::vector<Phase> valve_phases(const std::vector<double>& time, const std::vector<double>& mitral,
-                                const std::vector<double>& aortic) {
-  std::vector<Phase> phases;
+std::vector<drawing::Phase> valve_phases(const std::vector<double>& time,
+                                         const std::vector<double>& mitral,
+                                         const std::vector<double>& aortic) {
+  std::vector<drawing::Phase> phases;
   bool has_ejected = false;
   for (std::size_t i = 0; i < time.size(); ++i) {
     has_ejected = has_ejected || aortic[i] > 0.0;
@@ -173,9 +174,9 @@ std::string beat_text(const BeatMeasures& beat) {
   return text;
 }
 
-Figure pressure_volume_figure(const Table& cycle) {
+drawing::Figure pressure_volume_figure(const Table& cycle) {
   const Beats beats(cycle);
-  LineChart chart{.x = {"volume [ml]"}, .y = {"pressure [mmHg]"}};
+  drawing::LineChart chart{.x = {"volume [ml]"}, .y = {"pressure [mmHg]"}};
   for (int b = 1; b <= beats.count(); ++b) {
     const bool last = b == beats.count();
     chart.series.push_back({.label = last     ? fmt::format("beat {}", b)
@@ -183,22 +184,23 @@ Figure pressure_volume_figure(const Table& cycle) {
                                               : "",
                             .x = beats.of(b, "volume_ml"),
                             .y = beats.of(b, "pressure_mmHg"),
-                            .colour = last ? category(0) : hex(0xb0b0b0),
+                            .colour = last ? drawing::category(0) : drawing::hex(0xb0b0b0),
                             .width = last ? 2.4 : 0.8});
   }
   return {.panels = {{.content = chart}}, .columns = 1};
 }
 
-Figure wiggers_figure(const Table& cycle) {
+drawing::Figure wiggers_figure(const Table& cycle) {
   const Beats beats(cycle);
   const auto of_last = [&](const char* column) { return beats.of(beats.count(), column); };
   const auto time = of_last("time_s");
   const auto series = [&](const char* label, const char* column, bool second = false) {
-    return Series{.label = label, .x = time, .y = of_last(column), .on_second_axis = second};
+    return drawing::Series{
+        .label = label, .x = time, .y = of_last(column), .on_second_axis = second};
   };
   const auto phases =
       valve_phases(time, of_last("mitral_gradient_mmHg"), of_last("aortic_gradient_mmHg"));
-  const LineChart pressures{
+  const drawing::LineChart pressures{
       .x = {"time [s]"},
       .y = {"pressure [mmHg]"},
       .second_y = {"volume [ml]"},
@@ -206,11 +208,11 @@ Figure wiggers_figure(const Table& cycle) {
                  series("before the mitral valve", "filling_pressure_mmHg"),
                  series("volume", "volume_ml", true)},
       .phases = phases};
-  const LineChart flows{.x = {"time [s]"},
-                        .y = {"flow [ml/s]"},
-                        .series = {series("mitral", "mitral_flow_ml_per_s"),
-                                   series("aortic", "aortic_flow_ml_per_s")},
-                        .phases = phases};
+  const drawing::LineChart flows{.x = {"time [s]"},
+                                 .y = {"flow [ml/s]"},
+                                 .series = {series("mitral", "mitral_flow_ml_per_s"),
+                                            series("aortic", "aortic_flow_ml_per_s")},
+                                 .phases = phases};
   return {.panels = {{.title = "pressures and volume", .content = pressures},
                      {.title = "flows", .content = flows}},
           .columns = 1,

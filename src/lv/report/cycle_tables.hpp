@@ -2,7 +2,7 @@
 
 #include "lv/base/table.hpp"
 #include "lv/circulation/beat_measures.hpp"
-#include "lv/report/figure.hpp"
+#include "lv/drawing/figure.hpp"
 
 #include <span>
 #include <string>
@@ -22,10 +22,10 @@ namespace lv::report {
 [[nodiscard]] std::string beat_text(const circulation::BeatMeasures& beat);
 
 /// Pressure against volume of all beats, the last one marked, from cycle.csv.
-[[nodiscard]] Figure pressure_volume_figure(const Table& cycle);
+[[nodiscard]] drawing::Figure pressure_volume_figure(const Table& cycle);
 
 /// Wiggers diagram of the last beat, from cycle.csv: pressures and volume, and flows, with the
 /// phases between the valves' events shaded.
-[[nodiscard]] Figure wiggers_figure(const Table& cycle);
+[[nodiscard]] drawing::Figure wiggers_figure(const Table& cycle);
 
 }  // namespace lv::report

@@ -1,10 +1,10 @@
 #include "lv/report/heart_figures.hpp"
 
 #include "lv/base/units.hpp"
+#include "lv/drawing/sticks.hpp"
+#include "lv/drawing/wall_surface.hpp"
 #include "lv/mesh/fibres.hpp"
 #include "lv/mesh/regions.hpp"
-#include "lv/report/sticks.hpp"
-#include "lv/report/wall_surface.hpp"
 
 #include <fmt/format.h>
 
@@ -19,7 +19,7 @@ using mesh::Mesh;
 using units::degree;
 using units::mmHg;
 
-const Colour tissue = hex(0xd9b8ae);
+const drawing::Colour tissue = drawing::hex(0xd9b8ae);
 
 /// Means of the elements' values at the nodes, weighted by volume.
 std::vector<double> at_nodes(const Mesh& mesh, const std::vector<CellFields>& cells,
@@ -37,7 +37,8 @@ std::vector<double> at_nodes(const Mesh& mesh, const std::vector<CellFields>& ce
 }
 
 /// From the 1st to the 99th percentile, rounded outwards to a step that ticks can name.
-ColourScale scale_of(std::vector<double> values, const ColourMap& map = sequential()) {
+drawing::ColourScale common_scale(std::vector<double> values,
+                                  const drawing::ColourMap& map = drawing::sequential()) {
   std::erase_if(values, [](double value) { return !std::isfinite(value); });
   if (values.empty())
     return {map, 0.0, 1.0};
@@ -56,65 +57,68 @@ struct PaintedWall {
   const Mesh& m;
   std::span<const Vec3> x;
   const std::vector<double>& nodal;
-  ColourScale scale;
+  drawing::ColourScale scale;
 
-  [[nodiscard]] Item item(const WallPatch& patch) const {
-    return {.patch = patch.patch, .paint = PointValues{patch.at_points(nodal), scale}};
+  [[nodiscard]] drawing::Item item(const drawing::WallPatch& patch) const {
+    return {.patch = patch.patch, .paint = drawing::PointValues{patch.at_points(nodal), scale}};
   }
-  [[nodiscard]] Scene whole() const {
-    Scene scene;
+  [[nodiscard]] drawing::Scene whole() const {
+    drawing::Scene scene;
     for (const mesh::Surface* side : {&m.endo, &m.epi, &m.base})
-      scene.items.push_back(item(wall_surface(m, x, *side)));
+      scene.items.push_back(item(drawing::wall_surface(m, x, *side)));
     return scene;
   }
   /// What a plane leaves, and the section.
-  [[nodiscard]] Scene open(const Plane& plane) const {
-    Scene scene = whole();
+  [[nodiscard]] drawing::Scene open(const drawing::Plane& plane) const {
+    drawing::Scene scene = whole();
     scene.items.push_back(section(plane));
     scene.cut = plane;
     return scene;
   }
-  [[nodiscard]] Item section(const Plane& plane) const { return item(wall_section(m, x, plane)); }
+  [[nodiscard]] drawing::Item section(const drawing::Plane& plane) const {
+    return item(drawing::wall_section(m, x, plane));
+  }
   /// Half of the way from the base to the endocardial apex.
-  [[nodiscard]] Plane middle() const {
+  [[nodiscard]] drawing::Plane middle() const {
     double lowest = 0.0;
     for (const int node : m.endo.nodes)
       lowest = std::min(lowest, x[node].z());
-    return short_axis_plane(0.5 * lowest);
+    return drawing::short_axis_plane(0.5 * lowest);
   }
 };
 
-std::vector<Vec3> points_of(const std::vector<Scene>& scenes) {
+std::vector<Vec3> points_of(const std::vector<drawing::Scene>& scenes) {
   std::vector<Vec3> points;
-  for (const Scene& scene : scenes)
-    for (const Item& item : scene.items)
+  for (const drawing::Scene& scene : scenes)
+    for (const drawing::Item& item : scene.items)
       points.insert(points.end(), item.patch.points.begin(), item.patch.points.end());
   return points;
 }
 
 /// Pictures of scenes by one camera, with letters.
-std::vector<Picture> pictures(const std::vector<Scene>& scenes, const Look& look,
-                              const Orientation& o) {
-  const auto letters = wall_letters(o, points_of(scenes));
+std::vector<drawing::Picture> pictures(const std::vector<drawing::Scene>& scenes,
+                                       const drawing::Look& look, const drawing::Orientation& o) {
+  const auto letters = drawing::wall_letters(o, points_of(scenes));
   std::vector<Vec3> places;
-  for (const Letter& letter : letters)
+  for (const drawing::Letter& letter : letters)
     places.push_back(letter.at);
-  Scene all;
-  for (const Scene& scene : scenes) {
+  drawing::Scene all;
+  for (const drawing::Scene& scene : scenes) {
     all.items.insert(all.items.end(), scene.items.begin(), scene.items.end());
     all.cut = scene.cut;
   }
   constexpr double margin = 1.1;  // for the letters' own size
-  Camera camera = fitted(all, look.view, look.up, places);
+  drawing::Camera camera = drawing::fitted(all, look.view, look.up, places);
   camera.width *= margin;
   camera.height *= margin;
-  std::vector<Picture> list;
-  for (const Scene& scene : scenes)
+  std::vector<drawing::Picture> list;
+  for (const drawing::Scene& scene : scenes)
     list.push_back({scene, camera, letters});
   return list;
 }
 
-Picture picture(const Scene& scene, const Look& look, const Orientation& o) {
+drawing::Picture picture(const drawing::Scene& scene, const drawing::Look& look,
+                         const drawing::Orientation& o) {
   return pictures({scene}, look, o).front();
 }
 
@@ -130,7 +134,7 @@ Vec3 infarct_middle(const Mesh& mesh) {
 }
 
 /// From where the infarct is in front, a little from above.
-Look facing(const Vec3& middle) {
+drawing::Look facing(const Vec3& middle) {
   const Vec3 outwards(middle.x(), middle.y(), 0.0);
   const Vec3 towards = outwards.norm() > 1e-6 ? outwards.normalized() : Vec3(Vec3::UnitX());
   return {-towards - 0.25 * Vec3::UnitZ(), Vec3::UnitZ()};
@@ -138,27 +142,28 @@ Look facing(const Vec3& middle) {
 
 constexpr const char* four_chamber_title = "four-chamber view, cut open";
 
-std::string notes(const Orientation& o) {
-  return star_note(o, {"septum", "early diastole", "apex", "base"});
+std::string notes(const drawing::Orientation& o) {
+  return drawing::star_note(o, {"septum", "early diastole", "apex", "base"});
 }
 
-std::string base_and_apex(const Orientation& o) {
+std::string base_and_apex(const drawing::Orientation& o) {
   return fmt::format("{} above, {} below", o.starred("base", "base"), o.starred("apex", "apex"));
 }
 
 /// Long-axis pictures in a row, short-axis sections of the same walls below.
-std::vector<Panel> both_axes(const std::vector<std::string>& titles,
-                             const std::vector<PaintedWall>& walls, const Orientation& o) {
-  std::vector<Scene> open;
-  std::vector<Scene> across;
+std::vector<drawing::Panel> both_axes(const std::vector<std::string>& titles,
+                                      const std::vector<PaintedWall>& walls,
+                                      const drawing::Orientation& o) {
+  std::vector<drawing::Scene> open;
+  std::vector<drawing::Scene> across;
   for (const PaintedWall& wall : walls) {
-    open.push_back(wall.open(four_chamber_plane(o)));
+    open.push_back(wall.open(drawing::four_chamber_plane(o)));
     across.push_back({.items = {wall.section(wall.middle())}});
   }
-  std::vector<Panel> panels;
-  for (const Picture& p : pictures(open, four_chamber(o), o))
+  std::vector<drawing::Panel> panels;
+  for (const drawing::Picture& p : pictures(open, drawing::four_chamber(o), o))
     panels.push_back({.title = titles[panels.size()], .content = p});
-  for (const Picture& p : pictures(across, short_axis(o), o))
+  for (const drawing::Picture& p : pictures(across, drawing::short_axis(o), o))
     panels.push_back({.title = "middle short axis, from the apex", .content = p});
   return panels;
 }
@@ -168,7 +173,7 @@ struct FacesToShow {
   std::vector<Vec3> centres;
   std::vector<int> cells;
 };
-FacesToShow thinned(const WallPatch& patch, double apart) {
+FacesToShow thinned(const drawing::WallPatch& patch, double apart) {
   FacesToShow shown;
   for (std::size_t k = 0; k < patch.patch.triangles.size(); ++k) {
     Vec3 centre = Vec3::Zero();
@@ -189,94 +194,100 @@ double helix_degrees(const CellFields& cell) {
 }
 
 /// Fibres on one side of the wall as sticks coloured by their helix angle.
-Item fibre_sticks(const WallPatch& patch, const std::vector<CellFields>& cells,
-                  const ColourScale& scale) {
+drawing::Item fibre_sticks(const drawing::WallPatch& patch, const std::vector<CellFields>& cells,
+                           const drawing::ColourScale& scale) {
   const FacesToShow shown = thinned(patch, 3.2);
   std::vector<Vec3> directions;
-  std::vector<std::optional<Colour>> colours;
+  std::vector<std::optional<drawing::Colour>> colours;
   for (const int c : shown.cells) {
     directions.emplace_back(cells[c].fibre_frame.col(0));
     colours.push_back(scale(helix_degrees(cells[c])));
   }
-  const auto segments = sticks(shown.centres, directions, 4.0);
-  return {.patch = tubes(segments, 0.45), .paint = tube_colours(colours)};
+  const auto segments = drawing::sticks(shown.centres, directions, 4.0);
+  return {.patch = drawing::tubes(segments, 0.45), .paint = drawing::tube_colours(colours)};
 }
 
 }  // namespace
 
-Figure mesh_figure(const Mesh& mesh, const Orientation& o) {
-  const auto drawn = [](const WallPatch& wall) {
-    return Item{.patch = wall.patch, .paint = tissue, .outline_width = 0.25};
+drawing::Figure mesh_figure(const Mesh& mesh, const drawing::Orientation& o) {
+  const auto drawn = [](const drawing::WallPatch& wall) {
+    return drawing::Item{.patch = wall.patch, .paint = tissue, .outline_width = 0.25};
   };
-  Scene outside;
+  drawing::Scene outside;
   for (const mesh::Surface* side : {&mesh.epi, &mesh.endo, &mesh.base})
-    outside.items.push_back(drawn(wall_surface(mesh, mesh.nodes, *side)));
-  Scene inside = outside;
-  inside.items.push_back(drawn(wall_section(mesh, mesh.nodes, four_chamber_plane(o))));
-  inside.cut = four_chamber_plane(o);
-  return {.panels = {{.title = "from the anterior side",
-                      .content = picture(outside, four_chamber(o), o)},
-                     {.title = four_chamber_title, .content = picture(inside, four_chamber(o), o)},
-                     {.title = o.starred("apex", "apex") + ", from below",
-                      .content = picture({{outside.items.front()}, {}}, short_axis(o), o)}},
-          .columns = 3,
-          .title = fmt::format("mesh: {} elements, {} nodes; {}", mesh.cell_count(),
-                               mesh.nodes.size(), base_and_apex(o)),
-          .footnote = notes(o)};
+    outside.items.push_back(drawn(drawing::wall_surface(mesh, mesh.nodes, *side)));
+  drawing::Scene inside = outside;
+  inside.items.push_back(
+      drawn(drawing::wall_section(mesh, mesh.nodes, drawing::four_chamber_plane(o))));
+  inside.cut = drawing::four_chamber_plane(o);
+  return {
+      .panels = {{.title = "from the anterior side",
+                  .content = picture(outside, drawing::four_chamber(o), o)},
+                 {.title = four_chamber_title,
+                  .content = picture(inside, drawing::four_chamber(o), o)},
+                 {.title = o.starred("apex", "apex") + ", from below",
+                  .content = picture({{outside.items.front()}, {}}, drawing::short_axis(o), o)}},
+      .columns = 3,
+      .title = fmt::format("mesh: {} elements, {} nodes; {}", mesh.cell_count(), mesh.nodes.size(),
+                           base_and_apex(o)),
+      .footnote = notes(o)};
 }
 
-Figure fibre_figure(const Mesh& mesh, const std::vector<CellFields>& undeformed,
-                    const Orientation& o) {
-  const ColourScale scale{diverging(), -60.0, 60.0};
-  const WallPatch epi = wall_surface(mesh, mesh.nodes, mesh.epi);
-  const WallPatch endo = wall_surface(mesh, mesh.nodes, mesh.endo);
-  const Scene outside{.items = {{.patch = epi.patch, .paint = hex(0xf2f2f2)},
-                                fibre_sticks(epi, undeformed, scale)}};
-  Scene inside{.items = {{.patch = endo.patch, .paint = hex(0xf2f2f2)},
-                         fibre_sticks(endo, undeformed, scale)}};
-  inside.cut = four_chamber_plane(o);
+drawing::Figure fibre_figure(const Mesh& mesh, const std::vector<CellFields>& undeformed,
+                             const drawing::Orientation& o) {
+  const drawing::ColourScale scale{drawing::diverging(), -60.0, 60.0};
+  const drawing::WallPatch epi = drawing::wall_surface(mesh, mesh.nodes, mesh.epi);
+  const drawing::WallPatch endo = drawing::wall_surface(mesh, mesh.nodes, mesh.endo);
+  const drawing::Scene outside{.items = {{.patch = epi.patch, .paint = drawing::hex(0xf2f2f2)},
+                                         fibre_sticks(epi, undeformed, scale)}};
+  drawing::Scene inside{.items = {{.patch = endo.patch, .paint = drawing::hex(0xf2f2f2)},
+                                  fibre_sticks(endo, undeformed, scale)}};
+  inside.cut = drawing::four_chamber_plane(o);
   const auto helix = at_nodes(mesh, undeformed, helix_degrees);
   const PaintedWall wall{mesh, mesh.nodes, helix, scale};
-  return {
-      .panels = {{.title = "epicardium, from the anterior side",
-                  .content = picture(outside, four_chamber(o), o)},
-                 {.title = "endocardium, cut open", .content = picture(inside, four_chamber(o), o)},
-                 {.title = "through the wall, four-chamber view",
-                  .content = picture(wall.open(four_chamber_plane(o)), four_chamber(o), o)}},
-      .columns = 3,
-      .title = "fibres",
-      .footnote =
-          "Helix angle as in Gao et al. 2014: negative where the fibre rises towards "
-          "the base when followed anticlockwise seen from the base, a right-handed "
-          "helix as at the endocardium of human hearts. LDRB tools give the same fibre "
-          "the opposite sign (+60 at the endocardium, -60 at the epicardium). " +
-          notes(o),
-      .colour_bar = ColourBar{"helix angle [deg]", scale}};
+  return {.panels = {{.title = "epicardium, from the anterior side",
+                      .content = picture(outside, drawing::four_chamber(o), o)},
+                     {.title = "endocardium, cut open",
+                      .content = picture(inside, drawing::four_chamber(o), o)},
+                     {.title = "through the wall, four-chamber view",
+                      .content = picture(wall.open(drawing::four_chamber_plane(o)),
+                                         drawing::four_chamber(o), o)}},
+          .columns = 3,
+          .title = "fibres",
+          .footnote =
+              "Helix angle as in Gao et al. 2014: negative where the fibre rises towards "
+              "the base when followed anticlockwise seen from the base, a right-handed "
+              "helix as at the endocardium of human hearts. LDRB tools give the same fibre "
+              "the opposite sign (+60 at the endocardium, -60 at the epicardium). " +
+              notes(o),
+          .colour_bar = drawing::ColourBar{"helix angle [deg]", scale}};
 }
 
-Figure infarct_figure(const Mesh& mesh, const Orientation& o) {
-  const ColourScale scale{sequential(), 0.0, 1.0};
+drawing::Figure infarct_figure(const Mesh& mesh, const drawing::Orientation& o) {
+  const drawing::ColourScale scale{drawing::sequential(), 0.0, 1.0};
   const PaintedWall wall{mesh, mesh.nodes, mesh.infarct, scale};
   const Vec3 middle = infarct_middle(mesh);
-  const Scene across{.items = {wall.section(short_axis_plane(middle.z()))}};
+  const drawing::Scene across{.items = {wall.section(drawing::short_axis_plane(middle.z()))}};
   return {.panels = {{.title = "from outside, the infarct in front",
                       .content = picture(wall.whole(), facing(middle), o)},
                      {.title = "short axis through its middle, from the apex",
-                      .content = picture(across, short_axis(o), o)},
+                      .content = picture(across, drawing::short_axis(o), o)},
                      {.title = four_chamber_title,
-                      .content = picture(wall.open(four_chamber_plane(o)), four_chamber(o), o)},
+                      .content = picture(wall.open(drawing::four_chamber_plane(o)),
+                                         drawing::four_chamber(o), o)},
                      {.title = "two-chamber view, cut open",
-                      .content = picture(wall.open(two_chamber_plane(o)), two_chamber(o), o)}},
+                      .content = picture(wall.open(drawing::two_chamber_plane(o)),
+                                         drawing::two_chamber(o), o)}},
           .columns = 2,
           .title = "infarct",
           .footnote = notes(o),
-          .colour_bar = ColourBar{"extent M: 1 infarct, 0 remote muscle", scale}};
+          .colour_bar = drawing::ColourBar{"extent M: 1 infarct, 0 remote muscle", scale}};
 }
 
-Figure states_figure(const Mesh& mesh, const heartbeat::Beat& beat,
-                     const analysis::BeatFields& fields, const Orientation& o) {
+drawing::Figure states_figure(const Mesh& mesh, const heartbeat::Beat& beat,
+                              const analysis::BeatFields& fields, const drawing::Orientation& o) {
   const auto stretch = [](const CellFields& c) { return c.fibre_stretch; };
-  const ColourScale scale{diverging(), 0.75, 1.25};
+  const drawing::ColourScale scale{drawing::diverging(), 0.75, 1.25};
   std::vector<std::vector<double>> nodal{at_nodes(mesh, fields.early_diastole, stretch)};
   std::vector<std::string> titles{o.starred("early diastole", "early diastole") +
                                   ": free of stress"};
@@ -291,29 +302,29 @@ Figure states_figure(const Mesh& mesh, const heartbeat::Beat& beat,
   return {.panels = both_axes(titles, walls, o),
           .columns = static_cast<int>(walls.size()),
           .footnote = notes(o),
-          .colour_bar = ColourBar{"fibre stretch from early diastole", scale}};
+          .colour_bar = drawing::ColourBar{"fibre stretch from early diastole", scale}};
 }
 
-Figure stress_figure(const Mesh& mesh, const heartbeat::Beat& beat,
-                     const analysis::BeatFields& fields, const Orientation& o) {
+drawing::Figure stress_figure(const Mesh& mesh, const heartbeat::Beat& beat,
+                              const analysis::BeatFields& fields, const drawing::Orientation& o) {
   const auto stress = [](const CellFields& c) { return c.fibre_stress(); };
   const auto tension = [](const CellFields& c) { return c.tension; };
   const auto ed = at_nodes(mesh, fields.at(heartbeat::end_diastole), stress);
   const auto es = at_nodes(mesh, fields.at(heartbeat::end_systole), stress);
   const auto active = at_nodes(mesh, fields.at(heartbeat::end_systole), tension);
   const std::vector<PaintedWall> walls{
-      {mesh, beat.at(heartbeat::end_diastole).positions, ed, scale_of(ed)},
-      {mesh, beat.at(heartbeat::end_systole).positions, es, scale_of(es)},
-      {mesh, beat.at(heartbeat::end_systole).positions, active, scale_of(active)}};
-  Figure figure{.panels = both_axes({heartbeat::title(heartbeat::end_diastole),
-                                     heartbeat::title(heartbeat::end_systole),
-                                     heartbeat::title(heartbeat::end_systole)},
-                                    walls, o),
-                .columns = 3,
-                .footnote = notes(o)};
+      {mesh, beat.at(heartbeat::end_diastole).positions, ed, common_scale(ed)},
+      {mesh, beat.at(heartbeat::end_systole).positions, es, common_scale(es)},
+      {mesh, beat.at(heartbeat::end_systole).positions, active, common_scale(active)}};
+  drawing::Figure figure{.panels = both_axes({heartbeat::title(heartbeat::end_diastole),
+                                              heartbeat::title(heartbeat::end_systole),
+                                              heartbeat::title(heartbeat::end_systole)},
+                                             walls, o),
+                         .columns = 3,
+                         .footnote = notes(o)};
   for (std::size_t i = 0; i < figure.panels.size(); ++i)
-    figure.panels[i].colour_bar =
-        ColourBar{i % 3 == 2 ? "active tension [kPa]" : "fibre stress [kPa]", walls[i % 3].scale};
+    figure.panels[i].colour_bar = drawing::ColourBar{
+        i % 3 == 2 ? "active tension [kPa]" : "fibre stress [kPa]", walls[i % 3].scale};
   return figure;
 }
 

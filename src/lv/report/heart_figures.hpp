@@ -1,7 +1,7 @@
 #pragma once
 
 #include "lv/analysis/results.hpp"
-#include "lv/report/figure.hpp"
+#include "lv/drawing/figure.hpp"
 
 namespace lv::report {
 
@@ -11,28 +11,30 @@ namespace lv::report {
 
 /// The undeformed wall from the anterior side, cut open in the four-chamber view, and from the
 /// apex, with the edges of its elements.
-[[nodiscard]] Figure mesh_figure(const mesh::Mesh& mesh, const Orientation& orientation);
+[[nodiscard]] drawing::Figure mesh_figure(const mesh::Mesh& mesh,
+                                          const drawing::Orientation& orientation);
 
 /// The fibres of the undeformed wall on the epicardium and the endocardium, and the helix angle in
 /// a four-chamber section.
-[[nodiscard]] Figure fibre_figure(const mesh::Mesh& mesh,
-                                  const std::vector<analysis::CellFields>& undeformed,
-                                  const Orientation& orientation);
+[[nodiscard]] drawing::Figure fibre_figure(const mesh::Mesh& mesh,
+                                           const std::vector<analysis::CellFields>& undeformed,
+                                           const drawing::Orientation& orientation);
 
 /// The extent of the infarct, M, on the undeformed wall: from outside with the infarct in front, in
 /// a short-axis section through the infarct's middle, and cut open in both long-axis views.
-[[nodiscard]] Figure infarct_figure(const mesh::Mesh& mesh, const Orientation& orientation);
+[[nodiscard]] drawing::Figure infarct_figure(const mesh::Mesh& mesh,
+                                             const drawing::Orientation& orientation);
 
 /// The wall at early diastole, end-diastole and end-systole, coloured by the fibre stretch: cut
 /// open in the four-chamber view, and below it the middle short-axis section, all by one camera.
-[[nodiscard]] Figure states_figure(const mesh::Mesh& mesh, const heartbeat::Beat& beat,
-                                   const analysis::BeatFields& fields,
-                                   const Orientation& orientation);
+[[nodiscard]] drawing::Figure states_figure(const mesh::Mesh& mesh, const heartbeat::Beat& beat,
+                                            const analysis::BeatFields& fields,
+                                            const drawing::Orientation& orientation);
 
 /// In the same views, the Cauchy stress along the fibre at end-diastole and end-systole, and the
 /// active tension at end-systole.
-[[nodiscard]] Figure stress_figure(const mesh::Mesh& mesh, const heartbeat::Beat& beat,
-                                   const analysis::BeatFields& fields,
-                                   const Orientation& orientation);
+[[nodiscard]] drawing::Figure stress_figure(const mesh::Mesh& mesh, const heartbeat::Beat& beat,
+                                            const analysis::BeatFields& fields,
+                                            const drawing::Orientation& orientation);
 
 }  // namespace lv::report

@@ -87,7 +87,8 @@ look("four-chamber")
 
 }  // namespace
 
-std::string paraview_script(const std::filesystem::path& series, const Orientation& orientation) {
+std::string paraview_script(const std::filesystem::path& series,
+                            const drawing::Orientation& orientation) {
   return fmt::format(fmt::runtime(script), fmt::arg("series", series.generic_string()),
                      fmt::arg("anterior", list(orientation.anterior())),
                      fmt::arg("septal", list(orientation.septal())),

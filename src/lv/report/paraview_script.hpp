@@ -1,6 +1,6 @@
 #pragma once
 
-#include "lv/report/orientation.hpp"
+#include "lv/drawing/orientation.hpp"
 
 #include <filesystem>
 #include <string>
@@ -12,6 +12,6 @@ namespace lv::report {
 /// `views` of three cameras is left for the user. `series` is the folder with wall.pvd and
 /// blood.pvd, relative to the script's.
 [[nodiscard]] std::string paraview_script(const std::filesystem::path& series,
-                                          const Orientation& orientation);
+                                          const drawing::Orientation& orientation);
 
 }  // namespace lv::report

@@ -1,6 +1,5 @@
 #include "lv/report/plausibility.hpp"
 
-#include "lv/base/check.hpp"
 #include "lv/base/units.hpp"
 
 #include <fmt/format.h>
@@ -12,7 +11,6 @@
 namespace lv::report {
 namespace {
 
-using analysis::Results;
 using analysis::Statistics;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -25,6 +23,48 @@ constexpr const char* feature_tracking =
     "healthy adults: {}, +- 2 SD{}; the borders of the wall were tracked, this is a mean over it";
 constexpr const char* incompressible = "the model: muscle keeps its volume";
 
+double off(double J) {
+  return 100.0 * (J - 1.0);
+}
+
+/// The worst of all moments.
+double mean_J(const JudgedBeat& beat) {
+  double worst = 0.0;
+  for (const auto& [moment, shape] : beat.results.moments)
+    if (const double here = off(beat.results.whole(moment, "J").mean);
+        std::abs(here) > std::abs(worst))
+      worst = here;
+  return worst;
+}
+
+double tail_J(const JudgedBeat& beat) {
+  double most = 0.0;
+  for (const auto& [moment, shape] : beat.results.moments) {
+    const Statistics& J = beat.results.whole(moment, "J");
+    most = std::max({most, std::abs(off(J.p1)), std::abs(off(J.p99))});
+  }
+  return most;
+}
+
+double base_shift(const JudgedBeat& beat) {
+  double most = 0.0;
+  for (const auto& [moment, shape] : beat.results.moments)
+    most = std::max(most, shape.base_axial_shift);
+  return most;
+}
+
+double volume(const JudgedBeat& beat, const char* moment) {
+  return 1e-3 * beat.results.at(moment).cavity_volume;
+}
+
+double end_systolic(const JudgedBeat& beat, const char* quantity) {
+  return beat.results.whole(heartbeat::end_systole, quantity).mean;
+}
+
+double apex_rotation(const JudgedBeat& beat) {
+  return beat.results.rotation.back().from_end_diastole / units::degree;
+}
+
 std::vector<PlausibleRange> make_ranges() {
   using enum Population;
   const auto volumes = [](const char* men, const char* women) {
@@ -35,93 +75,48 @@ std::vector<PlausibleRange> make_ranges() {
   };
   constexpr const char* green = ", as (e + e^2/2)";
   return {
-      {"edv_ml", "end-diastolic volume", "ml", 86.0, 214.0, 0.0, 1000.0, healthy_ventricle, false,
-       volumes("160 +- 27", "132 +- 23")},
-      {"esv_ml", "end-systolic volume", "ml", 22.0, 82.0, 0.0, 1000.0, healthy_ventricle, true,
-       volumes("54 +- 14", "44 +- 11")},
-      {"ejection_fraction_percent", "ejection fraction", "%", 48.0, 77.0, 0.0, 100.0,
-       healthy_ventricle, true,
+      {"edv_ml", "end-diastolic volume", "ml",
+       [](const JudgedBeat& b) { return volume(b, heartbeat::end_diastole); }, 86.0, 214.0, 0.0,
+       1000.0, healthy_ventricle, false, volumes("160 +- 27", "132 +- 23")},
+      {"esv_ml", "end-systolic volume", "ml",
+       [](const JudgedBeat& b) { return volume(b, heartbeat::end_systole); }, 22.0, 82.0, 0.0,
+       1000.0, healthy_ventricle, true, volumes("54 +- 14", "44 +- 11")},
+      {"ejection_fraction_percent", "ejection fraction", "%",
+       [](const JudgedBeat& b) { return 100.0 * b.results.ejection_fraction(); }, 48.0, 77.0, 0.0,
+       100.0, healthy_ventricle, true,
        "Petersen et al., J. Cardiovasc. Magn. Reson. 19:18, 2017, papillary muscles in the cavity: "
        "men 58 +- 5, women 61 +- 5; Kawel-Boehm et al., the same journal 17:29, 2015, in the "
        "muscle: 67 +- 5; from the lowest - 2 SD to the highest + 2 SD"},
-      {"mass_g", "mass of the wall", "g", 56.0, 176.0, 0.0, 2000.0, healthy_ventricle, false,
-       volumes("134 +- 21", "98 +- 21")},
-      {"fibre_shortening_percent", "fibre shortening", "%", 12.0, 32.0, 0.0, 60.0, healthy_muscle,
-       true,
+      {"mass_g", "mass of the wall", "g",
+       [](const JudgedBeat& b) {
+         return 1e3 * b.muscle_density * b.results.early_diastole.wall_volume;
+       },
+       56.0, 176.0, 0.0, 2000.0, healthy_ventricle, false, volumes("134 +- 21", "98 +- 21")},
+      {"fibre_shortening_percent", "fibre shortening", "%",
+       [](const JudgedBeat& b) { return 100.0 * b.results.fibre_shortening; }, 12.0, 32.0, 0.0,
+       60.0, healthy_muscle, true,
        "Gao et al., IMA J. Appl. Math. 79:978, 2014, healthy subject: fibre strain -0.19 +- 0.04 "
        "over the wall, +- 2 SD, as 1 - sqrt(1 + 2 E)"},
-      {"circumferential_strain", "circumferential strain", "1", -0.280, -0.168, -0.5, infinity,
-       healthy_muscle, true, tracked("-26.1 +- 3.8%", green)},
-      {"longitudinal_strain", "longitudinal strain", "1", -0.261, -0.110, -0.5, infinity,
-       healthy_muscle, true, tracked("-21.3 +- 4.8%", green)},
-      {"thickening_percent", "thickening of the wall", "%", 23.0, 57.0, -100.0, 300.0,
+      {"circumferential_strain", "circumferential strain", "1",
+       [](const JudgedBeat& b) { return end_systolic(b, "circumferential_strain"); }, -0.280,
+       -0.168, -0.5, infinity, healthy_muscle, true, tracked("-26.1 +- 3.8%", green)},
+      {"longitudinal_strain", "longitudinal strain", "1",
+       [](const JudgedBeat& b) { return end_systolic(b, "longitudinal_strain"); }, -0.261, -0.110,
+       -0.5, infinity, healthy_muscle, true, tracked("-21.3 +- 4.8%", green)},
+      {"thickening_percent", "thickening of the wall", "%",
+       [](const JudgedBeat& b) { return 100.0 * b.results.thickening; }, 23.0, 57.0, -100.0, 300.0,
        healthy_muscle, true, tracked("radial strain 39.8 +- 8.3%", "")},
-      {"apex_rotation_deg", "rotation of the apex, anticlockwise seen from the apex", "deg", 9.0,
-       16.0, -90.0, 90.0, healthy_muscle, true,
+      {"apex_rotation_deg", "rotation of the apex, anticlockwise seen from the apex", "deg",
+       apex_rotation, 9.0, 16.0, -90.0, 90.0, healthy_muscle, true,
        "Lorenz et al., J. Cardiovasc. Magn. Reson. 2:97, 2000, tagging in 10 healthy adults: apex "
        "against base 12.6 +- 1.5 deg, +- 2 SD; the base of the model does not turn"},
-      {"base_axial_shift_mm", "axial shift of the base", "mm", 0.0, 0.5, 0.0, infinity, any_wall,
-       false, "the model: the base stays in its plane"},
-      {"wall_volume_mean_percent", "change of the wall's volume, mean", "%", -0.5, 0.5, -100.0,
-       infinity, any_wall, false, incompressible},
+      {"base_axial_shift_mm", "axial shift of the base", "mm", base_shift, 0.0, 0.5, 0.0, infinity,
+       any_wall, false, "the model: the base stays in its plane"},
+      {"wall_volume_mean_percent", "change of the wall's volume, mean", "%", mean_J, -0.5, 0.5,
+       -100.0, infinity, any_wall, false, incompressible},
       {"wall_volume_tails_percent", "change of an element's volume, 1st and 99th percentile", "%",
-       0.0, 5.0, 0.0, infinity, any_wall, false, incompressible},
+       tail_J, 0.0, 5.0, 0.0, infinity, any_wall, false, incompressible},
   };
-}
-
-double off(double J) {
-  return 100.0 * (J - 1.0);
-}
-
-/// The worst of all moments.
-double mean_J(const Results& r) {
-  double worst = 0.0;
-  for (const auto& [moment, shape] : r.moments)
-    if (const double here = off(r.whole(moment, "J").mean); std::abs(here) > std::abs(worst))
-      worst = here;
-  return worst;
-}
-
-double tail_J(const Results& r) {
-  double most = 0.0;
-  for (const auto& [moment, shape] : r.moments) {
-    const Statistics& J = r.whole(moment, "J");
-    most = std::max({most, std::abs(off(J.p1)), std::abs(off(J.p99))});
-  }
-  return most;
-}
-
-double base_shift(const Results& r) {
-  double most = 0.0;
-  for (const auto& [moment, shape] : r.moments)
-    most = std::max(most, shape.base_axial_shift);
-  return most;
-}
-
-double value_of(const std::string& quantity, const JudgedBeat& beat) {
-  const Results& r = beat.results;
-  if (quantity == "edv_ml")
-    return 1e-3 * r.at(heartbeat::end_diastole).cavity_volume;
-  if (quantity == "esv_ml")
-    return 1e-3 * r.at(heartbeat::end_systole).cavity_volume;
-  if (quantity == "ejection_fraction_percent")
-    return 100.0 * r.ejection_fraction();
-  if (quantity == "mass_g")
-    return 1e3 * beat.muscle_density * r.early_diastole.wall_volume;
-  if (quantity == "fibre_shortening_percent")
-    return 100.0 * r.fibre_shortening;
-  if (quantity.ends_with("_strain"))
-    return r.whole(heartbeat::end_systole, quantity).mean;
-  if (quantity == "thickening_percent")
-    return 100.0 * r.thickening;
-  if (quantity == "apex_rotation_deg")
-    return r.rotation.back().from_end_diastole / units::degree;
-  if (quantity == "base_axial_shift_mm")
-    return base_shift(r);
-  if (quantity == "wall_volume_mean_percent")
-    return mean_J(r);
-  LV_CHECK(quantity == "wall_volume_tails_percent");
-  return tail_J(r);
 }
 
 std::string why_not_applicable(const PlausibleRange& range, const JudgedBeat& beat) {
@@ -149,8 +144,8 @@ std::string why_impossible(const PlausibleRange& range, double value) {
 }
 
 Judgement judge(const PlausibleRange& range, const JudgedBeat& beat) {
-  Judgement j{&range, value_of(range.quantity, beat), Answer::not_applicable,
-              why_not_applicable(range, beat), false};
+  Judgement j{&range, range.value(beat), Answer::not_applicable, why_not_applicable(range, beat),
+              false};
   j.is_impossible = is_impossible(range, j.value);
   if (j.is_impossible)
     j.reason = why_impossible(range, j.value);

@@ -11,11 +11,20 @@ namespace lv::report {
 /// muscle, with which a wall that has an infarct is not compared.
 enum class Population { any_wall, healthy_ventricle, healthy_muscle };
 
+/// What a beat is judged by.
+struct JudgedBeat {
+  const analysis::Results& results;
+  double muscle_density;  ///< [kg/mm^3]
+  bool is_infarcted;
+  bool contraction_was_steady;
+};
+
 /// Where a quantity of a beat is expected, and where no beating heart can be. An end that is not
 /// bounded is infinite.
 struct PlausibleRange {
   std::string quantity;  ///< its key in summary.json
   std::string label, unit;
+  double (*value)(const JudgedBeat& beat);  ///< in that unit
   double low, high;
   double possible_low, possible_high;
   Population population;
@@ -37,14 +46,6 @@ struct Judgement {
   Answer answer;
   std::string reason;  ///< why the range does not apply, or why the value cannot be
   bool is_impossible;
-};
-
-/// What a beat is judged by.
-struct JudgedBeat {
-  const analysis::Results& results;
-  double muscle_density;  ///< [kg/mm^3]
-  bool is_infarcted;
-  bool contraction_was_steady;
 };
 
 /// All quantities of plausible_ranges, in its order.

@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <set>
 
 namespace lv::report {
@@ -37,10 +36,10 @@ bool is_strain(const std::string& quantity) {
 // ---- curves ----
 
 /// The phases as curves.csv has them.
-std::vector<Phase> phases_of(const Table& curves) {
+std::vector<drawing::Phase> phases_of(const Table& curves) {
   const auto time = curves.numbers("time_s");
   const auto name = curves.words("phase");
-  std::vector<Phase> phases;
+  std::vector<drawing::Phase> phases;
   for (std::size_t i = 0; i < name.size(); ++i) {
     if (phases.empty() || phases.back().label != name[i])
       phases.push_back({name[i], i == 0 ? time[i] : time[i - 1], time[i]});
@@ -51,9 +50,9 @@ std::vector<Phase> phases_of(const Table& curves) {
 
 /// What curves are drawn against: the time, or the share of each phase's loads, phase after phase.
 struct Abscissa {
-  Axis axis;
+  drawing::Axis axis;
   std::vector<double> values;
-  std::vector<Phase> phases;
+  std::vector<drawing::Phase> phases;
 };
 
 Abscissa abscissa(const Table& curves, const CurveFacts& facts) {
@@ -61,7 +60,7 @@ Abscissa abscissa(const Table& curves, const CurveFacts& facts) {
   if (!facts.is_static)
     return a;
   a.axis.label = "load [share of each phase]";
-  const std::vector<Phase> phases = a.phases;
+  const std::vector<drawing::Phase> phases = a.phases;
   for (double& value : a.values) {
     std::size_t k = 0;
     while (k + 1 < phases.size() && value > phases[k].end)
@@ -74,22 +73,24 @@ Abscissa abscissa(const Table& curves, const CurveFacts& facts) {
   return a;
 }
 
-Panel curve_panel(const Abscissa& a, const std::string& label, std::vector<double> values) {
-  return {.content = LineChart{.x = a.axis,
-                               .y = {label},
-                               .series = {{.x = a.values, .y = std::move(values)}},
-                               .phases = a.phases}};
+drawing::Panel curve_panel(const Abscissa& a, const std::string& label,
+                           std::vector<double> values) {
+  return {.content = drawing::LineChart{.x = a.axis,
+                                        .y = {label},
+                                        .series = {{.x = a.values, .y = std::move(values)}},
+                                        .phases = a.phases}};
 }
 
 /// A marker at the row whose time is the nearest to one that is known.
-void mark(const Table& curves, double time, const char* label, Marker marker, LineChart& path) {
+void mark(const Table& curves, double time, const char* label, drawing::Marker marker,
+          drawing::LineChart& path) {
   const auto times = curves.numbers("time_s");
   if (std::isnan(time) || times.empty())
     return;
   const auto nearest = std::min_element(times.begin(), times.end(), [&](double a, double b) {
     return std::abs(a - time) < std::abs(b - time);
   });
-  const Series& all = path.series.front();
+  const drawing::Series& all = path.series.front();
   const auto row = static_cast<std::size_t>(nearest - times.begin());
   path.series.push_back(
       {.label = label, .x = {all.x[row]}, .y = {all.y[row]}, .width = 0.0, .marker = marker});
@@ -132,16 +133,16 @@ std::vector<double> all_means(const Table& regions, const std::string& quantity)
 }
 
 /// The footnote, and what the stars at names of walls mean.
-std::string with_stars(const std::string& footnote, const Orientation& orientation) {
-  const std::string note = star_note(orientation, {"septum"});
+std::string with_stars(const std::string& footnote, const drawing::Orientation& orientation) {
+  const std::string note = drawing::star_note(orientation, {"septum"});
   return footnote + (footnote.empty() || note.empty() ? "" : ". ") + note;
 }
 
 /// From the least to the greatest value, rounded outwards to a step that ticks can name.
-ColourScale scale_of(std::vector<double> values, const std::string& quantity) {
+drawing::ColourScale scale_of(std::vector<double> values, const std::string& quantity) {
   std::erase_if(values, [](double v) { return !std::isfinite(v); });
   if (values.empty())
-    return {sequential(), 0.0, 1.0};
+    return {drawing::sequential(), 0.0, 1.0};
   const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
   double low = *least;
   double high = std::max(*greatest, low + 1e-6);
@@ -153,34 +154,35 @@ ColourScale scale_of(std::vector<double> values, const std::string& quantity) {
     high = middle + most;
   }
   const double step = std::pow(10.0, std::floor(std::log10(high - low))) / 2.0;
-  return {is_signed ? diverging() : sequential(), step * std::floor(low / step),
+  return {is_signed ? drawing::diverging() : drawing::sequential(), step * std::floor(low / step),
           step * std::ceil(high / step)};
 }
 
 /// As many as give three digits of the scale's end.
-int decimals(const ColourScale& scale) {
+int decimals(const drawing::ColourScale& scale) {
   const double most = std::max(std::abs(scale.min), std::abs(scale.max));
   return std::clamp(2 - static_cast<int>(std::floor(std::log10(std::max(most, 1e-6)))), 0, 3);
 }
 
-Panel bulls_eye_panel(const std::string& title, const std::vector<double>& values,
-                      const ColourScale& scale, int digits, const Orientation& orientation) {
-  BullsEye plot{.values = values, .scale = scale, .decimals = digits};
+drawing::Panel bulls_eye_panel(const std::string& title, const std::vector<double>& values,
+                               const drawing::ColourScale& scale, int digits,
+                               const drawing::Orientation& orientation) {
+  drawing::BullsEye plot{.values = values, .scale = scale, .decimals = digits};
   for (std::string& wall : plot.walls)
     wall = orientation.starred(wall, "septum");
   if (values.size() != 17)
-    plot.sectors = seven_slices();
+    plot.sectors = drawing::seven_slices();
   return {.title = title, .content = plot};
 }
 
 /// The value of every AHA segment at end-systole.
-Panel segment_panel(const Table& regions, const std::string& quantity, int digits,
-                    const Orientation& orientation) {
+drawing::Panel segment_panel(const Table& regions, const std::string& quantity, int digits,
+                             const drawing::Orientation& orientation) {
   const RegionalMeans found = means(regions, quantity, heartbeat::end_systole, "aha17");
-  const ColourScale scale = scale_of(found.values, quantity);
+  const drawing::ColourScale scale = scale_of(found.values, quantity);
   const std::string label = with_unit(quantity, found.unit);
-  Panel panel = bulls_eye_panel(label, found.values, scale, digits, orientation);
-  panel.colour_bar = ColourBar{label, scale};
+  drawing::Panel panel = bulls_eye_panel(label, found.values, scale, digits, orientation);
+  panel.colour_bar = drawing::ColourBar{label, scale};
   return panel;
 }
 
@@ -197,11 +199,11 @@ std::vector<strain::Pair> pairs_of(const Table& table, const std::string& scheme
   return pairs;
 }
 
-Series level(const std::string& label, double y, double from, double to, bool dashed) {
+drawing::Series level(const std::string& label, double y, double from, double to, bool dashed) {
   return {.label = label, .x = {from, to}, .y = {y, y}, .width = 1.2, .dashed = dashed};
 }
 
-LineChart bland_altman(const Series& points, const strain::Agreement& a) {
+drawing::LineChart bland_altman(const drawing::Series& points, const strain::Agreement& a) {
   const auto [low, high] = std::minmax_element(points.x.begin(), points.x.end());
   return {.x = {"mean of model and images"},
           .y = {"model - images"},
@@ -211,33 +213,17 @@ LineChart bland_altman(const Series& points, const strain::Agreement& a) {
                            *low, *high, true),
                      {.x = {*low, *high},
                       .y = {a.upper, a.upper},
-                      .colour = category(2),
+                      .colour = drawing::category(2),
                       .width = 1.2,
                       .dashed = true}}};
 }
 
 // ---- files ----
 
-/// The number before the unit of `"0 deg"`.
-double number_in(std::string text) {
-  std::erase(text, '"');
-  return std::stod(text);
-}
-
-/// Engine and moments as summary.json has them; without one the end of filling is known alone.
-CurveFacts curve_facts(const fs::path& work, const Table& curves) {
-  const fs::path file = file_of(work, "results", "summary.json");
-  if (file.empty()) {
-    const auto phases = phases_of(curves);
-    return {.end_diastole = phases.size() > 1 ? phases.front().end : missing};
-  }
-  return from_json_file(file, [](const auto& summary) {
-    const auto time = [&](const char* state) {
-      return summary.at(state).at("time_s").template get<double>();
-    };
-    return CurveFacts{summary.at("program").at("engine") == "quasi-static", time("end_diastole"),
-                      time("end_systole")};
-  });
+CurveFacts curve_facts(const fs::path& work) {
+  return {recorded(work, "mesh", "engine") == "quasi_static",
+          time_of(work, heartbeat::end_diastole).value_or(missing),
+          time_of(work, heartbeat::end_systole).value_or(missing)};
 }
 
 /// Writes the figures of what is there.
@@ -250,7 +236,7 @@ class FigureFolder {
     const auto table = table_of(work_, "beat", "curves.csv");
     if (!table)
       return;
-    const CurveFacts facts = curve_facts(work_, *table);
+    const CurveFacts facts = curve_facts(work_);
     write(curves_figure(*table, facts), "curves");
     if (const auto calcium = calcium_figure(*table, facts))
       write(*calcium, "calcium");
@@ -260,7 +246,7 @@ class FigureFolder {
     const auto table = table_of(work_, "results", "regions.csv");
     if (!table)
       return;
-    const Orientation orientation = orientation_of(work_);
+    const drawing::Orientation orientation = orientation_of(work_);
     const auto states = table->words("state");
     const std::set<std::string> moments(states.begin(), states.end());
     for (const char* quantity :
@@ -269,7 +255,7 @@ class FigureFolder {
       for (const std::string& moment : moments)
         if (!means(*table, quantity, moment, "aha17").values.empty())
           write(bulls_eyes_figure(*table, quantity, moment, orientation),
-                fmt::format("bulls_eyes_{}_{}", quantity, moment));
+                         fmt::format("bulls_eyes_{}_{}", quantity, moment));
   }
 
   void rotation() const {
@@ -289,13 +275,13 @@ class FigureFolder {
       for (const char* scheme : {"sector", "aha17"})
         if (table && pairs_of(*table, scheme).size() > 1)
           write(agreement_figure(*table, component, scheme),
-                fmt::format("strain_agreement_{}_{}", component, scheme));
+                         fmt::format("strain_agreement_{}_{}", component, scheme));
     }
   }
 
  private:
-  void write(const Figure& figure, const std::string& name) const {
-    report::write(figure, folder_ / (name + ".svg"));
+  void write(const drawing::Figure& figure, const std::string& name) const {
+    drawing::write(figure, folder_ / (name + ".svg"));
   }
 
   fs::path work_, folder_;
@@ -303,15 +289,15 @@ class FigureFolder {
 
 }  // namespace
 
-Figure curves_figure(const Table& curves, const CurveFacts& facts) {
+drawing::Figure curves_figure(const Table& curves, const CurveFacts& facts) {
   const Abscissa a = abscissa(curves, facts);
   const auto pressure = curves.numbers("pressure_mmHg");
   const auto volume = curves.numbers("cavity_volume_ml");
-  LineChart path{.x = {"cavity volume [ml]"},
-                 .y = {"pressure [mmHg]"},
-                 .series = {{.x = volume, .y = pressure}}};
-  mark(curves, facts.end_diastole, "end-diastole", Marker::circle, path);
-  mark(curves, facts.end_systole, "end-systole", Marker::square, path);
+  drawing::LineChart path{.x = {"cavity volume [ml]"},
+                          .y = {"pressure [mmHg]"},
+                          .series = {{.x = volume, .y = pressure}}};
+  mark(curves, facts.end_diastole, "end-diastole", drawing::Marker::circle, path);
+  mark(curves, facts.end_systole, "end-systole", drawing::Marker::square, path);
   return {.panels = {curve_panel(a, "pressure [mmHg]", pressure),
                      curve_panel(a, "cavity volume [ml]", volume),
                      curve_panel(a, "mean active tension [kPa]",
@@ -319,18 +305,19 @@ Figure curves_figure(const Table& curves, const CurveFacts& facts) {
                      {.title = "pressure-volume path (no valves)", .content = path}}};
 }
 
-std::optional<Figure> calcium_figure(const Table& curves, const CurveFacts& facts) {
+std::optional<drawing::Figure> calcium_figure(const Table& curves, const CurveFacts& facts) {
   const auto calcium = curves.numbers("calcium_uM");
   if (std::all_of(calcium.begin(), calcium.end(), [](double c) { return std::isnan(c); }))
     return std::nullopt;
-  return Figure{.panels = {curve_panel(abscissa(curves, facts), "calcium [µM]", calcium)},
-                .columns = 1,
-                .footnote = facts.is_static ? "Known at rest and at its peak; between them the "
-                                              "tension is a mean of both"
-                                            : ""};
+  return drawing::Figure{.panels = {curve_panel(abscissa(curves, facts), "calcium [µM]", calcium)},
+                         .columns = 1,
+                         .footnote = facts.is_static
+                                         ? "Known at rest and at its peak; between them the "
+                                           "tension is a mean of both"
+                                         : ""};
 }
 
-Figure segments_figure(const Table& regions, const Orientation& orientation) {
+drawing::Figure segments_figure(const Table& regions, const drawing::Orientation& orientation) {
   return {.panels = {segment_panel(regions, "fibre_strain", 3, orientation),
                      segment_panel(regions, "fibre_stress", 1, orientation),
                      segment_panel(regions, "active_tension", 1, orientation),
@@ -339,11 +326,12 @@ Figure segments_figure(const Table& regions, const Orientation& orientation) {
           .footnote = with_stars("Green-Lagrange strain from end-diastole", orientation)};
 }
 
-Figure bulls_eyes_figure(const Table& regions, const std::string& quantity,
-                         const std::string& state, const Orientation& orientation) {
+drawing::Figure bulls_eyes_figure(const Table& regions, const std::string& quantity,
+                                  const std::string& state,
+                                  const drawing::Orientation& orientation) {
   const RegionalMeans slices = means(regions, quantity, state, "sector");
   const RegionalMeans segments = means(regions, quantity, state, "aha17");
-  const ColourScale scale = scale_of(all_means(regions, quantity), quantity);
+  const drawing::ColourScale scale = scale_of(all_means(regions, quantity), quantity);
   const int digits = decimals(scale);
   const std::string label = with_unit(quantity, segments.unit);
   const std::string strain =
@@ -355,20 +343,20 @@ Figure bulls_eyes_figure(const Table& regions, const std::string& quantity,
                  bulls_eye_panel("17 segments (AHA)", segments.values, scale, digits, orientation)},
       .title = fmt::format("{}, mean at {}", label, heartbeat::title(state)),
       .footnote = with_stars(is_strain(quantity) ? strain : "", orientation),
-      .colour_bar = ColourBar{label, scale}};
+      .colour_bar = drawing::ColourBar{label, scale}};
 }
 
-Figure rotation_figure(const Table& rotation) {
+drawing::Figure rotation_figure(const Table& rotation) {
   const auto slice = rotation.numbers("slice");
   const auto series = [&](const char* label, const char* column, bool dashed) {
-    return Series{.label = label,
-                  .x = slice,
-                  .y = rotation.numbers(column),
-                  .colour = category(0),
-                  .dashed = dashed,
-                  .marker = Marker::circle};
+    return drawing::Series{.label = label,
+                           .x = slice,
+                           .y = rotation.numbers(column),
+                           .colour = drawing::category(0),
+                           .dashed = dashed,
+                           .marker = drawing::Marker::circle};
   };
-  const LineChart chart{
+  const drawing::LineChart chart{
       .x = {"slice, from the base (1) to the apex (7)"},
       .y = {"rotation [deg]"},
       .series = {series("end-diastole to end-systole", "end_diastole_to_end_systole_deg", false),
@@ -379,12 +367,12 @@ Figure rotation_figure(const Table& rotation) {
           .footnote = "Anticlockwise seen from the apex is positive"};
 }
 
-Figure muscle_figure(const Table& curves) {
+drawing::Figure muscle_figure(const Table& curves) {
   const auto muscle = curves.words("muscle");
   const auto published = curves.words("published");
   const auto stretch = curves.numbers("fibre_stretch");
   const auto stress = curves.numbers("cauchy_stress_kPa");
-  LineChart chart{.x = {"fibre stretch"}, .y = {"Cauchy stress [kPa]"}};
+  drawing::LineChart chart{.x = {"fibre stretch"}, .y = {"Cauchy stress [kPa]"}};
   for (std::size_t i = 0; i < muscle.size(); ++i) {
     if (i == 0 || muscle[i] != muscle[i - 1])
       chart.series.push_back({.label = muscle[i], .dashed = published[i] == "yes"});
@@ -394,12 +382,12 @@ Figure muscle_figure(const Table& curves) {
   return {.panels = {{.content = chart}}, .columns = 1, .panel_width = 480.0};
 }
 
-Figure agreement_figure(const Table& table, const std::string& component,
-                        const std::string& scheme) {
+drawing::Figure agreement_figure(const Table& table, const std::string& component,
+                                 const std::string& scheme) {
   const auto pairs = pairs_of(table, scheme);
   const strain::Agreement a = strain::agreement(pairs);
-  Series scatter{.width = 0.0, .marker = Marker::circle};
-  Series difference = scatter;
+  drawing::Series scatter{.width = 0.0, .marker = drawing::Marker::circle};
+  drawing::Series difference = scatter;
   double low = missing;
   double high = missing;
   for (const strain::Pair& p : pairs) {
@@ -410,30 +398,29 @@ Figure agreement_figure(const Table& table, const std::string& component,
     low = std::fmin(low, std::min(p.measured, p.model));
     high = std::fmax(high, std::max(p.measured, p.model));
   }
-  const Series same{
+  const drawing::Series same{
       .label = "the same", .x = {low, high}, .y = {low, high}, .width = 1.2, .dashed = true};
   return {.panels = {{.title = "model against images",
-                      .content = LineChart{.x = {"strain of the images"},
-                                           .y = {"strain of the model"},
-                                           .series = {scatter, same}}},
+                      .content = drawing::LineChart{.x = {"strain of the images"},
+                                                    .y = {"strain of the model"},
+                                                    .series = {scatter, same}}},
                      {.title = "Bland and Altman", .content = bland_altman(difference, a)}},
           .title = fmt::format("{} strain at end-systole, {} {}", component, a.count,
                                scheme == "sector" ? "sectors of slices" : "AHA segments")};
 }
 
-Orientation orientation_of(const fs::path& work) {
-  const fs::path file = file_of(work, "results", "summary.json");
-  if (file.empty())
-    return {};
-  return from_json_file(file, [](const auto& summary) {
-    const auto parameters = summary.value("parameters", std::map<std::string, std::string>{});
-    Orientation o;
-    if (parameters.contains("regions.septum_angle"))
-      o.septum_angle = number_in(parameters.at("regions.septum_angle")) * units::degree;
-    for (const auto& a : summary.at("assumptions"))
-      o.assumed.push_back({a.at("part"), a.at("text")});
-    return o;
-  });
+drawing::Orientation orientation_of(const fs::path& work) {
+  drawing::Orientation o;
+  if (const auto angle = recorded(work, "mesh", "regions.septum_angle"))
+    o.septum_angle = std::stod(*angle) * units::degree;
+  if (const fs::path file = file_of(work, "results", "summary.json"); !file.empty())
+    o.assumed = from_json_file(file, [](const auto& summary) {
+      std::vector<geometry::Assumption> assumed;
+      for (const auto& a : summary.at("assumptions"))
+        assumed.push_back({a.at("part"), a.at("text")});
+      return assumed;
+    });
+  return o;
 }
 
 void write_figures(const fs::path& work, const fs::path& folder) {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "lv/base/table.hpp"
-#include "lv/report/figure.hpp"
+#include "lv/drawing/figure.hpp"
 
 #include <filesystem>
 #include <limits>
@@ -20,37 +20,40 @@ struct CurveFacts {
 /// Pressure, volume and mean active tension against time (against the load where there is no time),
 /// each with an axis of its own, and pressure against volume with end-diastole and end-systole
 /// marked, from curves.csv.
-[[nodiscard]] Figure curves_figure(const Table& curves, const CurveFacts& facts);
+[[nodiscard]] drawing::Figure curves_figure(const Table& curves, const CurveFacts& facts);
 
 /// Calcium in the same way; nothing where it is missing throughout. Missing values are gaps.
-[[nodiscard]] std::optional<Figure> calcium_figure(const Table& curves, const CurveFacts& facts);
+[[nodiscard]] std::optional<drawing::Figure> calcium_figure(const Table& curves,
+                                                            const CurveFacts& facts);
 
 /// Fibre strain, fibre stress, active tension and radial strain at end-systole in the 17 segments,
 /// from regions.csv. Names of walls have a star where the septum is assumed.
-[[nodiscard]] Figure segments_figure(const Table& regions, const Orientation& orientation);
+[[nodiscard]] drawing::Figure segments_figure(const Table& regions,
+                                              const drawing::Orientation& orientation);
 
 /// A quantity's regional means at a state in the paper's seven slices and in the 17 segments, from
 /// regions.csv, by the scale of both states. Strains have a scale that is symmetric about 0, J one
 /// about 1.
-[[nodiscard]] Figure bulls_eyes_figure(const Table& regions, const std::string& quantity,
-                                       const std::string& state, const Orientation& orientation);
+[[nodiscard]] drawing::Figure bulls_eyes_figure(const Table& regions, const std::string& quantity,
+                                                const std::string& state,
+                                                const drawing::Orientation& orientation);
 
 /// Rotation of the slices, from rotation.csv.
-[[nodiscard]] Figure rotation_figure(const Table& rotation);
+[[nodiscard]] drawing::Figure rotation_figure(const Table& rotation);
 
 /// Stress against stretch of the case's passive muscle and of published ones, from
 /// stress_stretch.csv.
-[[nodiscard]] Figure muscle_figure(const Table& curves);
+[[nodiscard]] drawing::Figure muscle_figure(const Table& curves);
 
 /// Strain of the model against that from images, and their difference against their mean with bias
 /// and 95% limits of agreement (Bland & Altman, Lancet 327:307, 1986), of the pairs of one scheme
 /// in strain_comparison_COMPONENT.csv.
-[[nodiscard]] Figure agreement_figure(const Table& pairs, const std::string& component,
-                                      const std::string& scheme);
+[[nodiscard]] drawing::Figure agreement_figure(const Table& pairs, const std::string& component,
+                                               const std::string& scheme);
 
-/// How the ventricle of a finished run lies and what of it was assumed, from its summary.json as
-/// text; nothing known without one.
-[[nodiscard]] Orientation orientation_of(const std::filesystem::path& work);
+/// How the ventricle of a run lies, by the record of its mesh, and what of it was assumed, by its
+/// summary.json; nothing is known of what is not there.
+[[nodiscard]] drawing::Orientation orientation_of(const std::filesystem::path& work);
 
 /// Writes every chart and bull's-eye of a work folder as SVG into `folder`, and nothing for what is
 /// missing. Throws RunError naming a file that cannot be written.

@@ -21,4 +21,15 @@ namespace lv::report {
 [[nodiscard]] std::optional<Table> table_of(const std::filesystem::path& work,
                                             const std::string& stage, const std::string& file);
 
+/// When the beat was at a moment of that name, by its moments.csv; nothing when it has not been
+/// there [s].
+[[nodiscard]] std::optional<double> time_of(const std::filesystem::path& work,
+                                            const std::string& moment);
+
+/// The value of a parameter as the record of a stage has it, without quotation marks; nothing when
+/// the stage is not finished or does not read it.
+[[nodiscard]] std::optional<std::string> recorded(const std::filesystem::path& work,
+                                                  const std::string& stage,
+                                                  const std::string& parameter);
+
 }  // namespace lv::report

@@ -106,7 +106,7 @@ std::vector<Radii> median_in_time(const std::vector<Radii>& lines, int reach) {
       std::vector<double> near;
       for (int d = -reach; d <= reach; ++d)
         near.push_back(lines[static_cast<std::size_t>(((t + d) % n + n) % n)](i));
-      result[static_cast<std::size_t>(t)](i) = median(near);
+      result[static_cast<std::size_t>(t)](i) = median(std::move(near));
     }
   return result;
 }

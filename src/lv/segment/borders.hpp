@@ -6,10 +6,11 @@ namespace lv::segment {
 
 /// Both borders in one frame of one slice.
 struct FrameBorders {
-  Radii endo, epi;           ///< round the slice's centre [mm]
-  double wall_part = 0.0;    ///< part of the circumference along which muscle is seen
-  double endo_agrees = 0.0;  ///< part along which the border is where the image shows it, to 2 mm
-  double epi_agrees = 0.0;
+  Radii endo, epi;         ///< round the slice's centre [mm]
+  double wall_part = 0.0;  ///< part of the circumference along which muscle is seen
+  /// How sure a border is: the part of the circumference along which muscle is seen and the border
+  /// drawn lies within 2 mm of where the image shows it.
+  double endo_agrees = 0.0, epi_agrees = 0.0;
 };
 
 struct SliceBorders {

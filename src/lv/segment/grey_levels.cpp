@@ -95,7 +95,7 @@ Radii muscle_along(const std::vector<Polar>& frames, const std::vector<Radii>& m
       for (int k = 0; k < grid.radii; ++k)
         if (std::abs(grid.radius(k) - middle[t](i)) < band)
           near.push_back(frames[t](i, k));
-    along(i) = std::clamp(median(near), darkest * of_slice, brightest * of_slice);
+    along(i) = std::clamp(median(std::move(near)), darkest * of_slice, brightest * of_slice);
   }
   const std::array<double, 19> weights = gaussian();
   Radii smooth = Radii::Zero(grid.rays);

@@ -2,6 +2,7 @@
 
 #include "lv/base/interrupt.hpp"
 #include "lv/base/median.hpp"
+#include "lv/image/volume.hpp"
 #include "lv/segment/closed_path.hpp"
 
 #include <algorithm>
@@ -15,7 +16,7 @@ using image::CineSlice;
 using image::Picture;
 using image::Plane;
 
-constexpr PolarGrid grid{.rays = 48, .radii = 40, .first = 4.0, .step = 1.0};
+constexpr PolarGrid rough_grid{.rays = 48, .radii = 40, .first = 4.0, .step = 1.0};
 constexpr double seed_step = 6.0;    // between places that are tried first [mm]
 constexpr double follow_step = 4.0;  // between places tried near the slice before [mm]
 constexpr double follow_reach = 12.0;
@@ -62,21 +63,21 @@ double roundness(const Radii& r) {
 }
 
 Centre judge_one(const Picture& picture, const Pixel& place) {
-  Polar values = sample(picture, place, grid);
+  Polar values = sample(picture, place, rough_grid);
   std::vector<double> middle;
   for (const double v : values.leftCols(3).reshaped())
     middle.push_back(v);
-  const double blood = median(middle);
+  const double blood = median(std::move(middle));
   if (!(blood > 0.0))
     return {place, 0.0, 0.0};
   values /= blood;
   const Polar edge = steepness(values);
   const std::vector<int> path = closed_path(1.0 - edge, {.reach = 1, .stiffness = 0.1});
-  Radii r(grid.rays);
+  Radii r(rough_grid.rays);
   double steep = 0.0;
-  for (int i = 0; i < grid.rays; ++i) {
-    r(i) = grid.radius(path[static_cast<std::size_t>(i)]);
-    steep += edge(i, path[static_cast<std::size_t>(i)]) / grid.rays;
+  for (int i = 0; i < rough_grid.rays; ++i) {
+    r(i) = rough_grid.radius(path[static_cast<std::size_t>(i)]);
+    steep += edge(i, path[static_cast<std::size_t>(i)]) / rough_grid.rays;
   }
   const Ring ring = ring_of(values, path);
   const Eigen::Vector2d moved = centroid(r);
@@ -92,14 +93,22 @@ std::vector<const Picture*> frames_of(const CineSlice& slice, std::size_t count)
   return frames;
 }
 
-/// Twice the amplitude of the first harmonic over the cycle at a pixel.
-double motion_at(const CineSlice& slice, int i, int j) {
+/// The factors of the first harmonic over the cycle, exp(-2 pi i t/n).
+std::vector<std::complex<double>> first_harmonic(std::size_t frames) {
+  std::vector<std::complex<double>> turns;
+  const auto n = static_cast<double>(frames);
+  for (std::size_t t = 0; t < frames; ++t)
+    turns.push_back(std::polar(1.0, -2.0 * std::numbers::pi * static_cast<double>(t) / n));
+  return turns;
+}
+
+/// Twice the amplitude of that harmonic at a pixel.
+double motion_at(const CineSlice& slice, const std::vector<std::complex<double>>& turns, int i,
+                 int j) {
   std::complex<double> sum = 0.0;
-  const auto n = static_cast<double>(slice.frames.size());
-  for (std::size_t t = 0; t < slice.frames.size(); ++t)
-    sum += static_cast<double>(slice.frames[t].at(i, j)) *
-           std::polar(1.0, -2.0 * std::numbers::pi * static_cast<double>(t) / n);
-  return 2.0 * std::abs(sum) / n;
+  for (std::size_t t = 0; t < turns.size(); ++t)
+    sum += static_cast<double>(slice.frames[t].at(i, j)) * turns[t];
+  return 2.0 * std::abs(sum) / static_cast<double>(turns.size());
 }
 
 /// A place that may be the heart's and how much moves round it.
@@ -114,13 +123,14 @@ std::vector<Place> squares(const CineSlice& slice, std::size_t number) {
   const Plane& plane = slice.frames.front().plane;
   const int across = std::max(1, static_cast<int>(std::lround(seed_step / plane.spacing_i)));
   const int down = std::max(1, static_cast<int>(std::lround(seed_step / plane.spacing_j)));
+  const auto turns = first_harmonic(slice.frames.size());
   std::vector<Place> places;
   for (int j = 0; j + down <= plane.rows; j += down)
     for (int i = 0; i + across <= plane.columns; i += across) {
       double sum = 0.0;
       for (int v = j; v < j + down; ++v)
         for (int u = i; u < i + across; ++u)
-          sum += motion_at(slice, u, v);
+          sum += motion_at(slice, turns, u, v);
       places.push_back(
           {number, Pixel(i + 0.5 * (across - 1), j + 0.5 * (down - 1)), sum / (across * down)});
     }
@@ -132,12 +142,14 @@ double motion_around(const Place& place, const std::vector<Place>& squares, cons
   constexpr double reach = 25.0;
   double sum = 0.0;
   int count = 0;
-  for (const Place& other : squares)
-    if (std::hypot((other.at.x() - place.at.x()) * plane.spacing_i,
-                   (other.at.y() - place.at.y()) * plane.spacing_j) < reach) {
-      sum += other.motion;
-      ++count;
-    }
+  for (const Place& other : squares) {
+    const double down = (other.at.y() - place.at.y()) * plane.spacing_j;
+    if (std::abs(down) >= reach ||  // most are, and cost nothing more
+        std::hypot((other.at.x() - place.at.x()) * plane.spacing_i, down) >= reach)
+      continue;
+    sum += other.motion;
+    ++count;
+  }
   return sum / count;
 }
 
@@ -180,11 +192,7 @@ const Plane& plane_of(const image::Cine& cine, std::size_t slice) {
 
 /// The slice nearest to a point and its place there.
 Place given_place(const image::Cine& cine, const Vec3& point) {
-  std::size_t nearest = 0;
-  const auto distance = [&](std::size_t s) { return std::abs(plane_of(cine, s).pixel(point).z()); };
-  for (std::size_t s = 1; s < cine.slices.size(); ++s)
-    if (distance(s) < distance(nearest))
-      nearest = s;
+  const std::size_t nearest = image::nearest_slice(cine, point);
   return {nearest, plane_of(cine, nearest).pixel(point).head<2>()};
 }
 

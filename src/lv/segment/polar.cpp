@@ -56,7 +56,7 @@ Polar sample(const image::Picture& picture, const Pixel& centre, const PolarGrid
 std::vector<Vec3> line(const image::Plane& plane, const Pixel& centre, const Radii& radii) {
   std::vector<Vec3> points;
   for (Eigen::Index i = 0; i < radii.size(); ++i) {
-    const double angle = 2.0 * std::numbers::pi * static_cast<double>(i) / radii.size();
+    const double angle = ray_angle(i, radii.size());
     const Pixel at = place(plane, centre, angle, radii(i));
     points.push_back(plane.point(at.x(), at.y()));
   }
@@ -68,13 +68,13 @@ double area(const Radii& radii) {
   double sum = radii(n - 1) * radii(0);
   for (Eigen::Index i = 1; i < n; ++i)
     sum += radii(i - 1) * radii(i);
-  return 0.5 * sum * std::sin(2.0 * std::numbers::pi / static_cast<double>(n));
+  return 0.5 * sum * std::sin(ray_angle(1, n));
 }
 
 Eigen::Vector2d centroid(const Radii& radii) {
   Eigen::Vector2d moment = Eigen::Vector2d::Zero();
   for (Eigen::Index i = 0; i < radii.size(); ++i) {
-    const double angle = 2.0 * std::numbers::pi * static_cast<double>(i) / radii.size();
+    const double angle = ray_angle(i, radii.size());
     moment += std::pow(radii(i), 3) * Eigen::Vector2d(std::cos(angle), std::sin(angle));
   }
   return 2.0 / 3.0 * moment / radii.square().sum();

@@ -18,15 +18,19 @@ using Polar = Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMaj
 /// A radius per ray [mm].
 using Radii = Eigen::ArrayXd;
 
-/// The rays and radii of a polar picture: ray i points along 2 pi i / rays, from a picture's
-/// columns to its rows; radius k is first + k step.
+/// The angle of one of so many rays, 2 pi i/n, from a picture's columns to its rows.
+inline double ray_angle(Eigen::Index ray, Eigen::Index rays) {
+  return 2.0 * std::numbers::pi * static_cast<double>(ray) / static_cast<double>(rays);
+}
+
+/// The rays and radii of a polar picture: radius k is first + k step.
 struct PolarGrid {
   int rays = 72;
   int radii = 79;
   double first = 1.0;  ///< [mm]
   double step = 0.75;  ///< [mm]
 
-  [[nodiscard]] double angle(int ray) const { return 2.0 * std::numbers::pi * ray / rays; }
+  [[nodiscard]] double angle(int ray) const { return ray_angle(ray, rays); }
   [[nodiscard]] double radius(int k) const { return first + k * step; }
   [[nodiscard]] double last() const { return radius(radii - 1); }
   /// The nearest radius of the grid.

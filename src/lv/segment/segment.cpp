@@ -2,6 +2,7 @@
 
 #include "lv/base/check.hpp"
 #include "lv/base/median.hpp"
+#include "lv/image/volume.hpp"
 
 #include <fmt/format.h>
 
@@ -36,12 +37,6 @@ void check_cine(const Cine& cine, const std::string& where) {
                        fmt::format("{} has {} images and {} has {}", slices.front().name, frames,
                                    slice.name, slice.frames.size()),
                        remedy);
-}
-
-double spacing_of(const Cine& cine) {
-  const image::Plane& first = cine.slices.front().frames.front().plane;
-  const Vec3 last = first.pixel(cine.slices.back().frames.front().plane.origin);
-  return std::abs(last.z()) / static_cast<double>(cine.slices.size() - 1);
 }
 
 /// First and last slice of the ventricle, both included.
@@ -90,9 +85,11 @@ double mean(const std::vector<double>& values) {
 
 /// Covariance over the frames.
 double covariance(const std::vector<double>& a, const std::vector<double>& b) {
+  const double mean_a = mean(a);
+  const double mean_b = mean(b);
   double sum = 0.0;
   for (std::size_t t = 0; t < a.size(); ++t)
-    sum += (a[t] - mean(a)) * (b[t] - mean(b));
+    sum += (a[t] - mean_a) * (b[t] - mean_b);
   return sum / static_cast<double>(a.size());
 }
 
@@ -209,18 +206,19 @@ void doubt_ends(const std::vector<std::size_t>& slices, Segmentation& found) {
 
 void doubt_borders(Segmentation& found) {
   for (std::size_t s = 0; s < found.borders.size(); ++s)
-    for (const auto side : {&Confidence::endo, &Confidence::epi}) {
+    for (const auto side : {&FrameBorders::endo_agrees, &FrameBorders::epi_agrees}) {
       std::vector<std::size_t> frames;
       double least = 1.0;
       for (std::size_t t = 0; t < found.shows[s].size(); ++t)
-        if (const double sure = found.sure[s][t].*side; found.shows[s][t] != 0 && sure < doubtful) {
+        if (const double sure = found.borders[s].frames[t].*side;
+            found.shows[s][t] != 0 && sure < doubtful) {
           frames.push_back(t + 1);
           least = std::min(least, sure);
         }
       if (!frames.empty())
         found.doubts.push_back(
             fmt::format("slice {}: the {} is doubtful in phase{} {} (confidence {:.2f} and more)",
-                        s + 1, side == &Confidence::endo ? "endocardium" : "epicardium",
+                        s + 1, side == &FrameBorders::endo_agrees ? "endocardium" : "epicardium",
                         frames.size() == 1 ? "" : "s", ranges(frames), least));
     }
 }
@@ -237,15 +235,6 @@ void doubt_places(const Cine& cine, const std::vector<std::size_t>& slices, Segm
       found.doubts.push_back(fmt::format(
           "slice {} lies {:.0f} mm off the slices beside it: another breath, or not the ventricle",
           slices[n] + 1, away));
-  }
-}
-
-void rate(Segmentation& found) {
-  for (const SliceBorders& slice : found.borders) {
-    std::vector<Confidence> sure;
-    for (const FrameBorders& frame : slice.frames)
-      sure.push_back({frame.endo_agrees, frame.epi_agrees});
-    found.sure.push_back(std::move(sure));
   }
 }
 
@@ -272,7 +261,7 @@ Segmentation segment(const Cine& cine, const SegmentParameters& parameters,
   const Heart heart = find_heart(cine, given);
   Segmentation found;
   found.borders = draw_borders(cine, heart, parameters.fall);
-  found.spacing = spacing_of(cine);
+  found.spacing = image::spacing_of(cine);
   found.shows.assign(cine.slices.size(), std::vector<char>(cine.slices.front().frames.size(), 0));
   const Run run = walled_run(found.borders, heart.seed);
   std::vector<std::size_t> slices = from_base(run, base_is_first(found.borders, run));
@@ -283,7 +272,6 @@ Segmentation segment(const Cine& cine, const SegmentParameters& parameters,
                      "Set segment.centre to a point in the left ventricle's blood, or draw the "
                      "contours and take anatomy.source = \"contours\"");
   mark(slices, found);
-  rate(found);
   found.volumes =
       volumes_of(found, [&](std::size_t s, std::size_t t) { return found.shows[s][t] != 0; });
   found.phases = phases_of(found);

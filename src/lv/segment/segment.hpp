@@ -18,24 +18,17 @@ struct SegmentParameters {
   double fall = 0.85;  ///< see draw_borders
 };
 
-/// How sure a border is, 0 to 1: the part of the circumference along which muscle is seen and the
-/// border drawn lies within 2 mm of where the image shows it.
-struct Confidence {
-  double endo = 0.0, epi = 0.0;
-};
-
 /// The ventricle in a short-axis cine. Slices and frames count from 0, in the cine's order.
 struct Segmentation {
-  std::vector<SliceBorders> borders;          ///< of every slice
-  std::vector<std::vector<char>> shows;       ///< slice, frame: whether it shows the ventricle
-  std::vector<std::vector<Confidence>> sure;  ///< slice, frame
-  double spacing = 0.0;                       ///< between slices [mm]
-  std::vector<double> volumes;                ///< of the cavity per frame, areas x spacing [mm^3]
+  std::vector<SliceBorders> borders;     ///< of every slice
+  std::vector<std::vector<char>> shows;  ///< slice, frame: whether it shows the ventricle
+  double spacing = 0.0;                  ///< between slices [mm]
+  std::vector<double> volumes;           ///< of the cavity per frame, areas x spacing [mm^3]
   image::Phases phases;
   std::vector<std::string> doubts;  ///< what an observer should look at, in sentences
 };
 
-/// A contour is doubtful below this.
+/// A contour whose border agrees with the image along a smaller part (FrameBorders) is doubtful.
 inline constexpr double doubtful = 0.6;
 
 /// Draws both borders on every slice and frame and decides which slices show the ventricle.

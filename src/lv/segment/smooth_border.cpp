@@ -1,6 +1,6 @@
 #include "lv/segment/smooth_border.hpp"
 
-#include <Eigen/Cholesky>
+#include "lv/base/dense.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,18 +9,14 @@
 namespace lv::segment {
 namespace {
 
-double angle_of(Eigen::Index ray, Eigen::Index rays) {
-  return 2.0 * std::numbers::pi * static_cast<double>(ray) / static_cast<double>(rays);
-}
-
 /// Columns 1, cos theta, sin theta, cos 2 theta, ...
 Eigen::MatrixXd basis(Eigen::Index rays, int harmonics) {
   Eigen::MatrixXd A(rays, 2 * harmonics + 1);
   for (Eigen::Index i = 0; i < rays; ++i) {
     A(i, 0) = 1.0;
     for (int n = 1; n <= harmonics; ++n) {
-      A(i, 2 * n - 1) = std::cos(n * angle_of(i, rays));
-      A(i, 2 * n) = std::sin(n * angle_of(i, rays));
+      A(i, 2 * n - 1) = std::cos(n * ray_angle(i, rays));
+      A(i, 2 * n) = std::sin(n * ray_angle(i, rays));
     }
   }
   return A;
@@ -29,7 +25,8 @@ Eigen::MatrixXd basis(Eigen::Index rays, int harmonics) {
 }  // namespace
 
 Radii fit_border(const BorderFit& fit) {
-  constexpr int rounds = 6;  // of weights that follow the fit; it hardly moves after four
+  // of weights that follow the fit, if they do; it hardly moves after four
+  const int rounds = fit.within == 1.0 ? 1 : 6;
   const Eigen::MatrixXd A = basis(fit.seen.size(), fit.harmonics);
   Radii weight = fit.weight;
   Radii r;
@@ -37,7 +34,7 @@ Radii fit_border(const BorderFit& fit) {
     const Eigen::MatrixXd M = A.transpose() * (weight + fit.trust).matrix().asDiagonal() * A;
     const Eigen::VectorXd v =
         A.transpose() * (weight * fit.seen + fit.trust * fit.expected).matrix();
-    r = (A * M.ldlt().solve(v)).array();
+    r = (A * dense::solve_symmetric(M, v)).array();
     weight = (fit.seen < r).select(fit.within * fit.weight, fit.weight);
   }
   return r;
@@ -51,15 +48,16 @@ Radii harmonics_of(const Radii& radii, int harmonics) {
 Radii convex(const Radii& radii) {
   const Eigen::Index n = radii.size();
   Radii hull = radii;
+  Radii sine(n);  // of the angle over so many rays
+  for (Eigen::Index k = 0; k < n; ++k)
+    sine(k) = std::sin(ray_angle(k, n));
   // a chord between two rays less than half a turn apart lies at r on the rays between them
   for (Eigen::Index a = 0; a < n; ++a)
     for (Eigen::Index span = 2; 2 * span < n; ++span)
       for (Eigen::Index k = 1; k < span; ++k) {
-        const double before = std::sin(angle_of(k, n));
-        const double after = std::sin(angle_of(span - k, n));
         const double r1 = radii(a);
         const double r2 = radii((a + span) % n);
-        const double chord = r1 * r2 * std::sin(angle_of(span, n)) / (r1 * before + r2 * after);
+        const double chord = r1 * r2 * sine(span) / (r1 * sine(k) + r2 * sine(span - k));
         double& r = hull((a + k) % n);
         r = std::max(r, chord);
       }

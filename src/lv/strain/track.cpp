@@ -16,7 +16,7 @@ namespace lv::strain {
 namespace {
 
 using geometry::Contour;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();

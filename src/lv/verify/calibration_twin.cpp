@@ -12,8 +12,8 @@ namespace {
 using calibrate::FitParameters;
 using units::mmHg;
 
-quasi_static::StaticModel static_model(const FitParameters& p) {
-  solid::CardiacModel heart{.base = {.stiffness = quasi_static::rigid_base}};
+implicit::StaticModel static_model(const FitParameters& p) {
+  solid::CardiacModel heart{.base = {.stiffness = implicit::rigid_base}};
   heart.myocardium.passive =
       material::HolzapfelOgden{}.scaled(p.scale).with_anisotropy_scaled(p.C_a);
   heart.myocardium.active = material::NiedererHunterSmith{.T_scale = p.T_scale};

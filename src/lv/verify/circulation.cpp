@@ -16,13 +16,13 @@ namespace {
 using circulation::BeatMeasures;
 using circulation::Cycle;
 using circulation::elastance;
-using circulation::ml;
 using circulation::Parameters;
 using circulation::Sample;
+using units::ml;
 using units::mmHg;
 
-constexpr double fraction = 1e-3;   ///< of the reference
-constexpr double moment = 0.15e-3;  ///< a step, and the last digit of a printed time [s]
+constexpr double of_reference = 1e-3;  ///< of the reference
+constexpr double moment = 0.15e-3;     ///< a step, and the last digit of a printed time [s]
 
 Parameters windkessel() {
   Parameters p;
@@ -68,11 +68,11 @@ Extent over_last_beat(const Cycle& cycle, const Number& number) {
 
 void check_limit_cycle(Findings& found, const BeatMeasures& m) {
   const auto check = [&](const char* name, double value, double reference, const char* unit) {
-    found.add_within(name, value, reference, fraction, unit);
+    found.add_within(name, value, reference, of_reference, unit);
   };
   check("EDV", m.end_diastolic_volume / ml, 112.801, "ml");
   check("ESV", m.end_systolic_volume / ml, 53.115, "ml");
-  check("ejection fraction", m.ejection_fraction, 0.5291, "");
+  check("ejection of_reference", m.ejection_fraction, 0.5291, "");
   check("peak pressure", m.peak_pressure / mmHg, 113.610, "mmHg");
   check("aortic systolic pressure", m.aortic_systolic / mmHg, 108.865, "mmHg");
   check("aortic diastolic pressure", m.aortic_diastolic / mmHg, 60.876, "mmHg");
@@ -96,7 +96,7 @@ void check_loop(Findings& found, const std::string& name, const Cycle& cycle, do
   const Extent V = over_last_beat(cycle, [](const Sample& s) { return s.signals.volume; });
   check("largest volume", V.largest / ml, 136.744, "ml");
   check("least volume", V.least / ml, 66.964, "ml");
-  check("ejection fraction", 1.0 - V.least / V.largest, 0.5103, "");
+  check("ejection of_reference", 1.0 - V.least / V.largest, 0.5103, "");
   check("peak pressure", m.peak_pressure / mmHg, 119.681, "mmHg");
   check("largest arterial pressure", m.aortic_systolic / mmHg, 118.715, "mmHg");
   check("least arterial pressure", m.aortic_diastolic / mmHg, 79.825, "mmHg");
@@ -114,12 +114,13 @@ void check_loop(Findings& found, const std::string& name, const Cycle& cycle, do
 void circulation_windkessel(Findings& found) {
   const Cycle cycle = circulation::run_alone(windkessel());
   const BeatMeasures& first = cycle.beats.front();
-  found.add_within("first beat: ESV", first.end_systolic_volume / ml, 63.108, fraction, "ml");
-  found.add_within("first beat: peak pressure", first.peak_pressure / mmHg, 143.590, fraction,
+  found.add_within("first beat: ESV", first.end_systolic_volume / ml, 63.108, of_reference, "ml");
+  found.add_within("first beat: peak pressure", first.peak_pressure / mmHg, 143.590, of_reference,
                    "mmHg");
   const std::size_t beat = cycle.samples.size() / cycle.beats.size();
   found.add_within("first beat: arterial pressure at its end",
-                   cycle.samples.at(beat).signals.others.at(0) / mmHg, 81.2998, fraction, "mmHg");
+                   cycle.samples.at(beat).signals.others.at(0) / mmHg, 81.2998, of_reference,
+                   "mmHg");
   check_limit_cycle(found, cycle.beats.back());
 
   // of valves that open over more pressure than changes in a step: an event meets a step anywhere
@@ -140,7 +141,7 @@ void circulation_windkessel(Findings& found) {
 void circulation_closed_loop(Findings& found) {
   using circulation::ValveLaw;
   check_loop(found, "the published valves",
-             circulation::run_alone(closed_loop(ValveLaw::arctangent)), fraction);
+             circulation::run_alone(closed_loop(ValveLaw::arctangent)), of_reference);
   // which are not quite open at small pressures
   check_loop(found, "monotone valves", circulation::run_alone(closed_loop(ValveLaw::quadratic)),
              2e-3);

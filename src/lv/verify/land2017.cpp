@@ -22,14 +22,14 @@ constexpr double dt = 1e-4;        ///< the immersed engine's longest step [s]
 
 /// A time or calcium, and the tension at several stretches or rates [kPa].
 template <std::size_t N>
-struct Row {
+struct TensionRow {
   double at;
   std::array<double, N> T;
 };
 
 constexpr std::array<double, 5> stretches{0.9, 1.0, 1.1, 1.15, 1.2};
 
-constexpr std::array<Row<5>, 10> steady{
+constexpr std::array<TensionRow<5>, 10> steady{
     {{0.1, {0.00137989692, 0.00650446376, 0.045173234, 0.155544887, 0.7307173}},
      {0.2, {0.0412712533, 0.18591186, 1.15364435, 4.0161239, 40.1919949}},
      {0.3, {0.280576059, 1.17488835, 13.1692256, 58.4125104, 139.620579}},
@@ -54,7 +54,7 @@ constexpr Calcium transient_b{.mode = Calcium::Mode::transient,
                               .t_1 = 0.02,
                               .t_2 = 0.11};
 
-constexpr std::array<Row<5>, 10> twitch_a{
+constexpr std::array<TensionRow<5>, 10> twitch_a{
     {{0.02, {0.0102849197, 0.0465070533, 0.361976609, 1.59851892, 7.63434089}},
      {0.04, {0.363199255, 2.54446463, 17.4884584, 36.6259987, 61.4897541}},
      {0.06, {3.14206757, 16.917688, 56.3871889, 80.7831976, 103.96716}},
@@ -66,7 +66,7 @@ constexpr std::array<Row<5>, 10> twitch_a{
      {0.6, {0.0742174438, 0.34492276, 2.15380185, 7.36812846, 40.5549867}},
      {0.8, {0.00925014567, 0.0428977973, 0.281571519, 0.930998445, 4.63631431}}}};
 
-constexpr std::array<Row<5>, 10> twitch_b{
+constexpr std::array<TensionRow<5>, 10> twitch_b{
     {{0.02, {0.028382043, 0.131425753, 1.33420377, 4.75269974, 15.0560922}},
      {0.04, {0.898632071, 6.00153721, 29.6120114, 50.2822294, 71.9982815}},
      {0.06, {3.75340083, 21.104394, 66.0169056, 89.6535164, 110.391612}},
@@ -81,7 +81,7 @@ constexpr std::array<Row<5>, 10> twitch_b{
 /// From the steady state at 0.6 uM and a stretch of 1.1, at these rates.
 constexpr std::array<double, 7> rates{-5.0, -2.0, -1.0, -0.5, 0.5, 1.0, 2.0};
 
-constexpr std::array<Row<7>, 7> ramps{
+constexpr std::array<TensionRow<7>, 7> ramps{
     {{0.002, {103.526403, 119.856397, 125.455148, 128.284207, 133.967915, 136.801919, 142.46788}},
      {0.01, {51.2065626, 96.2316358, 113.153517, 122.006909, 139.697237, 148.289271, 165.565162}},
      {0.02, {17.8991495, 78.0626698, 103.177396, 116.787689, 143.872579, 156.807456, 183.249682}},
@@ -104,8 +104,8 @@ State twitch(const Calcium& calcium, double stretch, double end, double step) {
 
 template <std::size_t N>
 void check_twitches(Findings& found, const std::string& name, const Calcium& calcium,
-                    const std::array<Row<5>, N>& rows) {
-  for (const Row<5>& row : rows)
+                    const std::array<TensionRow<5>, N>& rows) {
+  for (const TensionRow<5>& row : rows)
     for (std::size_t i = 0; i < stretches.size(); ++i)
       found.add_within(fmt::format("calcium {}: T at stretch {}, {} s", name, stretches[i], row.at),
                        twitch(calcium, stretches[i], row.at, dt).tension, row.T[i], fraction,
@@ -125,7 +125,7 @@ double after_ramp(double rate, double duration, int steps) {
 
 void land2017_steady(Findings& found) {
   const Land2017 law;
-  for (const Row<5>& row : steady)
+  for (const TensionRow<5>& row : steady)
     for (std::size_t i = 0; i < stretches.size(); ++i)
       found.add_within(fmt::format("T at {} uM, stretch {}", row.at, stretches[i]),
                        law.steady_state(row.at, stretches[i]).tension, row.T[i], fraction, "kPa");
@@ -151,7 +151,7 @@ void land2017_twitch(Findings& found) {
 }
 
 void land2017_ramp(Findings& found) {
-  for (const Row<7>& row : ramps)
+  for (const TensionRow<7>& row : ramps)
     for (std::size_t i = 0; i < rates.size(); ++i)
       found.add_within(fmt::format("T at {} /s after {} s", rates[i], row.at),
                        after_ramp(rates[i], row.at, static_cast<int>(std::lround(row.at / dt))),

@@ -17,8 +17,8 @@ using material::Calcium;
 using material::NiedererHunterSmith;
 using material::Sarcomere;
 
-constexpr double fraction = 1e-3;  ///< what a time step of 1e-4 s may cost at most
-constexpr double dt = 1e-4;        ///< the engine's longest step [s]
+constexpr double step_cost = 1e-3;     ///< what a time step of 1e-4 s may cost at most
+constexpr double longest_step = 1e-4;  ///< the engine's longest step [s]
 
 NiedererHunterSmith unscaled() {
   NiedererHunterSmith law;
@@ -36,7 +36,7 @@ Sarcomere<double> resting(double stretch) {
 
 /// Tension of a twitch at constant stretch, from the beginning to a time.
 struct Twitch {
-  Twitch(Calcium::Mode mode, double fibre_stretch, double time_step = dt)
+  Twitch(Calcium::Mode mode, double fibre_stretch, double time_step = longest_step)
       : calcium{mode}, stretch(fibre_stretch), step(time_step), state(resting(fibre_stretch)) {}
 
   void go_to(double end) {
@@ -102,11 +102,11 @@ void niederer_steady(Findings& found) {
   for (const Row& r : rows)
     for (std::size_t i = 0; i < stretches.size(); ++i)
       found.add_within(fmt::format("T at {} uM, stretch {}", r.Ca, stretches[i]),
-                       law.steady_state(r.Ca, stretches[i]).tension, r.T[i], fraction, "kPa");
+                       law.steady_state(r.Ca, stretches[i]).tension, r.T[i], step_cost, "kPa");
   // the steady state is where time integration ends
   Twitch held(Calcium::Mode::hold, 1.0);
   held.go_to(5.0);
-  found.add_within("T after 5 s at 1 uM, stretch 1", held.state.tension, 38.9519243, fraction,
+  found.add_within("T after 5 s at 1 uM, stretch 1", held.state.tension, 38.9519243, step_cost,
                    "kPa");
 }
 
@@ -126,13 +126,13 @@ void niederer_twitch(Findings& found) {
     for (std::size_t i = 0; i < times.size(); ++i) {
       twitch.go_to(times[i]);
       found.add_within(fmt::format("T at stretch {}, {} s", r.stretch, times[i]),
-                       twitch.state.tension, r.T[i], fraction, "kPa");
+                       twitch.state.tension, r.T[i], step_cost, "kPa");
     }
-    found.add_within(fmt::format("peak T at stretch {}", r.stretch), twitch.peak, r.peak, fraction,
+    found.add_within(fmt::format("peak T at stretch {}", r.stretch), twitch.peak, r.peak, step_cost,
                      "kPa");
     // to the step and the last printed digit
     found.add(fmt::format("time of the peak at stretch {}", r.stretch), twitch.peak_time,
-              r.peak_time, 1.5 * dt, "s");
+              r.peak_time, 1.5 * longest_step, "s");
   }
 
   constexpr std::array<double, 5> hold_times{0.1, 0.2, 0.3, 0.5, 1.0};
@@ -141,7 +141,7 @@ void niederer_twitch(Findings& found) {
   for (std::size_t i = 0; i < hold.size(); ++i) {
     held.go_to(hold_times[i]);
     found.add_within(fmt::format("T with calcium held, {} s", hold_times[i]), held.state.tension,
-                     hold[i], fraction, "kPa");
+                     hold[i], step_cost, "kPa");
   }
 
   const auto tension_with_step = [](double step) {
@@ -163,7 +163,7 @@ double steady_ratio(double rate) {
   const NiedererHunterSmith law = unscaled();
   Sarcomere<double> state = law.steady_state(1.0, 1.0);
   for (int i = 0; i < 10000; ++i)
-    law.advance(state, 1.0, rate, 1.0, 1.0, dt);
+    law.advance(state, 1.0, rate, 1.0, 1.0, longest_step);
   return state.tension / law.isometric_tension(state);
 }
 
@@ -194,17 +194,17 @@ void check_ramp(Findings& found) {
   Sarcomere<double> state = resting(1.1);
   int step = 0;
   for (const Row& r : rows) {
-    for (; step * dt < r.time - 0.5 * dt; ++step)
-      law.advance(state, stretch((step + 1) * dt), calcium.at(step * dt),
-                  calcium.at((step + 1) * dt), dt);
+    for (; step * longest_step < r.time - 0.5 * longest_step; ++step)
+      law.advance(state, stretch((step + 1) * longest_step), calcium.at(step * longest_step),
+                  calcium.at((step + 1) * longest_step), longest_step);
     found.add_within(fmt::format("shortening 1.1 to 0.9: Ca_trpn at {} s", r.time), state.Ca_trpn,
-                     r.Ca_trpn, fraction, "uM");
+                     r.Ca_trpn, step_cost, "uM");
     found.add_within(fmt::format("shortening 1.1 to 0.9: z at {} s", r.time), state.z, r.z,
-                     fraction);
+                     step_cost);
     found.add_within(fmt::format("shortening 1.1 to 0.9: Q_1 at {} s", r.time), state.Q[0], r.Q1,
-                     fraction);
+                     step_cost);
     found.add_within(fmt::format("shortening 1.1 to 0.9: T at {} s", r.time), state.tension, r.T,
-                     fraction, "kPa");
+                     step_cost, "kPa");
   }
 }
 
@@ -224,14 +224,14 @@ void niederer_release(Findings& found) {
                                        {2, 1.50758922}}};
   for (const Pair& p : rates)
     found.add_within(fmt::format("T/T_0 at {} /s", p.change), steady_ratio(p.change), p.ratio,
-                     fraction);
+                     step_cost);
   double slow = -9.0;
   double fast = -10.0;
   for (int i = 0; i < 20; ++i) {
     const double middle = 0.5 * (slow + fast);
     (steady_ratio(middle) > 0.0 ? slow : fast) = middle;
   }
-  found.add_within("shortening without tension", slow, -9.4836055, fraction, "1/s");
+  found.add_within("shortening without tension", slow, -9.4836055, step_cost, "1/s");
 
   constexpr std::array<Pair, 3> jumps{
       {{-0.01, 0.04940828}, {-0.001, 0.74046850}, {0.001, 1.25953150}}};
@@ -239,16 +239,16 @@ void niederer_release(Findings& found) {
   for (const Pair& p : jumps) {
     const Sarcomere<double> state = after_sudden(p.change);
     found.add_within(fmt::format("T/T_0 right after {} %", 100 * p.change),
-                     state.tension / law.isometric_tension(state), p.ratio, fraction);
+                     state.tension / law.isometric_tension(state), p.ratio, step_cost);
   }
 
   Sarcomere<double> lengthened;  // Chaste's unit test: 0.1 per ms for 10 ms
   for (int i = 0; i < 100; ++i)
-    law.advance(lengthened, 1.0 + (i + 1) * 100.0 * dt, 0.01, 0.01, dt);
+    law.advance(lengthened, 1.0 + (i + 1) * 100.0 * longest_step, 0.01, 0.01, longest_step);
   constexpr std::array<double, 3> Q{-25.057, 77.248, 20.601};
   for (int i = 0; i < 3; ++i)
     found.add_within(fmt::format("Q_{} after 10 ms at 100 /s", i + 1), lengthened.Q[i], Q[i],
-                     fraction);
+                     step_cost);
 }
 
 }  // namespace lv::verify

@@ -22,4 +22,7 @@ namespace lv::verify {
 [[nodiscard]] heartbeat::BeatSetup default_beat(const mesh::Mesh& mesh,
                                                 const std::array<int, 3>& cells, double time_step);
 
+/// The largest distance of two points of the same number [mm].
+[[nodiscard]] double largest_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b);
+
 }  // namespace lv::verify

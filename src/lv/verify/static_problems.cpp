@@ -1,11 +1,11 @@
 #include "lv/base/check.hpp"
 #include "lv/base/units.hpp"
 #include "lv/circulation/implicit_step.hpp"
+#include "lv/implicit/time_engine.hpp"
 #include "lv/mesh/refine.hpp"
 #include "lv/mesh/split.hpp"
 #include "lv/mesh/surface.hpp"
 #include "lv/mesh/wall_mesh.hpp"
-#include "lv/quasi_static/time_engine.hpp"
 #include "lv/verify/land2015.hpp"
 #include "lv/verify/problems.hpp"
 #include "lv/verify/small_ventricle.hpp"
@@ -19,19 +19,19 @@
 namespace lv::verify {
 namespace {
 
-using quasi_static::Engine;
+using implicit::Engine;
 using solid::CardiacModel;
 
 /// A wall of one passive law, on a base that slides.
 CardiacModel without_tension(const material::AnyPassiveLaw& law) {
-  CardiacModel heart{.base = {.stiffness = quasi_static::rigid_base}};
+  CardiacModel heart{.base = {.stiffness = implicit::rigid_base}};
   heart.myocardium.passive = law;
   heart.myocardium.active = material::PrescribedTension{0.0};
   return heart;
 }
 
 CardiacModel fixed_at_base(CardiacModel heart) {
-  heart.base = {solid::BasalSupport::Kind::fixed, quasi_static::rigid_base};
+  heart.base = {solid::BasalSupport::Kind::fixed, implicit::rigid_base};
   return heart;
 }
 
@@ -86,7 +86,7 @@ void coupled_sphere(Findings& found) {
   constexpr double dt = 5e-3;  // [s]
   const HalfSphere sphere{.A = 15.0, .B = 22.0, .a = 18.0, .mu = 10.0};
   const mesh::Mesh mesh = sphere.mesh(2.0, 2);
-  quasi_static::TimeEngine engine(mesh, without_tension(material::NeoHookean{sphere.mu}), {});
+  implicit::TimeEngine engine(mesh, without_tension(material::NeoHookean{sphere.mu}), {});
   circulation::History<1> history{{engine.fill(sphere.pressure(), 0.0).value()}};
   struct Row {
     double time, volume, pressure;  // of the whole sphere
@@ -102,8 +102,8 @@ void coupled_sphere(Findings& found) {
     for (; step * dt < row.time - 0.5 * dt; ++step) {
       const auto difference = circulation::backward_difference(history, dt);
       const auto volume = [&](double p) {
-        return quasi_static::GivenVolume{difference.known[0] - difference.weight * p / R,
-                                         -difference.weight / R};
+        return implicit::GivenVolume{difference.known[0] - difference.weight * p / R,
+                                     -difference.weight / R};
       };
       const auto report = engine.advance({.dt = dt}, volume);
       LV_CHECK(report.converged);
@@ -185,12 +185,12 @@ struct Filled {
   double volume = 0.0;      ///< [mm^3]
   double iterations = 0.0;  ///< per linear solve
 
-  Filled(const mesh::Mesh& mesh, quasi_static::LinearMethod method) {
-    quasi_static::SolverParameters parameters;
+  Filled(const mesh::Mesh& mesh, implicit::LinearMethod method) {
+    implicit::SolverParameters parameters;
     parameters.newton.linear.method = method;
     Engine engine(mesh, without_tension(material::HolzapfelOgden{}), parameters);
     int solves = 0, sum = 0;
-    const auto count = [&](const quasi_static::Step& step) {
+    const auto count = [&](const implicit::Step& step) {
       solves += step.newton.linear_solves;
       sum += step.newton.linear_iterations;
     };
@@ -202,7 +202,7 @@ struct Filled {
 }  // namespace
 
 void iterative_solver(Findings& found) {
-  using enum quasi_static::LinearMethod;
+  using enum implicit::LinearMethod;
   const auto compare = [&](const mesh::Mesh& mesh, const std::string& elements) {
     const Filled with_direct(mesh, direct);
     const Filled with_iterative(mesh, iterative);

@@ -15,8 +15,7 @@ namespace {
 
 using analysis::CellFields;
 using heartbeat::Beat;
-
-constexpr double ml = 1e3;  ///< [mm^3]
+using units::ml;
 
 /// One engine's answer.
 struct Answer {

@@ -1,5 +1,5 @@
 #include "lv/base/units.hpp"
-#include "lv/quasi_static/unload.hpp"
+#include "lv/implicit/unload.hpp"
 #include "lv/solid/endocardial_surface.hpp"
 #include "lv/verify/problems.hpp"
 #include "lv/verify/small_ventricle.hpp"
@@ -13,16 +13,9 @@ namespace {
 
 using units::mmHg;
 
-/// The paper's healthy subject.
-quasi_static::StaticModel healthy() {
-  return solid::CardiacModel{.base = {.stiffness = quasi_static::rigid_base}};
-}
-
-double largest_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
-  double largest = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    largest = std::max(largest, (a[i] - b[i]).norm());
-  return largest;
+/// The paper's healthy_model subject.
+implicit::StaticModel healthy_model() {
+  return solid::CardiacModel{.base = {.stiffness = implicit::rigid_base}};
 }
 
 }  // namespace
@@ -31,14 +24,14 @@ double largest_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b) 
 /// which has twice the volume, is taken for the one that was seen.
 void unloading_round_trip(Findings& found) {
   const mesh::Mesh known = ideal_mesh({.edge_length = 5.0, .layers = 2, .order = 2});
-  const quasi_static::StaticModel model = healthy();
+  const implicit::StaticModel model = healthy_model();
   const double pressure = 8.0 * mmHg;
-  quasi_static::Engine engine(known, model, {});
+  implicit::Engine engine(known, model, {});
   engine.go_to({pressure, 0.0}).value();
   mesh::Mesh seen = known;
   seen.nodes = engine.state().positions;
-  const quasi_static::Unloaded back =
-      quasi_static::unload(seen, model, {.pressure = pressure, .tolerance = 1e-3}, {}).value();
+  const implicit::Unloaded back =
+      implicit::unload(seen, model, {.pressure = pressure, .tolerance = 1e-3}, {}).value();
   const solid::EndocardialSurface endocardium(known);
   found.add_error("largest distance, loaded again, from the loaded shape",
                   back.steps.back().largest, 1e-3, "mm");

@@ -13,21 +13,13 @@ namespace lv::verify {
 namespace {
 
 using heartbeat::Beat;
-
-constexpr double ml = 1e3;  ///< [mm^3]
+using units::ml;
 
 Beat run(const mesh::Mesh& mesh, const std::array<int, 3>& cells, double time_step,
          const Findings& found) {
   log::info("{} elements, {} x {} x {} cells, steps of {:.3g} s", mesh.cell_count(), cells[0],
             cells[1], cells[2], time_step);
   return heartbeat::run_immersed_beat(default_beat(mesh, cells, time_step), found.scratch(), {});
-}
-
-double largest_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
-  double largest = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    largest = std::max(largest, (a[i] - b[i]).norm());
-  return largest;
 }
 
 double rms_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {

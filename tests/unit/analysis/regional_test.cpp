@@ -1,6 +1,6 @@
 #include "lv/analysis/regional.hpp"
 
-#include "mesh/mesh_files.hpp"
+#include "mesh_io/mesh_files.hpp"
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 

@@ -1,6 +1,6 @@
 #include "lv/analysis/results.hpp"
 
-#include "mesh/mesh_files.hpp"
+#include "mesh_io/mesh_files.hpp"
 #include "support/block_mesh.hpp"
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>

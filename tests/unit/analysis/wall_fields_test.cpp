@@ -3,6 +3,7 @@
 #include "lv/mesh/cell.hpp"
 
 #include "support/block_mesh.hpp"
+#include "support/cell_kinds.hpp"
 #include "support/random_values.hpp"
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
@@ -16,8 +17,8 @@ using analysis::CellFields;
 using analysis::CellStrain;
 using mesh::CellKind;
 using mesh::Mesh;
+using test::kinds;
 
-constexpr std::array kinds{CellKind::hexahedron, CellKind::tetrahedron};
 const mesh::FibreRule parallel_fibres{0.4, 0.4, 0.3, 0.3};
 
 /// In the block t grows along x: x is radial, z longitudinal, y circumferential.

@@ -152,6 +152,6 @@ TEST_CASE("powers and parentheses beyond any unit's are refused", "[unit][base]"
   CHECK(units::parse_unit("mm^-9").factor == 1.0);
   for (const std::string& text :
        {std::string("mm^10"), std::string("ml^2147483647"), std::string("mm^99999999999999999999"),
-        std::string(100000, '('), std::string(20, '(') + "mm" + std::string(20, ')')})
+        std::string(100000, '('), std::string(20, '(').append("mm").append(20, ')')})
     CHECK_THROWS_AS(units::parse_unit(text), std::invalid_argument);
 }

@@ -10,18 +10,16 @@ namespace {
 using namespace lv;
 using fluid::BoxTransform;
 using fluid::FaceField;
-using fluid::Grid;
-
-const Grid grid{{6, 5, 8}, {0, 0, 0}, {1.5, 2.0, 1.0}};
+using test::uneven_grid;
 
 }  // namespace
 
 TEST_CASE("a field transformed to modes and back is itself times 8 Nx Ny Nz", "[unit][fluid]") {
-  BoxTransform transform(grid, test::whole_box(grid));
-  FaceField field = test::random_field(grid, 1);
+  BoxTransform transform(uneven_grid, test::whole_box(uneven_grid));
+  FaceField field = test::random_field(uneven_grid, 1);
   fluid::ModeField modes = transform.zero_modes();
   transform.to_modes(field, modes);
-  FaceField back(grid, test::whole_box(grid));
+  FaceField back(uneven_grid, test::whole_box(uneven_grid));
   transform.to_points(modes, back);
   for (int c = 0; c < 3; ++c)
     test::for_points(back.component[c], 0, [&](int i, int j, int k, double& u) {
@@ -31,10 +29,10 @@ TEST_CASE("a field transformed to modes and back is itself times 8 Nx Ny Nz", "[
 }
 
 TEST_CASE("a product of waves is one mode", "[unit][fluid]") {
-  BoxTransform transform(grid, test::whole_box(grid));
-  const FaceField field = test::field_of(grid, [](int c, const Vec3& x) {
+  BoxTransform transform(uneven_grid, test::whole_box(uneven_grid));
+  const FaceField field = test::field_of(uneven_grid, [](int c, const Vec3& x) {
     const auto wave = [&](int d, double m) {
-      const double phase = M_PI * m * x[d] / (grid.cells[d] * grid.spacing[d]);
+      const double phase = M_PI * m * x[d] / (uneven_grid.cells[d] * uneven_grid.spacing[d]);
       return d == c ? std::cos(phase) : std::sin(phase);
     };
     return wave(0, 2) * wave(1, 3) * wave(2, 5);
@@ -57,9 +55,9 @@ TEST_CASE("a product of waves is one mode", "[unit][fluid]") {
 }
 
 TEST_CASE("modes gathered and scattered are themselves", "[unit][fluid]") {
-  BoxTransform transform(grid, test::whole_box(grid));
+  BoxTransform transform(uneven_grid, test::whole_box(uneven_grid));
   fluid::ModeField modes = transform.zero_modes();
-  transform.to_modes(test::random_field(grid, 2), modes);
+  transform.to_modes(test::random_field(uneven_grid, 2), modes);
   fluid::ModeField back = transform.zero_modes();
   for (int c = 0; c < 3; ++c)
     transform.scatter(transform.gather(modes, c), c, back);

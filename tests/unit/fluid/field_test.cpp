@@ -12,12 +12,12 @@ using fluid::Component;
 using fluid::FaceField;
 using fluid::Grid;
 
-const Grid grid{{5, 7, 6}, {0, 0, 0}, {1.5, 2.0, 1.0}};
+const Grid field_grid{{5, 7, 6}, {0, 0, 0}, {1.5, 2.0, 1.0}};
 
 }  // namespace
 
 TEST_CASE("a field gathered and scattered is itself", "[unit][fluid]") {
-  FaceField field = test::random_field(grid, 1);
+  FaceField field = test::random_field(field_grid, 1);
   for (Component& u : field.component) {
     const auto values = fluid::gather(u);
     REQUIRE(values.size() == static_cast<std::size_t>(u.nx()) * u.ny() * u.nz());
@@ -43,8 +43,8 @@ TEST_CASE("rows and ghosts of a component do not overlap", "[unit][fluid]") {
 
 TEST_CASE("at the box's sides ghosts mirror the normal velocity and reverse the tangential",
           "[unit][fluid]") {
-  FaceField field = test::random_field(grid, 2);
-  fluid::fill_ghosts(field, test::whole_box(grid));
+  FaceField field = test::random_field(field_grid, 2);
+  fluid::fill_ghosts(field, test::whole_box(field_grid));
   for (int c = 0; c < 3; ++c) {
     Component& u = field.component[c];
     const std::array<int, 3> n{u.nx(), u.ny(), u.nz()};
@@ -69,7 +69,7 @@ TEST_CASE("ghosts of the pressure make it vanish on the box's sides", "[unit][fl
   test::RandomValues random(3);
   Component p(5, 7, 6);
   test::for_points(p, 0, [&](int, int, int, double& value) { value = random(); });
-  fluid::fill_ghosts(p, test::whole_box(grid));
+  fluid::fill_ghosts(p, test::whole_box(field_grid));
   for (int l = 0; l < fluid::ghost_layers; ++l) {
     CHECK(p.at(-1 - l, 3, 2) == -p.at(l, 3, 2));
     CHECK(p.at(5 + l, 3, 2) == -p.at(4 - l, 3, 2));
@@ -81,13 +81,13 @@ TEST_CASE("ghosts of the pressure make it vanish on the box's sides", "[unit][fl
 }
 
 TEST_CASE("the motion of a field is its kinetic energy and largest velocity", "[unit][fluid]") {
-  FaceField field = test::random_field(grid, 4);
+  FaceField field = test::random_field(field_grid, 4);
   field.component[1].at(2, 3, 4) = -7.5;
   field.component[1].at(-1, 3, 4) = 100.0;  // a ghost does not count
-  const auto motion = fluid::motion(field, grid, 1.06e-6);
+  const auto motion = fluid::motion(field, field_grid, 1.06e-6);
   CHECK(motion.largest_velocity == 7.5);
   CHECK(motion.kinetic_energy ==
         Approx(0.5 * 1.06e-6 * 3.0 * test::product(field, field)).epsilon(1e-13));
   field.set_zero();
-  CHECK(fluid::motion(field, grid, 1.0).kinetic_energy == 0.0);
+  CHECK(fluid::motion(field, field_grid, 1.0).kinetic_energy == 0.0);
 }

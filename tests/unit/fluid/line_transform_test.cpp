@@ -10,7 +10,7 @@ namespace {
 
 using lv::fluid::LineTransform;
 using Kind = LineTransform::Kind;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Values of one line, different at every point and column.
 double sample(int j, int column) {

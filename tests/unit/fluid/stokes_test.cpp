@@ -10,18 +10,17 @@ namespace {
 using namespace lv;
 using fluid::Component;
 using fluid::FaceField;
-using fluid::Grid;
 using fluid::ModeField;
+using test::uneven_grid;
 
-const Grid grid{{6, 5, 8}, {0, 0, 0}, {1.5, 2.0, 1.0}};
 const fluid::Blood blood{1.3, 0.7};  // of order one, so that all terms count
 constexpr double dt = 0.1;
 constexpr double drag = 2.0;
 
 /// The solver with its transform, seen from the points.
 struct Box {
-  fluid::BoxTransform transform{grid, test::whole_box(grid)};
-  fluid::Stokes stokes{grid, transform, blood};
+  fluid::BoxTransform transform{uneven_grid, test::whole_box(uneven_grid)};
+  fluid::Stokes stokes{uneven_grid, transform, blood};
   ModeField velocity = transform.zero_modes();
   ModeField force_modes = transform.zero_modes();
 
@@ -31,9 +30,9 @@ struct Box {
     return points();
   }
   FaceField points() {
-    FaceField u(grid, test::whole_box(grid));
+    FaceField u(uneven_grid, test::whole_box(uneven_grid));
     transform.to_points(velocity, u);
-    fluid::fill_ghosts(u, test::whole_box(grid));
+    fluid::fill_ghosts(u, test::whole_box(uneven_grid));
     return u;
   }
   void set(const FaceField& u) {
@@ -43,10 +42,11 @@ struct Box {
         mode /= 8.0 * 240.0;
   }
   Component pressure() {
-    fluid::ComponentTransform centred(grid, test::whole_box(grid), fluid::cell_centred);
-    Component p(grid.cells[0], grid.cells[1], grid.cells[2]);
+    fluid::ComponentTransform centred(uneven_grid, test::whole_box(uneven_grid),
+                                      fluid::cell_centred);
+    Component p(uneven_grid.cells[0], uneven_grid.cells[1], uneven_grid.cells[2]);
     centred.to_points(stokes.pressure(force_modes, centred.layout()), p);
-    fluid::fill_ghosts(p, test::whole_box(grid));
+    fluid::fill_ghosts(p, test::whole_box(uneven_grid));
     return p;
   }
 };
@@ -58,27 +58,27 @@ double laplacian(const Component& u, int i, int j, int k) {
     const int y = d == 1;
     const int z = d == 2;
     return (u.at(i + x, j + y, k + z) - 2.0 * u.at(i, j, k) + u.at(i - x, j - y, k - z)) /
-           (grid.spacing[d] * grid.spacing[d]);
+           (uneven_grid.spacing[d] * uneven_grid.spacing[d]);
   };
   return second(0) + second(1) + second(2);
 }
 double gradient(const Component& p, int d, int i, int j, int k) {
-  return (p.at(i, j, k) - p.at(i - (d == 0), j - (d == 1), k - (d == 2))) / grid.spacing[d];
+  return (p.at(i, j, k) - p.at(i - (d == 0), j - (d == 1), k - (d == 2))) / uneven_grid.spacing[d];
 }
 
 double wave_number(int d, int m) {
-  return 2.0 / grid.spacing[d] * std::sin(M_PI * m / (2.0 * grid.cells[d]));
+  return 2.0 / uneven_grid.spacing[d] * std::sin(M_PI * m / (2.0 * uneven_grid.cells[d]));
 }
 
 /// The solenoidal mode with numbers 2, 3, 5.
 FaceField single_mode() {
   const Vec3 k(wave_number(0, 2), wave_number(1, 3), wave_number(2, 5));
   const Vec3 amplitude = k.cross(Vec3(1.0, 0.3, -0.5));
-  return test::field_of(grid, [&](int c, const Vec3& x) {
+  return test::field_of(uneven_grid, [&](int c, const Vec3& x) {
     constexpr std::array<int, 3> m{2, 3, 5};
     double u = amplitude[c];
     for (int d = 0; d < 3; ++d) {
-      const double phase = M_PI * m[d] * x[d] / (grid.cells[d] * grid.spacing[d]);
+      const double phase = M_PI * m[d] * x[d] / (uneven_grid.cells[d] * uneven_grid.spacing[d]);
       u *= d == c ? std::cos(phase) : std::sin(phase);
     }
     return u;
@@ -90,17 +90,17 @@ FaceField single_mode() {
 TEST_CASE("the velocity after a step has no divergence", "[unit][fluid]") {
   Box box;
   for (unsigned seed = 1; seed < 4; ++seed) {
-    const FaceField u = box.step(test::random_field(grid, seed), drag);
+    const FaceField u = box.step(test::random_field(uneven_grid, seed), drag);
     CHECK(std::sqrt(test::product(u, u)) > 0.1);
-    CHECK(test::largest_divergence(u, grid) < 1e-14);  // rounding of velocities of 0.1
+    CHECK(test::largest_divergence(u, uneven_grid) < 1e-14);  // rounding of velocities of 0.1
   }
 }
 
 TEST_CASE("a step solves the discrete equations at every point, on the sides of the box too",
           "[unit][fluid]") {
   Box box;
-  const FaceField before = box.step(test::random_field(grid, 1), 0.0);
-  const FaceField force = test::random_field(grid, 2);
+  const FaceField before = box.step(test::random_field(uneven_grid, 1), 0.0);
+  const FaceField force = test::random_field(uneven_grid, 2);
   const FaceField after = box.step(force, drag);
   Component p = box.pressure();
   for (int c = 0; c < 3; ++c) {
@@ -125,10 +125,10 @@ TEST_CASE("a mode decays by its own factor", "[unit][fluid]") {
   const double loss = 0.5 * (blood.viscosity * k2 + blood.density * drag);
   const double factor = (blood.density / dt - loss) / (blood.density / dt + loss);
   const FaceField mode = single_mode();
-  REQUIRE(test::largest_divergence(mode, grid) < 1e-14);
+  REQUIRE(test::largest_divergence(mode, uneven_grid) < 1e-14);
   Box box;
   box.set(mode);
-  FaceField after = box.step(FaceField(grid, test::whole_box(grid)), drag);
+  FaceField after = box.step(FaceField(uneven_grid, test::whole_box(uneven_grid)), drag);
   for (int c = 0; c < 3; ++c)
     test::for_points(after.component[c], 0, [&](int i, int j, int k, double& u) {
       CHECK(u == Approx(factor * mode.component[c].at(i, j, k)).margin(1e-14));
@@ -137,10 +137,10 @@ TEST_CASE("a mode decays by its own factor", "[unit][fluid]") {
 
 TEST_CASE("a force that is a gradient moves nothing and makes its pressure", "[unit][fluid]") {
   test::RandomValues random(3);
-  Component potential(grid.cells[0], grid.cells[1], grid.cells[2]);
+  Component potential(uneven_grid.cells[0], uneven_grid.cells[1], uneven_grid.cells[2]);
   test::for_points(potential, 0, [&](int, int, int, double& value) { value = random(); });
-  fluid::fill_ghosts(potential, test::whole_box(grid));
-  FaceField force(grid, test::whole_box(grid));
+  fluid::fill_ghosts(potential, test::whole_box(uneven_grid));
+  FaceField force(uneven_grid, test::whole_box(uneven_grid));
   for (int c = 0; c < 3; ++c)
     test::for_points(force.component[c], 0,
                      [&](int i, int j, int k, double& f) { f = gradient(potential, c, i, j, k); });
@@ -157,13 +157,13 @@ TEST_CASE("drag takes a uniform share of every velocity and leaves an equilibriu
           "[unit][fluid]") {
   // a flow that a steady force keeps up, without drag; at rest drag does nothing
   Box rest;
-  const FaceField still = rest.step(FaceField(grid, test::whole_box(grid)), drag);
+  const FaceField still = rest.step(FaceField(uneven_grid, test::whole_box(uneven_grid)), drag);
   CHECK(test::product(still, still) == 0.0);
   Box with;
   Box without;
   with.set(single_mode());
   without.set(single_mode());
-  const FaceField none(grid, test::whole_box(grid));
+  const FaceField none(uneven_grid, test::whole_box(uneven_grid));
   for (int i = 0; i < 5; ++i) {
     const FaceField slow = with.step(none, drag);
     const FaceField fast = without.step(none, 0.0);

@@ -67,12 +67,6 @@ std::string complaint(const std::string& text) {
   return {};
 }
 
-Drawing in_scanner() {
-  Drawing drawing;
-  drawing.frame = oblique_frame();
-  return drawing;
-}
-
 /// The complaint about drawn contours after a change.
 std::string complaint_after(const std::function<void(Contours&)>& change) {
   Contours contours = draw(in_scanner());

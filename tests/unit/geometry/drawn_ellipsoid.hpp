@@ -19,8 +19,7 @@ using lv::geometry::Contours;
 using lv::geometry::Ellipsoid;
 using lv::geometry::Frame;
 using lv::geometry::Side;
-
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// A frame that is aligned with nothing, as a scanner's slices are.
 inline Frame oblique_frame() {
@@ -43,6 +42,13 @@ struct Drawing {
   double noise = 0.0;  ///< standard deviation across each line [mm]
   unsigned seed = 1;
 };
+
+/// Drawn askew in the scanner.
+inline Drawing in_scanner() {
+  Drawing drawing;
+  drawing.frame = oblique_frame();
+  return drawing;
+}
 
 inline double semi_axis_across(const Ellipsoid& e, Side side) {
   return side == Side::endo ? e.endo_radius : e.epi_radius;

@@ -20,8 +20,7 @@ std::string notes(const DrawnWall& wall) {
 
 /// Loops alone.
 Drawing short_axis_alone() {
-  Drawing drawing;
-  drawing.frame = oblique_frame();
+  Drawing drawing = in_scanner();
   drawing.long_axis = false;
   return drawing;
 }
@@ -57,8 +56,7 @@ TEST_CASE("a base plane in an annulus too far above the slices is laid at the en
 
 TEST_CASE("the base of a wall with long-axis curves moves with the muscle, not with the slices",
           "[unit][geometry]") {
-  Drawing drawing;
-  drawing.frame = oblique_frame();
+  Drawing drawing = in_scanner();
   drawing.spacing = 12.0;
   drawing.slices = 6;
   Contours contours = draw(drawing);
@@ -136,8 +134,7 @@ TEST_CASE("the long axis of a ventricle with a bent apex passes within every loo
 }
 
 TEST_CASE("a wall thicker than its cavity is wide is not called thin", "[unit][geometry]") {
-  Drawing drawing;
-  drawing.frame = oblique_frame();
+  Drawing drawing = in_scanner();
   drawing.shape.base_height *= 50.0 / drawing.shape.endo_length;
   drawing.shape.endo_radius = 9.0;
   drawing.shape.endo_length = 50.0;

@@ -20,12 +20,6 @@ using lv::geometry::fit_spline_wall;
 using lv::geometry::SplineFitParameters;
 using lv::geometry::SplineWall;
 
-Drawing in_scanner() {
-  Drawing drawing;
-  drawing.frame = oblique_frame();
-  return drawing;
-}
-
 /// The farthest distance of the fitted wall's two surfaces from the drawn ellipsoids [mm].
 double farthest(const SplineWall& wall, const Drawing& drawing) {
   double most = 0.0;

@@ -10,7 +10,7 @@ namespace {
 
 using lv::Vec3;
 using namespace lv::geometry;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 constexpr Spheroid spheroid{20.0, 55.0, -12.0};
 

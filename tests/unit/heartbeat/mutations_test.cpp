@@ -28,17 +28,17 @@ std::string checkpoint() {
   return test::bytes_of(folder / "checkpoint.bin");
 }
 
-void read_checkpoint(const std::filesystem::path& file) {
+void read_run_state(const std::filesystem::path& file) {
   static_cast<void>(load_run_state(Archive::read(file), phases({})));
 }
 
 }  // namespace
 
 TEST_CASE("damaged checkpoints are read or refused", "[unit][heartbeat][mutations]") {
-  test::try_damaged("checkpoint.bin", checkpoint(), read_checkpoint);
+  test::try_damaged("checkpoint.bin", checkpoint(), read_run_state);
 }
 
 TEST_CASE("checkpoints that say anything are read or refused",
           "[unit][heartbeat][mutations][records]") {
-  test::try_damaged("checkpoint.bin", checkpoint(), read_checkpoint, {}, test::repair_checksum);
+  test::try_damaged("checkpoint.bin", checkpoint(), read_run_state, {}, test::repair_checksum);
 }

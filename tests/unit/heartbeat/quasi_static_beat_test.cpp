@@ -9,7 +9,7 @@ namespace {
 using namespace lv;
 using heartbeat::Beat;
 
-const mesh::Mesh& coarse_mesh() {
+const mesh::Mesh& quadratic_mesh() {
   static const mesh::Mesh mesh = verify::ideal_mesh({.edge_length = 9.0, .layers = 2, .order = 2});
   return mesh;
 }
@@ -26,7 +26,7 @@ heartbeat::Protocol weak() {
 TEST_CASE("a quasi-static beat goes through the phases of its protocol and comes to their moments",
           "[heartbeat]") {
   const solid::CardiacModel heart;
-  const Beat beat = heartbeat::run_quasi_static_beat({coarse_mesh(), heart, {}, weak()}, {});
+  const Beat beat = heartbeat::run_quasi_static_beat({quadratic_mesh(), heart, {}, weak()}, {});
   const std::vector<heartbeat::Phase> phases = heartbeat::phases(weak());
   REQUIRE(beat.moments.size() == phases.size());
   double end = 0.0;
@@ -46,7 +46,7 @@ TEST_CASE("the calcium of a quasi-static beat is known where the muscle rests or
           "[heartbeat]") {
   const solid::CardiacModel heart;
   const heartbeat::Protocol protocol = weak();
-  const Beat beat = heartbeat::run_quasi_static_beat({coarse_mesh(), heart, {}, protocol}, {});
+  const Beat beat = heartbeat::run_quasi_static_beat({quadratic_mesh(), heart, {}, protocol}, {});
   for (const heartbeat::CurveRow& row : beat.curves)
     if (row.phase == "filling")
       CHECK(row.calcium == protocol.calcium.Ca_0);

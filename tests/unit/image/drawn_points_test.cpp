@@ -45,7 +45,7 @@ std::string circle(double radius) {
   return text;
 }
 
-std::string complaint(const test::TemporaryFolder& folder) {
+std::string complaint_of_sunnybrook(const test::TemporaryFolder& folder) {
   try {
     static_cast<void>(read_sunnybrook(folder / "", stack(), PixelOrigin::corner, DrawnBy::manual));
   } catch (const InputError& error) {
@@ -115,25 +115,24 @@ TEST_CASE("contours in pixels go to the plane of the image whose instance number
 TEST_CASE("contours without an image, broken lines and points outside are refused",
           "[unit][image]") {
   const test::TemporaryFolder folder;
-  CHECK_THAT(complaint(folder), Contains("holds no contours drawn by hand"));
+  CHECK_THAT(complaint_of_sunnybrook(folder), Contains("holds no contours drawn by hand"));
   const auto file = folder / "IM-0001-0002-icontour-manual.txt";
   test::write_bytes(file, "1 2\n3\n");
-  CHECK_THAT(complaint(folder), Contains("icontour-manual.txt:2: is no point"));
+  CHECK_THAT(complaint_of_sunnybrook(folder), Contains("icontour-manual.txt:2: is no point"));
   test::write_bytes(file, "1 2\n3 nan\n");
-  CHECK_THAT(complaint(folder), Contains("icontour-manual.txt:2: is no point"));
+  CHECK_THAT(complaint_of_sunnybrook(folder), Contains("icontour-manual.txt:2: is no point"));
   test::write_bytes(file, "1 2\n3 80\n");
-  CHECK_THAT(complaint(folder), Contains("lies outside the image of 64 x 64 pixels"));
+  CHECK_THAT(complaint_of_sunnybrook(folder), Contains("lies outside the image of 64 x 64 pixels"));
   test::write_bytes(file, "\n");
-  CHECK_THAT(complaint(folder), Contains("holds no points"));
+  CHECK_THAT(complaint_of_sunnybrook(folder), Contains("holds no points"));
   std::filesystem::remove(file);
   test::write_bytes(folder / "IM-0001-0099-icontour-manual.txt", circle(8.0));
-  CHECK_THAT(complaint(folder), Contains("no image of the DICOM series has the InstanceNumber 99"));
+  CHECK_THAT(complaint_of_sunnybrook(folder),
+             Contains("no image of the DICOM series has the InstanceNumber 99"));
 }
 
 TEST_CASE("guide points in any order become the wall that they were taken from", "[unit][image]") {
-  drawn::Drawing drawing;
-  drawing.frame = drawn::oblique_frame();
-  const geometry::Contours contours = drawn::draw(drawing);
+  const geometry::Contours contours = drawn::draw(drawn::in_scanner());
   const test::TemporaryFolder folder;
   test::write_bytes(folder / "points.txt", list(contours));
   const GuidePoints read = read_guide_points(folder / "points.txt", std::nullopt, Side::epi);
@@ -165,8 +164,9 @@ TEST_CASE("subfolders of contours are read, and a border drawn twice is refused"
   CHECK(drawn.phases.at(2).short_axis.size() == 6);
   geometry::check_contours(drawn.phases.at(2));
   test::write_bytes(folder / "IM-0002-0022-icontour-manual.txt", circle(7.0));
-  CHECK_THAT(complaint(folder), Contains("i-contours/IM-0001-0022-icontour-manual.txt") &&
-                                    Contains("draws the same border of the same image as"));
+  CHECK_THAT(complaint_of_sunnybrook(folder),
+             Contains("i-contours/IM-0001-0022-icontour-manual.txt") &&
+                 Contains("draws the same border of the same image as"));
 }
 
 TEST_CASE("guide points are read under the names of columns that their writers give",

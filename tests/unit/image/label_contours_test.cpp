@@ -10,6 +10,7 @@
 #include "lv/phantom/ventricle.hpp"
 
 #include "geometry/drawn_ellipsoid.hpp"
+#include "image/nifti_files.hpp"
 #include "support/scanner_files.hpp"
 #include "support/temporary_folder.hpp"
 #include <Eigen/Geometry>
@@ -26,8 +27,7 @@ using namespace lv;
 using namespace lv::image;
 using Catch::Matchers::Contains;
 using geometry::Side;
-
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// A ventricle of the model frame: cavity 1, muscle 2 up to the base plane.
 int ventricle(const geometry::Ellipsoid& e, const Vec3& X) {
@@ -60,9 +60,7 @@ Volume askew(int along, const std::function<int(const Vec3&, int)>& change) {
         const Vec3 X = frame.to_model(x);
         return change(X, ventricle(e, X));
       });
-  const test::TemporaryFolder folder;
-  test::write_bytes(folder / "map.nii", test::nifti_bytes(spec));
-  return read_nifti(folder / "map.nii");
+  return test::read_back(spec);
 }
 
 int unchanged(const Vec3&, int label) {
@@ -168,11 +166,8 @@ Volume turned(double angle, double voxel) {
   const int n = static_cast<int>(120.0 / voxel);
   const std::array<int, 3> size{n, n, n};
   const Vec3 origin = Vec3(0.0, 0.0, -35.0) - directions * (0.5 * (n - 1) * spacing);
-  const test::TemporaryFolder folder;
-  test::write_bytes(folder / "map.nii", test::nifti_bytes(test::label_map(
-                                            size, directions, spacing, origin,
-                                            [&](const Vec3& X) { return ventricle(e, X); })));
-  return read_nifti(folder / "map.nii");
+  return test::read_back(test::label_map(size, directions, spacing, origin,
+                                         [&](const Vec3& X) { return ventricle(e, X); }));
 }
 
 }  // namespace
@@ -230,10 +225,9 @@ TEST_CASE("a map of small voxels along the patient's axes is resampled across th
   const std::array<int, 3> size{90, 90, 90};
   const Vec3 spacing = Vec3::Constant(1.5);
   const Vec3 origin = frame.to_image({0.0, 0.0, -38.0}) - 0.5 * 89.0 * spacing;
-  const test::TemporaryFolder folder;
-  test::write_bytes(folder / "axial.nii", test::nifti_bytes(test::label_map(
-                                              size, Mat3::Identity(), spacing, origin, label)));
-  LabelContours labels = trace_labels(read_nifti(folder / "axial.nii"), {{4}, {9}, {}}, 0);
+  const Volume map =
+      test::read_back(test::label_map(size, Mat3::Identity(), spacing, origin, label));
+  LabelContours labels = trace_labels(map, {{4}, {9}, {}}, 0);
   CHECK_THAT(all(labels.notes), Contains("the labels were resampled to"));
   CHECK(labels.cavity == Approx(motion.cavity_volume()).epsilon(0.01));  // voxels of the map itself
   close_walls(labels.contours, 1.0, labels.notes);

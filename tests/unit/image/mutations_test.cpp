@@ -10,11 +10,11 @@
 #include "lv/image/nifti.hpp"
 #include "lv/image/sunnybrook.hpp"
 
+#include "image/nifti_files.hpp"
 #include "support/scanner_files.hpp"
 #include "support/temporary_folder.hpp"
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include <array>
 #include <cmath>
@@ -73,15 +73,6 @@ std::string floating_bytes() {
   return test::nifti_bytes(spec);
 }
 
-std::string packed(const std::string& bytes) {
-  const test::TemporaryFolder folder;
-  const std::filesystem::path file = folder / "packed.gz";
-  const gzFile stream = gzopen(file.c_str(), "wb");
-  gzwrite(stream, bytes.data(), static_cast<unsigned>(bytes.size()));
-  gzclose(stream);
-  return test::bytes_of(file);
-}
-
 /// Point i of a loop of 24 with a radius.
 std::array<double, 2> on_circle(int i, double radius) {
   return {30 + radius * std::cos(0.2618 * i), 30 + radius * std::sin(0.2618 * i)};
@@ -120,7 +111,7 @@ TEST_CASE("damaged DICOM files of several frames are read or refused", "[unit][i
 TEST_CASE("damaged NIfTI files are read or refused", "[unit][image][mutations]") {
   try_damaged("x.nii", test::nifti_bytes(labels()), read_labels);
   try_damaged("x.nii", floating_bytes(), read_floating);
-  try_damaged("x.nii.gz", packed(floating_bytes()), read_floating);
+  try_damaged("x.nii.gz", test::gzipped(floating_bytes()), read_floating);
 }
 
 TEST_CASE("NIfTI headers that say anything are read or refused", "[unit][image][mutations]") {

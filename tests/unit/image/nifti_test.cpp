@@ -3,11 +3,11 @@
 #include "lv/base/check.hpp"
 #include "lv/image/lookup.hpp"
 
+#include "image/nifti_files.hpp"
 #include "support/scanner_files.hpp"
 #include "support/temporary_folder.hpp"
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
-#include <zlib.h>
 
 #include <algorithm>
 #include <array>
@@ -21,28 +21,13 @@ namespace {
 using namespace lv;
 using namespace lv::image;
 using Catch::Matchers::Contains;
-
-Mat3 oblique() {
-  return Eigen::AngleAxisd(1.1, Vec3(0.4, 0.5, -0.6).normalized()).toRotationMatrix();
-}
+using test::gzipped;
+using test::oblique;
+using test::read_back;
 
 test::NiftiSpec small(const Mat3& directions) {
   return test::label_map({3, 4, 5}, directions, {1.0, 2.0, 8.0}, {10.0, -20.0, 30.0},
                          [n = 0](const Vec3&) mutable { return n++ % 7; });
-}
-
-Volume read(const test::NiftiSpec& spec, const std::string& name = "x.nii") {
-  const test::TemporaryFolder folder;
-  test::write_bytes(folder / name, test::nifti_bytes(spec));
-  return read_nifti(folder / name);
-}
-
-std::string packed(const std::string& bytes) {
-  const test::TemporaryFolder folder;
-  const gzFile stream = gzopen((folder / "x").c_str(), "wb");
-  gzwrite(stream, bytes.data(), static_cast<unsigned>(bytes.size()));
-  gzclose(stream);
-  return test::bytes_of(folder / "x");
 }
 
 /// The sform in another unit of length.
@@ -78,13 +63,11 @@ TEST_CASE("a NIfTI image lies where its sform or qform says, in any order and di
   mirrored.col(1) *= -1.0;
   const auto code = GENERATE(std::array{1, 0}, std::array{0, 1}, std::array{1, 1});
   for (const Mat3& directions : {Mat3(Mat3::Identity()), oblique(), swapped, mirrored}) {
-    const test::TemporaryFolder folder;
     test::NiftiSpec spec = small(directions);
     spec.same_qform = true;
     spec.sform_code = code[0];
     spec.qform_code = code[1];
-    test::write_bytes(folder / "x.nii", test::nifti_bytes(spec));
-    const Volume v = read_nifti(folder / "x.nii");
+    const Volume v = read_back(spec);
     CHECK((v.directions - directions).norm() < 1e-5);
     const Vec3 expected = Vec3(10.0, -20.0, 30.0) + directions * Vec3(2.0, 2.0 * 3.0, 8.0 * 4.0);
     CHECK((v.point({2.0, 3.0, 4.0}) - expected).norm() < 1e-3);
@@ -107,9 +90,7 @@ TEST_CASE("slope and intercept of a NIfTI image are applied; times are kept", "[
     spec.values.push_back(9);
   spec.slope = 0.5F;
   spec.intercept = 2.0F;
-  const test::TemporaryFolder folder;
-  test::write_bytes(folder / "x.nii", test::nifti_bytes(spec));
-  const Volume v = read_nifti(folder / "x.nii");
+  const Volume v = read_back(spec);
   REQUIRE(v.frames == 2);
   CHECK(v.time_step == Approx(0.04));
   CHECK(v.at(0, 0, 0, 0) == 2.0F);
@@ -135,14 +116,14 @@ TEST_CASE("a sheared sform and a sform that contradicts the qform are refused", 
 
 TEST_CASE("metres and micrometres become millimetres, of the sform and of the qform",
           "[unit][image]") {
-  const Volume mm = read(small(oblique()));
+  const Volume mm = read_back(small(oblique()));
   for (const auto& [code, per_mm] : {std::pair(1, 1e-3), {3, 1e3}, {2, 1.0}, {0, 1.0}})
     for (const bool by_qform : {false, true}) {
       test::NiftiSpec spec = in_unit(small(oblique()), code, per_mm);
       spec.same_qform = by_qform;
       spec.qform_code = by_qform ? 1 : 0;
       spec.sform_code = by_qform ? 0 : 1;
-      const Volume v = read(spec);
+      const Volume v = read_back(spec);
       CHECK((v.spacing - mm.spacing).norm() < 1e-5);
       CHECK((v.origin - mm.origin).norm() < 1e-3);
     }
@@ -161,7 +142,7 @@ TEST_CASE("axes a little off right angles, by rounding, become orthonormal", "[u
       CHECK_THAT(complaint(spec), Contains("not at right angles, i and j are 89.80 degrees apart"));
       continue;
     }
-    const Volume v = read(spec);
+    const Volume v = read_back(spec);
     CHECK((v.directions.transpose() * v.directions - Mat3::Identity()).norm() < 1e-12);
     CHECK((v.directions - Mat3::Identity()).norm() < 2e-3);
     CHECK(v.notes.empty());
@@ -173,7 +154,7 @@ TEST_CASE("lengths of the sform that are not the sizes of voxels are told apart 
   test::NiftiSpec directions = test::label_map({3, 4, 5}, oblique(), Vec3::Ones(), Vec3(1, 2, 3),
                                                [](const Vec3&) { return 0; });
   directions.pixdim = {1.5, 1.5, 8.0};
-  const Volume by_pixdim = read(directions);
+  const Volume by_pixdim = read_back(directions);
   CHECK((by_pixdim.spacing - Vec3(1.5, 1.5, 8.0)).norm() < 1e-6);
   CHECK((by_pixdim.directions - oblique()).norm() < 1e-5);
   CHECK((by_pixdim.origin - Vec3(1, 2, 3)).norm() < 1e-5);
@@ -182,7 +163,7 @@ TEST_CASE("lengths of the sform that are not the sizes of voxels are told apart 
                                                "voxel sizes (pixdim) (1.5, 1.5, 8)"));
   test::NiftiSpec lengths = small(oblique());
   lengths.pixdim = {1.0, 1.0, 1.0};
-  const Volume by_sform = read(lengths);
+  const Volume by_sform = read_back(lengths);
   CHECK((by_sform.spacing - Vec3(1.0, 2.0, 8.0)).norm() < 1e-6);
   REQUIRE(by_sform.notes.size() == 1);
   CHECK_THAT(by_sform.notes.front(), Contains("are not its voxel sizes (pixdim) (1, 1, 1)"));
@@ -197,7 +178,7 @@ TEST_CASE("a header of ones at the origin is noted as one that says nothing", "[
   spec.values.assign(8, 1.0);
   for (int d = 0; d < 3; ++d)
     spec.sform[d][d] = 1.0;
-  const Volume v = read(spec);
+  const Volume v = read_back(spec);
   REQUIRE(v.notes.size() == 1);
   CHECK_THAT(v.notes.front(), Contains("its voxels measure 1 x 1 x 1 mm"));
 }
@@ -205,10 +186,10 @@ TEST_CASE("a header of ones at the origin is noted as one that says nothing", "[
 TEST_CASE("NIfTI-2, capital endings and packed files of any name are read alike", "[unit][image]") {
   test::NiftiSpec spec = small(oblique());
   spec.slope = 2.0F;
-  const Volume plain = read(spec);
+  const Volume plain = read_back(spec);
   const test::TemporaryFolder folder;
-  test::write_bytes(folder / "X.NII.GZ", packed(test::nifti_bytes(spec)));
-  test::write_bytes(folder / "packed.nii", packed(test::nifti_bytes(spec)));
+  test::write_bytes(folder / "X.NII.GZ", gzipped(test::nifti_bytes(spec)));
+  test::write_bytes(folder / "packed.nii", gzipped(test::nifti_bytes(spec)));
   spec.version = 2;
   test::write_bytes(folder / "second.nii", test::nifti_bytes(spec));
   for (const char* name : {"X.NII.GZ", "packed.nii", "second.nii"}) {
@@ -244,7 +225,7 @@ TEST_CASE("a file in the other byte order is read alike", "[unit][image]") {
   const test::TemporaryFolder folder;
   test::write_bytes(folder / "x.nii", bytes);
   const Volume v = read_nifti(folder / "x.nii");
-  CHECK(v.values == read(spec).values);
+  CHECK(v.values == read_back(spec).values);
   CHECK((v.directions - oblique()).norm() < 1e-5);
 }
 
@@ -259,8 +240,8 @@ TEST_CASE("header and voxels of a pair are found from either, in any case of the
   CHECK_THROWS_WITH(read_nifti(folder / "A.HDR"), Contains("A.img is not beside it"));
   test::write_bytes(folder / "A.IMG", whole.substr(352));
   test::write_bytes(folder / "b.hdr", header);
-  test::write_bytes(folder / "b.img.gz", packed(whole.substr(352)));
-  const Volume plain = read(small(oblique()));
+  test::write_bytes(folder / "b.img.gz", gzipped(whole.substr(352)));
+  const Volume plain = read_back(small(oblique()));
   for (const char* name : {"A.HDR", "A.IMG", "b.hdr", "b.img.gz"})
     CHECK(read_nifti(folder / name).values == plain.values);
   std::string analyze = header;
@@ -274,7 +255,7 @@ TEST_CASE("labels that went through a slope are whole numbers still", "[unit][im
   for (double& value : spec.values)
     value *= 42;  // stored; 0 to 252
   spec.slope = static_cast<float>(1.0 / 42.0);
-  const Volume v = read(spec);
+  const Volume v = read_back(spec);
   CHECK(v.at(1, 0, 0) == 1.0F);
   CHECK(label_volumes(v).size() == 7);
 }
@@ -284,12 +265,12 @@ TEST_CASE("times that are no heart's cycle are not taken", "[unit][image]") {
   spec.size[3] = 25;
   spec.values.assign(60 * 25, 1.0);
   spec.time_step = 1.0;
-  const Volume v = read(spec);
+  const Volume v = read_back(spec);
   CHECK(v.time_step == 0.0);
   CHECK_THAT(v.notes.front(), Contains("its 25 frames follow each other after 1 s"));
   spec.time_step = 40.0;
   spec.units = 2 | 16;  // mm, ms
-  CHECK(read(spec).time_step == Approx(0.04));
+  CHECK(read_back(spec).time_step == Approx(0.04));
 }
 
 TEST_CASE("an image larger than memory is refused as that", "[unit][image]") {

@@ -5,9 +5,9 @@
 #include "lv/image/label_contours.hpp"
 #include "lv/image/nifti.hpp"
 
+#include "image/nifti_files.hpp"
 #include "support/scanner_files.hpp"
 #include "support/temporary_folder.hpp"
-#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
 #include <array>
@@ -18,6 +18,8 @@ namespace {
 using namespace lv;
 using namespace lv::image;
 using Catch::Matchers::Contains;
+using test::oblique;
+using test::read_back;
 
 constexpr double cavity_radius = 20.0;  // [mm]
 constexpr double wall_radius = 30.0;
@@ -25,12 +27,12 @@ constexpr std::array<int, 3> size{60, 64, 8};
 constexpr double pixels = 0.02;  // what a circle of pixels differs from one, relative
 
 /// What the labels of a data set are.
-struct Labels {
+struct DataSetLabels {
   int cavity, muscle, right_ventricle, scar;
 };
 
 /// A round ventricle on all slices, in the plane of the image, with a scar on one side.
-test::NiftiSpec ventricle(const Mat3& directions, const Vec3& spacing, const Labels& labels,
+test::NiftiSpec ventricle(const Mat3& directions, const Vec3& spacing, const DataSetLabels& labels,
                           double radius = cavity_radius) {
   const Vec3 origin(-40.0, 15.0, 60.0);
   const Vec3 middle(0.5 * size[0] * spacing.x(), 0.5 * size[1] * spacing.y(), 0.0);
@@ -54,18 +56,8 @@ test::NiftiSpec with_unit_vectors(test::NiftiSpec spec, const Vec3& spacing) {
   return spec;
 }
 
-Volume read(const test::NiftiSpec& spec) {
-  const test::TemporaryFolder folder;
-  test::write_bytes(folder / "map.nii", test::nifti_bytes(spec));
-  return read_nifti(folder / "map.nii");
-}
-
 double cylinder(const Vec3& spacing, double radius = cavity_radius) {
   return std::numbers::pi * radius * radius * spacing.z() * size[2];
-}
-
-Mat3 oblique() {
-  return Eigen::AngleAxisd(0.9, Vec3(0.3, -0.4, 0.5).normalized()).toRotationMatrix();
 }
 
 }  // namespace
@@ -73,13 +65,13 @@ Mat3 oblique() {
 TEST_CASE("label maps of the ACDC kind: sizes stand in pixdim, by sform, by qform and by both",
           "[unit][image]") {
   const Vec3 spacing(1.5625, 1.5625, 10.0);
-  const Labels labels{3, 2, 1, 2};
+  const DataSetLabels labels{3, 2, 1, 2};
   for (const auto& [sform, qform] : {std::pair(1, 0), {2, 1}, {0, 1}}) {
     test::NiftiSpec spec = with_unit_vectors(ventricle(Mat3::Identity(), spacing, labels), spacing);
     spec.sform_code = sform;
     spec.qform_code = qform;
     spec.same_qform = true;
-    const Volume v = read(spec);
+    const Volume v = read_back(spec);
     CHECK((v.spacing - spacing).norm() < 1e-5);
     CHECK(slice_axis(v) == 2);
     const LabelContours traced = trace_labels(v, {{3}, {2}, {1}}, 0);
@@ -115,8 +107,9 @@ TEST_CASE(
 TEST_CASE("label maps of the EMIDEC kind: scar and no-reflow labels, sizes in pixdim",
           "[unit][image]") {
   const Vec3 spacing(1.458, 1.458, 10.0);
-  const Labels labels{1, 2, 0, 3};
-  const Volume v = read(with_unit_vectors(ventricle(Mat3::Identity(), spacing, labels), spacing));
+  const DataSetLabels labels{1, 2, 0, 3};
+  const Volume v =
+      read_back(with_unit_vectors(ventricle(Mat3::Identity(), spacing, labels), spacing));
   const auto volumes = label_volumes(v);
   CHECK(volumes.at(1) == Approx(cylinder(spacing)).epsilon(pixels));
   const double wall = cylinder(spacing, wall_radius) - cylinder(spacing);
@@ -129,7 +122,7 @@ TEST_CASE("maps of the M&Ms kind: of many frames two are labelled, and they are 
   constexpr int diastole = 0;
   constexpr int systole = 9;
   const Vec3 spacing(1.2, 1.2, 9.2);
-  const Labels labels{1, 2, 3, 2};
+  const DataSetLabels labels{1, 2, 3, 2};
   test::NiftiSpec spec = ventricle(oblique(), spacing, labels);
   const std::vector<double> large = spec.values;
   const std::vector<double> small = ventricle(oblique(), spacing, labels, 14.0).values;
@@ -140,7 +133,7 @@ TEST_CASE("maps of the M&Ms kind: of many frames two are labelled, and they are 
   spec.values.assign(25 * large.size(), 0.0);
   std::copy(large.begin(), large.end(), spec.values.begin() + diastole * large.size());
   std::copy(small.begin(), small.end(), spec.values.begin() + systole * large.size());
-  const Volume v = read(spec);
+  const Volume v = read_back(spec);
   CHECK((v.directions - oblique()).norm() < 1e-5);
   const std::vector<double> curve = volume_curve(v, {1});
   CHECK(curve[diastole] == Approx(cylinder(spacing)).epsilon(pixels));

@@ -3,6 +3,7 @@
 #include "lv/immersed/quadrature_coupling.hpp"
 
 #include "support/block_mesh.hpp"
+#include "support/cell_kinds.hpp"
 #include "support/fluid_fields.hpp"
 #include <catch2/catch.hpp>
 
@@ -16,8 +17,7 @@ using immersed::CouplingParameters;
 using immersed::Kernel;
 using mesh::CellKind;
 using mesh::Mesh;
-
-constexpr std::array kinds{CellKind::hexahedron, CellKind::tetrahedron};
+using test::kinds;
 
 /// A box around the block of cells 2 mm wide, with a grid as wide as them or half.
 Grid box(double spacing) {

@@ -16,7 +16,7 @@ double moment(const AxisWeights& w, double s, const std::function<double(double)
   return sum;
 }
 
-constexpr auto kernels = {peskin4, cubic_bspline, quadratic_bspline};
+constexpr auto axis_kernels = {peskin4, cubic_bspline, quadratic_bspline};
 constexpr double rounding = 1e-14;  // coordinates up to 40
 
 /// Calls check(s) for points all over a cell, on grid points and half way between them.
@@ -29,7 +29,7 @@ void for_coordinates(const Check& check) {
 }  // namespace
 
 TEST_CASE("kernels are positive, sum to one and have no first moment", "[unit][immersed]") {
-  for (const auto kernel : kernels) {
+  for (const auto kernel : axis_kernels) {
     for_coordinates([&](double s) {
       const AxisWeights w = kernel(s);
       for (const double weight : w.weight)
@@ -41,7 +41,7 @@ TEST_CASE("kernels are positive, sum to one and have no first moment", "[unit][i
 }
 
 TEST_CASE("kernels reach no further than two cells", "[unit][immersed]") {
-  for (const auto kernel : kernels) {
+  for (const auto kernel : axis_kernels) {
     for_coordinates([&](double s) {
       const AxisWeights w = kernel(s);
       for (int i = 0; i < 4; ++i)

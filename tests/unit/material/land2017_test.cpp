@@ -8,8 +8,8 @@
 namespace {
 
 using namespace lv;
+using material::CrossBridges;
 using material::Land2017;
-using State = material::CrossBridges<double>;
 
 }  // namespace
 
@@ -17,8 +17,8 @@ TEST_CASE("a steady state of human muscle stays as it is, whatever the step", "[
   const Land2017 law;
   for (const double Ca : {0.05, 0.3, 1.0})
     for (const double dt : {1e-4, 2e-3, 1.0}) {
-      const State steady = law.steady_state(Ca, 1.07);
-      State state = steady;
+      const CrossBridges<double> steady = law.steady_state(Ca, 1.07);
+      CrossBridges<double> state = steady;
       for (int i = 0; i < 1000; ++i)
         law.advance(state, 1.07, Ca, Ca, dt);
       CHECK(state.CaTRPN == Approx(steady.CaTRPN).epsilon(1e-11));
@@ -44,9 +44,9 @@ TEST_CASE("the slope of human muscle's steady tension is its derivative", "[unit
 
 TEST_CASE("human muscle resists a sudden stretch by A h (S + W) T_ref/r_s", "[unit][material]") {
   const Land2017 law;
-  const State steady = law.steady_state(0.6, 0.86);
+  const CrossBridges<double> steady = law.steady_state(0.6, 0.86);
   const auto tension_after = [&](double strain) {
-    State state = steady;
+    CrossBridges<double> state = steady;
     law.advance(state, 0.86 + strain, 0.6, 0.6, 1e-10);
     return state.tension;
   };
@@ -61,7 +61,7 @@ TEST_CASE("human muscle resists a sudden stretch by A h (S + W) T_ref/r_s", "[un
 TEST_CASE("calcium never binds to more troponin than there is, nor do sites become fewer than none",
           "[unit][material]") {
   const Land2017 law;
-  State state = law.steady_state(0.1, 1.0);
+  CrossBridges<double> state = law.steady_state(0.1, 1.0);
   for (int i = 0; i < 100; ++i) {
     law.advance(state, 1.0, 100.0, 100.0, 1e-3);
     CHECK(state.CaTRPN <= 1.0);
@@ -74,8 +74,8 @@ TEST_CASE("calcium never binds to more troponin than there is, nor do sites beco
 TEST_CASE("packs of human muscle advance like single cells", "[unit][material]") {
   const Land2017 law;
   const auto stretch = [](int i) { return 0.85 + 0.04 * i; };
-  material::CrossBridges<Pack> pack;
-  std::vector<State> single(pack_size);
+  CrossBridges<Pack> pack;
+  std::vector<CrossBridges<double>> single(pack_size);
   for (int step = 1; step <= 200; ++step) {
     const double swing = 1.0 + 0.02 * std::sin(0.1 * step);
     law.advance(pack, test::packed([&](int i) { return swing * stretch(i); }), 0.8, 0.9, 1e-4);

@@ -17,7 +17,7 @@ namespace {
 using namespace lv;
 using material::Calcium;
 using material::NiedererHunterSmith;
-using State = material::Sarcomere<double>;
+using material::Sarcomere;
 
 /// The unscaled cell, T_ref = 56.2 kPa. Reference values "computed independently" are for it, by
 /// stiff integration and root searches with tolerances of 1e-10.
@@ -38,17 +38,18 @@ Course paper_calcium(Calcium::Mode mode) {
 }
 
 /// Calcium bound in balance with 0.01 uM, no sites, no memory.
-State nearly_resting(double stretch) {
-  State state;
+Sarcomere<double> nearly_resting(double stretch) {
+  Sarcomere<double> state;
   state.Ca_trpn = 0.348258706;
   state.stretch = stretch;
   return state;
 }
 
 /// The state after every step from 0 to the end.
-std::vector<State> integrate(const NiedererHunterSmith& law, State state, const Course& calcium,
-                             const Course& stretch, double end, double dt) {
-  std::vector<State> states{state};
+std::vector<Sarcomere<double>> integrate(const NiedererHunterSmith& law, Sarcomere<double> state,
+                                         const Course& calcium, const Course& stretch, double end,
+                                         double dt) {
+  std::vector<Sarcomere<double>> states{state};
   const auto steps = std::lround(end / dt);
   for (long i = 0; i < steps; ++i) {
     const double after = static_cast<double>(i + 1) * dt;
@@ -61,7 +62,7 @@ std::vector<State> integrate(const NiedererHunterSmith& law, State state, const 
 /// T over T_0 after an instantaneous step of the stretch from 1.
 double tension_after_step(double strain) {
   const NiedererHunterSmith law = unscaled();
-  State state = law.steady_state(1.0, 1.0);
+  Sarcomere<double> state = law.steady_state(1.0, 1.0);
   law.advance(state, 1.0 + strain, 1.0, 1.0, 1e-10);
   return state.tension / law.isometric_tension(state);
 }
@@ -167,8 +168,8 @@ TEST_CASE("the steady isometric tension is that of the reference", "[unit][mater
 TEST_CASE("a steady state stays as it is", "[unit][material]") {
   const NiedererHunterSmith law;
   for (const double Ca : {0.01, 0.3, 1.0}) {
-    const State steady = law.steady_state(Ca, 1.07);
-    State state = steady;
+    const Sarcomere<double> steady = law.steady_state(Ca, 1.07);
+    Sarcomere<double> state = steady;
     for (int i = 0; i < 1000; ++i)
       law.advance(state, 1.07, Ca, Ca, 1e-4);
     // the root search knows z to 2^-50
@@ -239,7 +240,7 @@ TEST_CASE("ramp shortening follows the reference", "[unit][material]") {
                              {0.8, 12.2271485},
                              {1.0, 11.5450699}})
     CHECK(states[std::lround(t / dt)].tension == Approx(T).epsilon(1e-5));
-  const State& shortening = states[std::lround(0.3 / dt)];
+  const Sarcomere<double>& shortening = states[std::lround(0.3 / dt)];
   CHECK(shortening.Q[0] == Approx(0.48213527).epsilon(1e-7));  // integrated exactly
   CHECK(shortening.Q[1] == Approx(-0.530769231).epsilon(1e-7));
   CHECK(shortening.Q[2] == Approx(-0.1032).epsilon(1e-7));
@@ -257,7 +258,7 @@ TEST_CASE("the fading memory gives the reference's force-velocity curve", "[unit
                                     {1.0, 1.31255340},
                                     {2.0, 1.50758922},
                                     {-9.4836055, 0.0}}) {
-    State state = law.steady_state(1.0, 1.0);
+    Sarcomere<double> state = law.steady_state(1.0, 1.0);
     for (int i = 0; i < 1000; ++i)  // 1 s is 30 times the longest memory
       law.advance(state, state.stretch, rate, 1.0, 1.0, 1e-3);
     CHECK(law.fading_memory(state.Q[0] + state.Q[1] + state.Q[2]) == Approx(ratio).margin(6e-9));
@@ -283,7 +284,7 @@ TEST_CASE("a rate held for a while leaves the memory that (A.11) says", "[unit][
   // Chaste's unit test has -25.057, 77.248, 20.601 from its own time steps.
   const NiedererHunterSmith law = unscaled();
   for (const int steps : {1, 10}) {
-    State state;
+    Sarcomere<double> state;
     for (int i = 0; i < steps; ++i)
       law.advance(state, 1.0, 100.0, 0.0, 0.0, 0.01 / steps);
     CHECK(state.Q[0] == Approx(-29.0 * 100.0 * -std::expm1(-0.3) / 30.0));
@@ -346,7 +347,7 @@ TEST_CASE("the stretch is limited to [0.8, 1.15] in binding and overlap", "[unit
 
 TEST_CASE("however fast muscle shortens its tension is never negative", "[unit][material]") {
   const NiedererHunterSmith law;
-  State state = law.steady_state(1.0, 1.1);
+  Sarcomere<double> state = law.steady_state(1.0, 1.1);
   bool slack = false;
   for (int i = 0; i < 100; ++i) {
     law.advance(state, state.stretch - 0.002, 1.0, 1.0, 1e-4);  // 20/s
@@ -359,7 +360,7 @@ TEST_CASE("however fast muscle shortens its tension is never negative", "[unit][
 TEST_CASE("however fast muscle lengthens no more calcium is bound than there is room for",
           "[unit][material]") {
   const auto most_bound = [](const NiedererHunterSmith& law) {
-    State state = law.steady_state(10.0, 1.0);
+    Sarcomere<double> state = law.steady_state(10.0, 1.0);
     double most = 0.0;
     for (int i = 0; i < 1000; ++i) {
       law.advance(state, 1.15, 20.0, 10.0, 10.0, 1e-4);  // 20/s at a limited length
@@ -376,8 +377,8 @@ TEST_CASE("however fast muscle lengthens no more calcium is bound than there is 
 TEST_CASE("packs advance like single cells, each lane with its own stretch", "[unit][material]") {
   const NiedererHunterSmith law;
   const auto stretch = [](int i) { return 0.85 + 0.04 * i; };
-  material::Sarcomere<Pack> pack;
-  std::vector<State> single(pack_size);
+  Sarcomere<Pack> pack;
+  std::vector<Sarcomere<double>> single(pack_size);
   for (int step = 1; step <= 200; ++step) {
     const double swing = 1.0 + 0.02 * std::sin(0.1 * step);
     law.advance(pack, test::packed([&](int i) { return swing * stretch(i); }), 0.8, 0.9, 1e-4);

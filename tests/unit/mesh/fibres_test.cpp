@@ -1,24 +1,23 @@
 #include "lv/mesh/fibres.hpp"
 
+#include "lv/base/units.hpp"
 #include "lv/geometry/ellipsoid.hpp"
 #include "lv/mesh/cell.hpp"
-#include "lv/mesh/import.hpp"
 #include "lv/mesh/split.hpp"
 #include "lv/mesh/transmural.hpp"
+#include "lv/mesh_io/import.hpp"
 
-#include "mesh/mesh_files.hpp"
+#include "mesh_io/mesh_files.hpp"
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
 #include <cmath>
-#include <numbers>
 
 namespace {
 
 using namespace lv;
 using mesh::Mesh;
-
-constexpr double degree = std::numbers::pi / 180.0;
+using units::degree;
 
 /// Exact depth and axes at a place in the wall of an ellipsoid.
 struct ExactWall {
@@ -95,7 +94,7 @@ Mesh imported_tetrahedra(double edge_length) {
   const test::TemporaryFile file(".msh", test::gmsh41_text(mesh));
   mesh::ImportParameters parameters;
   parameters.file = file.path();
-  return mesh::import_mesh(parameters).mesh;
+  return mesh_io::import_mesh(parameters).mesh;
 }
 
 }  // namespace

@@ -4,15 +4,16 @@
 #include "lv/base/units.hpp"
 #include "lv/geometry/ellipsoid.hpp"
 #include "lv/mesh/cell.hpp"
-#include "lv/mesh/closed_surface.hpp"
-#include "lv/mesh/import.hpp"
-#include "lv/mesh/label_volume.hpp"
 #include "lv/mesh/refine.hpp"
 #include "lv/mesh/split.hpp"
 #include "lv/mesh/surface.hpp"
+#include "lv/mesh_io/closed_surface.hpp"
+#include "lv/mesh_io/import.hpp"
+#include "lv/mesh_io/label_volume.hpp"
 
-#include "mesh/mesh_files.hpp"
+#include "mesh_io/mesh_files.hpp"
 #include "support/block_mesh.hpp"
+#include "support/cell_kinds.hpp"
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
@@ -28,9 +29,8 @@ using mesh::CellKind;
 using mesh::DescribedInfarct;
 using mesh::Infarcted;
 using mesh::Mesh;
+using test::kinds;
 using units::degree;
-
-constexpr std::array kinds{CellKind::hexahedron, CellKind::tetrahedron};
 
 double volume(const Mesh& mesh, const Infarcted& infarcted) {
   double sum = 0.0;
@@ -274,7 +274,7 @@ TEST_CASE("the skin of an infarct, read as a surface, holds the same elements", 
     const Mesh mesh = test::coarse_mesh(kind);
     const auto infarcted = as_described(mesh, {.transmurality = 0.6}, {});
     const test::TemporaryFile file(".stl", stl_text(skin(mesh, infarcted)));
-    const auto surface = mesh::read_closed_surface(file.path(), 1.0);
+    const auto surface = mesh_io::read_closed_surface(file.path(), 1.0);
     CHECK((mesh::infarcted_where(
                mesh, [&](const Vec3& X, double) { return surface.contains(X); }) == infarcted));
   }
@@ -292,7 +292,7 @@ TEST_CASE("surfaces come from STL, PLY and VTK files, in any unit and orientatio
        {std::pair{".ply", ply_cube()}, {".vtk", vtk_cube()}, {".stl", stl_text(inside_out)}}) {
     INFO(ending);
     const test::TemporaryFile file(ending, text);
-    const auto cube = mesh::read_closed_surface(file.path(), 10.0);
+    const auto cube = mesh_io::read_closed_surface(file.path(), 10.0);
     CHECK((cube.box().max() - Vec3::Constant(10.0)).norm() < 1e-12);
     CHECK(cube.contains({5.0, 5.0, 5.0}));  // in the planes of diagonals
     CHECK(cube.contains({0.01, 9.99, 3.0}));
@@ -306,7 +306,7 @@ TEST_CASE("a surface with a hole or with a triangle turned over is refused", "[u
   auto triangles = skin(test::cubes(CellKind::hexahedron, 1), {true});
   const auto read = [&] {
     const test::TemporaryFile file(".stl", stl_text(triangles));
-    return message([&] { static_cast<void>(mesh::read_closed_surface(file.path(), 1.0)); });
+    return message([&] { static_cast<void>(mesh_io::read_closed_surface(file.path(), 1.0)); });
   };
   std::swap(triangles[3][0], triangles[3][1]);
   CHECK_THAT(read(), Catch::Contains("is not closed: 3 edges"));
@@ -323,7 +323,7 @@ TEST_CASE("labels at points or in cells mean a ball to within half a voxel", "[u
   const double spacing = 0.8;
   for (const bool in_cells : {false, true}) {
     const test::TemporaryFile file(".vtk", ball_image(centre, radius, spacing, 40, in_cells));
-    const mesh::LabelVolume volume(file.path(), "", 1.0);
+    const mesh_io::LabelVolume volume(file.path(), "", 1.0);
     CHECK((volume.labels() == std::vector<int>{0, 7}));
     int wrong = 0;
     int inside = 0;
@@ -343,11 +343,11 @@ TEST_CASE("labels at points or in cells mean a ball to within half a voxel", "[u
 
 TEST_CASE("a labelled volume scaled by its unit keeps its labels in their places", "[unit][mesh]") {
   const test::TemporaryFile file(".vtk", ball_image({1.0, 1.0, 1.0}, 0.5, 0.1, 20, false));
-  const mesh::LabelVolume volume(file.path(), "tissue", 10.0);  // the file is in cm
+  const mesh_io::LabelVolume volume(file.path(), "tissue", 10.0);  // the file is in cm
   CHECK(volume.has({10.0, 10.0, 10.0}, {7}));
   CHECK(volume.has({10.0, 14.0, 10.0}, {7}));
   CHECK_FALSE(volume.has({10.0, 16.0, 10.0}, {7}));
-  CHECK_THAT(message([&] { mesh::LabelVolume(file.path(), "tisue", 1.0); }),
+  CHECK_THAT(message([&] { mesh_io::LabelVolume(file.path(), "tisue", 1.0); }),
              Catch::Contains("has no array \"tisue\"; it has tissue. Did you mean \"tissue\"?"));
 }
 
@@ -357,7 +357,7 @@ TEST_CASE("several numbers a voxel are no labels", "[unit][mesh]") {
       "# vtk DataFile Version 3.0\npair\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 2 1 1\n"
       "ORIGIN 0 0 0\nSPACING 1 1 1\nPOINT_DATA 2\nSCALARS tissue int 2\nLOOKUP_TABLE default\n"
       "0 7 0 7\n");
-  CHECK_THAT(message([&] { mesh::LabelVolume(file.path(), "", 1.0); }),
+  CHECK_THAT(message([&] { mesh_io::LabelVolume(file.path(), "", 1.0); }),
              Catch::Contains("array \"tissue\" has 2 numbers for each voxel"));
 }
 
@@ -382,11 +382,11 @@ TEST_CASE("an imported mesh knows its set of infarcted elements", "[unit][mesh]"
       mesh::ImportParameters parameters;
       parameters.file = file.path();
       parameters.sides = mesh::SideSource::geometry;
-      CHECK(mesh::import_mesh(parameters).infarcted.empty());
+      CHECK(mesh_io::import_mesh(parameters).infarcted.empty());
       parameters.infarct_set = "scar";
-      CHECK((mesh::import_mesh(parameters).infarcted == infarcted));
+      CHECK((mesh_io::import_mesh(parameters).infarcted == infarcted));
       parameters.infarct_set = "scarr";
-      CHECK_THAT(message([&] { static_cast<void>(mesh::import_mesh(parameters)); }),
+      CHECK_THAT(message([&] { static_cast<void>(mesh_io::import_mesh(parameters)); }),
                  Catch::Contains("\"scarr\""));
     }
   }

@@ -1,6 +1,6 @@
 #include "lv/mesh/quality.hpp"
 
-#include "mesh/mesh_files.hpp"
+#include "mesh_io/mesh_files.hpp"
 #include <catch2/catch.hpp>
 
 #include <numeric>

@@ -1,5 +1,6 @@
 #include "lv/mesh/shapes.hpp"
 
+#include "support/cell_kinds.hpp"
 #include "support/random_values.hpp"
 #include <catch2/catch.hpp>
 
@@ -10,8 +11,7 @@ namespace {
 using namespace lv;
 using mesh::CellKind;
 using mesh::Shapes;
-
-constexpr std::array kinds{CellKind::hexahedron, CellKind::tetrahedron};
+using test::kinds;
 
 template <int Dim>
 std::array<double, Dim> some_place(test::RandomValues& random) {

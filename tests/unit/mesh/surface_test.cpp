@@ -1,6 +1,6 @@
 #include "lv/mesh/surface.hpp"
 
-#include "mesh/mesh_files.hpp"
+#include "mesh_io/mesh_files.hpp"
 #include <catch2/catch.hpp>
 
 namespace {

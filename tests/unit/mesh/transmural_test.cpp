@@ -2,7 +2,7 @@
 
 #include "lv/mesh/distance.hpp"
 
-#include "mesh/mesh_files.hpp"
+#include "mesh_io/mesh_files.hpp"
 #include <catch2/catch.hpp>
 
 #include <random>

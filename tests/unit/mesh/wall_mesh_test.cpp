@@ -6,7 +6,7 @@
 #include "lv/mesh/surface.hpp"
 #include "lv/solid/endocardial_surface.hpp"
 
-#include "mesh/mesh_files.hpp"
+#include "mesh_io/mesh_files.hpp"
 #include <catch2/catch.hpp>
 
 #include <algorithm>

@@ -47,14 +47,14 @@ TEST_CASE("the loop marks the last beat, the Wiggers diagram its phases", "[unit
   const circulation::Cycle cycle = two_beats();
   const Table table = report::cycle_table(cycle.samples, cycle.columns, 0.8);
   const auto loop =
-      std::get<report::LineChart>(report::pressure_volume_figure(table).panels.at(0).content);
+      std::get<drawing::LineChart>(report::pressure_volume_figure(table).panels.at(0).content);
   REQUIRE(loop.series.size() == 2);
   CHECK(loop.series.back().label == "beat 2");
   CHECK(loop.series.back().x.size() == 401);
-  const report::Figure wiggers = report::wiggers_figure(table);
-  const auto pressures = std::get<report::LineChart>(wiggers.panels.at(0).content);
+  const drawing::Figure wiggers = report::wiggers_figure(table);
+  const auto pressures = std::get<drawing::LineChart>(wiggers.panels.at(0).content);
   std::vector<std::string> names;
-  for (const report::Phase& phase : pressures.phases)
+  for (const drawing::Phase& phase : pressures.phases)
     names.push_back(phase.label);
   CHECK(names ==
         std::vector<std::string>{"filling", "contraction", "ejection", "relaxation", "filling"});

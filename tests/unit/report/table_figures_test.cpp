@@ -9,9 +9,9 @@
 #include <set>
 
 using namespace lv;
-using report::BullsEye;
-using report::Figure;
-using report::LineChart;
+using drawing::BullsEye;
+using drawing::Figure;
+using drawing::LineChart;
 
 namespace {
 
@@ -94,11 +94,11 @@ TEST_CASE("strains have a scale about no strain, and a missing region stays miss
                                                   "fibre_strain", "end_systole", {});
   const auto& slices = std::get<BullsEye>(figure.panels.at(0).content);
   const auto& aha = std::get<BullsEye>(figure.panels.at(1).content);
-  CHECK(slices.sectors == report::seven_slices());
+  CHECK(slices.sectors == drawing::seven_slices());
   CHECK(slices.scale.min == Approx(-slices.scale.max));
   CHECK(slices.scale.min <= -0.2);
   CHECK(std::isnan(aha.values.at(3)));
-  CHECK(report::svg(figure).find("<svg") != std::string::npos);
+  CHECK(drawing::svg(figure).find("<svg") != std::string::npos);
 }
 
 TEST_CASE("both states of a quantity have one scale, and an assumed septum has stars", "[report]") {
@@ -107,7 +107,7 @@ TEST_CASE("both states of a quantity have one scale, and an assumed septum has s
     table.add_row({"end_diastole", "aha17", std::to_string(i), "active_tension", "kPa", "0.007"});
   for (int i = 0; i < 38; ++i)
     table.add_row({"end_diastole", "sector", std::to_string(i), "active_tension", "kPa", "0.007"});
-  const report::Orientation assumed{0.0, {{"septum", "nothing shows it"}}};
+  const drawing::Orientation assumed{0.0, {{"septum", "nothing shows it"}}};
   const Figure ed = report::bulls_eyes_figure(table, "active_tension", "end_diastole", assumed);
   CHECK(ed.colour_bar->scale.max >= 60.0);
   CHECK(std::get<BullsEye>(ed.panels.at(1).content).walls[1] == "septal*");

@@ -2,8 +2,9 @@
 
 #include "lv/mesh/surface.hpp"
 
-#include "mesh/mesh_files.hpp"
+#include "mesh_io/mesh_files.hpp"
 #include "support/block_mesh.hpp"
+#include "support/cell_kinds.hpp"
 #include "support/random_values.hpp"
 #include <catch2/catch.hpp>
 
@@ -14,8 +15,7 @@ namespace {
 using namespace lv;
 using mesh::CellKind;
 using mesh::Mesh;
-
-constexpr std::array kinds{CellKind::hexahedron, CellKind::tetrahedron};
+using test::kinds;
 
 }  // namespace
 

@@ -3,8 +3,9 @@
 #include "lv/mesh/refine.hpp"
 #include "lv/mesh/surface.hpp"
 
-#include "mesh/mesh_files.hpp"
+#include "mesh_io/mesh_files.hpp"
 #include "support/block_mesh.hpp"
+#include "support/cell_kinds.hpp"
 #include "support/random_values.hpp"
 #include <catch2/catch.hpp>
 
@@ -16,8 +17,7 @@ using namespace lv;
 using mesh::CellKind;
 using mesh::Mesh;
 using solid::EndocardialSurface;
-
-constexpr std::array kinds{CellKind::hexahedron, CellKind::tetrahedron};
+using test::kinds;
 
 /// A ventricle of every kind of element, the quadratic ones bent.
 std::vector<Mesh> ventricles() {

@@ -6,6 +6,7 @@
 #include "lv/solid/endocardial_surface.hpp"
 
 #include "support/block_mesh.hpp"
+#include "support/cell_kinds.hpp"
 #include "support/random_values.hpp"
 #include <Eigen/LU>
 #include <catch2/catch.hpp>
@@ -20,8 +21,8 @@ using material::VolumetricPoints;
 using mesh::CellKind;
 using mesh::Mesh;
 using solid::Wall;
+using test::kinds;
 
-constexpr std::array kinds{CellKind::hexahedron, CellKind::tetrahedron};
 constexpr std::array volumetric_points{VolumetricPoints::full, VolumetricPoints::mean};
 
 /// Fibres in one direction everywhere, since t grows along x everywhere.

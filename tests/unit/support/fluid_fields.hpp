@@ -7,6 +7,9 @@
 /// Fields on the whole box, for tests on one rank.
 namespace lv::test {
 
+/// Axes that differ in the number and the width of their cells.
+inline const fluid::Grid uneven_grid{{6, 5, 8}, {0, 0, 0}, {1.5, 2.0, 1.0}};
+
 /// Calls visit(i, j, k, value) for the points of a component, and `layers` ghosts around them.
 template <class Visit>
 void for_points(fluid::Component& u, int layers, const Visit& visit) {

@@ -1,0 +1,224 @@
+#include "lv/anatomy/anatomy.hpp"
+
+#include "lv/anatomy/drawn.hpp"
+#include "lv/base/json_file.hpp"
+#include "lv/base/table.hpp"
+#include "lv/case_file/case_lines.hpp"
+#include "lv/case_file/parameters.hpp"
+#include "lv/geometry/drawn_wall.hpp"
+#include "lv/mesh/refine.hpp"
+#include "lv/mesh_io/foreign_mesh.hpp"
+#include "lv/mesh_io/import.hpp"
+#include "lv/report/fields_vtk.hpp"
+#include "lv/report/tables_csv.hpp"
+#include "lv/solid/endocardial_surface.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <memory>
+
+namespace lv::anatomy {
+namespace {
+
+using case_file::Case;
+namespace fs = std::filesystem;
+
+constexpr const char* frame_name = "frame.json";
+
+constexpr const char* assumed_septum =
+    "the septum is assumed at the first point of the basal endocardial loop: regions bear the "
+    "wrong names if it is elsewhere (set anatomy.contours.septum_point)";
+constexpr const char* assumed_septum_of_mesh =
+    "the septum is assumed on the mesh's x axis: regions bear the wrong names if it is elsewhere "
+    "(set regions.septum_angle)";
+constexpr const char* assumed_moment =
+    "the shape is taken as that of early diastole, free of stress: nothing says at which moment it "
+    "was seen (set unloaded.pressure if it bears a pressure)";
+
+geometry::BaseAt base_at(const Case& c, const Drawn& drawn) {
+  switch (c.anatomy.contours.base_at) {
+    case case_file::BaseChoice::slice:
+      return geometry::BaseAt::slice;
+    case case_file::BaseChoice::slab:
+      return geometry::BaseAt::slab;
+    case case_file::BaseChoice::annulus:
+      return geometry::BaseAt::annulus;
+    default:
+      return drawn.usual_base;
+  }
+}
+
+/// A shape that is filled, or may be, is taken as free of stress; a warning goes first.
+void assume_moment(const Case& c, const std::vector<std::string>& warnings, bool is_known,
+                   Shape& shape) {
+  for (const std::string& text : warnings)
+    shape.warnings.push_back({"early diastole", text});
+  if (!case_file::is_loaded(c) && !is_known)
+    shape.assumed.push_back({"early diastole", assumed_moment});
+}
+
+/// Warnings are assumptions and notes too.
+void collect_remarks(Shape& shape) {
+  shape.assumed.insert(shape.assumed.begin(), shape.warnings.begin(), shape.warnings.end());
+  for (const geometry::Assumption& a : shape.warnings)
+    shape.notes.push_back(a.text);
+}
+
+std::string base_rule(const std::string& height, geometry::BasePlane direction) {
+  return fmt::format("{}, {}", height,
+                     direction == geometry::BasePlane::long_axis ? "across the long axis"
+                                                                 : "parallel to that slice");
+}
+
+Shape from_drawn(const Case& c) {
+  Drawn drawn = read_drawn(c);
+  geometry::SplineFitParameters fit = c.anatomy.contours.fit;
+  fit.frame.base_at = base_at(c, drawn);
+  if (!fit.frame.septum)
+    fit.frame.septum = drawn.septum;
+  const bool base_may_move = c.anatomy.contours.base_at == case_file::BaseChoice::automatic;
+  geometry::DrawnWall found = geometry::fit_drawn_wall(drawn.contours, fit, base_may_move);
+  const auto wall = std::make_shared<const geometry::SplineWall>(std::move(found.wall));
+  Shape shape;
+  shape.wall = [wall](double u, double theta, double t) { return wall->point(u, theta, t); };
+  shape.frame = wall->frame();
+  shape.notes = std::move(drawn.notes);
+  for (const auto& notes : {wall->report().notes, found.notes})
+    shape.notes.insert(shape.notes.end(), notes.begin(), notes.end());
+  shape.segmentation = std::move(drawn.segmentation);
+  if (!fit.frame.septum && !c.origin.contains("regions.septum_angle"))
+    shape.warnings.push_back({"septum", assumed_septum});
+  shape.assumed = wall->report().assumed;
+  assume_moment(c, drawn.warnings, drawn.moment_is_known, shape);
+  collect_remarks(shape);
+  shape.quality = report::QualitySheet{
+      wall->report(),     drawn.source,       base_rule(found.base, fit.frame.base_plane),
+      drawn.label_cavity, drawn.label_muscle, shape.notes};
+  return shape;
+}
+
+/// Sides and directions of fibres may be files beside the mesh's.
+constexpr std::array perhaps_files{&mesh::ImportParameters::endo, &mesh::ImportParameters::epi,
+                                   &mesh::ImportParameters::base, &mesh::ImportParameters::fibres,
+                                   &mesh::ImportParameters::sheets};
+
+Shape from_mesh(const Case& c) {
+  mesh::ImportParameters import = c.anatomy.mesh.import;
+  if (import.file.empty()) {
+    case_file::Missing missing;
+    missing.add({"anatomy.mesh.file", case_file::fill_in, "the mesh: .inp, .msh, .vtk or .vtu"});
+    missing.raise(c, case_file::place_of(c, "anatomy.source"));
+  }
+  import.file = case_file::beside(c, import.file).string();
+  for (const auto name : perhaps_files)
+    if (mesh_io::names_file(import.*name))
+      import.*name = case_file::beside(c, import.*name).string();
+  if (c.scar.source == mesh::InfarctSource::elements)
+    import.infarct_set = c.scar.set;
+  mesh_io::ImportedMesh imported = mesh_io::import_mesh(import);
+  for (int i = 0; i < c.anatomy.mesh.refinements; ++i) {
+    imported.mesh = mesh::refine(imported.mesh);
+    imported.infarcted = mesh::refine_flags(imported.infarcted);
+  }
+  Shape shape;
+  shape.infarcted = std::move(imported.infarcted);
+  shape.given = std::move(imported.mesh);
+  shape.frame = imported.frame;
+  shape.notes = imported.notes;
+  if (!c.origin.contains("regions.septum_angle"))
+    shape.warnings.push_back({"septum", assumed_septum_of_mesh});
+  assume_moment(c, {}, false, shape);
+  collect_remarks(shape);
+  return shape;
+}
+
+Shape read_shape(const Case& c) {
+  if (case_file::is_drawn(c))
+    return from_drawn(c);
+  if (c.anatomy.source == case_file::AnatomySource::mesh)
+    return from_mesh(c);
+  Shape shape;
+  shape.wall = [e = c.anatomy.ellipsoid](double u, double theta, double t) {
+    return e.point(u, theta, t);
+  };
+  return shape;
+}
+
+std::vector<double> numbers(const Vec3& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
+nlohmann::ordered_json json_of(const std::vector<geometry::Assumption>& list) {
+  auto json = nlohmann::ordered_json::array();
+  for (const geometry::Assumption& a : list)
+    json.push_back({{"part", a.part}, {"text", a.text}});
+  return json;
+}
+
+}  // namespace
+
+Shape make_anatomy(const Case& c) {
+  Shape shape = read_shape(c);
+  const NamesAlone names =
+      case_file::names_alone(c);  // notes may name files: they are kept and shown
+  for (std::string& text : shape.notes)
+    text = names(text);
+  for (auto* list : {&shape.assumed, &shape.warnings})
+    for (geometry::Assumption& a : *list)
+      a.text = names(a.text);
+  if (shape.quality)
+    shape.quality->notes = shape.notes;
+  return shape;
+}
+
+double cavity_of(const Shape& shape) {
+  constexpr double edge_length = 3.0;  // of quadratic elements: right to a thousandth [mm]
+  const mesh::Mesh wall =
+      shape.given ? *shape.given
+                  : mesh::wall_mesh(shape.wall, {.edge_length = edge_length, .order = 2});
+  return solid::EndocardialSurface(wall).volume(wall.nodes);
+}
+
+void write_anatomy(const Shape& shape, const fs::path& folder) {
+  if (shape.given)
+    report::write_surfaces(folder / "surfaces.vtu", *shape.given);
+  else
+    report::write_surfaces(folder / "surfaces.vtu", shape.wall);
+  const Mat3& axes = shape.frame.axes;
+  const nlohmann::ordered_json frame{{"origin_in_image_space_mm", numbers(shape.frame.origin)},
+                                     {"x_axis_in_image_space", numbers(axes.col(0))},
+                                     {"y_axis_in_image_space", numbers(axes.col(1))},
+                                     {"z_axis_in_image_space", numbers(axes.col(2))},
+                                     {"notes", shape.notes},
+                                     {"assumed", json_of(shape.assumed)},
+                                     {"warnings", json_of(shape.warnings)}};
+  write_file(folder / frame_name, json_text(frame) + "\n");
+  if (shape.segmentation)
+    write_segmentation(*shape.segmentation, folder / "segmentation");
+  if (!shape.quality)
+    return;
+  report::fit_table(shape.quality->fit).write_csv(folder / "fit.csv");
+  report::quality_table(*shape.quality).write_csv(folder / "quality.csv");
+  write_file(folder / "quality.json", report::quality_json(*shape.quality));
+  write_file(folder / "quality.txt", report::quality_text(*shape.quality));
+}
+
+AnatomyRecord anatomy_record(const fs::path& folder) {
+  return from_json_file(folder / frame_name, [](const nlohmann::ordered_json& json) {
+    const auto vector = [&](const char* key) {
+      return Vec3(json.at(key).get<std::array<double, 3>>().data());
+    };
+    AnatomyRecord record;
+    record.frame.origin = vector("origin_in_image_space_mm");
+    record.frame.axes << vector("x_axis_in_image_space"), vector("y_axis_in_image_space"),
+        vector("z_axis_in_image_space");
+    for (const auto& a : json.at("assumed"))
+      record.assumed.push_back({a.at("part"), a.at("text")});
+    for (const auto& a : json.at("warnings"))
+      record.warnings.push_back(a.at("text"));
+    return record;
+  });
+}
+
+}  // namespace lv::anatomy

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "lv/anatomy/segmentation.hpp"
+#include "lv/case_file/case.hpp"
+#include "lv/geometry/frame.hpp"
+#include "lv/geometry/spline_wall.hpp"
+#include "lv/mesh/wall_mesh.hpp"
+#include "lv/report/quality_sheet.hpp"
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+namespace lv::anatomy {
+
+/// The wall's shape at early diastole and how image space relates to the model.
+struct Shape {
+  mesh::WallMap wall;               ///< empty for a mesh from elsewhere
+  std::optional<mesh::Mesh> given;  ///< that mesh
+  std::vector<bool> infarcted;      ///< its elements in infarct.elements.set, if that is the source
+  geometry::Frame frame;
+  std::optional<report::QualitySheet> quality;           ///< for a drawn wall
+  std::shared_ptr<const CineSegmentation> segmentation;  ///< of borders that the program drew
+  std::vector<std::string> notes;                        ///< what was assumed or changed
+  std::vector<geometry::Assumption> assumed;             ///< septum, early diastole, apex, base
+  std::vector<geometry::Assumption>
+      warnings;  ///< of these, what results may be wrong for: a septum that
+                 ///< nothing shows, a filled wall taken as free of stress
+};
+
+/// The shape that a case asks for. Throws InputError naming the file and what is wrong in it.
+[[nodiscard]] Shape make_anatomy(const case_file::Case& c);
+
+/// The volume that the endocardium encloses below the base plane [mm^3].
+[[nodiscard]] double cavity_of(const Shape& shape);
+
+/// Writes surfaces.vtu (in the model frame), frame.json and, for a drawn wall, fit.csv with the
+/// residual distances per image and the quality sheet as quality.csv, .json and .txt; for borders
+/// that the program drew, segmentation/ with what write_segmentation makes.
+void write_anatomy(const Shape& shape, const std::filesystem::path& folder);
+
+/// What write_anatomy left in a folder of a shape's frame, assumptions and warnings.
+struct AnatomyRecord {
+  geometry::Frame frame;
+  std::vector<geometry::Assumption> assumed;
+  std::vector<std::string> warnings;
+};
+[[nodiscard]] AnatomyRecord anatomy_record(const std::filesystem::path& folder);
+
+}  // namespace lv::anatomy

@@ -1,0 +1,298 @@
+#include "lv/anatomy/drawn.hpp"
+
+#include "lv/anatomy/proposals.hpp"
+#include "lv/base/check.hpp"
+#include "lv/geometry/contour_checks.hpp"
+#include "lv/geometry/contour_measures.hpp"
+#include "lv/geometry/fit_report.hpp"
+#include "lv/image/close_walls.hpp"
+#include "lv/image/dicom_study.hpp"
+#include "lv/image/guide_points.hpp"
+#include "lv/image/label_contours.hpp"
+#include "lv/image/label_meaning.hpp"
+#include "lv/image/nifti.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+namespace lv::anatomy {
+namespace {
+
+using case_file::Case;
+namespace fs = std::filesystem;
+
+/// A file or folder that must be named.
+struct Name {
+  const char* parameter;
+  const std::string& said;
+  const char* what;
+};
+
+/// Throws InputError unless all are.
+void require_names(const Case& c, const std::vector<Name>& names) {
+  case_file::Missing missing;
+  for (const Name& name : names)
+    if (name.said.empty())
+      missing.add({name.parameter, case_file::fill_in, name.what});
+  missing.raise(c, case_file::place_of(c, "anatomy.source"));
+}
+
+geometry::ContourFiles contour_files(const Case& c) {
+  const case_file::ContourAnatomy& a = c.anatomy.contours;
+  require_names(
+      c, {{"anatomy.contours.short_axis", a.short_axis, "the CSV file of the short-axis loops"}});
+  geometry::ContourFiles files{
+      .short_axis = case_file::beside(c, a.short_axis), .long_axis = {}, .apex = {}};
+  if (!a.long_axis.empty())
+    files.long_axis = case_file::beside(c, a.long_axis);
+  for (const std::string& apex : {a.apex_endo, a.apex_epi})
+    if (!apex.empty())
+      files.apex.push_back(case_file::beside(c, apex));
+  return files;
+}
+
+Drawn from_csv(const Case& c) {
+  Drawn drawn;
+  drawn.contours = geometry::read_contours(contour_files(c));
+  drawn.source = "contours";
+  return drawn;
+}
+
+/// Throws InputError unless the case says what the labels mean and, of several frames, which.
+void require_choices(const Case& c, const image::Volume& map) {
+  const case_file::LabelAnatomy& a = c.anatomy.labels;
+  const bool frame_open = map.frames > 1 && a.frame == 0;
+  if (!a.cavity.empty() && !a.muscle.empty() && !frame_open)
+    return;
+  case_file::Missing missing;
+  for (case_file::CaseLine& line : label_lines(map, a))
+    if (line.parameter != "anatomy.labels.right_ventricle")
+      missing.add(std::move(line));
+  std::string found =
+      fmt::format("{} has the labels {}", map.file, image::describe(image::label_volumes(map)));
+  if (frame_open)
+    found +=
+        fmt::format(" and {} frames\n{}", map.frames,
+                    describe_volume_curve(image::volume_curve(
+                        map, a.cavity.empty() ? image::propose_meaning(map).cavity : a.cavity)));
+  missing.raise(c, case_file::place_of(c, "anatomy.labels.file"), found);
+}
+
+/// A label cannot mean two things.
+void check_meaning(const Case& c) {
+  const case_file::LabelAnatomy& a = c.anatomy.labels;
+  std::map<int, std::string> meaning;
+  const auto add = [&](const std::string& parameter, std::vector<int> labels) {
+    std::sort(labels.begin(), labels.end());
+    labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
+    for (const int label : labels)
+      if (const auto [other, fresh] = meaning.emplace(label, parameter); !fresh)
+        throw InputError(case_file::place_of(c, parameter),
+                         fmt::format("the label {} is listed under {} and under {}", label,
+                                     other->second, parameter),
+                         "List every label under one meaning");
+  };
+  add("anatomy.labels.cavity", a.cavity);
+  add("anatomy.labels.muscle", a.muscle);
+  add("anatomy.labels.right_ventricle", a.right_ventricle);
+}
+
+void warn(const std::string& warning, Drawn& drawn) {
+  if (!warning.empty())
+    drawn.warnings.push_back(warning);
+}
+
+Drawn from_labels(const Case& c) {
+  const case_file::LabelAnatomy& a = c.anatomy.labels;
+  require_names(c, {{"anatomy.labels.file", a.file, "the NIfTI label map"}});
+  const image::Volume volume = image::read_nifti(case_file::beside(c, a.file));
+  check_meaning(c);
+  require_choices(c, volume);
+  const int frame = std::max(a.frame, 1) - 1;
+  const auto require = [&](const char* parameter, const std::vector<int>& labels) {
+    image::require_labels(volume, frame, labels, case_file::place_of(c, parameter), parameter);
+  };
+  require("anatomy.labels.cavity", a.cavity);
+  require("anatomy.labels.muscle", a.muscle);
+  require("anatomy.labels.right_ventricle", a.right_ventricle);
+  image::LabelContours traced =
+      image::trace_labels(volume, {a.cavity, a.muscle, a.right_ventricle}, frame);
+  Drawn drawn;
+  drawn.contours = std::move(traced.contours);
+  drawn.source = fmt::format("labels, frame {}", frame + 1);
+  drawn.label_cavity = traced.cavity;
+  drawn.label_muscle = traced.muscle;
+  drawn.septum = traced.septum;
+  drawn.usual_base = geometry::BaseAt::slab;
+  drawn.notes = std::move(traced.notes);
+  drawn.moment_is_known = volume.frames > 1;
+  warn(end_diastole_note(c, moments_of(volume, a.cavity), frame + 1), drawn);
+  return drawn;
+}
+
+Drawn from_sunnybrook(const Case& c) {
+  const case_file::SunnybrookAnatomy& a = c.anatomy.sunnybrook;
+  require_names(c, {{"anatomy.sunnybrook.contours", a.contours, "the folder of contour files"},
+                    {"anatomy.sunnybrook.dicom", a.dicom, "the folder of their DICOM files"}});
+  const fs::path dicom = case_file::beside(c, a.dicom);
+  const image::DicomStudy study = image::read_dicom_study(std::array{dicom});
+  image::require_images(study, dicom.string());
+  SunnybrookChoice chosen = sunnybrook_choice(case_file::beside(c, a.contours), study, a);
+  case_file::Missing missing;
+  for (case_file::CaseLine& line : chosen.lines)
+    missing.add(std::move(line));
+  std::string found = fmt::format("{} holds{}", dicom.string(), image::choices(study));
+  if (!chosen.read.phases.empty())
+    found += fmt::format("\nthere are contours of\n{}", describe_phases(chosen.read.phases));
+  missing.raise(c, case_file::place_of(c, "anatomy.sunnybrook.dicom"), found);
+  if (!chosen.read.phases.contains(a.phase))
+    throw InputError(case_file::place_of(c, "anatomy.sunnybrook.phase"),
+                     fmt::format("there are none of phase {}; there are contours of\n{}", a.phase,
+                                 describe_phases(chosen.read.phases)),
+                     "Choose a phase, counted from 1 in order of time");
+  Drawn drawn;
+  drawn.source = fmt::format("contours in pixels, phase {}", a.phase);
+  drawn.usual_base = geometry::BaseAt::slab;
+  drawn.notes = image::remarks(chosen.stack);
+  drawn.notes.insert(drawn.notes.end(), chosen.read.notes.begin(), chosen.read.notes.end());
+  drawn.moment_is_known = chosen.read.phases.size() > 1;
+  warn(end_diastole_note(c, moments_of(chosen.read.phases), a.phase), drawn);
+  drawn.contours = std::move(chosen.read.phases.at(a.phase));
+  return drawn;
+}
+
+Drawn from_guide_points(const Case& c) {
+  const case_file::GuidePointAnatomy& a = c.anatomy.guide_points;
+  require_names(c, {{"anatomy.guide_points.file", a.file, "the list of points"}});
+  const fs::path file = case_file::beside(c, a.file);
+  Drawn drawn;
+  if (image::guide_point_frames(file).size() > 1) {
+    const auto frames = image::guide_point_contours(file, a.apex_point);
+    if (a.frame < 0) {
+      case_file::Missing missing;
+      missing.add(choice("anatomy.guide_points.frame", moments_of(frames)));
+      missing.raise(c, case_file::place_of(c, "anatomy.guide_points.file"),
+                    fmt::format("{} has\n{}", file.string(), describe_phases(frames, "frame")));
+    }
+    drawn.moment_is_known = true;
+    warn(end_diastole_note(c, moments_of(frames), a.frame), drawn);
+  }
+  image::GuidePoints read = image::read_guide_points(
+      file, a.frame < 0 ? std::nullopt : std::optional(a.frame), a.apex_point);
+  drawn.contours = std::move(read.contours);
+  drawn.source = "guide points";
+  drawn.septum = read.septum;
+  const bool base_is_shown = !drawn.contours.annulus.empty() || !drawn.contours.long_axis.empty();
+  drawn.usual_base = base_is_shown ? geometry::BaseAt::annulus : geometry::BaseAt::slab;
+  drawn.notes.insert(drawn.notes.end(), read.notes.begin(), read.notes.end());
+  return drawn;
+}
+
+/// Phases count from 1.
+Moments moments_of(const segment::Segmentation& found) {
+  Moments m;
+  m.numbers.resize(found.volumes.size());
+  std::iota(m.numbers.begin(), m.numbers.end(), 1);
+  m.volumes = found.volumes;
+  m.end_diastole = found.phases.end_diastole + 1;
+  m.end_systole = found.phases.end_systole + 1;
+  m.early_diastole = found.phases.early_diastole + 1;
+  return m;
+}
+
+Drawn from_cine(const Case& c) {
+  auto found = std::make_shared<const CineSegmentation>(segment_cine(c));
+  const std::size_t frame = shape_frame(c, *found);
+  Drawn drawn;
+  drawn.contours = segment::contours_at(found->cine, found->found, frame);
+  drawn.source = fmt::format("borders drawn by the program in a cine, phase {}", frame + 1);
+  drawn.usual_base = geometry::BaseAt::slab;
+  drawn.notes = found->cine.notes;
+  drawn.notes.insert(drawn.notes.end(), found->found.doubts.begin(), found->found.doubts.end());
+  drawn.moment_is_known = true;
+  warn(end_diastole_note(c, moments_of(found->found), static_cast<int>(frame) + 1), drawn);
+  drawn.segmentation = std::move(found);
+  return drawn;
+}
+
+Drawn read_source(const Case& c) {
+  switch (c.anatomy.source) {
+    case case_file::AnatomySource::labels:
+      return from_labels(c);
+    case case_file::AnatomySource::sunnybrook:
+      return from_sunnybrook(c);
+    case case_file::AnatomySource::guide_points:
+      return from_guide_points(c);
+    case case_file::AnatomySource::cine:
+      return from_cine(c);
+    default:
+      return from_csv(c);
+  }
+}
+
+}  // namespace
+
+double volume_of(const geometry::Contours& contours) {
+  const auto endo = std::count_if(contours.short_axis.begin(), contours.short_axis.end(),
+                                  [](const auto& c) { return c.side == geometry::Side::endo; });
+  return endo < 2 ? 0.0 : geometry::slab_volumes(contours).cavity;
+}
+
+Drawn read_drawn(const Case& c) {
+  Drawn drawn = read_source(c);
+  const double thinnest = c.anatomy.contours.fit.thinnest_wall;
+  const bool mended = c.anatomy.source != case_file::AnatomySource::contours;
+  if (mended)
+    image::drop_strays(drawn.contours, drawn.notes);
+  image::drop_open_base(drawn.contours, drawn.notes);
+  if (mended)
+    image::close_walls(drawn.contours, thinnest, drawn.notes);
+  geometry::check_contours(drawn.contours);
+  return drawn;
+}
+
+std::string describe_phases(const std::map<int, geometry::Contours>& phases,
+                            const std::string& called) {
+  std::string text;
+  std::vector<int> numbers;
+  std::vector<double> volumes;
+  for (const auto& [phase, contours] : phases) {
+    const auto endo = std::count_if(contours.short_axis.begin(), contours.short_axis.end(),
+                                    [](const auto& c) { return c.side == geometry::Side::endo; });
+    numbers.push_back(phase);
+    volumes.push_back(volume_of(contours));
+    text += fmt::format(
+        "  {} {}: {} endocardial and {} epicardial loops, cavity {:.2f} ml\n", called, phase, endo,
+        static_cast<std::ptrdiff_t>(contours.short_axis.size()) - endo, 1e-3 * volumes.back());
+  }
+  if (std::none_of(volumes.begin(), volumes.end(), [](double v) { return v > 0.0; }))
+    return text + "  proposed: none, for none shows the cavity on two slices";
+  const image::Phases p = image::propose_phases(volumes);
+  return text + fmt::format("  proposed: end-diastole {}, end-systole {}", numbers[p.end_diastole],
+                            numbers[p.end_systole]);
+}
+
+std::string describe_volume_curve(const std::vector<double>& volumes) {
+  std::string text;
+  std::size_t without = 0;
+  for (std::size_t f = 0; f < volumes.size(); ++f) {
+    without += volumes[f] > 0.0 ? 0 : 1;
+    if (volumes[f] > 0.0)
+      text += fmt::format("  frame {}: cavity {:.2f} ml\n", f + 1, 1e-3 * volumes[f]);
+  }
+  if (without > 0)
+    text += fmt::format("  {} of {} frames show no cavity\n", without, volumes.size());
+  const image::Phases p = image::propose_phases(volumes);
+  if (volumes.size() - without < 2)
+    return text + "  proposed: no phases, for less than two frames show the cavity";
+  text += fmt::format("  proposed: end-diastole {}, end-systole {}", p.end_diastole + 1,
+                      p.end_systole + 1);
+  return p.early_diastole == p.end_systole
+             ? text + "; no frame after it shows early diastole"
+             : text + fmt::format(", early diastole {}", p.early_diastole + 1);
+}
+
+}  // namespace lv::anatomy

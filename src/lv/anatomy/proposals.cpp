@@ -1,0 +1,116 @@
+#include "lv/anatomy/proposals.hpp"
+
+#include "lv/base/check.hpp"
+#include "lv/image/label_meaning.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+namespace lv::anatomy {
+namespace {
+
+using case_file::CaseLine;
+namespace fs = std::filesystem;
+
+std::string value_of(const std::vector<int>& labels) {
+  return labels.empty() ? case_file::fill_in : case_file::listed(labels);
+}
+
+/// Names that may stand for the series of a study, one or several stacks each.
+std::vector<std::string> series_names(const image::DicomStudy& study) {
+  std::vector<std::string> names;
+  std::set<std::string> descriptions;
+  for (const image::DicomStack& stack : study.stacks) {
+    names.push_back(stack.key);
+    if (!stack.description.empty())
+      descriptions.insert(stack.description);
+  }
+  names.insert(names.end(), descriptions.begin(), descriptions.end());
+  return names;
+}
+
+}  // namespace
+
+std::vector<CaseLine> label_lines(const image::Volume& map, const case_file::LabelAnatomy& said) {
+  const bool unsaid = said.cavity.empty() || said.muscle.empty() || said.right_ventricle.empty();
+  const image::LabelMeaning seen = unsaid ? image::propose_meaning(map) : image::LabelMeaning{};
+  std::vector<CaseLine> lines;
+  if (said.cavity.empty())
+    lines.push_back({"anatomy.labels.cavity", value_of(seen.cavity),
+                     seen.cavity.empty() ? "which labels mean the left ventricle's blood"
+                                         : "seems the left ventricle's blood: it lies inside the "
+                                           "muscle; check it"});
+  if (said.muscle.empty())
+    lines.push_back({"anatomy.labels.muscle", value_of(seen.muscle),
+                     seen.muscle.empty() ? "which labels mean the left ventricle's muscle"
+                                         : "seems its muscle: it lies round the cavity"});
+  if (said.right_ventricle.empty() && !seen.right_ventricle.empty())
+    lines.push_back({"anatomy.labels.right_ventricle", value_of(seen.right_ventricle),
+                     "seems the right ventricle, which shows where the septum is"});
+  if (map.frames > 1 && said.frame == 0) {
+    const auto& cavity = said.cavity.empty() ? seen.cavity : said.cavity;
+    lines.push_back(choice("anatomy.labels.frame", moments_of(map, cavity)));
+  }
+  return lines;
+}
+
+SunnybrookChoice sunnybrook_choice(const fs::path& contours, const image::DicomStudy& study,
+                                   const case_file::SunnybrookAnatomy& said) {
+  const bool open = said.series.empty() && study.stacks.size() > 1;
+  std::vector<std::vector<std::string>> candidates{said.series};
+  if (open) {
+    candidates.clear();
+    for (const std::string& name : series_names(study))
+      candidates.push_back({name});
+  }
+  SunnybrookChoice choice_made;
+  for (const std::vector<std::string>& series : candidates) {
+    try {
+      choice_made.stack =
+          image::choose_stack(study, series, contours.string(), "anatomy.sunnybrook.series");
+      choice_made.read =
+          image::read_sunnybrook(contours, choice_made.stack, said.pixel_origin, said.drawn_by);
+    } catch (const InputError&) {
+      if (!open)
+        throw;
+      continue;
+    }
+    if (open)
+      choice_made.lines.push_back({"anatomy.sunnybrook.series",
+                                   fmt::format("[{}]", case_file::quoted(series.front())),
+                                   "its images are those that the contours name"});
+    break;
+  }
+  if (choice_made.read.phases.empty())
+    choice_made.lines.push_back({"anatomy.sunnybrook.series", case_file::fill_in,
+                                 "the series that the contours were drawn on"});
+  if (said.phase == 0)
+    choice_made.lines.push_back(
+        choice("anatomy.sunnybrook.phase", moments_of(choice_made.read.phases)));
+  return choice_made;
+}
+
+const image::DicomStack* short_axis_cine(const image::DicomStudy& study) {
+  constexpr std::size_t least_slices = 3;
+  constexpr std::size_t least_images = 5;
+  const image::DicomStack* best = nullptr;
+  const auto images = [](const image::DicomStack& s) {
+    return s.slices.size() * s.slices.front().images.size();
+  };
+  for (const image::DicomStack& stack : study.stacks)
+    if (stack.slices.size() >= least_slices && stack.slices.front().images.size() >= least_images &&
+        (best == nullptr || images(stack) > images(*best)))
+      best = &stack;
+  return best;
+}
+
+CaseLine short_axis_line(const std::string& parameter, const image::DicomStudy& study) {
+  const image::DicomStack* cine = short_axis_cine(study);
+  if (cine == nullptr)
+    return {parameter, case_file::fill_in, "the short-axis cine"};
+  return {parameter, case_file::quoted(cine->key), "seems the short-axis cine"};
+}
+
+}  // namespace lv::anatomy

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "lv/anatomy/moments.hpp"
+#include "lv/case_file/case_lines.hpp"
+#include "lv/image/dicom_study.hpp"
+#include "lv/image/sunnybrook.hpp"
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace lv::anatomy {
+
+/// What a case would say of its source of the anatomy, as far as the files show it: lines for the
+/// choices that `said` leaves open. A user confirms them.
+
+/// Labels and, of a map of several times, the frame.
+[[nodiscard]] std::vector<case_file::CaseLine> label_lines(const image::Volume& map,
+                                                           const case_file::LabelAnatomy& said);
+
+/// Which series of a study the contours in a folder were drawn on: of several the first, single or
+/// joined by its description, that has all their images. `read` becomes the contours by phase, if
+/// any can be read.
+struct SunnybrookChoice {
+  std::vector<case_file::CaseLine> lines;  ///< series of several, and the phase
+  image::DicomStack stack;
+  image::DrawnPhases read;
+};
+[[nodiscard]] SunnybrookChoice sunnybrook_choice(const std::filesystem::path& contours,
+                                                 const image::DicomStudy& study,
+                                                 const case_file::SunnybrookAnatomy& said);
+
+/// The series that looks most like a short-axis cine: of three or more slices of five or more
+/// images the one with most images. Null if there is none.
+[[nodiscard]] const image::DicomStack* short_axis_cine(const image::DicomStudy& study);
+
+/// The line that names that series.
+[[nodiscard]] case_file::CaseLine short_axis_line(const std::string& parameter,
+                                                  const image::DicomStudy& study);
+
+}  // namespace lv::anatomy

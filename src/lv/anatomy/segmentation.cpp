@@ -1,0 +1,189 @@
+#include "lv/anatomy/segmentation.hpp"
+
+#include "lv/anatomy/proposals.hpp"
+#include "lv/base/check.hpp"
+#include "lv/base/formats.hpp"
+#include "lv/base/interrupt.hpp"
+#include "lv/base/table.hpp"
+#include "lv/case_file/case_lines.hpp"
+#include "lv/drawing/overlay.hpp"
+#include "lv/geometry/contour_table.hpp"
+#include "lv/image/dicom_study.hpp"
+#include "lv/image/nifti.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace lv::anatomy {
+namespace {
+
+using case_file::Case;
+namespace fs = std::filesystem;
+using geometry::Contour;
+using segment::FrameBorders;
+using segment::Segmentation;
+
+constexpr drawing::Colour sure_colour = drawing::hex(0x56b4e9);
+constexpr drawing::Colour doubtful_colour = drawing::hex(0xe69f00);
+
+void require_said_of_borders(const Case& c, const std::optional<image::DicomStudy>& dicom) {
+  const case_file::CineAnatomy& a = c.anatomy.cine;
+  case_file::Missing missing;
+  std::string found;
+  if (a.images.empty())
+    missing.add(
+        {"segment.cine", case_file::fill_in, "the folder of the short-axis cine, or a NIfTI file"});
+  if (dicom && a.series.empty() && dicom->stacks.size() > 1) {
+    missing.add(short_axis_line("segment.series", *dicom));
+    found =
+        fmt::format("{} holds{}", case_file::beside(c, a.images).string(), image::choices(*dicom));
+  }
+  missing.raise(c, case_file::place_of(c, a.images.empty() ? "anatomy.source" : "segment.cine"),
+                found);
+}
+
+image::Cine read_cine(const Case& c) {
+  const case_file::CineAnatomy& a = c.anatomy.cine;
+  require_said_of_borders(c, {});
+  const fs::path file = case_file::beside(c, a.images);
+  if (image::is_nifti_name(a.images)) {
+    if (!a.series.empty())
+      throw InputError(case_file::place_of(c, "segment.series"),
+                       fmt::format("a NIfTI file has no series \"{}\"", a.series),
+                       "Leave segment.series out, or name a folder of DICOM files");
+    return image::read_nifti_cine(file);
+  }
+  const image::DicomStudy study = image::read_dicom_study(std::array{file});
+  image::require_images(study, file.string());
+  require_said_of_borders(c, study);
+  std::vector<std::string> names;
+  if (!a.series.empty())
+    names.push_back(a.series);
+  const image::DicomStack stack =
+      image::choose_stack(study, names, file.string(), "segment.series");
+  return image::read_pixels(stack);
+}
+
+double cavity_area(const Segmentation& found, std::size_t s, std::size_t t) {
+  return segment::area(found.borders[s].frames[t].endo);
+}
+
+double whole_area(const Segmentation& found, std::size_t s, std::size_t t) {
+  return segment::area(found.borders[s].frames[t].epi);
+}
+
+Table quality_table(const Segmentation& found) {
+  Table table({"slice", "phase", "cavity_area_mm2", "wall_area_mm2", "endo_confidence",
+               "epi_confidence", "doubtful"});
+  const auto number = [](double x) { return fmt::format("{:.2f}", x); };
+  for (std::size_t s = 0; s < found.borders.size(); ++s)
+    for (std::size_t t = 0; t < found.volumes.size(); ++t) {
+      if (found.shows[s][t] == 0)
+        continue;
+      const double cavity = cavity_area(found, s, t);
+      const FrameBorders& sure = found.borders[s].frames[t];
+      table.add_row(
+          {std::to_string(s + 1), std::to_string(t + 1), number(cavity),
+           number(whole_area(found, s, t) - cavity), number(sure.endo_agrees),
+           number(sure.epi_agrees),
+           std::min(sure.endo_agrees, sure.epi_agrees) < segment::doubtful ? "yes" : "no"});
+    }
+  return table;
+}
+
+Table volumes_table(const Segmentation& found) {
+  Table table({"phase", "cavity_volume_ml", "wall_volume_ml", "slices"});
+  for (std::size_t t = 0; t < found.volumes.size(); ++t) {
+    double whole = 0.0;
+    int slices = 0;
+    for (std::size_t s = 0; s < found.borders.size(); ++s)
+      if (found.shows[s][t] != 0) {
+        whole += found.spacing * whole_area(found, s, t);
+        ++slices;
+      }
+    table.add_row({std::to_string(t + 1), Table::number(1e-3 * found.volumes[t], 5),
+                   Table::number(1e-3 * (whole - found.volumes[t]), 5), std::to_string(slices)});
+  }
+  return table;
+}
+
+/// The slices of a phase that show the ventricle, with their borders.
+void draw(const CineSegmentation& s, std::size_t t, const std::vector<Contour>& loops,
+          const fs::path& file) {
+  std::vector<drawing::Overlay> overlays;
+  for (const Contour& loop : loops) {
+    const auto slice = static_cast<std::size_t>(loop.slice - 1);
+    if (loop.side == geometry::Side::endo)
+      overlays.push_back({fmt::format("slice {}, phase {}", loop.slice, t + 1),
+                          &s.cine.slices[slice].frames[t],
+                          {}});
+    const FrameBorders& sure = s.found.borders[slice].frames[t];
+    const double own = loop.side == geometry::Side::endo ? sure.endo_agrees : sure.epi_agrees;
+    overlays.back().lines.push_back(
+        {loop.points, own < segment::doubtful ? doubtful_colour : sure_colour, true, false});
+  }
+  drawing::write_overlays(overlays, "Borders drawn by the program; doubtful ones orange", file);
+}
+
+}  // namespace
+
+CineSegmentation segment_cine(const Case& c) {
+  CineSegmentation result{read_cine(c), {}};
+  result.found = segment::segment(result.cine, c.anatomy.cine.segmentation,
+                                  case_file::beside(c, c.anatomy.cine.images).string());
+  return result;
+}
+
+std::size_t shape_frame(const Case& c, const CineSegmentation& segmentation) {
+  const image::Phases& phases = segmentation.found.phases;
+  return static_cast<std::size_t>(c.anatomy.cine.moment == case_file::ShapeMoment::end_diastole
+                                      ? phases.end_diastole
+                                      : phases.early_diastole);
+}
+
+std::string describe(const CineSegmentation& segmentation) {
+  const Segmentation& found = segmentation.found;
+  const auto moment = [&](const char* name, int frame) {
+    return fmt::format("{}: phase {}, cavity {:.1f} ml\n", name, frame + 1,
+                       1e-3 * found.volumes[static_cast<std::size_t>(frame)]);
+  };
+  std::string text = moment("end-diastole", found.phases.end_diastole) +
+                     moment("end-systole", found.phases.end_systole) +
+                     moment("early diastole", found.phases.early_diastole);
+  for (const auto* notes : {&segmentation.cine.notes, &found.doubts})
+    for (const std::string& note : *notes)
+      text += fmt::format("note: {}\n", note);
+  return text;
+}
+
+void write_segmentation(const CineSegmentation& segmentation, const fs::path& folder) {
+  fs::create_directories(folder / "contours");
+  fs::create_directories(folder / "pictures");
+  for (std::size_t t = 0; t < segmentation.found.volumes.size(); ++t) {
+    interrupt::check();
+    const std::string name = fmt::format("phase_{:02d}", t + 1);
+    const std::vector<Contour> loops =
+        segment::contours_at(segmentation.cine, segmentation.found, t).short_axis;
+    geometry::contour_table(loops).write_csv(folder / "contours" / (name + ".csv"));
+    draw(segmentation, t, loops, folder / "pictures" / (name + ".png"));
+  }
+  quality_table(segmentation.found).write_csv(folder / "quality.csv");
+  volumes_table(segmentation.found).write_csv(folder / "volumes.csv");
+  write_file(folder / "segmentation.txt", describe(segmentation));
+}
+
+std::string segment_case(const Case& c, const fs::path& folder) {
+  if (c.anatomy.source != case_file::AnatomySource::cine)
+    throw InputError(case_file::place_of(c, "anatomy.source"), "names no cine to draw borders in",
+                     "Set anatomy.source = \"cine\" and segment.cine");
+  if (fs::exists(fs::symlink_status(folder)))
+    throw InputError(folder.string(), "exists already, and its contours may have been corrected",
+                     "Choose another folder with --to");
+  const CineSegmentation segmentation = segment_cine(c);
+  write_segmentation(segmentation, folder);
+  return describe(segmentation) + fmt::format("borders in {}\n", folder.string());
+}
+
+}  // namespace lv::anatomy

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "lv/case_file/case.hpp"
+
+#include <filesystem>
+#include <string>
+
+namespace lv::anatomy {
+
+/// A cine and the borders that the program drew in it.
+struct CineSegmentation {
+  image::Cine cine;
+  segment::Segmentation found;
+};
+
+/// Segments the cine of segment.cine. Throws InputError where the case does not name it, or a
+/// series of several, and where no ventricle is found.
+[[nodiscard]] CineSegmentation segment_cine(const case_file::Case& c);
+
+/// The frame, from 0, of segment.moment.
+[[nodiscard]] std::size_t shape_frame(const case_file::Case& c,
+                                      const CineSegmentation& segmentation);
+
+/// Volumes, phases and doubts, in words.
+[[nodiscard]] std::string describe(const CineSegmentation& segmentation);
+
+/// Writes into a folder
+///
+///   contours/phase_NN.csv  the borders of a phase, as anatomy.source = "contours" reads them
+///   quality.csv            a row per slice and phase: areas, confidence of both borders, doubtful
+///   volumes.csv            cavity and muscle per phase, areas times spacing
+///   pictures/phase_NN.png  all slices of a phase with their borders
+///   segmentation.txt       what describe says
+void write_segmentation(const CineSegmentation& segmentation, const std::filesystem::path& folder);
+
+/// Segments the cine of a case into a new folder, and says what was found. Throws InputError if the
+/// folder exists, for contours in it may have been corrected.
+[[nodiscard]] std::string segment_case(const case_file::Case& c,
+                                       const std::filesystem::path& folder);
+
+}  // namespace lv::anatomy

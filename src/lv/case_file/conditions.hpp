@@ -1,0 +1,172 @@
+#pragma once
+
+#include "lv/case_file/parameters.hpp"
+#include "lv/image/nifti.hpp"
+
+/// What a case must be like for parameters to count, for parameters.cpp.
+namespace lv::case_file::conditions {
+
+using Source = AnatomySource;
+using Scar = mesh::InfarctSource;
+
+/// A fit and the search for the wall without load work on the quasi-static engine, whatever engine
+/// runs the beat.
+inline bool is_static(const Case& c, Stage s) {
+  return c.engine == Engine::quasi_static || s == Stage::calibrate || s == Stage::unload;
+}
+inline bool may_have_infarct(const Case& c) {
+  return c.scar.source == Scar::mesh ? c.anatomy.source == Source::mesh
+                                     : c.scar.source != Scar::none;
+}
+inline bool has_passive_fit(const Case& c) {
+  return c.calibration.passive != calibrate::FittedPassive::none;
+}
+inline bool has_kinetics(const Case& c) {
+  return c.active_law == ActiveLaw::niederer || c.active_law == ActiveLaw::land2017;
+}
+inline bool has_alpha_function(const Case& c) {
+  return c.protocol.calcium.shape == material::Calcium::Shape::alpha_function;
+}
+
+#define LV_DRAWN                                                                          \
+  "for a wall that is drawn (anatomy.source = \"contours\", \"labels\", \"sunnybrook\", " \
+  "\"guide_points\" or \"cine\")"
+
+#define LV_CONDITION(name, holds, words)                                                      \
+  inline constexpr Condition name{                                                            \
+      []([[maybe_unused]] const Case& c, [[maybe_unused]] Stage s) -> bool { return holds; }, \
+      words};
+
+// engines
+LV_CONDITION(immersed_engine, c.engine == Engine::immersed, "with engine = \"immersed\"")
+LV_CONDITION(static_engine, is_static(c, s),
+             "with engine = \"quasi_static\", with a fit ([calibrate]) or with a wall to unload "
+             "([unloaded])")
+LV_CONDITION(iterative,
+             c.quasi_static.solver.newton.linear.method == implicit::LinearMethod::iterative,
+             "with quasi_static.linear_solver = \"iterative\"")
+LV_CONDITION(quadrature, c.coupling.kind == immersed::CouplingKind::quadrature,
+             "with coupling.kind = \"quadrature\"")
+LV_CONDITION(held_calcium, c.protocol.calcium.mode == material::Calcium::Mode::hold,
+             "with calcium.mode = \"hold\"")
+
+// anatomy
+LV_CONDITION(ellipsoid, c.anatomy.source == Source::ellipsoid,
+             "with anatomy.source = \"ellipsoid\"")
+LV_CONDITION(from_contours, c.anatomy.source == Source::contours,
+             "with anatomy.source = \"contours\"")
+LV_CONDITION(from_labels, c.anatomy.source == Source::labels, "with anatomy.source = \"labels\"")
+LV_CONDITION(from_sunnybrook, c.anatomy.source == Source::sunnybrook,
+             "with anatomy.source = \"sunnybrook\"")
+LV_CONDITION(from_guide_points, c.anatomy.source == Source::guide_points,
+             "with anatomy.source = \"guide_points\"")
+LV_CONDITION(from_cine, c.anatomy.source == Source::cine, "with anatomy.source = \"cine\"")
+LV_CONDITION(from_mesh, c.anatomy.source == Source::mesh, "with anatomy.source = \"mesh\"")
+LV_CONDITION(tagged, c.anatomy.mesh.import.sides == mesh::SideSource::tags,
+             "with anatomy.mesh.sides = \"tags\"")
+LV_CONDITION(drawn, is_drawn(c), LV_DRAWN)
+LV_CONDITION(fitted, s == Stage::strain ? !c.strain.long_axis_cine.empty() : is_drawn(c),
+             LV_DRAWN ", or with strain.long_axis_cine")
+LV_CONDITION(septum_shown, s == Stage::strain ? !c.strain.septum_point : is_drawn(c),
+             LV_DRAWN ", or with strain.cine and no strain.septum_point")
+
+// fibres
+LV_CONDITION(fibres_given, !c.anatomy.mesh.import.fibres.empty(), "with anatomy.mesh.fibres")
+LV_CONDITION(fibres_by_rule,
+             c.anatomy.source != Source::mesh || c.anatomy.mesh.import.fibres.empty(),
+             "without anatomy.mesh.fibres, which brings the directions")
+LV_CONDITION(sheets_by_rule,
+             c.anatomy.source != Source::mesh || c.anatomy.mesh.import.sheets.empty(),
+             "without anatomy.mesh.sheets, which brings the directions")
+
+// meshes
+LV_CONDITION(meshed_here, c.anatomy.source != Source::mesh,
+             "for a wall that is meshed here, of every anatomy.source but \"mesh\"")
+LV_CONDITION(linear_elements,
+             c.quasi_static.order == 1 || (s == Stage::mesh && c.engine == Engine::immersed),
+             "with engine = \"immersed\", or with quasi_static.order = 1")
+LV_CONDITION(quadratic_elements, c.quasi_static.order == 2, "with quasi_static.order = 2")
+
+// the infarct
+LV_CONDITION(infarcted, may_have_infarct(c), "with an infarct (infarct.source)")
+LV_CONDITION(infarct_of_mesh, c.scar.source == Scar::mesh, "with infarct.source = \"mesh\"")
+LV_CONDITION(infarct_laid_on, c.scar.source != Scar::mesh && c.scar.source != Scar::none,
+             "with infarct.source = \"described\", \"elements\", \"surface\", \"labels\" or "
+             "\"lge\"")
+LV_CONDITION(infarct_described, c.scar.source == Scar::described,
+             "with infarct.source = \"described\"")
+LV_CONDITION(infarct_of_elements, c.scar.source == Scar::elements,
+             "with infarct.source = \"elements\"")
+LV_CONDITION(infarct_of_surface, c.scar.source == Scar::surface,
+             "with infarct.source = \"surface\"")
+LV_CONDITION(infarct_of_labels, c.scar.source == Scar::labels, "with infarct.source = \"labels\"")
+LV_CONDITION(infarct_of_lge, c.scar.source == Scar::lge, "with infarct.source = \"lge\"")
+LV_CONDITION(infarct_of_images, c.scar.source == Scar::labels || c.scar.source == Scar::lge,
+             "with infarct.source = \"labels\" or \"lge\"")
+LV_CONDITION(infarct_without_unit,
+             c.scar.source == Scar::surface ||
+                 (c.scar.source == Scar::labels && !image::is_nifti_name(c.scar.labels)),
+             "with infarct.source = \"surface\", or \"labels\" whose file is no NIfTI")
+LV_CONDITION(labels_in_nifti, c.scar.labels.empty() || image::is_nifti_name(c.scar.labels),
+             "where infarct.labels.file is NIfTI")
+LV_CONDITION(labels_in_vtk, !image::is_nifti_name(c.scar.labels),
+             "where infarct.labels.file is no NIfTI")
+LV_CONDITION(moved_labels, c.scar.in_plane, "with infarct.labels.in_plane = true")
+LV_CONDITION(lge_in_dicom, !image::is_nifti_name(c.scar.lge.image),
+             "where infarct.lge.image is a folder of DICOM files")
+LV_CONDITION(threshold_sd, c.scar.lge.threshold == mesh::ScarThreshold::sd,
+             "with infarct.lge.threshold = \"sd\"")
+LV_CONDITION(threshold_fwhm, c.scar.lge.threshold == mesh::ScarThreshold::fwhm,
+             "with infarct.lge.threshold = \"fwhm\"")
+LV_CONDITION(moved_lge, c.scar.lge.in_plane, "with infarct.lge.in_plane = true")
+LV_CONDITION(fitted_or_moved,
+             s == Stage::strain    ? !c.strain.long_axis_cine.empty()
+             : s == Stage::anatomy ? is_drawn(c)
+                                   : c.scar.source == Scar::labels && c.scar.in_plane,
+             LV_DRAWN ", with strain.long_axis_cine, or with infarct.labels.in_plane")
+
+// muscle and blood
+LV_CONDITION(holzapfel_ogden, c.passive.law == PassiveLaw::holzapfel_ogden,
+             "with passive.law = \"holzapfel_ogden\"")
+LV_CONDITION(guccione, c.passive.law == PassiveLaw::guccione, "with passive.law = \"guccione\"")
+LV_CONDITION(neo_hookean, c.passive.law == PassiveLaw::neo_hookean,
+             "with passive.law = \"neo_hookean\"")
+LV_CONDITION(niederer, c.active_law == ActiveLaw::niederer, "with active.law = \"niederer\"")
+LV_CONDITION(land2017, c.active_law == ActiveLaw::land2017, "with active.law = \"land2017\"")
+LV_CONDITION(prescribed_tension, !has_kinetics(c),
+             "with active.law = \"second_piola\" or \"cauchy\"")
+LV_CONDITION(moving_fibres, c.engine == Engine::immersed && s == Stage::beat,
+             "with engine = \"immersed\"")
+LV_CONDITION(calcium_counts, has_kinetics(c) || moving_fibres.holds(c, s),
+             "with active.law = \"niederer\" or \"land2017\", or with engine = \"immersed\"")
+LV_CONDITION(alpha_function, has_alpha_function(c), "with calcium.shape = \"alpha_function\"")
+LV_CONDITION(double_exponential, !has_alpha_function(c),
+             "with calcium.shape = \"double_exponential\"")
+LV_CONDITION(mass_counts, s == Stage::results || may_have_infarct(c),
+             "for the masses of wall and infarct")
+
+// circulation
+LV_CONDITION(circuit, c.circulation.asked(),
+             "with circulation.kind = \"windkessel\" or \"closed_loop\"")
+LV_CONDITION(windkessel, c.circulation.kind == circulation::Kind::windkessel,
+             "with circulation.kind = \"windkessel\"")
+LV_CONDITION(closed_loop, c.circulation.kind == circulation::Kind::closed_loop,
+             "with circulation.kind = \"closed_loop\"")
+LV_CONDITION(quadratic_valves, c.circulation.valves.law == circulation::ValveLaw::quadratic,
+             "with circulation.valves.law = \"quadratic\"")
+
+// measurements
+LV_CONDITION(fit, c.calibration.asked(), "with a fit: set calibrate.passive or calibrate.active")
+LV_CONDITION(passive_fit, has_passive_fit(c), "with a passive fit: set calibrate.passive")
+LV_CONDITION(exponent_fit, c.calibration.passive == calibrate::FittedPassive::scale_and_exponent,
+             "with calibrate.passive = \"scale_and_exponent\"")
+LV_CONDITION(active_fit, c.calibration.active, "with calibrate.active = true")
+LV_CONDITION(strains_given, !c.calibration.strains.empty(), "with calibrate.strains")
+LV_CONDITION(loaded, c.unloaded.pressure > 0.0, "with unloaded.pressure above 0")
+LV_CONDITION(cine, c.strain.asked(), "with the images of strain.cine")
+LV_CONDITION(measured, !c.strain.measured.empty(), "with strain.measured")
+
+#undef LV_CONDITION
+#undef LV_DRAWN
+
+}  // namespace lv::case_file::conditions

@@ -1,0 +1,375 @@
+#include "lv/case_file/read_case.hpp"
+
+#include "lv/base/check.hpp"
+#include "lv/base/lines.hpp"
+#include "lv/base/nearest.hpp"
+#include "lv/base/printable.hpp"
+#include "lv/base/table.hpp"
+#include "lv/case_file/case_lines.hpp"
+#include "lv/case_file/parameter_values.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+namespace lv::case_file {
+namespace {
+
+/// Walks a parsed file and sets what it finds, gathering mistakes.
+class CaseReader {
+ public:
+  explicit CaseReader(const std::filesystem::path& file) : file_(file) { case_.file = file; }
+
+  Case read(const toml::table& root) {
+    walk(root, "");
+    case_.name = printable(case_.name);
+    check_together();
+    check_that_all_count();
+    if (!mistakes_.empty())
+      throw InputError(mistakes_.front().first, all_mistakes(), "");
+    return std::move(case_);
+  }
+
+ private:
+  void walk(const toml::table& table, const std::string& prefix) {
+    for (const auto& [key, node] : table) {
+      const std::string name =
+          prefix.empty() ? std::string(key.str()) : prefix + "." + std::string(key.str());
+      const auto line = fmt::format("{}:{}", file_.string(), key.source().begin.line);
+      if (const auto* parameter = find_parameter(name))
+        set(*parameter, node, line);
+      else if (node.is_table() && is_section(name))
+        walk(*node.as_table(), name);
+      else
+        mistakes_.emplace_back(line, unknown(name, node.is_table()));
+    }
+  }
+
+  static bool is_section(const std::string& name) {
+    const auto& all = sections();
+    return std::any_of(all.begin(), all.end(), [&](const auto& s) { return s.name == name; });
+  }
+
+  static std::string unknown(const std::string& name, bool table) {
+    std::vector<std::string> known;
+    for (const Parameter& p : parameters())
+      known.emplace_back(p.name);
+    for (const Section& s : sections())
+      if (table && !s.name.empty())
+        known.push_back(s.name);
+    const std::string nearest = nearest_name(name, known);
+    return fmt::format("{} is not a {}{} (`ventricle parameters` lists them all)", name,
+                       table ? "table" : "parameter",
+                       nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest));
+  }
+
+  void set(const Parameter& parameter, const toml::node& node, const std::string& line) {
+    if (node.is_string() && fmt::format("\"{}\"", *node.value<std::string>()) == fill_in) {
+      mistakes_.emplace_back(line, fmt::format("{} is to be filled in: {}; {}", parameter.name,
+                                               parameter.help, parameter.rule()));
+      return;
+    }
+    try {
+      case_file::set(parameter, case_, node);
+      case_.origin[parameter.name] = line;
+    } catch (const std::invalid_argument& mistake) {
+      mistakes_.emplace_back(line, fmt::format("{} {}", parameter.name, mistake.what()));
+    }
+  }
+
+  /// Rules that concern several parameters.
+  void check_together() {
+    const geometry::Ellipsoid& e = case_.anatomy.ellipsoid;
+    rule(e.epi_radius > e.endo_radius, "anatomy.ellipsoid.epi_radius",
+         "must be larger than endo_radius");
+    rule(e.epi_length > e.endo_length, "anatomy.ellipsoid.epi_length",
+         "must be larger than endo_length");
+    rule(std::abs(e.base_height) < e.endo_length, "anatomy.ellipsoid.base_height",
+         "must be between -endo_length and endo_length");
+    const mesh::InfarctParameters& scar = case_.scar;
+    rule(scar.described.bottom <= scar.described.top, "infarct.described.bottom",
+         "must not be larger than top");
+    const bool elements = scar.source == mesh::InfarctSource::elements;
+    rule(!elements || case_.anatomy.source == AnatomySource::mesh, "infarct.source",
+         "can be \"elements\" only with anatomy.source = \"mesh\"");
+    rule(!elements || !scar.set.empty(), "infarct.source",
+         "is \"elements\", but infarct.elements.set is not set");
+    const auto& A = case_.active.A;
+    rule(A[0] + A[1] + A[2] > 0.0, "active.A_1", "and A_2 and A_3 must have a positive sum");
+    const heartbeat::Protocol& p = case_.protocol;
+    rule(p.filling_longest >= p.filling_ramp + p.filling_window, "protocol.filling_longest",
+         "must leave time for filling_ramp and filling_window");
+    rule(p.contraction_longest >= p.contraction_ramp + p.contraction_window,
+         "protocol.contraction_longest",
+         "must leave time for contraction_ramp and contraction_window");
+    const auto& q = case_.quasi_static;
+    rule(
+        q.order == 2 || q.solver.newton.linear.method == implicit::LinearMethod::direct,
+        "quasi_static.linear_solver",
+        "is iterative, which does not converge with the linear elements of quasi_static.order = 1");
+    rule(p.calcium.Ca_max > p.calcium.Ca_0, "calcium.Ca_max", "must be larger than Ca_0");
+    rule(p.calcium.t_2 > p.calcium.t_1, "calcium.t_2", "must be longer than t_1");
+    check_land2017();
+    check_calibration();
+    check_circulation();
+    const StrainStudy& study = case_.strain;
+    rule(study.measured.empty() || !study.measured_column.empty(), "strain.measured",
+         "needs strain.measured_column, the name of the column that holds end-systole");
+  }
+
+  void check_land2017() {
+    const material::Land2017& law = case_.land2017;
+    rule(
+        law.k_uw * (1.0 / law.r_w - 1.0) >= law.k_ws, "active.land2017.k_ws",
+        "must not be larger than k_uw (1/r_w - 1), the rate at which cross-bridges leave the state "
+        "W: some must go back");
+    rule(law.Ca_50ref + law.beta_1 * (law.longest - 1.0) > 0.0, "active.land2017.beta_1",
+         "must leave a calcium at half activation above zero at a stretch of 1.2: Ca_50ref + 0.2 "
+         "beta_1 > 0");
+  }
+
+  /// What is set and does nothing would be taken for something that it is not. The mesh is told
+  /// apart: its edge length stays in a case that is given to either engine, and is warned of.
+  void check_that_all_count() {
+    for (const auto& [name, place] : case_.origin) {
+      const std::string where = counts_only(*find_parameter(name), case_);
+      if (where.empty())
+        continue;
+      const std::string what = fmt::format("{} does nothing here: it counts only {}", name, where);
+      if (name.starts_with("mesh."))
+        case_.without_effect.push_back(what);
+      else
+        mistakes_.emplace_back(
+            place, what +
+                       ". Remove this line, or make it a comment, if the case is meant to be "
+                       "another");
+    }
+  }
+
+  void check_calibration() {
+    const Calibration& k = case_.calibration;
+    const bool passive = k.passive != calibrate::FittedPassive::none;
+    rule(!passive || k.edv > 0.0, "calibrate.passive",
+         "needs the measured volume calibrate.edv: add edv = \"... ml\" under [calibrate]");
+    rule(!k.active || k.esv > 0.0, "calibrate.active",
+         "needs the measured volume calibrate.esv: add esv = \"... ml\" under [calibrate]");
+    rule(k.edv == 0.0 || k.esv < k.edv, "calibrate.esv", "must be less than edv");
+    rule(!passive || case_.passive.law == PassiveLaw::holzapfel_ogden, "calibrate.passive",
+         "fits the Holzapfel-Ogden law alone; passive.law is another");
+    rule(!passive || case_.protocol.ed_pressure > 0.0, "protocol.ed_pressure",
+         "must be above zero for a passive fit");
+    rule(!k.active || case_.active_law == ActiveLaw::niederer, "calibrate.active",
+         "fits T_scale of active.law = \"niederer\"; the case has another");
+    rule(
+        !is_loaded(case_) || !passive ||
+            case_.unloaded.pressure < 0.95 * case_.protocol.ed_pressure,
+        "unloaded.pressure",
+        "is (nearly) protocol.ed_pressure: the wall then fills to the shape that was seen whatever "
+        "its stiffness, and edv says nothing about calibrate.passive; give the pressure of early "
+        "diastole, with its shape");
+    rule(k.stiffness.low < k.stiffness.high, "calibrate.stiffness_max",
+         "must be larger than stiffness_min");
+    rule(k.exponent.low < k.exponent.high, "calibrate.exponent_max",
+         "must be larger than exponent_min");
+    rule(k.T_scale.low < k.T_scale.high, "calibrate.T_scale_max",
+         "must be larger than T_scale_min");
+  }
+
+  void check_circulation() {
+    const circulation::Parameters& p = case_.circulation;
+    rule(p.step <= 0.05 * p.period, "circulation.step",
+         "must be at most a twentieth of the period");
+    rule(p.valves.closed_resistance >=
+             100.0 * std::max({p.windkessel.R_mv, p.windkessel.R_ao + p.windkessel.R_c,
+                               p.closed_loop.valve_resistance}),
+         "circulation.valves.closed_resistance",
+         "must be at least a hundred times that of every open valve");
+    const auto fits = [&](const circulation::ElastanceParameters& e, const std::string& chamber) {
+      rule(e.T_C + e.T_R <= p.period, "circulation." + chamber + ".T_R",
+           "and T_C take longer together than a beat (circulation.period)");
+    };
+    fits(p.left_ventricle, "left_ventricle");
+    fits(p.closed_loop.left_atrium, "closed_loop.left_atrium");
+    fits(p.closed_loop.right_atrium, "closed_loop.right_atrium");
+    fits(p.closed_loop.right_ventricle, "closed_loop.right_ventricle");
+  }
+
+  /// A rule of a parameter that does not count says nothing.
+  void rule(bool holds, const std::string& name, const std::string& what) {
+    if (!holds && counts_only(*find_parameter(name), case_).empty())
+      mistakes_.emplace_back(place_of(case_, name), fmt::format("{} {}", name, what));
+  }
+
+  [[nodiscard]] std::string all_mistakes() const {
+    std::string text = mistakes_.front().second;
+    for (std::size_t i = 1; i < mistakes_.size(); ++i)
+      text += fmt::format("\n{}: {}", mistakes_[i].first, mistakes_[i].second);
+    return text;
+  }
+
+  std::filesystem::path file_;
+  Case case_;
+  std::vector<std::pair<std::string, std::string>> mistakes_;  ///< place and what is wrong there
+};
+
+/// Whether a text contains another, in capitals or not.
+bool contains(const std::string& text, const std::string& part) {
+  if (part.empty())
+    return true;
+  const auto same = [](unsigned char a, unsigned char b) {
+    return std::tolower(a) == std::tolower(b);
+  };
+  return std::search(text.begin(), text.end(), part.begin(), part.end(), same) != text.end();
+}
+
+/// Throws InputError unless some parameter contains the filter.
+void require_match(const std::string& filter) {
+  std::vector<std::string> names;
+  for (const Parameter& p : parameters()) {
+    if (contains(p.name, filter) || contains(p.help, filter))
+      return;
+    names.push_back(p.name);
+    names.push_back(key_of(p.name));
+  }
+  const std::string nearest = nearest_name(filter, names);
+  throw InputError(
+      "parameters " + filter, "no parameter has this in its name or meaning",
+      nearest.empty() ? "Try a shorter word" : fmt::format("Did you mean {}?", nearest));
+}
+
+std::string where_in_paper(const Parameter& p) {
+  return *p.equation == '\0' ? "" : fmt::format(" ({})", p.equation);
+}
+
+/// What a parameter means and where it counts.
+std::string meaning(const Parameter& p) {
+  std::vector<std::string> conditions;
+  for (const Condition* condition : p.conditions)
+    if (condition != nullptr)
+      conditions.emplace_back(condition->words);
+  return conditions.empty() ? p.help
+                            : fmt::format("{} (only {})", p.help, fmt::join(conditions, " and "));
+}
+
+/// Tells of all files and folders that a case names and that are not there, if they are several:
+/// of a single one its reader tells.
+void require_files(const Case& c) {
+  std::vector<std::pair<std::string, std::string>> absent;  // place, what
+  std::error_code failed;
+  for (const Parameter& p : parameters())
+    if (p.text == Text::path && counts_only(p, c).empty())
+      for (const std::string& name : paths(p, c))
+        if (!std::filesystem::exists(beside(c, name), failed) && !failed)
+          absent.emplace_back(place_of(c, p.name),
+                              fmt::format("{}: there is no {}", p.name, beside(c, name).string()));
+  if (absent.size() < 2)
+    return;
+  std::string text = absent.front().second;
+  for (std::size_t i = 1; i < absent.size(); ++i)
+    text += fmt::format("\n{}: {}", absent[i].first, absent[i].second);
+  throw InputError(absent.front().first, text, "Check the names; they are read beside the case");
+}
+
+}  // namespace
+
+Case parse_case(const std::string& text, const std::filesystem::path& file) {
+  toml::table root;
+  try {
+    root = toml::parse(text, file.string());
+  } catch (const toml::parse_error& error) {
+    throw InputError(fmt::format("{}:{}", file.string(), error.source().begin.line),
+                     std::string(error.description()),
+                     "Texts and quantities stand in quotation marks: key = \"8 mmHg\"");
+  }
+  return CaseReader(file).read(root);
+}
+
+Case read_case(const std::filesystem::path& file) {
+  Case c = parse_case(read_text(file), file);
+  require_files(c);
+  return c;
+}
+
+std::string starter_case(const std::string& name) {
+  static const std::vector<std::string> shown{"anatomy.source",
+                                              "anatomy.ellipsoid.endo_radius",
+                                              "anatomy.ellipsoid.endo_length",
+                                              "anatomy.ellipsoid.epi_radius",
+                                              "anatomy.ellipsoid.epi_length",
+                                              "anatomy.ellipsoid.base_height",
+                                              "mesh.edge_length",
+                                              "passive.holzapfel_ogden.a",
+                                              "passive.holzapfel_ogden.b",
+                                              "passive.holzapfel_ogden.a_f",
+                                              "passive.holzapfel_ogden.b_f",
+                                              "passive.holzapfel_ogden.a_s",
+                                              "passive.holzapfel_ogden.b_s",
+                                              "passive.holzapfel_ogden.a_fs",
+                                              "passive.holzapfel_ogden.b_fs",
+                                              "active.T_scale",
+                                              "calcium.mode",
+                                              "box.size",
+                                              "box.cells",
+                                              "protocol.ed_pressure",
+                                              "protocol.es_pressure",
+                                              "time.longest_step",
+                                              "output.frame_interval"};
+  const Case defaults;
+  std::string text =
+      "# A case of ventricle. Every quantity carries its unit. What is not set here has its "
+      "default;\n"
+      "# `ventricle parameters` lists all parameters with unit, range, default and meaning.\n"
+      "# `ventricle new --from SOURCE` fills in what a label map, contours or a mesh show.\n\n" +
+      first_lines(name);
+  for (const Section& section : sections()) {
+    std::vector<CaseLine> lines;
+    for (const Parameter& p : parameters())
+      if (table_of(p.name) == section.name &&
+          std::find(shown.begin(), shown.end(), p.name) != shown.end())
+        lines.push_back({p.name, p.get(defaults), fmt::format("{}; {}", meaning(p), p.rule())});
+    if (!lines.empty())
+      text += fmt::format("\n# {}\n{}", section.help, case_lines(lines));
+  }
+  return text;
+}
+
+std::string manual(bool markdown, const std::string& filter) {
+  require_match(filter);
+  const Case defaults;
+  const auto wanted = [&](const Section& section, const Parameter& p) {
+    return table_of(p.name) == section.name &&
+           (contains(p.name, filter) || contains(p.help, filter));
+  };
+  std::string text =
+      markdown
+          ? "# Parameters\n\nPrinted by `ventricle parameters --markdown`. Any unit of the same "
+            "dimension may be written. A parameter that is set where it does not count is refused, "
+            "of "
+            "[mesh] named in a warning. "
+            "The "
+            "last column names the paper's equation or section.\n"
+          : "";
+  for (const Section& s : sections()) {
+    if (std::none_of(parameters().begin(), parameters().end(),
+                     [&](const Parameter& p) { return wanted(s, p); }))
+      continue;
+    const std::string title = s.name.empty() ? "top level" : fmt::format("[{}]", s.name);
+    text += markdown ? fmt::format(
+                           "\n## {}\n\n{}.\n\n| parameter | default | allowed | meaning | paper "
+                           "|\n|---|---|---|---|---|\n",
+                           title, s.help)
+                     : fmt::format("\n{}  {}\n", title, s.help);
+    for (const Parameter& p : parameters()) {
+      if (!wanted(s, p))
+        continue;
+      text += markdown ? fmt::format("| `{}` | `{}` | {} | {} | {} |\n", key_of(p.name),
+                                     p.get(defaults), p.rule(), meaning(p), p.equation)
+                       : fmt::format("  {} = {}\n      {}{}; {}\n", key_of(p.name), p.get(defaults),
+                                     meaning(p), where_in_paper(p), p.rule());
+    }
+  }
+  return text;
+}
+
+}  // namespace lv::case_file

@@ -1,0 +1,133 @@
+#include "lv/implicit/engine.hpp"
+
+#include "lv/base/check.hpp"
+#include "lv/base/log.hpp"
+#include "lv/base/units.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace lv::implicit {
+namespace {
+
+Loads between(const Loads& a, const Loads& b, double s) {
+  return {(1.0 - s) * a.pressure + s * b.pressure, (1.0 - s) * a.activation + s * b.activation,
+          (1.0 - s) * a.calcium + s * b.calcium};
+}
+
+/// Step lengths grow when Newton's method finds it easy, and shrink when it does not.
+constexpr int easy = 5;  // corrections
+constexpr int hard = 12;
+constexpr double growth = 1.7;
+
+double next_length(double length, int corrections) {
+  return corrections <= easy ? length * growth : corrections >= hard ? length / growth : length;
+}
+
+}  // namespace
+
+State extrapolate(const State& before, const State& now, double by) {
+  State next = now;
+  for (std::size_t a = 0; a < next.positions.size(); ++a)
+    next.positions[a] += by * (now.positions[a] - before.positions[a]);
+  for (std::size_t m = 0; m < next.pressures.size(); ++m)
+    next.pressures[m] += by * (now.pressures[m] - before.pressures[m]);
+  next.cavity_pressure += by * (now.cavity_pressure - before.cavity_pressure);
+  return next;
+}
+
+Engine::Engine(const mesh::Mesh& mesh, const StaticModel& model, const SolverParameters& parameters)
+    : parameters_(parameters),
+      equations_(mesh, model),
+      newton_(equations_, parameters.newton),
+      state_(equations_.rest()) {}
+
+Outcome<double> Engine::go_to(const Loads& target,
+                              const std::function<void(const Step&)>& observe) {
+  const Loads start = loads_;
+  double volume = cavity_volume();
+  const double most = parameters_.largest_change * volume;  // [mm^3]
+  std::optional<State> before;
+  double last_length = 0.0;
+  double length = parameters_.first_step;
+  double progress = 0.0;
+  while (progress < 1.0) {
+    length = std::min(length, 1.0 - progress);
+    if (1.0 - progress - length < 0.1 * length)
+      length = 1.0 - progress;  // no crumbs
+    const Loads loads = between(start, target, progress + length);
+    State next = before ? extrapolate(*before, state_, length / last_length) : state_;
+    const NewtonReport report = newton_.solve(next, loads);
+    if (!report.converged) {
+      log::info("a step of {:.3g} of the way failed: {}", length, report.why);
+      if (before) {
+        before.reset();  // once more without extrapolation
+        length *= 0.5;
+      } else {
+        length *= 0.25;
+      }
+      if (length < parameters_.smallest_step)
+        return Unsolved{
+            fmt::format("No equilibrium was found beyond {:.2f} mmHg and {:.0f}% of the active "
+                        "tension: {}",
+                        loads_.pressure / units::mmHg, 100.0 * loads_.activation, report.why),
+            "Look at the mesh's worst element and at the stiffness (a wall too soft for its "
+            "pressure has no equilibrium); try a finer mesh, or a smaller quasi_static.first_step"};
+      continue;
+    }
+    before = std::move(state_);
+    state_ = std::move(next);
+    loads_ = loads;
+    progress = progress + length;
+    last_length = length;
+    const double now = cavity_volume();
+    const double change = std::abs(now - volume);
+    volume = now;
+    if (observe)
+      observe({loads_, progress, length, volume, report});
+    length = std::min(next_length(length, report.iterations), length * most / change);
+  }
+  loads_ = target;
+  return cavity_volume();
+}
+
+Outcome<double> Engine::set_model(const StaticModel& model) {
+  equations_.set_model(model);
+  newton_.forget_tangent();
+  if (loads_.pressure == 0.0 && loads_.activation == 0.0) {
+    relax();
+    return cavity_volume();
+  }
+  if (newton_.solve(state_, loads_).converged)
+    return cavity_volume();
+  const Loads loads = loads_;
+  relax();
+  return go_to(loads);
+}
+
+NewtonReport Engine::find(State guess, const Equilibrium& equilibrium) {
+  NewtonReport report = newton_.solve(guess, equilibrium);
+  if (report.converged) {
+    state_ = std::move(guess);
+    loads_ = {equilibrium.volume ? state_.cavity_pressure : equilibrium.pressure};
+  }
+  return report;
+}
+
+void Engine::relax() {
+  restore(equations_.rest(), {});
+}
+
+void Engine::restore(const State& state, const Loads& loads) {
+  if (state.positions.size() != state_.positions.size() ||
+      state.pressures.size() != state_.pressures.size())
+    throw InputError("an equilibrium that was kept", "is one of another wall",
+                     "Delete the unfinished folder of this stage to start it again");
+  state_ = state;
+  loads_ = loads;
+  newton_.forget_tangent();
+}
+
+}  // namespace lv::implicit

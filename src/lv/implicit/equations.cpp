@@ -1,0 +1,285 @@
+#include "lv/implicit/equations.hpp"
+
+#include "lv/base/check.hpp"
+#include "lv/base/parallel.hpp"
+#include "lv/implicit/constitution.hpp"
+#include "lv/material/tangent_algebra.hpp"
+#include "lv/mesh/shapes.hpp"
+
+#include <algorithm>
+
+namespace lv::implicit {
+namespace {
+
+using material::Tangent;
+
+/// The mean shear modulus of a tangent dP/dF [kPa]: of its nine directions the one that changes
+/// volume is left out; isotropic linear elasticity gives mu.
+double shear_modulus(const Tangent<double>& C, const Mat3& F) {
+  const Eigen::Matrix<double, 9, 1> volumetric =
+      Eigen::Map<const Eigen::Matrix<double, 9, 1>>(cofactor(F).eval().data()).normalized();
+  return 0.1 * (C.trace() - volumetric.dot(C * volumetric));
+}
+
+/// The element's tangent, displacements (node by node) before pressures.
+class ElementTangent {
+ public:
+  ElementTangent(Eigen::Index nodes, Eigen::Index pressures, std::size_t points)
+      : n_(nodes),
+        m_(pressures),
+        gradients_(3 * static_cast<Eigen::Index>(points), nodes),
+        K_(3 * nodes + pressures, 3 * nodes + pressures),
+        pressure_mass_(pressures, pressures) {
+    for (auto& Y : fluxes_)
+      Y.resize(gradients_.rows(), nodes);
+  }
+
+  const Eigen::MatrixXd& compute(const std::vector<Point>& points, const ElementState& s,
+                                 Constitution law, const Eigen::MatrixXd& pressure_shapes) {
+    K_.setZero();
+    pressure_mass_.setZero();
+    for (law.point = 0; law.point < points.size(); ++law.point)
+      add_point(points[law.point], static_cast<Eigen::Index>(law.point), s, law, pressure_shapes);
+    multiply();
+    K_.bottomLeftCorner(m_, 3 * n_) = K_.topRightCorner(3 * n_, m_).transpose();
+    return K_;
+  }
+
+  /// int N N^T / mu dX of the element computed last.
+  [[nodiscard]] const Eigen::MatrixXd& pressure_mass() const { return pressure_mass_; }
+
+ private:
+  using Index = Eigen::Index;
+
+  void add_point(const Point& point, Index q, const ElementState& s, const Constitution& law,
+                 const Eigen::MatrixXd& pressure_shapes) {
+    const Mat3 F = s.x * point.gradient.transpose();
+    const Eigen::VectorXd N = pressure_shapes.row(q);
+    const Tangent<double> dP_dF = law.tangent(F, point.infarct);
+    const Tangent<double> C = point.volume * (dP_dF + N.dot(s.p) * material::cofactor_tangent(F));
+    pressure_mass_ += point.volume / std::max(shear_modulus(dP_dF, F), 1e-3) * N * N.transpose();
+    gradients_.middleRows(3 * q, 3) = point.gradient;
+    for (int i = 0; i < 3; ++i) {
+      for (int k = 0; k < 3; ++k) {
+        Mat3 C_ik;
+        for (int j = 0; j < 3; ++j)
+          for (int l = 0; l < 3; ++l)
+            C_ik(j, l) = C(i + 3 * j, k + 3 * l);
+        for (Index b = 0; b < n_; ++b)
+          fluxes_[3 * i + k].block<3, 1>(3 * q, b).noalias() = C_ik * point.gradient.col(b);
+      }
+    }
+    const Eigen::Matrix3Xd dJ = point.volume * cofactor(F) * point.gradient;
+    K_.topRightCorner(3 * n_, m_) +=
+        Eigen::Map<const Eigen::VectorXd>(dJ.data(), dJ.size()) * N.transpose();
+  }
+
+  /// K_ab(i,k) = sum_q G_a . C_ik G_b, one product of matrices for each i and k.
+  void multiply() {
+    for (int i = 0; i < 3; ++i) {
+      for (int k = 0; k < 3; ++k) {
+        product_.noalias() = gradients_.transpose() * fluxes_[3 * i + k];
+        for (Index b = 0; b < n_; ++b)
+          for (Index a = 0; a < n_; ++a)
+            K_(3 * a + i, 3 * b + k) = product_(a, b);
+      }
+    }
+  }
+
+  Index n_, m_;
+  Eigen::MatrixXd gradients_;              ///< G, of all points
+  std::array<Eigen::MatrixXd, 9> fluxes_;  ///< C_ik G
+  Eigen::MatrixXd product_, K_, pressure_mass_;
+};
+
+std::vector<int> unknowns(const ReferenceWall& wall, int e, int node_count) {
+  std::vector<int> result;
+  for (const int node : wall.elements.element(e))
+    for (int i = 0; i < 3; ++i)
+      result.push_back(3 * node + i);
+  for (const int p : wall.pressures.element(e))
+    result.push_back(3 * node_count + p);
+  return result;
+}
+
+/// Each node of quadratic elements as a mean of the corners of one of them.
+std::vector<std::vector<Pattern::Share>> shares_of_corners(const ReferenceWall& wall,
+                                                           mesh::CellKind kind, int node_count) {
+  const std::vector<Vec3> places = mesh::node_places(kind, 2);
+  const std::vector<Vec3> corners = mesh::node_places(kind, 1);
+  const Eigen::MatrixXd weights =
+      solid::element_shapes(kind, 1, {places, std::vector<double>(places.size(), 1.0)}).value;
+  std::vector<int> at;  // the corners among the nodes of an element
+  for (const Vec3& corner : corners)
+    at.push_back(static_cast<int>(
+        std::find_if(places.begin(), places.end(),
+                     [&](const Vec3& place) { return (place - corner).norm() < 1e-12; }) -
+        places.begin()));
+  std::vector<std::vector<Pattern::Share>> result(node_count);
+  for (int e = 0; e < wall.elements.size(); ++e) {
+    const auto nodes = wall.elements.element(e);
+    for (std::size_t a = 0; a < nodes.size(); ++a) {
+      if (!result[nodes[a]].empty())
+        continue;
+      for (std::size_t c = 0; c < at.size(); ++c)
+        if (const double weight =
+                weights(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(c));
+            weight > 1e-12)
+          result[nodes[a]].push_back({nodes[at[c]], weight});
+    }
+  }
+  return result;
+}
+
+/// Linear elements would lock with the stabilisation of quadratic ones.
+StaticModel for_order(StaticModel model, int order) {
+  if (order == 1)
+    model.stabilisation.beta_s = 0.0;
+  return model;
+}
+
+}  // namespace
+
+ElementState element_state(const ReferenceWall& wall, int e, const State& state) {
+  const auto nodes = wall.elements.element(e);
+  const auto pressures = wall.pressures.element(e);
+  ElementState s{Eigen::Matrix3Xd(3, nodes.size()), Eigen::VectorXd(pressures.size())};
+  for (std::size_t a = 0; a < nodes.size(); ++a)
+    s.x.col(static_cast<Eigen::Index>(a)) = state.positions[nodes[a]];
+  for (std::size_t m = 0; m < pressures.size(); ++m)
+    s.p[static_cast<Eigen::Index>(m)] = state.pressures[pressures[m]];
+  return s;
+}
+
+Equations::Equations(const mesh::Mesh& mesh, const StaticModel& model)
+    : mesh_(mesh),
+      wall_(reference_wall(mesh, model.heart.fibres)),
+      endocardium_(mesh),
+      model_(for_order(model, mesh.order)),
+      base_(mesh, model.heart.base) {}
+
+void Equations::set_model(const StaticModel& model) {
+  model_ = for_order(model, mesh_.order);
+  base_ = solid::BasalPenalty(mesh_, model.heart.base);
+}
+
+State Equations::rest() const {
+  return {mesh_.nodes, std::vector<double>(wall_.pressure_count, 0.0)};
+}
+
+Pattern Equations::pattern() const {
+  Pattern pattern{node_count(), wall_.pressure_count, {}, wall_.owners, {}};
+  for (int e = 0; e < wall_.elements.size(); ++e)
+    pattern.groups.push_back(unknowns(wall_, e, node_count()));
+  if (mesh_.order == 2)
+    pattern.corners = shares_of_corners(wall_, mesh_.kind, node_count());
+  return pattern;
+}
+
+TensionAt Equations::steady(double activation) const {
+  return [this, activation](std::size_t, std::size_t, double stretch) {
+    return model_.contractility.at(stretch, activation);
+  };
+}
+
+std::vector<double> Equations::residual(const State& state, double pressure,
+                                        const TensionAt& tension) const {
+  std::vector<double> R(size(), 0.0);
+  bool inverted = false;
+  for (std::size_t i = 0; i < wall_.points.size(); ++i) {
+    const int e = wall_.own[i];
+    const ElementState s = element_state(wall_, e, state);
+    Eigen::Matrix3Xd force = Eigen::Matrix3Xd::Zero(3, s.x.cols());
+    Eigen::VectorXd swelling = Eigen::VectorXd::Zero(s.p.size());
+    for (std::size_t q = 0; q < wall_.points[i].size(); ++q) {
+      const Point& point = wall_.points[i][q];
+      const Mat3 F = s.x * point.gradient.transpose();
+      const double J = determinant(F);
+      inverted = inverted || !(J > 0.0);
+      const Eigen::VectorXd N = wall_.pressure_shapes.value.row(static_cast<Eigen::Index>(q));
+      const Constitution law{model_, tension, i, q};
+      const Mat3 P = law.stress(F, J, point.infarct) + N.dot(s.p) * cofactor(F);
+      force.noalias() += point.volume * P * point.gradient;
+      swelling += point.volume * (J - 1.0) * N;
+    }
+    const auto to = unknowns(wall_, e, node_count());
+    for (Eigen::Index k = 0; k < force.size(); ++k)
+      R[to[k]] += force.data()[k];
+    for (Eigen::Index m = 0; m < swelling.size(); ++m)
+      R[to[force.size() + m]] += swelling[m];
+  }
+  if (parallel::any(inverted))
+    return {};
+  std::vector<Vec3> forces(state.positions.size(), Vec3::Zero());
+  endocardium_.add_gradient(pressure, state.positions, forces);
+  base_.add_forces(state.positions, forces);
+  for (std::size_t a = 0; a < forces.size(); ++a)
+    for (int i = 0; i < 3; ++i)
+      R[3 * a + i] -= forces[a][i];
+  parallel::sum(R);
+  return R;
+}
+
+std::vector<double> Equations::cavity_gradient(const State& state) const {
+  std::vector<Vec3> gradient(state.positions.size(), Vec3::Zero());
+  endocardium_.add_gradient(1.0, state.positions, gradient);
+  std::vector<double> g(gradient.data()->data(), gradient.data()->data() + 3 * gradient.size());
+  g.resize(size(), 0.0);
+  parallel::sum(g);
+  return g;
+}
+
+std::vector<double> Equations::fibre_stretch(const State& state) const {
+  std::vector<double> stretch;
+  for (std::size_t i = 0; i < wall_.points.size(); ++i) {
+    const ElementState s = element_state(wall_, wall_.own[i], state);
+    for (const Point& point : wall_.points[i])
+      stretch.push_back((s.x * point.gradient.row(0).transpose()).norm());
+  }
+  return stretch;
+}
+
+void Equations::tangent(const State& state, double pressure, const TensionAt& tension,
+                        SparseMatrix& K) const {
+  K.set_zero();
+  ElementTangent element(wall_.elements.nodes_per_element, wall_.pressures.nodes_per_element,
+                         wall_.points.empty() ? 0 : wall_.points.front().size());
+  for (std::size_t i = 0; i < wall_.points.size(); ++i) {
+    const int e = wall_.own[i];
+    const std::vector<int> at = unknowns(wall_, e, node_count());
+    K.add(at, element.compute(wall_.points[i], element_state(wall_, e, state), {model_, tension, i},
+                              wall_.pressure_shapes.value));
+    K.add_pressure_mass(std::span(at).last(wall_.pressures.nodes_per_element),
+                        element.pressure_mass());
+  }
+  endocardium_.add_hessian(-pressure, state.positions,
+                           [&](std::span<const int> nodes, const Eigen::MatrixXd& block) {
+                             std::vector<int> at;
+                             for (const int node : nodes)
+                               at.insert(at.end(), {3 * node, 3 * node + 1, 3 * node + 2});
+                             K.add(at, block);
+                           });
+  if (parallel::is_root())
+    for (const auto& spring : base_.springs())
+      K.add(std::array{3 * spring.node, 3 * spring.node + 1, 3 * spring.node + 2},
+            spring.stiffness);
+  K.finish();
+}
+
+double Equations::mean_tension(const State& state, const TensionAt& tension) const {
+  std::array<double, 2> sums{};
+  for (std::size_t i = 0; i < wall_.points.size(); ++i) {
+    const ElementState s = element_state(wall_, wall_.own[i], state);
+    for (std::size_t q = 0; q < wall_.points[i].size(); ++q) {
+      const Point& point = wall_.points[i][q];
+      const Constitution law{model_, tension, i, q};
+      const Mat3 F = s.x * point.gradient.transpose();
+      sums[0] += point.volume * law.tension(F, point.infarct).value;
+      sums[1] += point.volume;
+    }
+  }
+  parallel::sum(sums);
+  return sums[0] / sums[1];
+}
+
+}  // namespace lv::implicit

@@ -1,0 +1,142 @@
+#pragma once
+
+#include "lv/implicit/contractility.hpp"
+#include "lv/implicit/reference_wall.hpp"
+#include "lv/implicit/sparse.hpp"
+#include "lv/solid/cardiac_model.hpp"
+#include "lv/solid/cell_stress.hpp"
+#include "lv/solid/endocardial_surface.hpp"
+#include "lv/solid/loads.hpp"
+
+#include <functional>
+#include <vector>
+
+namespace lv::implicit {
+
+using solid::Loads;
+
+/// Active tension without the infarct's factor, at a fibre stretch, of a quadrature point: the
+/// element's place among this rank's, and the point's in it.
+using TensionAt = std::function<Tension(std::size_t element, std::size_t point, double stretch)>;
+
+/// Springs that yield by micrometres under the pressures of a ventricle [kPa/mm].
+inline constexpr double rigid_base = 1e6;
+
+/// A cardiac model as equilibria without time see it.
+struct StaticModel {
+  /// Volumetric stiffness at every quadrature point, beside the pressures' weaker constraint. Zero
+  /// at J = 1, so no solution sees it, but it holds the deformations inside an element that change
+  /// volume here and there and not in the mean: under p they would buckle in so soft a muscle. Of
+  /// quadratic elements only: linear ones would lock.
+  static constexpr material::Volumetric default_stabilisation{.beta_s = 10.0};
+
+  // NOLINTNEXTLINE(google-explicit-constructor): it is the same model
+  StaticModel(solid::CardiacModel model, const material::Calcium& calcium = {},
+              const material::Volumetric& at_points = default_stabilisation)
+      : heart(std::move(model)),
+        contractility(heart.myocardium.active, calcium),
+        stabilisation(at_points) {}
+
+  solid::CardiacModel heart;  ///< its volumetric penalty is not used: the wall is incompressible
+  Contractility contractility;
+  material::Volumetric stabilisation;
+};
+
+/// Positions of the nodes [mm] and pressures of the elements [kPa]: all unknowns, on every rank.
+/// The cavity's pressure is one of them where the cavity's volume is given instead.
+struct State {
+  std::vector<Vec3> positions;
+  std::vector<double> pressures;
+  double cavity_pressure = 0.0;  ///< [kPa]
+};
+
+/// The unknowns of one element.
+struct ElementState {
+  Eigen::Matrix3Xd x;  ///< of its nodes [mm]
+  Eigen::VectorXd p;   ///< its pressures [kPa]
+};
+
+[[nodiscard]] ElementState element_state(const ReferenceWall& wall, int element,
+                                         const State& state);
+
+/// Equilibrium of the incompressible wall in weak form, for all test functions phi_a and q_m:
+///
+///   R_a = int [P_passive(F) + P_active(F) + P_stabilisation(F) + p cof F] grad phi_a dX
+///         - p_endo dV/dx_a + K_base (x_a - X_a)         = 0                                [mN]
+///   R_m = int q_m (J - 1) dX                            = 0                                [mm^3]
+///
+/// with P_passive from (2.18) and (2.23), P_active from (2.21) and (2.24), V of the cavity. p is
+/// the tension that holds J = 1: the Cauchy stress is sigma^p + sigma^a + p 1, so -p is the p of
+/// (2.6). Unknowns are numbered 3 a + i for the positions, then the pressures.
+class Equations {
+ public:
+  /// The mesh must outlive the equations.
+  Equations(const mesh::Mesh& mesh, const StaticModel& model);
+
+  /// Other muscle on the same mesh, with the same fibres.
+  void set_model(const StaticModel& model);
+
+  /// Undeformed, without pressures.
+  [[nodiscard]] State rest() const;
+
+  [[nodiscard]] int size() const { return 3 * node_count() + wall_.pressure_count; }
+  [[nodiscard]] int node_count() const { return static_cast<int>(mesh_.nodes.size()); }
+
+  /// The nodes' places before any load [mm].
+  [[nodiscard]] std::span<const Vec3> undeformed() const { return mesh_.nodes; }
+
+  [[nodiscard]] const solid::EndocardialSurface& endocardium() const { return endocardium_; }
+
+  /// Which unknowns the tangent joins.
+  [[nodiscard]] Pattern pattern() const;
+
+  /// The steady tension of an activation, the same at all points.
+  [[nodiscard]] TensionAt steady(double activation) const;
+
+  /// R under a pressure in the cavity [kPa], complete on every rank; empty when an element is
+  /// turned inside out at some point of any rank.
+  [[nodiscard]] std::vector<double> residual(const State& state, double pressure,
+                                             const TensionAt& tension) const;
+
+  /// The same under loads, with steady tension.
+  [[nodiscard]] std::vector<double> residual(const State& state, const Loads& loads) const {
+    return residual(state, loads.pressure, steady(loads.activation));
+  }
+
+  /// Sets a matrix to dR/d(unknowns), and its pressure mass.
+  void tangent(const State& state, double pressure, const TensionAt& tension,
+               SparseMatrix& K) const;
+  void tangent(const State& state, const Loads& loads, SparseMatrix& K) const {
+    tangent(state, loads.pressure, steady(loads.activation), K);
+  }
+
+  /// dV/dx of the cavity, complete on every rank, as long as R [mm^2].
+  [[nodiscard]] std::vector<double> cavity_gradient(const State& state) const;
+
+  /// This rank's elements, and the quadrature points of each.
+  [[nodiscard]] std::size_t own_elements() const { return wall_.points.size(); }
+  [[nodiscard]] std::size_t points_per_element() const {
+    return static_cast<std::size_t>(wall_.pressure_shapes.value.rows());
+  }
+
+  /// The fibre stretch at the quadrature points of this rank's elements, one after the other.
+  [[nodiscard]] std::vector<double> fibre_stretch(const State& state) const;
+
+  /// Volume-weighted mean over the wall of T with the infarct's factor [kPa].
+  [[nodiscard]] double mean_tension(const State& state, const TensionAt& tension) const;
+
+  /// Stress in every linear cell of the mesh, complete on every rank: means over the cell of what
+  /// the elements' own displacement and pressure give, with the tension of the nearest quadrature
+  /// point's muscle. Collective.
+  [[nodiscard]] std::vector<solid::CellStress> cell_stress(const State& state,
+                                                           const TensionAt& tension) const;
+
+ private:
+  const mesh::Mesh& mesh_;
+  ReferenceWall wall_;
+  solid::EndocardialSurface endocardium_;
+  StaticModel model_;
+  solid::BasalPenalty base_;
+};
+
+}  // namespace lv::implicit

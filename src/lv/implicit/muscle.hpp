@@ -1,0 +1,56 @@
+#pragma once
+
+#include "lv/material/active_law.hpp"
+
+#include <span>
+#include <variant>
+#include <vector>
+
+namespace lv::implicit {
+
+/// A step of time and the calcium at its ends, of all muscle.
+struct TimeStep {
+  double dt = 0.0;                         ///< [s]
+  double Ca_before = 0.0, Ca_after = 0.0;  ///< [uM]
+};
+
+/// The contractile states of muscle at points, advanced by implicit steps: kinetics, stretch and
+/// its memory all take the stretch at the end of the step, and the slope of the tension knows it.
+class Muscle {
+ public:
+  /// A law without kinetics has no states and knows no time: such muscle is passive. Throws
+  /// InputError when it has a tension.
+  Muscle(const material::ActiveLaw& law, std::size_t points);
+
+  /// Brings every point to its steady state at its stretch.
+  void relax(double Ca, std::span<const double> stretch);
+
+  /// The tension of a point after a step to a stretch [kPa].
+  [[nodiscard]] material::Tension after(const TimeStep& step, std::size_t point,
+                                        double stretch) const;
+
+  /// The tension of a point as it is, whatever the stretch [kPa].
+  [[nodiscard]] material::Tension now(std::size_t point) const;
+
+  /// Takes a step to these stretches.
+  void advance(const TimeStep& step, std::span<const double> stretch);
+
+  /// The states as numbers, so many a point, and back: for checkpoints.
+  [[nodiscard]] std::size_t numbers_per_point() const;
+  [[nodiscard]] std::vector<double> numbers() const;
+  void set_numbers(std::span<const double> numbers);
+
+ private:
+  template <class Law>
+  struct Points {
+    Law law;
+    std::vector<typename Law::template State<double>> states;
+  };
+  using States = std::variant<std::monostate, Points<material::NiedererHunterSmith>,
+                              Points<material::Land2017>>;
+  static States states_of(const material::ActiveLaw& law, std::size_t points);
+
+  States states_;
+};
+
+}  // namespace lv::implicit

@@ -1,0 +1,80 @@
+#pragma once
+
+#include "lv/implicit/equations.hpp"
+
+#include <functional>
+#include <string>
+
+namespace lv::implicit {
+
+struct NewtonParameters {
+  double tolerance = 1e-6;         ///< rms of the last correction of the positions [mm]
+  int iterations = 40;             ///< corrections after which it gives up
+  double smallest_damping = 0.01;  ///< of a correction, before it gives up
+  LinearParameters linear = {};
+};
+
+/// How one equilibrium was found, or why it was not.
+struct [[nodiscard]] NewtonReport {
+  bool converged = false;
+  std::string why;  ///< it did not
+  int iterations = 0;
+  int factorisations = 0;
+  int linear_solves = 0;
+  int linear_iterations = 0;  ///< of all linear solves; 0 of the direct method
+};
+
+/// A cavity whose volume is given as a function of its pressure, and how it changes with it.
+struct GivenVolume {
+  double volume = 0.0;        ///< V_0D [mm^3]
+  double per_pressure = 0.0;  ///< dV_0D/dp [mm^3/kPa]
+};
+using VolumeOfPressure = std::function<GivenVolume(double pressure)>;
+
+/// What Newton's method solves: the wall's equilibrium with this active tension, under a pressure
+/// in the cavity or around a volume of it.
+struct Equilibrium {
+  TensionAt tension;
+  double pressure = 0.0;         ///< [kPa], where no volume is given
+  VolumeOfPressure volume = {};  ///< may be empty
+};
+
+/// Damped Newton with the error-oriented monotonicity test (P. Deuflhard, Newton Methods for
+/// Nonlinear Problems, 2004, algorithm NLEQ-ERR): a step is taken as far as it makes the next
+/// simplified correction, by the same tangent, smaller. A tangent that contracts well enough is
+/// kept from step to step, since a factorisation costs far more than a correction.
+///
+/// Where the cavity's volume is given, its pressure p is an unknown, the multiplier of V(u) =
+/// V_0D(p). With the residuals r_u and r_V = V - V_0D, g = dV/du and c = dV_0D/dp,
+///
+///   a = -K^-1 r_u,  b = K^-1 g,  dp = -(r_V + g.a)/(g.b - c),  du = a + b dp
+///
+/// b is kept with the tangent.
+class Newton {
+ public:
+  /// The equations must outlive this object.
+  Newton(const Equations& equations, const NewtonParameters& parameters);
+
+  /// Brings `state` to equilibrium, or leaves it as it was. Collective.
+  NewtonReport solve(State& state, const Equilibrium& equilibrium);
+
+  /// The same with the steady tension of an activation, under a pressure in the cavity.
+  NewtonReport solve(State& state, const Loads& loads) {
+    return solve(state, {equations_.steady(loads.activation), loads.pressure});
+  }
+
+  /// The muscle has changed: the tangent is of no use any more.
+  void forget_tangent() { has_tangent_ = false; }
+
+ private:
+  class Attempt;
+
+  const Equations& equations_;
+  NewtonParameters parameters_;
+  SparseMatrix tangent_;
+  std::vector<double> gradient_;  ///< g, where a volume is given
+  std::vector<double> response_;  ///< b
+  bool has_tangent_ = false;
+};
+
+}  // namespace lv::implicit

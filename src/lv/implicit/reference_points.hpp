@@ -1,0 +1,34 @@
+#pragma once
+
+#include "lv/mesh/fibres.hpp"
+#include "lv/solid/shape_table.hpp"
+
+#include <vector>
+
+namespace lv::implicit {
+
+/// What the equations need of the undeformed wall at one quadrature point.
+struct Point {
+  Eigen::Matrix3Xd
+      gradient;         ///< d phi_a/dX in the fibre frame, 3 x nodes: F' = sum_a x_a (x) gradient_a
+  double volume = 0.0;  ///< [mm^3]
+  double infarct = 0.0;  ///< M
+};
+
+/// Makes the points of one element after the other. The mesh must outlive it.
+class PointMaker {
+ public:
+  PointMaker(const mesh::Mesh& mesh, const mesh::FibreRule& fibres);
+
+  /// The points of a table of the element's shapes. Throws InputError for an inverted or collapsed
+  /// element, naming it.
+  [[nodiscard]] std::vector<Point> points(const solid::ShapeTable& shapes, int element,
+                                          std::span<const int> nodes) const;
+
+ private:
+  const mesh::Mesh& mesh_;
+  mesh::FibreRule fibres_;
+  std::vector<Vec3> radial_;  ///< per node of tetrahedra, whose own grad t may vanish
+};
+
+}  // namespace lv::implicit

@@ -1,0 +1,271 @@
+#include "lv/implicit/unload.hpp"
+
+#include "lv/base/check.hpp"
+#include "lv/base/log.hpp"
+#include "lv/base/time_left.hpp"
+#include "lv/base/units.hpp"
+
+#include <Eigen/QR>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+
+namespace lv::implicit {
+namespace {
+
+constexpr std::size_t depth = 6;  // of Anderson's method
+constexpr double smallest_damping = 1.0 / 16;
+constexpr double smallest_share = 1.0 / 64;  // of the pressure, before it gives up
+constexpr double far_below = 0.02;
+constexpr double loose = 0.5;  // tolerance on the way to the whole pressure [mm]
+
+using Nodes = std::vector<Vec3>;
+
+Eigen::Map<const Eigen::VectorXd> as_vector(const Nodes& shape) {
+  return {shape.front().data(), static_cast<Eigen::Index>(3 * shape.size())};
+}
+
+Nodes as_nodes(const Eigen::VectorXd& numbers) {
+  Nodes shape(static_cast<std::size_t>(numbers.size() / 3));
+  for (std::size_t a = 0; a < shape.size(); ++a)
+    shape[a] = numbers.segment<3>(static_cast<Eigen::Index>(3 * a));
+  return shape;
+}
+
+/// Whether det dX/dxi > 0 at all quadrature points. Every rank looks at the whole wall, so that all
+/// agree.
+bool is_sound(const mesh::Mesh& mesh) {
+  const mesh::ElementNodes elements = mesh::elements(mesh);
+  const solid::ShapeTable shapes = solid::element_shapes(mesh.kind, mesh.order);
+  Eigen::Matrix3Xd X(3, elements.nodes_per_element);
+  for (int e = 0; e < elements.size(); ++e) {
+    for (int a = 0; a < elements.nodes_per_element; ++a)
+      X.col(a) = mesh.nodes[elements.element(e)[a]];
+    for (const Eigen::MatrixXd& gradient : shapes.gradient)
+      if (!(determinant(Mat3(X * gradient.transpose())) > 0.0))
+        return false;
+  }
+  return true;
+}
+
+/// A shape without load, and what becomes of it.
+struct Trial {
+  Eigen::VectorXd X;  ///< nodes
+  Eigen::VectorXd R;  ///< given shape minus x(X)
+  State loaded;
+  UnloadStep step;
+};
+
+class Unloader {
+ public:
+  Unloader(const mesh::Mesh& given, const StaticModel& model, const UnloadParameters& parameters,
+           const SolverParameters& solver, UnloadRecord record)
+      : given_(given),
+        model_(model),
+        parameters_(parameters),
+        solver_(solver),
+        record_(std::move(record)),
+        endocardium_(given),
+        target_(as_vector(given.nodes)) {}
+
+  Outcome<Unloaded> run(const Unloaded* start) {
+    if (start == nullptr || !try_from(as_vector(start->nodes), &start->loaded))
+      approach();
+    if (now_.step.largest > parameters_.tolerance)
+      return Unsolved{
+          fmt::format("The shape without load was not found at {:.2f} mmHg: loaded again it is off "
+                      "by {:.3g} mm (rms {:.3g} mm) after {} equilibria",
+                      parameters_.pressure / units::mmHg, now_.step.largest, now_.step.rms,
+                      equilibria_),
+          "Check unloaded.pressure (a soft wall may never have had so much), or raise "
+          "unloaded.tolerance or unloaded.iterations"};
+    return Unloaded{as_nodes(now_.X), std::move(now_.loaded), std::move(steps_)};
+  }
+
+ private:
+  /// The whole pressure from one guess; false when that has no equilibrium or does not lead to the
+  /// tolerance.
+  bool try_from(const Eigen::VectorXd& X, const State* loaded) {
+    pressure_ = parameters_.pressure;
+    return begin(X, loaded) && improve(parameters_.tolerance);
+  }
+
+  /// From the given shape, by a part of the pressure where the whole is too much at once.
+  void approach() {
+    if (try_from(target_, nullptr))
+      return;
+    double reached = 0.0;
+    double share = 0.5;
+    Eigen::VectorXd X = target_;
+    Eigen::VectorXd slope;  // dX/d(share), once two are known
+    while (reached < 1.0 && share >= smallest_share && equilibria_ < parameters_.iterations) {
+      const double next = std::min(1.0, reached + share);
+      const Eigen::VectorXd guess =
+          slope.size() > 0 ? Eigen::VectorXd(X + (next - reached) * slope) : X;
+      pressure_ = next * parameters_.pressure;
+      log::info("unloading from {:.2f} mmHg first", pressure_ / units::mmHg);
+      if (begin(guess, nullptr) && improve(next < 1.0 ? loose : parameters_.tolerance)) {
+        slope = (now_.X - X) / (next - reached);
+        X = now_.X;
+        reached = next;
+      } else {
+        share *= 0.5;
+      }
+    }
+  }
+
+  bool begin(const Eigen::VectorXd& X, const State* loaded) {
+    steps_.clear();
+    history_.clear();
+    auto trial = load(X, loaded);
+    if (!trial)
+      return false;
+    accept(std::move(*trial));
+    return true;
+  }
+
+  /// Steps until the distance is far below the tolerance, or below it and hardly falls any more;
+  /// false when no step brings the wall near enough. What is left scatters the volumes of a fit.
+  bool improve(double tolerance) {
+    while (now_.step.largest > far_below * tolerance) {
+      const double before = now_.step.largest;
+      if (!advance())
+        break;
+      if (now_.step.largest <= tolerance && now_.step.largest > 0.5 * before)
+        break;
+    }
+    return now_.step.largest <= tolerance;
+  }
+
+  bool advance() {
+    if (!history_.empty() && step_along(accelerated(), true))
+      return true;
+    history_.clear();
+    return step_along(now_.R, false);
+  }
+
+  bool step_along(const Eigen::VectorXd& direction, bool is_accelerated) {
+    const double least = is_accelerated ? 0.5 : smallest_damping;
+    for (double damping = 1.0; damping >= least; damping *= 0.5) {
+      if (equilibria_ >= parameters_.iterations)
+        return false;
+      auto trial = load(now_.X + damping * direction, &now_.loaded);
+      if (!trial || trial->R.norm() >= now_.R.norm())
+        continue;
+      trial->step.damping = damping;
+      trial->step.accelerated = is_accelerated;
+      history_.push_back({trial->X - now_.X, trial->R - now_.R});
+      if (history_.size() > depth)
+        history_.pop_front();
+      accept(std::move(*trial));
+      return true;
+    }
+    return false;
+  }
+
+  [[nodiscard]] Eigen::VectorXd accelerated() const {
+    const auto n = static_cast<Eigen::Index>(history_.size());
+    Eigen::MatrixXd dX(target_.size(), n), dR(target_.size(), n);
+    for (Eigen::Index j = 0; j < n; ++j) {
+      dX.col(j) = history_[static_cast<std::size_t>(j)].dX;
+      dR.col(j) = history_[static_cast<std::size_t>(j)].dR;
+    }
+    const Eigen::VectorXd gamma = dR.colPivHouseholderQr().solve(now_.R);
+    return now_.R - (dX + dR) * gamma;
+  }
+
+  /// The equilibrium of X; nothing where the wall is turned inside out or has none.
+  std::optional<Trial> load(const Eigen::VectorXd& X, const State* near) {
+    const mesh::Mesh wall = mesh::with_nodes(given_, as_nodes(X));
+    if (!is_sound(wall))
+      return {};
+    std::optional<State> loaded = next_equilibrium(wall, near);
+    if (!loaded)
+      return {};
+    Trial trial{X, {}, std::move(*loaded), {}};
+    trial.step.volume = endocardium_.volume(trial.loaded.positions);
+    trial.R = target_ - as_vector(trial.loaded.positions);
+    trial.step.unloaded_volume = endocardium_.volume(wall.nodes);
+    const Eigen::Map<const Eigen::Matrix3Xd> R(trial.R.data(), 3, trial.R.size() / 3);
+    trial.step.largest = R.colwise().norm().maxCoeff();
+    trial.step.rms = std::sqrt(R.colwise().squaredNorm().mean());
+    return trial;
+  }
+
+  /// From the record, or found and put there.
+  std::optional<State> next_equilibrium(const mesh::Mesh& wall, const State* near) {
+    const auto n = static_cast<std::size_t>(equilibria_++);
+    if (n >= record_.known.size()) {
+      record_.known.push_back(equilibrium(wall, near));
+      if (record_.keep)
+        record_.keep(record_.known);
+    }
+    return record_.known[n];
+  }
+
+  std::optional<State> equilibrium(const mesh::Mesh& wall, const State* near) {
+    Engine engine(wall, model_, solver_);
+    if (near != nullptr)
+      engine.restore({given_.nodes, near->pressures}, {pressure_, 0.0});
+    const auto volume = near != nullptr ? engine.set_model(model_) : engine.go_to({pressure_, 0.0});
+    if (volume)
+      return engine.state();
+    log::info("a wall that was tried without load has no equilibrium: {}", volume.why().what);
+    return {};
+  }
+
+  void accept(Trial&& trial) {
+    now_ = std::move(trial);
+    steps_.push_back(now_.step);
+    left_.record(equilibria_);
+    const std::string left = left_.words(equilibria_left());
+    log::info(
+        "unloading {:2d}: off by {:.4f} mm (rms {:.4f}), {:.2f} ml fill to {:.2f} ml at {:.2f} "
+        "mmHg{}",
+        equilibria_, now_.step.largest, now_.step.rms, 1e-3 * now_.step.unloaded_volume,
+        1e-3 * now_.step.volume, pressure_ / units::mmHg,
+        left.empty() ? "" : left + " of unloading");
+  }
+
+  /// At the rate at which the distance has fallen in the last steps; before that is known, at a
+  /// usual one.
+  [[nodiscard]] double equilibria_left() const {
+    constexpr double usual = 0.3;  // of the distance that a step leaves
+    constexpr std::size_t last = 3;
+    const std::size_t n = std::min(last, steps_.size() - 1);
+    const double fall = steps_[steps_.size() - 1 - n].largest / now_.step.largest;
+    const double rate =
+        n == 0 ? -std::log(usual) : std::max(0.1, std::log(fall) / static_cast<double>(n));
+    return std::log(now_.step.largest / (far_below * parameters_.tolerance)) / rate;
+  }
+
+  struct Difference {
+    Eigen::VectorXd dX, dR;
+  };
+
+  const mesh::Mesh& given_;
+  const StaticModel& model_;
+  const UnloadParameters& parameters_;
+  const SolverParameters& solver_;
+  UnloadRecord record_;
+  solid::EndocardialSurface endocardium_;
+  Eigen::VectorXd target_;
+  double pressure_ = 0.0;  ///< in force [kPa]
+  int equilibria_ = 0;
+  TimeLeft left_;
+  Trial now_;
+  std::deque<Difference> history_;
+  std::vector<UnloadStep> steps_;
+};
+
+}  // namespace
+
+Outcome<Unloaded> unload(const mesh::Mesh& given, const StaticModel& model,
+                         const UnloadParameters& parameters, const SolverParameters& solver,
+                         const Unloaded* start, UnloadRecord record) {
+  return Unloader(given, model, parameters, solver, std::move(record)).run(start);
+}
+
+}  // namespace lv::implicit

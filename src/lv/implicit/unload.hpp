@@ -1,0 +1,63 @@
+#pragma once
+
+#include "lv/implicit/engine.hpp"
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace lv::implicit {
+
+/// How the shape without load is sought.
+struct UnloadParameters {
+  double pressure = 0.0;    ///< under which the given shape was seen; 0: it is free of stress [kPa]
+  double tolerance = 0.01;  ///< largest distance of a node, loaded again, from the given shape [mm]
+  int iterations = 60;      ///< equilibria after which it gives up
+};
+
+/// One shape that was tried, loaded again.
+struct UnloadStep {
+  double largest = 0.0, rms = 0.0;             ///< distance of its nodes from the given shape [mm]
+  double unloaded_volume = 0.0, volume = 0.0;  ///< of its cavity without and under load [mm^3]
+  double damping = 1.0;                        ///< share of the correction that was taken
+  bool accelerated = false;                    ///< by Anderson's method
+};
+
+/// The shape that becomes the given one under load.
+struct Unloaded {
+  std::vector<Vec3> nodes;        ///< X [mm]
+  State loaded;                   ///< its equilibrium under the load
+  std::vector<UnloadStep> steps;  ///< shapes that came nearer, in their order; the last is X
+};
+
+/// The equilibria of a search in the order in which they were sought, nothing where there was none.
+using Equilibria = std::vector<std::optional<State>>;
+
+/// Lets a search that was stopped go on to the same result, bit for bit.
+struct UnloadRecord {
+  Equilibria known;                             ///< of the search so far: not sought again
+  std::function<void(const Equilibria&)> keep;  ///< told all of them after each new one; or empty
+};
+
+/// The stress-free wall X whose equilibrium x(X) under the pressure on the muscle at rest is the
+/// given shape x*, by fixed-point iteration (backward displacement: M. Sellier, Struct. Multidisc.
+/// Optim. 44:683, 2011; J. Bols et al., J. Comput. Appl. Math. 246:10, 2013),
+///
+///   X_{k+1} = X_k + beta D_k,   R_k = x* - x(X_k),
+///   D_k = R_k - sum_j gamma_j (X_{j+1} - X_j + R_{j+1} - R_j),  gamma minimising
+///         |R_k - sum_j gamma_j (R_{j+1} - R_j)|  over the last steps (Anderson's acceleration),
+///
+/// with the largest beta of 1, 1/2, ... for which the wall is sound, has an equilibrium and |R|
+/// becomes smaller; D_k = R_k when none does. Where the whole pressure fails from the start it is
+/// approached in steps. The fibre rule is applied to the wall without load, whose equilibria they
+/// are: an X that is loaded and unloaded comes back with its fibres. Directions that the mesh
+/// brings are those of the given shape and turn with it (mesh::with_nodes). Depth t and M(X) are
+/// carried along with the nodes.
+///
+/// `start` may be the result for other muscle, from where few steps are needed. Unsolved, with the
+/// distance that is left, when the tolerance is not met. Throws Interrupted. Collective.
+Outcome<Unloaded> unload(const mesh::Mesh& given, const StaticModel& model,
+                         const UnloadParameters& parameters, const SolverParameters& solver,
+                         const Unloaded* start = nullptr, UnloadRecord record = {});
+
+}  // namespace lv::implicit

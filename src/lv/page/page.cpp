@@ -1,0 +1,377 @@
+#include "lv/page/page.hpp"
+
+#include "lv/base/check.hpp"
+#include "lv/base/json_file.hpp"
+#include "lv/base/table.hpp"
+#include "lv/base/units.hpp"
+#include "lv/heartbeat/beat.hpp"
+#include "lv/mesh/cell.hpp"
+#include "lv/page/bundle.hpp"
+#include "lv/page/flow_series.hpp"
+#include "lv/page/modes.hpp"
+#include "lv/page/packing.hpp"
+#include "lv/page/page_pictures.hpp"
+#include "lv/page/wall_series.hpp"
+#include "lv/report/work_folder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace lv::page {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+// how exactly the page repeats the fields on disk
+constexpr double position_tolerance = 0.1;   // [mm]
+constexpr double quantity_tolerance = 0.01;  // of the range of a quantity
+constexpr double velocity_step = 0.5;        // [mm/s]
+constexpr double pressure_step = 0.002;      // [kPa]
+
+/// A number rounded to seven digits.
+double rounded(double value) {
+  return std::stod(fmt::format("{:.7g}", value));
+}
+
+Json rounded(const std::vector<double>& values) {
+  Json list = Json::array();
+  for (const double value : values)
+    list.push_back(rounded(value));
+  return list;
+}
+
+/// Text that is safe inside a script element.
+std::string element(const std::string& id, const char* type, std::string text) {
+  for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at))
+    text.replace(at, 1, "\\u003c");  // stands inside strings of JSON alone
+  return fmt::format("<script type=\"{}\" id=\"{}\">{}</script>\n", type, id, text);
+}
+
+/// Elements of the page: for the summary, for the first picture of the wall, and for the rest.
+struct Data {
+  std::string summary, wall, more;
+};
+
+/// Collects a case's arrays as elements of the page; in the JSON they are named by their ids.
+class PagedArrays {
+ public:
+  explicit PagedArrays(int number) : prefix_(fmt::format("case{}", number)) {}
+
+  template <class Number>
+  std::string add(const std::vector<Number>& values) {
+    const std::string id = fmt::format("{}-{}", prefix_, count_++);
+    (is_first ? data.wall : data.more) += element(id, "text/plain", packed(values));
+    return id;
+  }
+
+  Data data;
+  bool is_first = true;  ///< whether the first picture of the wall needs what is added
+
+ private:
+  std::string prefix_;
+  int count_ = 0;
+};
+
+std::int16_t steps(double value, double step) {
+  return static_cast<std::int16_t>(std::lround(std::clamp(value / step, -32767.0, 32767.0)));
+}
+
+Json modes_json(const Modes& m, PagedArrays& arrays) {
+  Json json{{"offset", m.offset}, {"step", m.step}, {"largest_error", rounded(m.largest_error)}};
+  json["courses"] = Json::array();
+  json["shapes"] = Json::array();
+  for (const auto& course : m.courses)
+    json["courses"].push_back(rounded(course));
+  for (const auto& shape : m.shapes)
+    json["shapes"].push_back(arrays.add(shape));
+  return json;
+}
+
+struct Range {
+  double min = std::numeric_limits<double>::infinity();
+  double max = -min;
+};
+
+Range range_of(const NodalSeries& series) {
+  Range range;
+  for (const auto& frame : series)
+    for (const float value : frame)
+      if (std::isfinite(value))
+        range = {std::min<double>(range.min, value), std::max<double>(range.max, value)};
+  return range;
+}
+
+/// The faces that belong to one cell only, with normals that point out of the wall.
+struct Skin {
+  std::vector<std::int32_t> nodes;  ///< face after face
+  std::vector<std::int32_t> cells;  ///< behind each face
+};
+
+Skin skin_of(const WallSeries& wall) {
+  const int per_cell = mesh::nodes_per_cell(wall.kind);
+  const int per_face = wall.kind == mesh::CellKind::hexahedron ? 4 : 3;
+  struct Face {
+    std::array<int, 4> sorted, nodes;
+    int cell;
+  };
+  std::vector<Face> faces;
+  for (std::size_t first = 0; first < wall.cells.size(); first += per_cell)
+    for (const mesh::LocalFace& local : mesh::cell_faces(wall.kind)) {
+      Face face{{-1, -1, -1, -1}, {-1, -1, -1, -1}, static_cast<int>(first) / per_cell};
+      for (int i = 0; i < per_face; ++i)
+        face.nodes.at(i) = wall.cells[first + local.at(i)];
+      face.sorted = face.nodes;
+      std::sort(face.sorted.begin(), face.sorted.end());
+      faces.push_back(face);
+    }
+  std::stable_sort(faces.begin(), faces.end(),
+                   [](const Face& a, const Face& b) { return a.sorted < b.sorted; });
+  Skin skin;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const bool shared = (f > 0 && faces[f - 1].sorted == faces[f].sorted) ||
+                        (f + 1 < faces.size() && faces[f + 1].sorted == faces[f].sorted);
+    if (shared)
+      continue;
+    skin.nodes.insert(skin.nodes.end(), faces[f].nodes.begin(), faces[f].nodes.begin() + per_face);
+    skin.cells.push_back(faces[f].cell);
+  }
+  return skin;
+}
+
+std::vector<std::int16_t> flattened(const std::vector<Vec3>& vectors, double step) {
+  std::vector<std::int16_t> numbers;
+  for (int d = 0; d < 3; ++d)  // by component: neighbours then differ little
+    for (const Vec3& v : vectors)
+      numbers.push_back(steps(v[d], step));
+  return numbers;
+}
+
+std::vector<std::int16_t> narrow(const std::vector<int>& values) {
+  return {values.begin(), values.end()};
+}
+
+/// Displacements by component too.
+NodalSeries by_component(const NodalSeries& displacement) {
+  NodalSeries sorted;
+  for (const auto& frame : displacement) {
+    auto& to = sorted.emplace_back();
+    for (std::size_t d = 0; d < 3; ++d)
+      for (std::size_t i = d; i < frame.size(); i += 3)
+        to.push_back(frame[i]);
+  }
+  return sorted;
+}
+
+Json wall_json(const WallSeries& wall, PagedArrays& arrays) {
+  constexpr double node_step = 0.01;       // [mm]
+  constexpr double direction_step = 0.01;  // of unit vectors
+  constexpr double infarct_step = 1e-4;
+  const Skin skin = skin_of(wall);
+  Json json{{"nodes_per_cell", mesh::nodes_per_cell(wall.kind)},
+            {"nodes", wall.undeformed.size()},
+            {"times", rounded(wall.times)}};
+  json["cells"] = arrays.add(std::vector<std::int32_t>(wall.cells.begin(), wall.cells.end()));
+  json["skin"] = arrays.add(skin.nodes);
+  json["skin_cells"] = arrays.add(skin.cells);
+  json["undeformed"] = {{"step", node_step},
+                        {"values", arrays.add(flattened(wall.undeformed, node_step))}};
+  if (std::any_of(wall.infarct.begin(), wall.infarct.end(), [](float M) { return M > 0.0F; })) {
+    std::vector<std::int16_t> M;
+    for (const float value : wall.infarct)
+      M.push_back(steps(value, infarct_step));
+    json["infarct"] = {{"step", infarct_step}, {"values", arrays.add(M)}};
+  }
+  for (const auto& [name, regions] :
+       {std::pair{"slice", &wall.slice}, {"sector", &wall.sector}, {"aha17", &wall.aha17}})
+    if (!regions->empty())
+      json[name] = arrays.add(narrow(*regions));
+  json["displacement"] =
+      modes_json(modes(by_component(wall.displacement), position_tolerance), arrays);
+  json["quantities"] = Json::object();
+  for (const auto& [name, series] : wall.quantities) {
+    const Range range = range_of(series);
+    if (series.size() != wall.times.size() || !(range.max > range.min))
+      continue;
+    arrays.is_first = name == "circumferential_strain";  // the page opens with it
+    json["quantities"][name] =
+        modes_json(modes(series, quantity_tolerance * (range.max - range.min)), arrays);
+    json["quantities"][name]["min"] = rounded(range.min);
+    json["quantities"][name]["max"] = rounded(range.max);
+  }
+  arrays.is_first = false;
+  if (!wall.f0.empty())
+    json["f0"] = {{"step", direction_step},
+                  {"values", arrays.add(flattened(wall.f0, direction_step))}};
+  return json;
+}
+
+/// One array per time and component.
+Json frames_json(const std::vector<std::vector<float>>& frames, std::size_t components, double step,
+                 PagedArrays& arrays) {
+  Json json = Json::array();
+  for (const auto& frame : frames) {
+    std::vector<std::int16_t> numbers;
+    for (std::size_t d = 0; d < components; ++d)
+      for (std::size_t i = d; i < frame.size(); i += components)
+        numbers.push_back(steps(frame[i], step));
+    json.push_back(arrays.add(numbers));
+  }
+  return json;
+}
+
+Json flow_json(const FlowSeries& flow, PagedArrays& arrays) {
+  return {
+      {"cells", flow.cells},
+      {"lower", flow.lower},
+      {"spacing", flow.spacing},
+      {"times", rounded(flow.times)},
+      {"velocity",
+       {{"step", velocity_step}, {"frames", frames_json(flow.velocity, 3, velocity_step, arrays)}}},
+      {"pressure",
+       {{"step", pressure_step},
+        {"frames", frames_json(flow.pressure, 1, pressure_step, arrays)}}}};
+}
+
+/// The rectangle (x and z) that the wall ever touches, with room for the jet at the base.
+std::array<std::array<double, 2>, 2> surroundings(const WallSeries& wall) {
+  constexpr double margin = 6.0;  // [mm]
+  constexpr double above = 35.0;  // [mm]
+  std::array<double, 2> lower{1e9, 1e9};
+  std::array<double, 2> upper{-1e9, -1e9};
+  for (const auto& frame : wall.displacement)
+    for (std::size_t a = 0; a < wall.undeformed.size(); ++a)
+      for (const std::size_t i : {0U, 1U}) {
+        const double at =
+            wall.undeformed[a][static_cast<Eigen::Index>(2 * i)] + frame[3 * a + 2 * i];
+        lower.at(i) = std::min(lower.at(i), at);
+        upper.at(i) = std::max(upper.at(i), at);
+      }
+  return {{{lower[0] - margin, lower[1] - margin}, {upper[0] + margin, upper[1] + above}}};
+}
+
+/// A file of a stage, and its name on the page.
+struct PageFile {
+  const char* stage;
+  const char* file;
+  const char* name;
+};
+
+constexpr std::array<PageFile, 19> page_files{{
+    {"results", "summary.json", "summary.json"},
+    {"results", "regions.csv", "regions.csv"},
+    {"results", "rotation.csv", "rotation.csv"},
+    {"results", "infarct.csv", "infarct.csv"},
+    {"results", "stress_stretch.csv", "stress_stretch.csv"},
+    {"results", "strain_comparison_circumferential.csv", "strain_comparison_circumferential.csv"},
+    {"results", "strain_comparison_radial.csv", "strain_comparison_radial.csv"},
+    {"results", "strain_agreement.json", "strain_agreement.json"},
+    {"results", "outline_distances.csv", "outline_distances.csv"},
+    {"beat", "curves.csv", "curves.csv"},
+    {"beat", "moments.csv", "moments.csv"},
+    {"beat", "confirmation.json", "confirmation.json"},
+    {"calibrate", "calibration.json", "calibration.json"},
+    {"mesh", "quality.csv", "quality.csv"},
+    {"anatomy", "quality.csv", "anatomy_quality.csv"},
+    {"anatomy", "fit.csv", "fit.csv"},
+    {"anatomy", "frame.json", "frame.json"},
+    {"strain", "slices.csv", "strain_slices.csv"},
+    {"strain", "rotation.csv", "strain_rotation.csv"},
+}};
+
+/// The tables and the summary, as they are on disk.
+Json files_json(const fs::path& work) {
+  Json json = Json::object();
+  for (const auto& [stage, file, name] : page_files)
+    if (const fs::path path = report::file_of(work, stage, file); !path.empty())
+      json[name] = read_file(path);
+  return json;
+}
+
+/// What the mesh was made with: where the septum is, and the engine.
+void add_mesh_facts(Json& json, const fs::path& work) {
+  if (const auto angle = report::recorded(work, "mesh", "regions.septum_angle"))
+    json["septum_deg"] = std::stod(*angle);
+  if (const auto engine = report::recorded(work, "mesh", "engine"))
+    json["engine"] = *engine;
+}
+
+/// What the page says of a case's state.
+std::vector<std::string> state_of(const PageCase& shown) {
+  std::vector<std::string> state = shown.state;
+  if (!report::file_of(shown.work, "beat", "wall.pvd").empty() &&
+      report::file_of(shown.work, "beat", "moments.csv").empty())
+    state.push_back(
+        "03_beat has no moments.csv: strains are from early diastole at all times, and no moment "
+        "has a name.");
+  return state;
+}
+
+/// Frames of the beat; without any, the undeformed mesh.
+std::vector<TimedFrame> wall_frames(const fs::path& work) {
+  std::vector<TimedFrame> frames = frames_of(report::file_of(work, "beat", "wall.pvd"));
+  const fs::path undeformed = report::file_of(work, "mesh", "mesh.vtu");
+  if (frames.empty() && !undeformed.empty())
+    frames.push_back({0.0, undeformed});
+  return frames;
+}
+
+/// A page is passed on, and the name of a folder may be that of a patient.
+Data case_html(const PageCase& shown, int number, std::size_t count) {
+  static constexpr std::array<const char*, 2> folders{"the first work folder",
+                                                      "the second work folder"};
+  PagedArrays arrays(number);
+  Json json{{"folder", count < 2 ? "the work folder" : folders.at(number)},
+            {"complete", shown.complete},
+            {"state", state_of(shown)},
+            {"files", files_json(shown.work)}};
+  add_mesh_facts(json, shown.work);
+  if (const auto frames = wall_frames(shown.work); !frames.empty()) {
+    constexpr double never = std::numeric_limits<double>::infinity();
+    const WallSeries wall = read_wall_series(
+        frames, report::time_of(shown.work, heartbeat::end_diastole).value_or(never));
+    json["wall"] = wall_json(wall, arrays);
+    const auto blood = frames_of(report::file_of(shown.work, "beat", "blood.pvd"));
+    const auto [lower, upper] = surroundings(wall);
+    if (!blood.empty())
+      json["flow"] = flow_json(read_flow_series(blood, lower, upper), arrays);
+  }
+  if (const std::string pictures = pictures_json(shown.work); !pictures.empty()) {
+    json["pictures"] = fmt::format("case{}-pictures", number);
+    arrays.data.more += element(json["pictures"], "application/json", pictures);
+  }
+  arrays.data.summary =
+      element(fmt::format("case{}", number), "application/json", json_text(std::move(json), -1));
+  return arrays.data;
+}
+
+}  // namespace
+
+std::string page(const std::vector<PageCase>& cases, const std::string& version) {
+  std::string html(page_bundle());
+  const auto put = [&](std::string_view mark, const std::string& data) {
+    const std::size_t at = html.find(mark);
+    LV_CHECK(at != std::string::npos);
+    html.replace(at, mark.size(), data);
+  };
+  Data data{element("about", "application/json",
+                    Json{{"version", version}, {"cases", cases.size()}}.dump()),
+            "", ""};
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const Data one = case_html(cases[i], static_cast<int>(i), cases.size());
+    data.summary += one.summary;
+    data.wall += one.wall;
+    data.more += one.more;
+  }
+  put("<!-- more data -->", data.more);
+  put("<!-- wall data -->", data.wall);
+  put("<!-- data -->", data.summary);
+  return html;
+}
+
+}  // namespace lv::page

@@ -1,0 +1,219 @@
+#include "lv/page/wall_series.hpp"
+
+#include "lv/base/check.hpp"
+#include "lv/base/interrupt.hpp"
+#include "lv/base/table.hpp"
+#include "lv/mesh_io/vtk_file.hpp"
+
+#include <fmt/format.h>
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkDataArraySelection.h>
+#include <vtkNew.h>
+#include <vtkObject.h>
+#include <vtkPointData.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLUnstructuredGridReader.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+
+namespace lv::page {
+namespace {
+
+struct Source {
+  const char* quantity;
+  const char* array;  ///< a strain's name lacks the state it is measured from
+  bool is_strain;
+};
+
+constexpr std::array<Source, 8> sources{{{"active_tension", "active_tension", false},
+                                         {"fibre_stress", "fibre_stress", false},
+                                         {"fibre_stress_passive", "fibre_stress_passive", false},
+                                         {"fibre_strain", "E_fibre", true},
+                                         {"circumferential_strain", "E_circumferential", true},
+                                         {"radial_strain", "E_radial", true},
+                                         {"longitudinal_strain", "E_longitudinal", true},
+                                         {"J", "J", false}}};
+
+std::string array_name(const Source& source, bool from_end_diastole) {
+  if (!source.is_strain)
+    return source.array;
+  return fmt::format("{}_{}", source.array, from_end_diastole ? "end_diastole" : "early_diastole");
+}
+
+[[noreturn]] void fail(const std::filesystem::path& file) {
+  throw RunError(fmt::format("{} cannot be read", file.string()),
+                 "Remove the stage's folder and run the case again");
+}
+
+/// One VTU file with those of its arrays that are asked for.
+class WrittenFrame {
+ public:
+  WrittenFrame(const std::filesystem::path& file, const std::vector<std::string>& cell_arrays)
+      : file_(file) {
+    vtkObject::GlobalWarningDisplayOff();  // what goes wrong is said once, below
+    vtkNew<vtkXMLUnstructuredGridReader> reader;
+    reader->SetFileName(file.c_str());
+    reader->UpdateInformation();
+    auto* selection = reader->GetCellDataArraySelection();
+    selection->DisableAllArrays();
+    for (const std::string& name : cell_arrays)
+      selection->EnableArray(name.c_str());
+    reader->Update();
+    grid_ = reader->GetOutput();
+    if (reader->GetErrorCode() != 0 || grid_->GetNumberOfPoints() == 0)
+      fail(file);
+    mesh_io::check_cells(file.string(), grid_->GetCells(), grid_->GetNumberOfPoints());
+  }
+
+  vtkUnstructuredGrid* operator->() const { return grid_; }
+
+  /// Null when the file has no such array.
+  [[nodiscard]] vtkDataArray* cells(const std::string& name, int components = 1) const {
+    return checked(grid_->GetCellData()->GetArray(name.c_str()), components,
+                   grid_->GetNumberOfCells());
+  }
+  [[nodiscard]] vtkDataArray* nodes(const char* name, int components) const {
+    return checked(grid_->GetPointData()->GetArray(name), components, grid_->GetNumberOfPoints());
+  }
+  [[nodiscard]] const std::filesystem::path& file() const { return file_; }
+
+ private:
+  vtkDataArray* checked(vtkDataArray* array, int components, vtkIdType count) const {
+    if (array != nullptr &&
+        (array->GetNumberOfComponents() != components || array->GetNumberOfTuples() != count))
+      fail(file_);
+    return array;
+  }
+
+  std::filesystem::path file_;
+  vtkSmartPointer<vtkUnstructuredGrid> grid_;
+};
+
+std::vector<int> whole_numbers(vtkDataArray* array) {
+  std::vector<int> values;
+  for (vtkIdType i = 0; array != nullptr && i < array->GetNumberOfTuples(); ++i)
+    values.push_back(static_cast<int>(std::fmax(-1e9, std::fmin(1e9, array->GetComponent(i, 0)))));
+  return values;
+}
+
+/// The mean over the cells around each node.
+std::vector<float> to_nodes(vtkDataArray* array, const WallSeries& wall) {
+  const int n = mesh::nodes_per_cell(wall.kind);
+  std::vector<float> sum(wall.undeformed.size(), 0.0F);
+  std::vector<float> count(wall.undeformed.size(), 0.0F);
+  for (std::size_t i = 0; i < wall.cells.size(); ++i) {
+    const int node = wall.cells[i];
+    sum[node] += static_cast<float>(array->GetComponent(static_cast<vtkIdType>(i) / n, 0));
+    count[node] += 1.0F;
+  }
+  for (std::size_t a = 0; a < sum.size(); ++a)
+    sum[a] /= count[a];
+  return sum;
+}
+
+Vec3 displacement(const WrittenFrame& frame, vtkIdType node) {
+  vtkDataArray* u = frame.nodes("displacement", 3);
+  if (u == nullptr)
+    return Vec3::Zero();
+  return {u->GetComponent(node, 0), u->GetComponent(node, 1), u->GetComponent(node, 2)};
+}
+
+/// What does not change from frame to frame.
+WallSeries fixed_part(const WrittenFrame& frame) {
+  WallSeries wall;
+  wall.kind =
+      frame->GetCellType(0) == VTK_TETRA ? mesh::CellKind::tetrahedron : mesh::CellKind::hexahedron;
+  for (vtkIdType a = 0; a < frame->GetNumberOfPoints(); ++a)
+    wall.undeformed.push_back(Vec3(frame->GetPoint(a)) - displacement(frame, a));
+  for (vtkIdType c = 0; c < frame->GetNumberOfCells(); ++c) {
+    vtkIdType count = 0;
+    const vtkIdType* nodes = nullptr;
+    frame->GetCellPoints(c, count, nodes);
+    wall.cells.insert(wall.cells.end(), nodes, nodes + count);
+  }
+  if (wall.cells.size() !=
+      static_cast<std::size_t>(mesh::nodes_per_cell(wall.kind) * frame->GetNumberOfCells()))
+    fail(frame.file());
+  vtkDataArray* f0 = frame.cells("f0", 3);
+  for (vtkIdType c = 0; f0 != nullptr && c < frame->GetNumberOfCells(); ++c)
+    wall.f0.emplace_back(f0->GetComponent(c, 0), f0->GetComponent(c, 1), f0->GetComponent(c, 2));
+  if (vtkDataArray* M = frame.cells("infarct"); M != nullptr)
+    wall.infarct = to_nodes(M, wall);
+  wall.slice = whole_numbers(frame.cells("slice"));
+  wall.sector = whole_numbers(frame.cells("sector"));
+  wall.aha17 = whole_numbers(frame.cells("aha17"));
+  return wall;
+}
+
+std::vector<std::string> moving_arrays(bool from_end_diastole) {
+  std::vector<std::string> names;
+  for (const Source& source : sources)
+    names.push_back(array_name(source, from_end_diastole));
+  return names;
+}
+
+void add_frame(WallSeries& wall, const TimedFrame& timed, bool from_end_diastole) {
+  const WrittenFrame frame(timed.file, moving_arrays(from_end_diastole));
+  const auto corners = mesh::nodes_per_cell(wall.kind) * frame->GetNumberOfCells();
+  if (static_cast<std::size_t>(frame->GetNumberOfPoints()) != wall.undeformed.size() ||
+      static_cast<std::size_t>(corners) != wall.cells.size())
+    fail(timed.file);
+  wall.times.push_back(timed.time);
+  auto& u = wall.displacement.emplace_back();
+  for (vtkIdType a = 0; a < frame->GetNumberOfPoints(); ++a)
+    for (const double component : displacement(frame, a))
+      u.push_back(static_cast<float>(component));
+  for (const Source& source : sources)
+    if (vtkDataArray* array = frame.cells(array_name(source, from_end_diastole)))
+      wall.quantities[source.quantity].push_back(to_nodes(array, wall));
+}
+
+/// The value of an attribute in the text of an XML element; empty if it has none.
+std::string_view attribute(std::string_view element, const std::string& name) {
+  const std::string begin = fmt::format(" {}=\"", name);
+  const auto at = element.find(begin);
+  if (at == std::string_view::npos)
+    return {};
+  element.remove_prefix(at + begin.size());
+  return element.substr(0, element.find('"'));
+}
+
+}  // namespace
+
+std::vector<TimedFrame> frames_of(const std::filesystem::path& pvd) {
+  if (!std::filesystem::exists(pvd))
+    return {};
+  const std::string text = read_file(pvd);
+  constexpr std::string_view tag = "<DataSet";
+  std::vector<TimedFrame> frames;
+  for (auto at = text.find(tag); at != std::string::npos; at = text.find(tag, at + 1)) {
+    const std::string_view element = std::string_view(text).substr(at, text.find('>', at) - at);
+    const auto file = pvd.parent_path() / attribute(element, "file");
+    const std::string_view timestep = attribute(element, "timestep");
+    double time = 0.0;
+    const auto [end, error] =
+        std::from_chars(timestep.data(), timestep.data() + timestep.size(), time);
+    if (error != std::errc() || end != timestep.data() + timestep.size() || !std::isfinite(time))
+      fail(pvd);
+    if (std::filesystem::is_regular_file(file))
+      frames.push_back({time, file});
+  }
+  return frames;
+}
+
+WallSeries read_wall_series(const std::vector<TimedFrame>& frames, double end_diastole) {
+  WallSeries wall =
+      fixed_part(WrittenFrame(frames.front().file, {"f0", "infarct", "slice", "sector", "aha17"}));
+  constexpr double rounding = 1e-5;  // of times in a series [s]
+  for (const TimedFrame& frame : frames) {
+    interrupt::check();
+    add_frame(wall, frame, frame.time > end_diastole + rounding);
+  }
+  return wall;
+}
+
+}  // namespace lv::page

@@ -1,0 +1,57 @@
+#include "lv/pipeline/beat_result.hpp"
+
+#include "lv/base/parallel.hpp"
+#include "lv/heartbeat/run_state.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace lv::pipeline {
+namespace {
+
+using heartbeat::Archive;
+
+/// The moments of a whole beat as an engine has taken them of a wall: with the stress of every
+/// element, or the tension at every node.
+std::vector<heartbeat::NamedMoment> load_whole_moments(const Archive& archive,
+                                                       const mesh::Mesh& mesh) {
+  auto moments = heartbeat::load_moments(archive, mesh.nodes.size());
+  for (const auto& [name, phase, by_criterion, wall] : moments) {
+    const bool fits = wall.stress.empty()
+                          ? wall.tension.size() == mesh.nodes.size()
+                          : wall.stress.size() == static_cast<std::size_t>(mesh.cell_count());
+    if (!fits || wall.positions.empty())
+      archive.refuse(fmt::format("'{}' is of another wall", name));
+  }
+  for (const char* name : {heartbeat::end_diastole, heartbeat::end_systole})
+    if (std::none_of(moments.begin(), moments.end(), [&](const auto& m) { return m.name == name; }))
+      archive.refuse(fmt::format("it holds a beat without {}", name));
+  return moments;
+}
+
+}  // namespace
+
+void write_beat(const heartbeat::Beat& beat, const std::filesystem::path& folder) {
+  Archive archive;
+  heartbeat::store(beat.curves, archive);
+  heartbeat::store(beat.moments, archive);
+  archive.set("facts", {static_cast<double>(beat.steps), static_cast<double>(beat.retries),
+                        beat.wall_clock, static_cast<double>(parallel::size())});
+  archive.write(folder / beat_name);
+}
+
+BeatResult read_beat(const std::filesystem::path& folder, const mesh::Mesh& mesh) {
+  const Archive archive = Archive::read(folder / beat_name);
+  const auto& facts = archive.get_rows("facts", 4, 1, heartbeat::not_negative);
+  BeatResult result;
+  result.beat.curves = heartbeat::load_curves(archive);
+  result.beat.moments = load_whole_moments(archive, mesh);
+  result.beat.steps = archive.whole_number(facts[0]);
+  result.beat.retries = archive.whole_number(facts[1]);
+  result.beat.wall_clock = facts[2];
+  result.ranks = archive.whole_number(facts[3]);
+  return result;
+}
+
+}  // namespace lv::pipeline

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "lv/pipeline/stages.hpp"
+
+#include <optional>
+
+namespace lv::pipeline {
+
+/// The same case on the quasi-static engine, which calibrates whatever engine runs the beat.
+[[nodiscard]] case_file::Case for_calibration(case_file::Case c);
+
+/// Fits what the case asks for, with the wall unloaded anew for all parameters where it was seen
+/// under load, and writes into `folder` calibration.json, calibration.txt,
+/// calibration.csv (every equilibrium of the search) and calibrated.toml (for a case file);
+/// collective. A fit that was stopped goes on from the answers that it left in `folder`. Throws
+/// InputError for a volume out of reach, with the volumes within reach.
+void make_calibration(const case_file::Case& c, const anatomy::MeshResult& mesh,
+                      const std::filesystem::path& folder);
+
+/// The files with fitted parameters: of a calibration, and of a beat made with them.
+inline constexpr const char* calibration_name = "calibration.json";
+inline constexpr const char* confirmation_name = "confirmation.json";
+
+/// Names of the parameters that a calibration changes.
+[[nodiscard]] std::vector<std::string> fitted_names(const case_file::Calibration& k);
+
+/// The case with the parameters of such a file.
+[[nodiscard]] case_file::Case calibrated(case_file::Case c, const std::filesystem::path& file);
+
+/// Records a beat made with the parameters of the calibration, and its volumes beside the measured
+/// ones and the quasi-static engine's, in confirmation.json of the beat's `folder`. When they are
+/// off by more than the tolerance and the case wants confirmation, up to twice, it records
+/// corrected parameters too, removes the checkpoint and returns true: the beat must run again. The
+/// correction takes the volumes' derivatives from the quasi-static engine:
+///
+///   sum_j x_j dV_k/dx_j d ln x_j = V_k,measured - V_k,beat
+///
+/// for EDV and ESV and the parameters that were bracketed to them.
+[[nodiscard]] bool correct(const case_file::Case& c, const std::filesystem::path& calibration,
+                           const heartbeat::Beat& beat, const std::filesystem::path& folder);
+
+/// Measured volumes beside those of the fit and of the beat, as recorded in the beat's folder; none
+/// for a case without calibration.
+[[nodiscard]] std::vector<report::FittedVolume> fitted_volumes(const case_file::Case& c,
+                                                               const std::filesystem::path& beat);
+
+}  // namespace lv::pipeline

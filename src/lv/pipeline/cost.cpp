@@ -1,0 +1,129 @@
+#include "lv/pipeline/cost.hpp"
+
+#include "lv/base/check.hpp"
+#include "lv/base/log.hpp"
+#include "lv/heartbeat/protocol.hpp"
+#include "lv/mesh/quadratic.hpp"
+#include "lv/pipeline/calibration.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+
+namespace lv::pipeline {
+namespace {
+
+using case_file::Case;
+
+/// Of the quasi-static engine, in times of a first load step: a beat, an unloading, and a fit of
+/// one parameter. Rough (docs/progress.md).
+constexpr double steps_of_beat = 45.0;
+constexpr double steps_of_unloading = 25.0;
+constexpr double steps_of_fit = 45.0;
+
+template <class Work>
+double seconds(const Work& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  return elapsed.count();
+}
+
+/// How long one engine takes, or why it cannot.
+struct Estimate {
+  std::string details, words;
+  double step = 0.0;  ///< [s]
+};
+
+Estimate of_immersed(const Case& c, const mesh::Mesh& mesh) {
+  const immersed::ModelParameters p = case_file::model_parameters(c, mesh);
+  immersed::Model model(mesh, case_file::cardiac_model(c), p);
+  model.relax(c.protocol.calcium.Ca_0);
+  constexpr int steps = 3;
+  const double step =
+      seconds([&] {
+        for (int i = 0; i < steps; ++i)
+          static_cast<void>(model.step({.calcium = c.protocol.calcium.Ca_0}, c.time.longest));
+      }) /
+      steps;
+  double simulated = 0.0;
+  for (const heartbeat::Phase& phase : heartbeat::phases(c.protocol))
+    simulated += phase.usual;
+  return {
+      fmt::format("  grid: {} x {} x {}, mesh width {:.3f} mm; {:.3g} s a step\n", p.grid.cells[0],
+                  p.grid.cells[1], p.grid.cells[2], p.grid.spacing.minCoeff(), step),
+      fmt::format("about {}", log::duration(simulated / c.time.longest * step)), step};
+}
+
+Estimate of_quasi_static(const Case& c, const mesh::Mesh& mesh) {
+  implicit::SolverParameters solver = c.quasi_static.solver;
+  const double share = solver.first_step;
+  solver.first_step = 1.0;
+  implicit::Engine engine(mesh, case_file::static_model(c), solver);
+  const double step = seconds([&] { engine.go_to({share * c.protocol.ed_pressure, 0.0}).value(); });
+  return {fmt::format("  quasi-static: {} finite elements of order {}, {} unknowns; {:.3g} s a "
+                      "load step\n",
+                      mesh::elements(mesh).size(), mesh.order, engine.equations().size(), step),
+          fmt::format("about {}", log::duration(steps_of_beat * step)), step};
+}
+
+/// For the engine that the case does not name, what it would say if it did.
+template <class Trial>
+Estimate tried(const Trial& trial) {
+  try {
+    return trial();
+  } catch (const InputError& failure) {
+    return {"", fmt::format("cannot run it ({})", failure.what()), 0.0};
+  } catch (const RunError& failure) {
+    return {"", fmt::format("cannot run it ({})", failure.what()), 0.0};
+  }
+}
+
+/// What comes before the beat, on the quasi-static engine.
+std::string preparation(const Case& c, double step) {
+  const case_file::Calibration& k = c.calibration;
+  const int fitted = (k.passive == calibrate::FittedPassive::none ? 0 : 1) +
+                     (k.passive == calibrate::FittedPassive::scale_and_exponent ? 1 : 0) +
+                     (k.active ? 1 : 0);
+  const double unloading = case_file::is_loaded(c) ? steps_of_unloading * step : 0.0;
+  const double fit = fitted * (steps_of_fit * step + unloading);
+  if (unloading + fit == 0.0)
+    return "";
+  return fmt::format(", {}{}{} before it about {}", unloading > 0.0 ? "unloading" : "",
+                     unloading > 0.0 && fit > 0.0 ? " and " : "", fit > 0.0 ? "calibration" : "",
+                     log::duration(unloading + fit));
+}
+
+Case with_engine(Case c, case_file::Engine engine) {
+  c.engine = engine;
+  return c;
+}
+
+}  // namespace
+
+Cost cost_of(const Case& c, const anatomy::Shape& shape, const anatomy::MeshResult& mesh) {
+  const auto mesh_of = [&](case_file::Engine engine) {
+    if (c.engine == engine)
+      return mesh;
+    const Case other = with_engine(c, engine);
+    anatomy::MeshResult made = make_mesh(other, shape);
+    check_room(other, made.mesh);
+    return made;
+  };
+  const auto immersed = [&] {
+    return of_immersed(with_engine(c, case_file::Engine::immersed),
+                       mesh_of(case_file::Engine::immersed).mesh);
+  };
+  const auto quasi_static = [&] {
+    return of_quasi_static(with_engine(c, case_file::Engine::quasi_static),
+                           mesh_of(case_file::Engine::quasi_static).mesh);
+  };
+  const bool is_immersed = c.engine == case_file::Engine::immersed;
+  const Estimate dynamic = is_immersed ? immersed() : tried(immersed);
+  const Estimate slow = is_immersed ? tried(quasi_static) : quasi_static();
+  return {dynamic.details + slow.details,
+          fmt::format("immersed {}, quasi_static {}{}", dynamic.words, slow.words,
+                      preparation(c, slow.step))};
+}
+
+}  // namespace lv::pipeline

@@ -1,0 +1,387 @@
+#include "lv/pipeline/run.hpp"
+
+#include "lv/base/check.hpp"
+#include "lv/base/interrupt.hpp"
+#include "lv/base/log.hpp"
+#include "lv/base/nearest.hpp"
+#include "lv/base/parallel.hpp"
+#include "lv/base/printable.hpp"
+#include "lv/base/table.hpp"
+#include "lv/bench/bench.hpp"
+#include "lv/case_file/parameters.hpp"
+#include "lv/cine/strain.hpp"
+#include "lv/page/page.hpp"
+#include "lv/pipeline/calibration.hpp"
+#include "lv/pipeline/circulation.hpp"
+#include "lv/pipeline/stages.hpp"
+#include "lv/pipeline/unloading.hpp"
+#include "lv/pipeline/validate.hpp"
+#include "lv/report/paraview_script.hpp"
+#include "lv/report/table_figures.hpp"
+#include "lv/scar/infarct.hpp"
+#include "lv/work/ingredients.hpp"
+#include "lv/work/version.hpp"
+#include "lv/work/workspace.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace lv::pipeline {
+namespace {
+
+using case_file::Case;
+using case_file::Stage;
+using parallel::on_root;
+using parallel::root_says;
+
+/// The stages in their order, each with what it depends on.
+class Pipeline {
+ public:
+  Pipeline(const Case& c, const RunOptions& options)
+      : case_(c),
+        options_(options),
+        work_(options.work.empty() ? c.file.parent_path() / (c.file.stem().string() + ".work")
+                                   : options.work),
+        last_(last_stage()),
+        files_({work_, c.file}) {}
+
+  void run() {
+    std::optional<work::WorkLock> lock;
+    on_root([&] { lock.emplace(work_); });
+    on_root([&] { log::to_file(work_ / "log.txt", case_file::names_alone(case_, work_)); });
+    log::info("{}: ventricle {} on {} rank{}, results in {}", case_.name, work::version(),
+              parallel::size(), parallel::size() == 1 ? "" : "s", work_.string());
+    if (case_.origin.empty())
+      log::warn("{}: {}", case_.file.string(), no_parameters);
+    for (const std::string& what : case_.without_effect)
+      log::warn("{}", what);
+    if (!case_.strain.measured.empty())  // a mistake there must not come up after the beat
+      on_root([&] { static_cast<void>(cine::measured_strains(case_)); });
+    const std::vector<Planned> stages = plan();
+    check_before(stages);
+    for (const Planned& p : stages)
+      run_stage(p);
+  }
+
+  /// What would run and why, a line a stage; known to the root.
+  [[nodiscard]] std::string describe() {
+    std::string text;
+    for (const Planned& p : plan()) {
+      const work::StageFolder stage = folder_of(p);
+      text += stage.up_to_date()
+                  ? fmt::format("{:<10} is up to date\n", name_of(p.stage))
+                  : fmt::format("{:<10} would run, because {}\n", name_of(p.stage), stage.reason());
+    }
+    return text;
+  }
+
+ private:
+  /// A stage of the case with what its result depends on, which the root knows.
+  struct Planned {
+    Stage stage;
+    work::Ingredients ingredients;
+  };
+
+  /// The stages in their order. Each takes the results of all before it but the circulation's,
+  /// which runs by itself, and strain's, which the results alone look at; what stands for a result
+  /// is known before it is there.
+  [[nodiscard]] std::vector<Planned> plan() {
+    std::vector<Planned> stages;
+    work::Ingredients before;  // the last result that leads to the next stage
+    work::Ingredients strain;
+    for (const Stage stage : case_file::all_stages) {
+      if (stage > last_ || !case_file::has_stage(case_, stage))
+        continue;
+      work::Ingredients all;
+      on_root([&] { all = work::ingredients(case_, stage, files_); });
+      all.insert(before.begin(), before.end());
+      if (stage == Stage::results)
+        all.insert(strain.begin(), strain.end());
+      work::Ingredients result;
+      result["result of " + name_of(stage)] = work::fingerprint(all);
+      if (stage == Stage::strain)
+        strain = std::move(result);
+      else if (stage != Stage::circulation)
+        before = std::move(result);
+      stages.push_back({stage, std::move(all)});
+    }
+    return stages;
+  }
+
+  [[nodiscard]] work::StageFolder folder_of(const Planned& p) const {
+    return {work_, folder(p.stage).filename().string(), p.ingredients};
+  }
+
+  /// A fit that cannot succeed must not be found out after the stages before it.
+  void check_before(const std::vector<Planned>& stages) {
+    on_root([&] {
+      for (const Planned& p : stages)
+        if (p.stage == Stage::calibrate && !folder_of(p).up_to_date())
+          check_measured_volumes(case_, shape());
+    });
+  }
+
+  [[nodiscard]] Stage last_stage() const {
+    if (!options_.until)
+      return case_file::all_stages.back();
+    if (*options_.until == "circulation" && !case_.circulation.asked())
+      throw InputError(case_.file.string(), "has no circulation",
+                       "Set circulation.kind to \"windkessel\" or \"closed_loop\"");
+    if (*options_.until == "strain" && !case_.strain.asked())
+      throw InputError(case_.file.string(), "has no cine images",
+                       "Name them with strain.cine, and the contours with strain.contours");
+    if (*options_.until == "calibrate" && !case_.calibration.asked())
+      throw InputError(case_.file.string(), "asks for no calibration",
+                       "Set calibrate.passive or calibrate.active, and the measured volumes");
+    if (*options_.until == "unload" && !case_file::is_loaded(case_))
+      throw InputError(case_.file.string(), "takes the shape of its anatomy as free of stress",
+                       "Set unloaded.pressure to the pressure under which it was seen");
+    const auto found =
+        std::find(work::stage_names.begin(), work::stage_names.end(), *options_.until);
+    if (found == work::stage_names.end()) {
+      const std::string nearest = nearest_name(*options_.until, work::stage_names);
+      throw InputError("--until " + *options_.until, "is not a stage",
+                       fmt::format("The stages are {}{}", fmt::join(work::stage_names, ", "),
+                                   nearest.empty() ? "" : "; did you mean " + nearest + "?"));
+    }
+    return static_cast<Stage>(found - work::stage_names.begin());
+  }
+
+  [[nodiscard]] std::filesystem::path folder(Stage stage) const {
+    return work_ / work::stage_folder(static_cast<std::size_t>(stage));
+  }
+
+  static const std::string& name_of(Stage stage) {
+    return work::stage_names.at(static_cast<std::size_t>(stage));
+  }
+
+  void run_stage(const Planned& planned) {
+    interrupt::check_together();
+    const Stage s = planned.stage;
+    const work::StageFolder stage = folder_of(planned);
+    if (root_says(stage.up_to_date())) {
+      if (options_.explain)
+        log::info("{} is up to date: nothing it depends on has changed", name_of(s));
+      show(s);
+      return;
+    }
+    if (options_.explain)
+      log::info("{} runs, because {}", name_of(s), stage.reason());
+    else
+      log::info("{} ...", name_of(s));
+    on_root([&] { static_cast<void>(stage.begin()); });
+    make(s, work::stage_view(case_, s), stage.unfinished());
+    on_root([&] { stage.finish(); });
+    show(s);
+  }
+
+  /// `c` is the case as the stage sees it.
+  void make(Stage s, const Case& c, const std::filesystem::path& part) {
+    switch (s) {
+      case Stage::circulation:
+        on_root([&] { make_circulation(c, part); });
+        break;
+      case Stage::strain:
+        on_root([&] { cine::make_strain(c, part); });
+        break;
+      case Stage::anatomy:
+        on_root([&] {
+          for (const geometry::Assumption& a : shape().warnings)
+            log::warn("{}", a.text);
+          anatomy::write_anatomy(shape(), part);
+        });
+        break;
+      case Stage::mesh:
+        on_root([&] {
+          const anatomy::MeshResult mesh = make_mesh(c, shape());
+          check_room(case_, mesh.mesh);  // before a fit takes its time
+          anatomy::write_mesh_result(mesh, part);
+        });
+        show_mesh(anatomy::read_mesh_result(part), c, part);
+        break;
+      case Stage::calibrate: {
+        const Case fitting = for_calibration(c);
+        on_root([&] { anatomy::write_mesh_result(make_mesh(fitting, shape()), part); });
+        make_calibration(fitting, anatomy::read_mesh_result(part), part);
+        break;
+      }
+      case Stage::unload: {
+        const auto elements = part / elements_name;
+        on_root([&] {
+          std::filesystem::create_directories(elements);
+          anatomy::write_mesh_result(make_mesh(for_calibration(c), shape()), elements);
+        });
+        unload(part, elements);
+        break;
+      }
+      case Stage::beat:
+        run_beat(c, part);
+        break;
+      case Stage::results: {
+        const auto beat = folder(Stage::beat);
+        const auto wall = wall_of(beat);
+        const anatomy::MeshResult mesh = anatomy::read_mesh_result(wall);
+        text_ = make_results(fitted(c, beat), mesh, read_beat(beat, mesh.mesh),
+                             fitted_volumes(c, beat), unloaded_shape(wall), part);
+        on_root([&] { write_file(part / "summary.txt", text_); });
+        break;
+      }
+      case Stage::report:
+        on_root([&] {
+          write_page({work_}, part / "report.html");
+          report::write_figures(work_, part / "figures");
+          write_file(part / "paraview.py",
+                     report::paraview_script("../" + folder(Stage::beat).filename().string(),
+                                             report::orientation_of(work_)));
+        });
+        break;
+    }
+  }
+
+  void run_beat(const Case& c, const std::filesystem::path& part) {
+    if (root_says(std::filesystem::exists(part / beat_name))) {
+      // finished, but the folder had not got its name yet
+      on_root([&] { std::filesystem::remove(part / heartbeat::checkpoint_name); });
+      return;
+    }
+    on_root([&] {
+      check_room(case_, anatomy::read_mesh_result(wall_of(part)).mesh);
+    });  // the box may be new
+    heartbeat::Beat beat;
+    bool again = false;
+    do {
+      if (case_file::is_loaded(case_) &&
+          root_says(std::filesystem::exists(part / confirmation_name)))
+        unload(part,
+               folder(Stage::unload) / elements_name);  // with corrected parameters
+      const anatomy::MeshResult mesh = anatomy::read_mesh_result(wall_of(part));
+      beat = make_beat(fitted(c, part), mesh, part);
+      log::info("beat: {} steps in {}", beat.steps, log::duration(beat.wall_clock));
+      on_root([&] {
+        again = c.calibration.asked() && correct(c, calibration(), beat, part);
+        if (again)
+          std::filesystem::remove_all(part / "fields");  // the next beat may have fewer
+      });
+    } while (root_says(again));
+    on_root([&] {
+      write_beat(beat, part);
+      std::filesystem::remove(part / heartbeat::checkpoint_name);
+    });
+  }
+
+  /// The wall without load for the parameters in use, into a folder.
+  void unload(const std::filesystem::path& part, const std::filesystem::path& elements) const {
+    make_unloading(
+        fitted(work::stage_view(case_, Stage::unload), part),
+        anatomy::read_mesh_result(folder(Stage::mesh)), anatomy::read_mesh_result(elements).mesh,
+        part,
+        case_.calibration.asked() ? calibration() / unloaded_shape_name : std::filesystem::path());
+  }
+
+  /// Where the stress-free wall of a beat is.
+  [[nodiscard]] std::filesystem::path wall_of(const std::filesystem::path& beat) const {
+    if (!case_file::is_loaded(case_))
+      return folder(Stage::mesh);
+    return unloaded_shape(beat) ? beat : folder(Stage::unload);
+  }
+
+  /// Made once, by the first stage that needs it; of the root alone.
+  const anatomy::Shape& shape() {
+    if (!shape_)
+      shape_ = anatomy::make_anatomy(work::stage_view(case_, Stage::anatomy));
+    return *shape_;
+  }
+
+  [[nodiscard]] std::filesystem::path calibration() const { return folder(Stage::calibrate); }
+
+  /// A case with the parameters in use: its own, a calibration's, or those of a beat that corrects
+  /// it.
+  [[nodiscard]] Case fitted(const Case& c, const std::filesystem::path& beat) const {
+    if (!c.calibration.asked())
+      return c;
+    const auto corrected = beat / confirmation_name;
+    return calibrated(
+        c, std::filesystem::exists(corrected) ? corrected : calibration() / calibration_name);
+  }
+
+  /// What a user looks at first.
+  void show(Stage stage) const {
+    if (!parallel::is_root())
+      return;
+    if (stage == Stage::anatomy && std::filesystem::exists(folder(stage) / "quality.txt"))
+      print(fmt::format("\n{}\n", read_file(folder(stage) / "quality.txt")));
+    if (stage == Stage::calibrate)
+      print(fmt::format("\n{}\nparameters in {}\n\n", read_file(folder(stage) / "calibration.txt"),
+                        (folder(stage) / "calibrated.toml").string()));
+    if (stage == Stage::circulation)
+      print(fmt::format("\n{}\ntables and figures in {}\n\n",
+                        read_file(folder(stage) / "circulation.txt"), folder(stage).string()));
+    if (stage == Stage::strain)
+      print(fmt::format("\n{}\nstrain in {}\n\n", read_file(folder(stage) / "strain.txt"),
+                        folder(stage).string()));
+    if (stage == Stage::results)
+      print(fmt::format("\n{}\nresults in {}\n", read_file(folder(stage) / "summary.txt"),
+                        folder(stage).string()));
+    if (stage == Stage::report)
+      print(fmt::format("page: {}\n", (folder(stage) / "report.html").string()));
+  }
+
+  const Case& case_;
+  RunOptions options_;
+  std::filesystem::path work_;
+  Stage last_;
+  work::FileContents files_;
+  std::string text_;
+  std::optional<anatomy::Shape> shape_;
+  static constexpr const char* elements_name = "quasi_static";  ///< folder of the mesh for fits
+};
+
+}  // namespace
+
+void run(const Case& c, const RunOptions& options) {
+  if (options.dry_run) {
+    const std::string text = Pipeline(c, options).describe();
+    if (parallel::is_root())
+      print(text);
+    return;
+  }
+  interrupt::install();
+  try {
+    Pipeline(c, options).run();
+  } catch (const std::exception& failure) {
+    log::warn("the run ended early: {}", failure.what());
+    throw;
+  }
+}
+
+void write_page(const std::vector<std::filesystem::path>& works,
+                const std::filesystem::path& file) {
+  std::vector<page::PageCase> cases;
+  for (const std::filesystem::path& work : works) {
+    const std::vector<std::string> state = work::state_of(work);
+    cases.push_back({work, state.empty(), state});
+  }
+  write_file(file, page::page(cases, work::version()));
+}
+
+int most_ranks(const std::array<int, 3>& cells) {
+  return fluid::most_ranks(cells);
+}
+
+std::string bench(const BenchOptions& options) {
+  Case c;
+  c.file = "bench --cells, --edge";
+  std::copy(options.cells.begin(), options.cells.end(), c.box.cells.begin());
+  c.mesh.edge_length = options.edge_length;
+  if (options.quadrature)
+    c.coupling.kind = immersed::CouplingKind::quadrature;
+  const anatomy::MeshResult result = make_mesh(c, anatomy::make_anatomy(c));
+  check_room(c, result.mesh);
+  const lv::bench::Bench measured = lv::bench::measure(
+      result.mesh, case_file::model_parameters(c, result.mesh), case_file::myocardium(c));
+  return options.json ? lv::bench::json(measured) : lv::bench::text(measured);
+}
+
+}  // namespace lv::pipeline

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "lv/analysis/results.hpp"
+#include "lv/anatomy/anatomy.hpp"
+#include "lv/anatomy/mesh_result.hpp"
+#include "lv/heartbeat/immersed_beat.hpp"
+#include "lv/pipeline/beat_result.hpp"
+#include "lv/report/summary.hpp"
+
+#include <filesystem>
+#include <optional>
+
+namespace lv::pipeline {
+
+/// Throws InputError when the immersed engine has no room for the wall in its box, or when the mesh
+/// is too coarse for the grid.
+void check_room(const case_file::Case& c, const mesh::Mesh& mesh);
+
+[[nodiscard]] anatomy::MeshResult make_mesh(const case_file::Case& c, const anatomy::Shape& shape);
+
+/// Writes the mesh for ParaView, its quality table and pictures; collective.
+void show_mesh(const anatomy::MeshResult& result, const case_file::Case& c,
+               const std::filesystem::path& folder);
+
+/// Runs the beat in `folder`, writing fields and curves as it goes; collective.
+[[nodiscard]] heartbeat::Beat make_beat(const case_file::Case& c, const anatomy::MeshResult& mesh,
+                                        const std::filesystem::path& folder);
+
+/// Computes and writes the results; collective. `fitted` is empty unless the case is calibrated,
+/// `unloaded` unless the wall was seen under load.
+/// Returns the text for the terminal on the root.
+[[nodiscard]] std::string make_results(const case_file::Case& c, const anatomy::MeshResult& mesh,
+                                       const BeatResult& beat,
+                                       const std::vector<report::FittedVolume>& fitted,
+                                       const std::optional<report::UnloadedShape>& unloaded,
+                                       const std::filesystem::path& folder);
+
+}  // namespace lv::pipeline

@@ -1,0 +1,180 @@
+#include "lv/pipeline/unloading.hpp"
+
+#include "lv/base/check.hpp"
+#include "lv/base/json_file.hpp"
+#include "lv/base/log.hpp"
+#include "lv/base/parallel.hpp"
+#include "lv/base/table.hpp"
+#include "lv/base/units.hpp"
+#include "lv/mesh/fibres.hpp"
+#include "lv/mesh/quality.hpp"
+#include "lv/solid/endocardial_surface.hpp"
+#include "lv/solid/interpolate.hpp"
+
+#include <fmt/format.h>
+
+namespace lv::pipeline {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using implicit::Unloaded;
+using units::mmHg;
+
+using heartbeat::Archive;
+
+constexpr const char* summary_name = "unloaded.json";
+constexpr const char* search_record = "search.bin";
+
+/// What a search that was stopped has found.
+implicit::Equilibria read_record(const std::filesystem::path& file, std::size_t nodes) {
+  implicit::Equilibria known;
+  if (!std::filesystem::exists(file))
+    return known;
+  const Archive archive = Archive::read(file);
+  for (const double found : archive.get_rows("found", 1, {}, {0.0, 1.0})) {
+    const std::string name = equilibrium_name(known.size());
+    known.push_back(found == 1.0 ? std::optional(load_state(archive, name, nodes)) : std::nullopt);
+  }
+  log::info("the search for the wall without load goes on after {} equilibria", known.size());
+  return known;
+}
+
+void write_record(const implicit::Equilibria& known, const std::filesystem::path& file) {
+  Archive archive;
+  std::vector<double> found;
+  for (std::size_t n = 0; n < known.size(); ++n) {
+    found.push_back(known[n] ? 1.0 : 0.0);
+    if (known[n])
+      store(*known[n], equilibrium_name(n), archive);
+  }
+  archive.set("found", std::move(found));
+  archive.write(file);
+}
+
+std::optional<Unloaded> read_start(const std::filesystem::path& file, std::size_t nodes) {
+  if (!std::filesystem::exists(file))
+    return {};
+  return load_unloaded(Archive::read(file), nodes);
+}
+
+Table steps_table(const Unloaded& unloaded) {
+  Table table({"step", "largest_distance_mm", "rms_distance_mm", "unloaded_volume_ml",
+               "loaded_volume_ml", "damping", "accelerated"});
+  const auto number = [](double value) { return Table::number(value, 9); };
+  int row = 0;
+  for (const implicit::UnloadStep& s : unloaded.steps)
+    table.add_row({std::to_string(++row), number(s.largest), number(s.rms),
+                   number(1e-3 * s.unloaded_volume), number(1e-3 * s.volume), number(s.damping),
+                   s.accelerated ? "1" : "0"});
+  return table;
+}
+
+Json summary(const case_file::Case& c, const mesh::Mesh& elements, const Unloaded& unloaded) {
+  const implicit::UnloadStep& last = unloaded.steps.back();
+  return {{"pressure_mmHg", c.unloaded.pressure / mmHg},
+          {"seen_volume_ml", 1e-3 * solid::EndocardialSurface(elements).volume(elements.nodes)},
+          {"unloaded_volume_ml", 1e-3 * last.unloaded_volume},
+          {"loaded_again_volume_ml", 1e-3 * last.volume},
+          {"largest_distance_mm", last.largest},
+          {"rms_distance_mm", last.rms},
+          {"tolerance_mm", c.unloaded.tolerance},
+          {"steps", unloaded.steps.size()}};
+}
+
+/// The other mesh of the same wall, moved as this one was.
+std::vector<Vec3> carried(const mesh::Mesh& elements, const Unloaded& unloaded,
+                          const mesh::Mesh& other) {
+  std::vector<Vec3> displacement;
+  for (std::size_t a = 0; a < elements.nodes.size(); ++a)
+    displacement.push_back(unloaded.nodes[a] - elements.nodes[a]);
+  std::vector<Vec3> nodes = solid::interpolate(elements, displacement, other.nodes);
+  for (std::size_t a = 0; a < nodes.size(); ++a)
+    nodes[a] += other.nodes[a];
+  return nodes;
+}
+
+void check_elements(const mesh::Mesh& wall) {
+  const mesh::Quality q = mesh::quality(wall);
+  if (q.scaled_jacobian.min > 0.0)
+    return;
+  throw RunError(
+      fmt::format("Element {} at ({:.1f}, {:.1f}, {:.1f}) mm is turned inside out in the "
+                  "wall without load",
+                  q.worst_cell, q.worst_place.x(), q.worst_place.y(), q.worst_place.z()),
+      "Check unloaded.pressure, or take a smaller quasi_static.edge_length");
+}
+
+}  // namespace
+
+void make_unloading(const case_file::Case& c, const anatomy::MeshResult& seen,
+                    const mesh::Mesh& elements, const std::filesystem::path& folder,
+                    const std::filesystem::path& start) {
+  const std::filesystem::path record = folder / search_record;
+  const std::optional<Unloaded> near = read_start(start, elements.nodes.size());
+  const Unloaded unloaded =
+      implicit::unload(elements, case_file::static_model(c), c.unloaded, c.quasi_static.solver,
+                       near ? &*near : nullptr,
+                       {read_record(record, elements.nodes.size()),
+                        [&](const implicit::Equilibria& known) {
+                          parallel::on_root([&] { write_record(known, record); });
+                        }})
+          .value();
+  anatomy::MeshResult result = seen;
+  result.mesh = mesh::with_nodes(seen.mesh, c.engine == case_file::Engine::quasi_static
+                                                ? unloaded.nodes
+                                                : carried(elements, unloaded, seen.mesh));
+  check_elements(result.mesh);
+  if (parallel::is_root()) {
+    anatomy::write_mesh_result(result, folder);
+    steps_table(unloaded).write_csv(folder / "unloading.csv");
+    write_file(folder / summary_name, summary(c, elements, unloaded).dump(2) + "\n");
+    std::filesystem::remove(record);
+  }
+  show_mesh(result, c, folder);
+}
+
+void write_unloaded(const Unloaded& unloaded, const std::filesystem::path& file) {
+  Archive archive;
+  store(unloaded, archive);
+  archive.write(file);
+}
+
+std::string equilibrium_name(std::size_t n) {
+  return fmt::format("equilibrium.{}", n);
+}
+
+void store(const implicit::State& state, const std::string& name, Archive& archive) {
+  archive.set(name + ".positions", heartbeat::flat(state.positions));
+  archive.set(name + ".pressures", state.pressures);
+}
+
+implicit::State load_state(const Archive& archive, const std::string& name, std::size_t nodes) {
+  return {heartbeat::vectors(archive.get_rows(name + ".positions", 3, nodes)),
+          archive.get_rows(name + ".pressures", 1)};
+}
+
+void store(const Unloaded& unloaded, Archive& archive) {
+  archive.set("unloaded.nodes", heartbeat::flat(unloaded.nodes));
+  store(unloaded.loaded, "loaded", archive);
+}
+
+Unloaded load_unloaded(const Archive& archive, std::size_t nodes) {
+  return {heartbeat::vectors(archive.get_rows("unloaded.nodes", 3, nodes)),
+          load_state(archive, "loaded", nodes),
+          {}};
+}
+
+std::optional<report::UnloadedShape> unloaded_shape(const std::filesystem::path& folder) {
+  if (!std::filesystem::exists(folder / summary_name))
+    return {};
+  return from_json_file(folder / summary_name, [](const Json& json) {
+    return report::UnloadedShape{json.at("pressure_mmHg").get<double>() * mmHg,
+                                 1e3 * json.at("seen_volume_ml").get<double>(),
+                                 1e3 * json.at("unloaded_volume_ml").get<double>(),
+                                 1e3 * json.at("loaded_again_volume_ml").get<double>(),
+                                 json.at("largest_distance_mm").get<double>(),
+                                 json.at("rms_distance_mm").get<double>()};
+  });
+}
+
+}  // namespace lv::pipeline

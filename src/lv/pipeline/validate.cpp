@@ -1,0 +1,151 @@
+#include "lv/pipeline/validate.hpp"
+
+#include "lv/base/check.hpp"
+#include "lv/base/log.hpp"
+#include "lv/base/mistakes.hpp"
+#include "lv/base/units.hpp"
+#include "lv/cine/strain.hpp"
+#include "lv/cine/strain_targets.hpp"
+#include "lv/mesh/quality.hpp"
+#include "lv/pipeline/calibration.hpp"
+#include "lv/pipeline/cost.hpp"
+#include "lv/pipeline/stages.hpp"
+#include "lv/scar/infarct.hpp"
+#include "lv/solid/endocardial_surface.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <optional>
+
+namespace lv::pipeline {
+namespace {
+
+using case_file::Case;
+using units::mmHg;
+
+/// A short name for the last line, and what it means.
+struct Warning {
+  std::string name, text;
+};
+
+/// A cavity that fills by less than this from early to end-diastole is worth a question.
+constexpr double little_filling = 1.25;
+
+std::vector<Warning> warnings_of(const Case& c, const anatomy::Shape& shape, double cavity) {
+  std::vector<Warning> warnings;
+  if (c.origin.empty())
+    warnings.push_back({"default case", no_parameters});
+  for (const std::string& text : c.without_effect)
+    warnings.push_back({"no effect", text});
+  for (const geometry::Assumption& a : shape.warnings)
+    warnings.push_back({a.part == "septum" ? "septum assumed" : "end-diastolic shape", a.text});
+  const double edv = c.calibration.edv;
+  if (c.calibration.passive != calibrate::FittedPassive::none && !case_file::is_loaded(c) &&
+      edv < little_filling * cavity)
+    warnings.push_back(
+        {"little filling",
+         fmt::format("calibrate.edv is {:.1f} ml and the shape that is taken as free of stress "
+                     "has {:.1f} ml: if it is that of end-diastole, set unloaded.pressure",
+                     1e-3 * edv, 1e-3 * cavity)});
+  return warnings;
+}
+
+std::string next_command(const Case& c) {
+  return fmt::format("ventricle run {}", c.file.string());
+}
+
+/// Names, without repeats.
+std::string names_of(const std::vector<Warning>& warnings) {
+  std::vector<std::string> names;
+  for (const Warning& w : warnings)
+    if (std::find(names.begin(), names.end(), w.name) == names.end())
+      names.push_back(w.name);
+  return names.empty() ? "no warnings" : fmt::format("warnings above: {}", fmt::join(names, ", "));
+}
+
+std::string describe_mesh(const mesh::Mesh& m) {
+  const mesh::Quality q = mesh::quality(m);
+  return fmt::format(
+      "  mesh: {} elements, {} nodes, edges {:.2f} mm in the mean; worst element {} at ({:.1f}, "
+      "{:.1f}, {:.1f}) mm with scaled Jacobian {:.2f}\n",
+      q.cells, q.nodes, q.edge_length.mean, q.worst_cell, q.worst_place.x(), q.worst_place.y(),
+      q.worst_place.z(), q.scaled_jacobian.min);
+}
+
+std::string describe_shape(const Case& c, const anatomy::Shape& shape, double cavity,
+                           const mesh::Mesh& m) {
+  std::string text =
+      fmt::format("{}: valid\n  {}: cavity {:.2f} ml, wall {:.2f} ml\n", c.file.string(),
+                  case_file::is_loaded(c) ? "the shape that was seen" : "early diastole",
+                  1e-3 * cavity, 1e-3 * mesh::quality(m).wall_volume);
+  if (case_file::is_loaded(c))
+    text += fmt::format("  it bears {:.2f} mmHg; the wall without load will be found from it\n",
+                        c.unloaded.pressure / mmHg);
+  const auto is_warning = [&](const std::string& note) {
+    return std::any_of(shape.warnings.begin(), shape.warnings.end(),
+                       [&](const geometry::Assumption& a) { return a.text == note; });
+  };
+  if (shape.quality) {
+    report::QualitySheet sheet = *shape.quality;
+    std::erase_if(sheet.notes, is_warning);  // they stand further down
+    return text + report::quality_text(sheet);
+  }
+  for (const std::string& note : shape.notes)
+    if (!is_warning(note))
+      text += fmt::format("  note: {}\n", note);
+  return text;
+}
+
+}  // namespace
+
+void check_measured_volumes(const Case& c, const anatomy::Shape& shape) {
+  const case_file::Calibration& k = c.calibration;
+  if (k.passive == calibrate::FittedPassive::none || case_file::is_loaded(c))
+    return;
+  const double cavity = anatomy::cavity_of(shape);
+  if (k.edv > (1.0 + k.tolerance) * cavity)
+    return;
+  throw InputError(
+      case_file::place_of(c, "calibrate.edv"),
+      fmt::format("calibrate.edv is {:.1f} ml, and the shape of the anatomy, which is taken as "
+                  "free of stress, holds {:.1f} ml already: under protocol.ed_pressure "
+                  "({:g} mmHg) no stiffness fills it to that volume",
+                  1e-3 * k.edv, 1e-3 * cavity, c.protocol.ed_pressure / mmHg),
+      fmt::format(
+          "If the shape is that of end-diastole, it bears the pressure: set unloaded.pressure = "
+          "\"{0:g} mmHg\", and leave calibrate.passive and calibrate.edv out, since a wall that "
+          "was unloaded from {0:g} mmHg fills to its own volume whatever its stiffness. To fit "
+          "the stiffness, give the shape of early diastole",
+          c.protocol.ed_pressure / mmHg));
+}
+
+std::string validate(const Case& c) {
+  Mistakes mistakes;
+  std::string strain;
+  std::optional<anatomy::Shape> shape;
+  mistakes.attempt([&] { strain = cine::check_strain(c); });
+  mistakes.attempt([&] { shape = anatomy::make_anatomy(c); });
+  mistakes.attempt([&] { scar::require_infarct(c); });
+  mistakes.raise();
+  check_measured_volumes(c, *shape);
+  const anatomy::MeshResult result = make_mesh(c, *shape);
+  check_room(c, result.mesh);
+  const double cavity = solid::EndocardialSurface(result.mesh).volume(result.mesh.nodes);
+  std::string text = describe_shape(c, *shape, cavity, result.mesh);
+  if (const auto targets = cine::strain_targets(c, result.regions); !targets.empty())
+    text += fmt::format("  strains of {} segments to fit to\n", targets.size());
+  text += strain + describe_mesh(result.mesh);
+  if (const std::string infarct = scar::describe_infarct(c, result); !infarct.empty())
+    text += fmt::format("  {}\n", infarct);
+  const std::vector<Warning> warnings = warnings_of(c, *shape, cavity);
+  for (const Warning& w : warnings)
+    text += fmt::format("  warning: {}\n", w.text);
+  const Cost cost = cost_of(c, *shape, result);
+  return text + cost.details +
+         fmt::format("on one core: {}; {}; next: {}\n", cost.words, names_of(warnings),
+                     next_command(c));
+}
+
+}  // namespace lv::pipeline

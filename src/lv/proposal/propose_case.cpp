@@ -1,0 +1,359 @@
+#include "lv/proposal/propose_case.hpp"
+
+#include "lv/anatomy/drawn.hpp"
+#include "lv/anatomy/proposals.hpp"
+#include "lv/base/check.hpp"
+#include "lv/base/ending.hpp"
+#include "lv/base/files.hpp"
+#include "lv/base/formats.hpp"
+#include "lv/base/lines.hpp"
+#include "lv/base/units.hpp"
+#include "lv/geometry/contours.hpp"
+#include "lv/image/dicom_file.hpp"
+#include "lv/image/guide_points.hpp"
+#include "lv/image/label_meaning.hpp"
+#include "lv/image/nifti.hpp"
+#include "lv/mesh_io/import.hpp"
+#include "lv/proposal/what_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <regex>
+
+namespace lv::proposal {
+namespace {
+
+using case_file::CaseLine;
+namespace fs = std::filesystem;
+
+constexpr const char* septum_comment =
+    "a point of the middle of the septum: without it regions may bear wrong names";
+
+bool has_ending(const fs::path& file, std::initializer_list<const char*> endings) {
+  const std::string ending = ending_of(file);
+  return std::find(endings.begin(), endings.end(), ending) != endings.end();
+}
+
+/// The first line of a text, in small letters; empty for other files.
+std::string first_line(const fs::path& file) {
+  LineReader lines(file);
+  return lines.is_open() && lines.next() ? lower_case(std::string(lines.text())) : "";
+}
+
+CaseLine septum_line() {
+  return {"anatomy.contours.septum_point", R"(["0 mm", "0 mm", "0 mm"])", septum_comment, false};
+}
+
+CaseLine source_line(const char* source, const std::string& comment = "") {
+  return {"anatomy.source", case_file::quoted(source), comment};
+}
+
+/// The pressures, which no image shows.
+std::vector<CaseLine> pressure_lines() {
+  const heartbeat::Protocol p;
+  const auto line = [](const char* parameter, double pressure) {
+    return CaseLine{parameter, case_file::quoted(fmt::format("{:g} mmHg", pressure / units::mmHg)),
+                    "the default; better the person's own"};
+  };
+  return {line("protocol.ed_pressure", p.ed_pressure), line("protocol.es_pressure", p.es_pressure)};
+}
+
+/// A fit to the volumes that the source shows, to be uncommented.
+std::vector<CaseLine> calibration_lines(const anatomy::Moments& m) {
+  if (m.numbers.size() < 2)
+    return {};
+  const auto ml = [&](int number) {
+    return case_file::quoted(fmt::format("{:.1f} ml", 1e-3 * m.volume(number)));
+  };
+  std::vector<CaseLine> lines;
+  if (m.early_diastole) {
+    lines.push_back({"calibrate.passive", case_file::quoted("C_a"),
+                     "fit the stiffness to these volumes", false});
+    lines.push_back({"calibrate.edv", ml(m.end_diastole), "", false});
+  }
+  lines.push_back({"calibrate.active", "true", "fit the contractility", false});
+  lines.push_back({"calibrate.esv", ml(m.end_systole), "", false});
+  return lines;
+}
+
+/// The lines that belong to a moment of the beat: of a loaded shape, and of the volumes.
+std::vector<CaseLine> lines_of_moment(const anatomy::Moments& m) {
+  std::vector<CaseLine> lines;
+  if (m.numbers.size() > 1 && !m.early_diastole)
+    lines.push_back(
+        anatomy::unloading_line("the shape is that of end-diastole and bears this pressure"));
+  if (m.numbers.size() < 2)
+    lines.push_back(anatomy::unloading_line(
+        "taken for end-diastole, at which single shapes are drawn mostly; leave "
+        "this line out for early diastole"));
+  const auto fit = calibration_lines(m);
+  lines.insert(lines.end(), fit.begin(), fit.end());
+  return lines;
+}
+
+void append(std::vector<CaseLine>& lines, const std::vector<CaseLine>& more) {
+  lines.insert(lines.end(), more.begin(), more.end());
+}
+
+/// Grey values show no wall: it must be drawn first.
+Proposal of_grey_image(const image::Volume& image, const std::string& name) {
+  Proposal p{fmt::format("{}: an image, no labels", image.file), {}};
+  p.lines = {
+      source_line("labels", "or contours, guide_points, mesh: what was drawn on the images"),
+      {"anatomy.labels.file", case_file::fill_in, "the label map, drawn on these images elsewhere"},
+      {"anatomy.labels.cavity", case_file::fill_in, "its labels of the left ventricle's blood"},
+      {"anatomy.labels.muscle", case_file::fill_in, "its labels of the left ventricle's muscle"}};
+  if (image.frames > 1)
+    append(p.lines,
+           {{"strain.cine", case_file::quoted(name), "strain from these images", false},
+            {"strain.contours", case_file::fill_in, "loops drawn at end-diastole", false}});
+  else
+    append(p.lines,
+           {{"infarct.source", case_file::quoted("lge"), "if it is late enhancement", false},
+            {"infarct.lge.image", case_file::quoted(name), "", false},
+            {"infarct.lge.remote", case_file::fill_in, "AHA segments of healthy muscle", false}});
+  return p;
+}
+
+Proposal of_nifti(const fs::path& source, const std::string& name) {
+  const image::Volume map = image::read_nifti(source);
+  if (!image::seems_labels(map))
+    return of_grey_image(map, name);
+  Proposal p{fmt::format("{}: a label map of {} frame{}", map.file, map.frames,
+                         map.frames == 1 ? "" : "s"),
+             {source_line("labels"), {"anatomy.labels.file", case_file::quoted(name), ""}}};
+  append(p.lines, anatomy::label_lines(map, {}));
+  const image::LabelMeaning seen = image::propose_meaning(map);
+  if (seen.right_ventricle.empty())
+    p.lines.push_back(septum_line());
+  append(p.lines, lines_of_moment(anatomy::moments_of(map, seen.cavity)));
+  return p;
+}
+
+Proposal of_contours(const fs::path& source, const std::string& name) {
+  const geometry::Contours drawn = geometry::read_contours({source, {}, {}});
+  Proposal p{
+      fmt::format("{}: short-axis contours, {} loops", source.string(), drawn.short_axis.size()),
+      {source_line("contours"), {"anatomy.contours.short_axis", case_file::quoted(name), ""}}};
+  for (const char* other : {"long_axis", "apex_endo", "apex_epi"}) {
+    const auto beside = [&](const std::string& text) {
+      return std::regex_replace(text, std::regex("short_axis"), other);
+    };
+    const std::string file = source.filename().string();
+    if (beside(file) != file && fs::is_regular_file(source.parent_path() / beside(file)))
+      p.lines.push_back({fmt::format("anatomy.contours.{}", other),
+                         case_file::quoted((fs::path(name).parent_path() / beside(file)).string()),
+                         "beside it"});
+  }
+  p.lines.push_back(septum_line());
+  append(p.lines, lines_of_moment({}));
+  return p;
+}
+
+Proposal of_guide_points(const fs::path& source, const std::string& name) {
+  const auto frames = image::guide_point_contours(source, geometry::Side::epi);
+  Proposal p{
+      fmt::format("{}: guide points\n{}", source.string(),
+                  anatomy::describe_phases(frames, "frame")),
+      {source_line("guide_points"), {"anatomy.guide_points.file", case_file::quoted(name), ""}}};
+  const anatomy::Moments m = anatomy::moments_of(frames);
+  if (image::guide_point_frames(source).size() > 1)
+    p.lines.push_back(choice("anatomy.guide_points.frame", m));
+  append(p.lines, lines_of_moment(m));
+  return p;
+}
+
+/// The series with a name of late enhancement.
+const image::DicomStack* late_enhancement(const image::DicomStudy& study) {
+  static const std::regex names("late|lge|psir|delayed|enhanc|viab|tfi_de|_de_", std::regex::icase);
+  for (const image::DicomStack& stack : study.stacks)
+    if (stack.slices.size() > 2 && stack.slices.front().images.size() == 1 &&
+        std::regex_search(stack.description, names))
+      return &stack;
+  return nullptr;
+}
+
+std::vector<CaseLine> lines_without_contours(const image::DicomStudy& study) {
+  std::vector<CaseLine> lines;
+  if (const image::DicomStack* cine = anatomy::short_axis_cine(study); cine != nullptr)
+    lines.push_back({"anatomy.sunnybrook.series", fmt::format("[{}]", case_file::quoted(cine->key)),
+                     "seems the short-axis cine"});
+  append(lines,
+         {{"anatomy.sunnybrook.contours", case_file::fill_in, "the folder of contours drawn on it"},
+          {"anatomy.sunnybrook.phase", "0", "0: `ventricle validate` lists what there is"}});
+  return lines;
+}
+
+std::vector<CaseLine> lines_with_contours(const image::DicomStudy& study, const fs::path& contours,
+                                          const std::string& name) {
+  std::vector<CaseLine> lines{{"anatomy.sunnybrook.contours", case_file::quoted(name), ""}};
+  const anatomy::SunnybrookChoice chosen = anatomy::sunnybrook_choice(contours, study, {});
+  append(lines, chosen.lines);
+  append(lines, lines_of_moment(anatomy::moments_of(chosen.read.phases)));
+  return lines;
+}
+
+/// Reads a mesh with the first unit in which it has the size of a ventricle. Throws InputError of
+/// the first where there is none.
+mesh_io::ImportedMesh in_some_unit(mesh::ImportParameters& parameters) {
+  std::exception_ptr first;
+  for (const double unit : {1.0, 10.0, 1000.0, 0.001}) {
+    parameters.unit = unit;
+    try {
+      return mesh_io::import_mesh(parameters);
+    } catch (const InputError&) {
+      first = first ? first : std::current_exception();
+    }
+  }
+  std::rethrow_exception(first);
+}
+
+/// With the sides named by tags if the file has those of the defaults, else found by geometry.
+mesh_io::ImportedMesh read_mesh(mesh::ImportParameters& parameters) {
+  try {
+    return in_some_unit(parameters);
+  } catch (const InputError& with_tags) {
+    parameters.sides = mesh::SideSource::geometry;
+    try {
+      return in_some_unit(parameters);
+    } catch (const InputError&) {
+      throw with_tags;
+    }
+  }
+}
+
+Proposal of_mesh_file(const fs::path& source, const std::string& name) {
+  mesh::ImportParameters parameters;
+  parameters.file = source.string();
+  const mesh_io::ImportedMesh read = read_mesh(parameters);
+  Proposal p{
+      fmt::format("{}: a mesh of {} {} and {} nodes", source.string(), read.mesh.cell_count(),
+                  read.mesh.kind == mesh::CellKind::hexahedron ? "hexahedra" : "tetrahedra",
+                  read.mesh.nodes.size()),
+      {source_line("mesh"), {"anatomy.mesh.file", case_file::quoted(name), ""}}};
+  if (parameters.unit != 1.0)
+    p.lines.push_back({"anatomy.mesh.length_unit",
+                       case_file::quoted(fmt::format("{:g} mm", parameters.unit)),
+                       "in which it has the size of a ventricle"});
+  if (parameters.sides == mesh::SideSource::geometry)
+    p.lines.push_back({"anatomy.mesh.sides", case_file::quoted("geometry"),
+                       "the file has no tags endo, epi and base"});
+  p.lines.push_back(
+      {"regions.septum_angle", case_file::quoted("0 deg"),
+       "direction of the middle of the septum: without it regions may bear wrong names", false});
+  append(p.lines, lines_of_moment({}));
+  return p;
+}
+
+}  // namespace
+
+SourceKind kind_of(const fs::path& source) {
+  std::error_code failed;
+  if (fs::is_directory(source, failed))
+    return image::has_sunnybrook_names(source) ? SourceKind::sunnybrook : SourceKind::dicom;
+  require_readable(source, "Name a folder or a file");
+  if (image::is_nifti_name(source))
+    return SourceKind::nifti;
+  if (has_ending(source, {".inp", ".msh", ".vtk", ".vtu"}))
+    return SourceKind::mesh;
+  if (has_ending(source, {".stl", ".ply", ".vtp", ".vti"}))
+    return SourceKind::surface;
+  if (has_ending(source, {".toml"}))
+    return SourceKind::case_file;
+  if (image::looks_like_dicom(source))
+    return SourceKind::dicom;
+  const std::string line = begins_as_text(source) ? first_line(source) : "";
+  if (line.find("type") != std::string::npos && line.find('x') != std::string::npos)
+    return SourceKind::guide_points;
+  if (line.find("x_mm") != std::string::npos && line.find("contour") != std::string::npos)
+    return SourceKind::contours;
+  throw InputError(source.string(), fmt::format("is {}", what_is(source)), formats::sources);
+}
+
+Proposal propose(const image::DicomStudy& study, const std::string& name, const fs::path& contours,
+                 const std::string& contours_name) {
+  Proposal p{image::describe(study),
+             {source_line("sunnybrook",
+                          "contours in pixels; or labels, contours, guide_points, mesh: what was "
+                          "drawn on the images"),
+              {"anatomy.sunnybrook.dicom", case_file::quoted(name), ""}}};
+  append(p.lines, contours.empty() ? lines_without_contours(study)
+                                   : lines_with_contours(study, contours, contours_name));
+  p.lines.push_back(septum_line());
+  if (const image::DicomStack* cine = anatomy::short_axis_cine(study); cine != nullptr)
+    append(p.lines,
+           {{"strain.cine", case_file::quoted(name), "strain from these images", false},
+            {"strain.series", case_file::quoted(cine->key), "", false},
+            {"strain.contours", case_file::fill_in, "loops drawn at end-diastole", false}});
+  if (const image::DicomStack* scar = late_enhancement(study); scar != nullptr)
+    append(p.lines,
+           {{"infarct.source", case_file::quoted("lge"), "", false},
+            {"infarct.lge.image", case_file::quoted(name), "", false},
+            {"infarct.lge.series", fmt::format("[{}]", case_file::quoted(scar->key)), "", false},
+            {"infarct.lge.remote", case_file::fill_in, "AHA segments of healthy muscle", false}});
+  return p;
+}
+
+/// A folder of contours, with the images they were drawn on if those are below it too.
+static Proposal propose_contours(const fs::path& source, const std::string& name) {
+  const image::DicomStudy study = image::read_dicom_study(std::array{source});
+  if (!study.stacks.empty())
+    return propose(study, name, source, name);
+  return {fmt::format("{}: contours in pixels (Sunnybrook)", source.string()),
+          {source_line("sunnybrook"),
+           {"anatomy.sunnybrook.contours", case_file::quoted(name), ""},
+           {"anatomy.sunnybrook.dicom", case_file::fill_in,
+            "the folder of the images they were drawn on"},
+           {"anatomy.sunnybrook.phase", "0", "0: `ventricle validate` lists what there is"},
+           septum_line()}};
+}
+
+Proposal propose(const fs::path& source, const std::string& name) {
+  switch (kind_of(source)) {
+    case SourceKind::nifti:
+      return of_nifti(source, name);
+    case SourceKind::dicom: {
+      const image::DicomStudy study = image::read_dicom_study(std::array{source});
+      image::require_images(study, source.string());
+      return propose(study, name);
+    }
+    case SourceKind::sunnybrook:
+      return propose_contours(source, name);
+    case SourceKind::contours:
+      return of_contours(source, name);
+    case SourceKind::guide_points:
+      return of_guide_points(source, name);
+    case SourceKind::mesh:
+      return of_mesh_file(source, name);
+    case SourceKind::surface:
+      return {fmt::format("{}: a surface or labelled volume, which can show an infarct",
+                          source.string()),
+              {{"infarct.source", case_file::quoted("surface"), "or labels, for a labelled volume"},
+               {"infarct.surface.file", case_file::quoted(name), ""}}};
+    case SourceKind::case_file:
+      return {fmt::format("{}: a case file; see `ventricle validate`", source.string()), {}};
+  }
+  return {};
+}
+
+std::string proposed_case(const fs::path& source, const fs::path& file) {
+  const SourceKind kind = kind_of(source);
+  if (kind == SourceKind::case_file || kind == SourceKind::surface)
+    throw InputError(source.string(), "shows no wall of a ventricle", formats::sources);
+  const std::string name =
+      fs::proximate(fs::absolute(source).lexically_normal(), fs::absolute(file).parent_path())
+          .string();
+  Proposal p = propose(source, name);
+  append(p.lines, pressure_lines());
+  return fmt::format(
+             "# A case of ventricle, proposed from {}: check what it says. Every quantity\n"
+             "# carries its unit; what is not set has its default (`ventricle parameters`).\n"
+             "# \"FILL IN\" stands for what only you know; lines behind # may be uncommented.\n\n",
+             name) +
+         case_file::first_lines(file.stem().string()) + "\n" + case_file::case_lines(p.lines);
+}
+
+}  // namespace lv::proposal

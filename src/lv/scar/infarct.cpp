@@ -1,0 +1,418 @@
+#include "lv/scar/infarct.hpp"
+
+#include "lv/base/check.hpp"
+#include "lv/base/log.hpp"
+#include "lv/case_file/case_lines.hpp"
+#include "lv/image/dicom_study.hpp"
+#include "lv/image/lookup.hpp"
+#include "lv/image/nifti.hpp"
+#include "lv/mesh/cell.hpp"
+#include "lv/mesh/infarct.hpp"
+#include "lv/mesh/surface.hpp"
+#include "lv/mesh_io/closed_surface.hpp"
+#include "lv/mesh_io/label_volume.hpp"
+#include "lv/scar/scar_threshold.hpp"
+#include "lv/scar/slice_moves.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+namespace lv::scar {
+namespace {
+
+using case_file::Case;
+using mesh::Infarcted;
+using mesh::InfarctSource;
+using mesh::Mesh;
+
+std::string format_box(const Eigen::AlignedBox3d& box) {
+  const Vec3 lower = box.min();
+  const Vec3 upper = box.max();
+  return fmt::format("from ({:.1f}, {:.1f}, {:.1f}) to ({:.1f}, {:.1f}, {:.1f}) mm", lower.x(),
+                     lower.y(), lower.z(), upper.x(), upper.y(), upper.z());
+}
+
+/// The box around the wall in image space.
+std::string place_of_wall(const anatomy::Shape& shape, const Mesh& mesh) {
+  Eigen::AlignedBox3d box;
+  for (const Vec3& X : mesh.nodes)
+    box.extend(shape.frame.to_image(X));
+  return format_box(box);
+}
+
+/// What is infarcted of the wall, per element.
+struct Infarct {
+  Infarcted elements;        ///< whose centre is
+  std::vector<double> part;  ///< of its volume
+  std::optional<Table> slice_moves;
+};
+
+/// Throws unless an element is infarcted; `where` is the infarct's place in words.
+void check_found(const Case& c, const anatomy::Shape& shape, const Mesh& mesh,
+                 const Infarcted& infarcted, const std::string& where) {
+  if (std::find(infarcted.begin(), infarcted.end(), true) == infarcted.end())
+    throw InputError(
+        case_file::place_of(c, "infarct.source"),
+        fmt::format("the infarct ({}) holds the centre of no element of the wall, which reaches {} "
+                    "in image space",
+                    where, place_of_wall(shape, mesh)),
+        "Check the infarct's place, its unit and its size");
+}
+
+Infarct within(const Case& c, const anatomy::Shape& shape, const Mesh& mesh,
+               const mesh::Region& region, const std::string& where) {
+  Infarct infarct{mesh::infarcted_where(mesh, region), {}, {}};
+  check_found(c, shape, mesh, infarct.elements, where);
+  infarct.part = mesh::infarcted_part(mesh, region);
+  return infarct;
+}
+
+Infarct described(const Case& c, const anatomy::Shape& shape, const Mesh& mesh) {
+  return within(c, shape, mesh, mesh::described_region(mesh, c.scar.described, c.regions),
+                "as infarct.described says");
+}
+
+Infarct within_surface(const Case& c, const anatomy::Shape& shape, const Mesh& mesh) {
+  const std::string file = case_file::beside(c, c.scar.surface).string();
+  const mesh_io::ClosedSurface surface = mesh_io::read_closed_surface(file, c.scar.length_unit);
+  return within(
+      c, shape, mesh,
+      [&](const Vec3& X, double) { return surface.contains(shape.frame.to_image(X)); },
+      fmt::format("{}: {}", file, format_box(surface.box())));
+}
+
+void check_labels(const Case& c, const std::string& file, const std::vector<int>& found) {
+  for (const int label : c.scar.scar)
+    if (!std::binary_search(found.begin(), found.end(), label))
+      throw InputError(case_file::place_of(c, "infarct.labels.scar"),
+                       fmt::format("no voxel of {} has the label {}; it has {}", file, label,
+                                   fmt::join(found, ", ")),
+                       "Name the labels that mean scar");
+}
+
+/// A point of the wall as the shifted images have it.
+Vec3 in_images(const Case& c, const anatomy::Shape& shape, const Vec3& X) {
+  return shape.frame.to_image(X) - Vec3(c.scar.shift[0], c.scar.shift[1], c.scar.shift[2]);
+}
+
+/// How the slices of a map move until the middle of its muscle lies on that of the wall.
+std::vector<Vec3> moves_onto_wall(const Case& c, const anatomy::Shape& shape, const Mesh& mesh,
+                                  const image::Volume& volume, std::vector<int> muscle) {
+  image::require_labels(volume, 0, c.scar.muscle, case_file::place_of(c, "infarct.labels.muscle"),
+                        "infarct.labels.muscle");
+  muscle.insert(muscle.end(), c.scar.muscle.begin(), c.scar.muscle.end());
+  std::vector<image::Weighted> wall;
+  for (int cell = 0; cell < mesh.cell_count(); ++cell)
+    wall.push_back(
+        {in_images(c, shape, mesh::cell_centre(mesh, cell)), mesh::cell_volume(mesh, cell)});
+  std::vector<Vec3> moves = image::slice_moves(volume, muscle, wall);
+  for (std::size_t s = 0; s < moves.size(); ++s)
+    if (moves[s].norm() > c.anatomy.contours.fit.largest_shift)
+      throw InputError(
+          case_file::place_of(c, "infarct.labels.in_plane"),
+          fmt::format("slice {} of {} would have to move by {:.1f} mm; at most {:g} mm are "
+                      "accepted",
+                      s + 1, volume.file, moves[s].norm(), c.anatomy.contours.fit.largest_shift),
+          "Check that both images share the scanner's coordinates, or set infarct.shift");
+  return moves;
+}
+
+/// Scar and its dark core.
+std::vector<int> infarcted_labels(const Case& c) {
+  std::vector<int> labels = c.scar.scar;
+  labels.insert(labels.end(), c.scar.no_reflow.begin(), c.scar.no_reflow.end());
+  return labels;
+}
+
+/// The one frame of a label map that the case means: a person has one scar.
+image::Volume scar_map(const Case& c, const std::string& file) {
+  image::Volume volume = image::read_nifti(file);
+  for (const std::string& note : volume.notes)
+    log::warn("scar: {}", note);
+  if (volume.frames == 1 || c.scar.frame > 0)
+    return image::frame_of(volume, std::max(c.scar.frame, 1),
+                           case_file::place_of(c, "infarct.labels.frame"));
+  std::vector<int> frames = image::frames_with(volume, infarcted_labels(c));
+  if (frames.size() > 1)
+    throw InputError(case_file::place_of(c, "infarct.labels.file"),
+                     fmt::format("{} has {} frames and infarct.labels.frame is not set; there is "
+                                 "scar in the frames {}",
+                                 volume.file, volume.frames, fmt::join(frames, ", ")),
+                     "Choose a frame");
+  frames.push_back(1);
+  log::info("scar: frame {} of {}", frames.front(), volume.file);
+  return image::frame_of(volume, frames.front(), case_file::place_of(c, "infarct.labels.file"));
+}
+
+Infarct within_nifti(const Case& c, const anatomy::Shape& shape, const Mesh& mesh,
+                     const std::string& file) {
+  const image::Volume volume = scar_map(c, file);
+  image::require_labels(volume, 0, c.scar.scar, case_file::place_of(c, "infarct.labels.scar"),
+                        "infarct.labels.scar");
+  image::require_labels(volume, 0, c.scar.no_reflow,
+                        case_file::place_of(c, "infarct.labels.no_reflow"),
+                        "infarct.labels.no_reflow");
+  const std::vector<int> wanted = infarcted_labels(c);
+  const std::vector<Vec3> moves =
+      c.scar.in_plane ? moves_onto_wall(c, shape, mesh, volume, wanted) : std::vector<Vec3>{};
+  return within(
+      c, shape, mesh,
+      [&](const Vec3& X, double) {
+        return image::has_label(volume, in_images(c, shape, X), wanted, moves);
+      },
+      fmt::format("in {}", file));
+}
+
+/// The brightness at the centre of every element; NaN outside the image.
+std::vector<double> brightness(const Case& c, const anatomy::Shape& shape, const Mesh& mesh,
+                               const image::Cine& lge) {
+  std::vector<double> values;
+  for (int cell = 0; cell < mesh.cell_count(); ++cell)
+    values.push_back(image::sample(lge, in_images(c, shape, mesh::cell_centre(mesh, cell))));
+  return values;
+}
+
+image::Cine read_lge(const Case& c) {
+  const mesh::LateEnhancement& lge = c.scar.lge;
+  const std::string file = case_file::beside(c, lge.image).string();
+  image::Cine image = image::is_nifti_name(file)
+                          ? image::read_nifti_cine(file)
+                          : image::read_dicom_cine(std::array{std::filesystem::path(file)},
+                                                   lge.series, "infarct.lge.series");
+  for (const image::CineSlice& slice : image.slices)
+    if (slice.frames.size() != 1)
+      throw InputError(
+          file, fmt::format("{} has {} images of different times", slice.name, slice.frames.size()),
+          "A late-enhancement image has one for each slice: choose the series");
+  for (const std::string& note : image.notes)
+    log::warn("late enhancement: {}", note);
+  return image;
+}
+
+/// A side of the wall as the shifted images have it.
+Triangles in_images(const Case& c, const anatomy::Shape& shape, const Mesh& mesh,
+                    const mesh::Surface& side) {
+  const auto x = [&](int node) { return in_images(c, shape, mesh.nodes[node]); };
+  Triangles triangles;
+  for (int f = 0; f < side.size(); ++f)
+    mesh::for_triangles(side.face(f), [&](int a, int b, int d) {
+      triangles.push_back({x(a), x(b), x(d)});
+    });
+  return triangles;
+}
+
+/// How each slice of a late-enhancement image moves in its plane onto the wall.
+std::vector<SliceMove> moves_onto_wall(const Case& c, const anatomy::Shape& shape, const Mesh& mesh,
+                                       const image::Cine& image) {
+  std::vector<SliceMove> moves =
+      register_slices(image, in_images(c, shape, mesh, mesh.endo),
+                      in_images(c, shape, mesh, mesh.epi), c.scar.lge.largest_shift);
+  if (std::none_of(moves.begin(), moves.end(),
+                   [](const SliceMove& m) { return m.evidence == Evidence::clear; }))
+    throw InputError(
+        case_file::place_of(c, "infarct.lge.in_plane"),
+        fmt::format("no slice of {} shows the wall clearly within {:g} mm of its place",
+                    c.scar.lge.image, c.scar.lge.largest_shift),
+        "Check that both share the scanner's coordinates, or set infarct.shift");
+  report_moves(image, moves);
+  return moves;
+}
+
+void move_slices(image::Cine& image, const std::vector<SliceMove>& moves) {
+  for (std::size_t s = 0; s < moves.size(); ++s)
+    image.slices[s].frames.front().plane.origin += moves[s].move;
+}
+
+/// The part of the wall's volume that is infarcted.
+double part_of_wall(const Mesh& mesh, const std::vector<double>& part) {
+  const mesh::InfarctVolumes volumes = mesh::infarct_volumes(mesh, part);
+  return volumes.infarct / volumes.wall;
+}
+
+/// So large a scar is rarely meant: the threshold may be wrong.
+void check_extent(const Case& c, const Mesh& mesh, const Infarct& infarct, double threshold) {
+  const double part = part_of_wall(mesh, infarct.part);
+  if (part > c.scar.lge.largest_part)
+    throw InputError(
+        case_file::place_of(c, "infarct.lge.threshold"),
+        fmt::format("{:.1f}% of the wall is scar (brighter than {:.4g} in {}); more than {:g}% is "
+                    "rarely meant",
+                    100.0 * part, threshold, c.scar.lge.image, 100.0 * c.scar.lge.largest_part),
+        "Check infarct.lge.threshold, zero, remote and deviations; if so large a scar is meant, "
+        "raise infarct.lge.largest_part");
+}
+
+Infarct with_dark_core(const Mesh& mesh, Infarct infarct) {
+  const Infarcted filled = mesh::with_enclosed(mesh, infarct.elements);
+  for (std::size_t e = 0; e < filled.size(); ++e)
+    if (filled[e] && !infarct.elements[e])
+      infarct.part[e] = 1.0;
+  infarct.elements = filled;
+  return infarct;
+}
+
+Infarct by_brightness(const Case& c, const anatomy::Shape& shape, const Mesh& mesh) {
+  image::Cine lge = read_lge(c);
+  std::optional<Table> slice_moves;
+  if (c.scar.lge.in_plane) {
+    const std::vector<SliceMove> moves = moves_onto_wall(c, shape, mesh, lge);
+    move_slices(lge, moves);
+    slice_moves = table_of(lge, moves);
+  }
+  const std::vector<double> values = brightness(c, shape, mesh, lge);
+  if (std::all_of(values.begin(), values.end(), [](double v) { return std::isnan(v); }))
+    throw InputError(case_file::place_of(c, "infarct.lge.image"),
+                     fmt::format("{} shows nothing of the wall, which reaches {} in image space",
+                                 c.scar.lge.image, place_of_wall(shape, mesh)),
+                     "Check that both share the scanner's coordinates");
+  const double threshold = scar_threshold(c, mesh, lge, values);
+  log::info("late enhancement: scar is brighter than {:.4g}", threshold);
+  Infarct infarct = within(
+      c, shape, mesh,
+      [&](const Vec3& X, double) { return image::sample(lge, in_images(c, shape, X)) > threshold; },
+      fmt::format("brighter than {:.4g} in {}", threshold, c.scar.lge.image));
+  infarct.slice_moves = std::move(slice_moves);
+  if (c.scar.lge.fill_no_reflow)
+    infarct = with_dark_core(mesh, std::move(infarct));
+  check_extent(c, mesh, infarct, threshold);
+  return infarct;
+}
+
+Infarct within_labels(const Case& c, const anatomy::Shape& shape, const Mesh& mesh) {
+  const std::string file = case_file::beside(c, c.scar.labels).string();
+  if (image::is_nifti_name(file))
+    return within_nifti(c, shape, mesh, file);
+  const mesh_io::LabelVolume volume(file, c.scar.array, c.scar.length_unit);
+  check_labels(c, file, volume.labels());
+  const std::vector<int> wanted = infarcted_labels(c);
+  return within(
+      c, shape, mesh,
+      [&](const Vec3& X, double) { return volume.has(in_images(c, shape, X), wanted); },
+      fmt::format("in {}: {}", file, format_box(volume.box())));
+}
+
+Infarct of_elements(const Case& c, const anatomy::Shape& shape, const Mesh& mesh) {
+  check_found(c, shape, mesh, shape.infarcted, fmt::format("the elements of \"{}\"", c.scar.set));
+  return {shape.infarcted, {shape.infarcted.begin(), shape.infarcted.end()}, {}};
+}
+
+/// Files may mean something else than was thought; who describes an infarct knows its size.
+void ask_if_large(const Case& c, const Mesh& mesh, const Infarct& infarct) {
+  constexpr double large = 0.5;
+  const bool from_file = c.scar.source != InfarctSource::described &&
+                         c.scar.source != InfarctSource::lge;  // see check_extent
+  const double part = part_of_wall(mesh, infarct.part);
+  if (from_file && part > large)
+    log::warn("the infarct is {:.1f}% of the wall: is so large a scar meant?", 100.0 * part);
+}
+
+Infarct infarcted(const Case& c, const anatomy::Shape& shape, const Mesh& mesh) {
+  switch (c.scar.source) {
+    case InfarctSource::described:
+      return described(c, shape, mesh);
+    case InfarctSource::surface:
+      return within_surface(c, shape, mesh);
+    case InfarctSource::labels:
+      return within_labels(c, shape, mesh);
+    case InfarctSource::lge:
+      return by_brightness(c, shape, mesh);
+    default:
+      return of_elements(c, shape, mesh);
+  }
+}
+
+/// What the source needs of a late-enhancement image. Which segments are remote is asked with the
+/// scar of each choice where the image can be read (see scar_threshold).
+case_file::Missing missing_of_lge(const Case& c, std::string& found) {
+  const mesh::LateEnhancement& lge = c.scar.lge;
+  case_file::Missing missing;
+  if (lge.image.empty())
+    missing.add({"infarct.lge.image", case_file::fill_in,
+                 "the late-enhancement image: a NIfTI file or a folder of DICOM files"});
+  std::error_code failed;
+  if (!lge.image.empty() && lge.series.empty() &&
+      std::filesystem::is_directory(case_file::beside(c, lge.image), failed)) {
+    const image::DicomStudy study =
+        image::read_dicom_study(std::array{case_file::beside(c, lge.image)});
+    if (study.stacks.size() > 1) {
+      missing.add({"infarct.lge.series", case_file::fill_in, "the late-enhancement images"});
+      found = fmt::format("{} holds{}", lge.image, image::choices(study));
+    }
+  }
+  if (!missing.empty() && lge.remote.empty() && lge.threshold == mesh::ScarThreshold::sd)
+    missing.add({"infarct.lge.remote", case_file::fill_in,
+                 "AHA segments (1 to 17) of remote, healthy muscle, such as [4, 5]; not needed "
+                 "with threshold = \"fwhm\""});
+  return missing;
+}
+
+case_file::Missing missing_of_labels(const Case& c) {
+  case_file::Missing missing;
+  if (c.scar.labels.empty())
+    missing.add(
+        {"infarct.labels.file", case_file::fill_in, "the labelled volume that holds the infarct"});
+  if (c.scar.in_plane && c.scar.muscle.empty())
+    missing.add({"infarct.labels.muscle", case_file::fill_in,
+                 "the labels of the other muscle: in_plane moves slices by the middle of all "
+                 "muscle"});
+  return missing;
+}
+
+}  // namespace
+
+void require_infarct(const Case& c) {
+  std::string found;
+  case_file::Missing missing;
+  if (c.scar.source == InfarctSource::labels)
+    missing = missing_of_labels(c);
+  if (c.scar.source == InfarctSource::lge)
+    missing = missing_of_lge(c, found);
+  if (c.scar.source == InfarctSource::surface && c.scar.surface.empty())
+    missing.add(
+        {"infarct.surface.file", case_file::fill_in, "the closed surface that holds the infarct"});
+  missing.raise(c, case_file::place_of(c, "infarct.source"), found);
+}
+
+InfarctExtent infarct_extent(const Case& c, const anatomy::Shape& shape, const Mesh& mesh) {
+  if (c.scar.source == InfarctSource::mesh)
+    return {mesh.infarct, mesh::part_by_extent(mesh), {}};
+  if (c.scar.source == InfarctSource::none)
+    return {std::vector<double>(mesh.nodes.size(), 0.0),
+            std::vector<double>(mesh.cell_count(), 0.0),
+            {}};
+  require_infarct(c);
+  Infarct infarct = infarcted(c, shape, mesh);
+  ask_if_large(c, mesh, infarct);
+  return {mesh::infarct_field(mesh, infarct.elements, c.scar.border), std::move(infarct.part),
+          std::move(infarct.slice_moves)};
+}
+
+Table infarct_table(const Case& c, const anatomy::MeshResult& wall) {
+  Table table({"segment", "name", "wall_ml", "infarct_ml", "infarct_g", "infarct_percent",
+               "transmurality_percent"});
+  for (const mesh::SegmentInfarct& s :
+       mesh::infarct_by_segment(wall.mesh, wall.infarcted, wall.regions, c.regions))
+    table.add_row({std::to_string(s.segment), mesh::aha_name(s.segment),
+                   Table::number(1e-3 * s.wall), Table::number(1e-3 * s.infarct),
+                   Table::number(1e3 * c.muscle_density * s.infarct),
+                   Table::number(s.wall > 0.0 ? 100.0 * s.infarct / s.wall : 0.0),
+                   Table::number(100.0 * s.transmurality)});
+  return table;
+}
+
+std::string describe_infarct(const Case& c, const anatomy::MeshResult& wall) {
+  const mesh::InfarctVolumes v = mesh::infarct_volumes(wall.mesh, wall.infarcted);
+  if (v.infarct + v.border == 0.0)
+    return "";
+  const auto part = [&](const char* name, double volume) {
+    return fmt::format("{}: {:.2f} ml ({:.1f}% of the wall), {:.1f} g", name, 1e-3 * volume,
+                       100.0 * volume / v.wall, 1e3 * c.muscle_density * volume);
+  };
+  return part("infarct", v.infarct) + "; " + part("border zone", v.border);
+}
+
+}  // namespace lv::scar

@@ -1,0 +1,193 @@
+#include "lv/scar/slice_moves.hpp"
+
+#include "lv/base/log.hpp"
+#include "lv/base/time_left.hpp"
+#include "lv/geometry/polygon.hpp"
+#include "lv/image/slice_registration.hpp"
+#include "lv/strain/measures.hpp"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace lv::scar {
+namespace {
+
+using geometry::Polygon;
+
+/// The lines in which a plane cuts a side, in mm along the plane's rows and columns.
+std::vector<Polygon> lines_in(const Triangles& side, const image::Plane& plane) {
+  std::vector<Polygon> lines;
+  for (const auto& line : strain::cut(side, plane.origin, plane.normal())) {
+    Polygon& flat = lines.emplace_back();
+    for (const Vec3& x : line)
+      flat.emplace_back((x - plane.origin).dot(plane.along_row),
+                        (x - plane.origin).dot(plane.along_column));
+  }
+  return lines;
+}
+
+bool is_closed(const Polygon& line) {
+  constexpr double same = 1e-6;  // [mm]
+  return (line.front() - line.back()).norm() < same;
+}
+
+/// The wall's outlines in a plane; `endo` is empty below the cavity.
+struct WallOutlines {
+  Polygon endo, epi;
+};
+
+/// None where the plane misses the wall or cuts it open, at the base.
+std::optional<WallOutlines> outlines(const Triangles& endo, const Triangles& epi,
+                                     const image::Plane& plane) {
+  const std::vector<Polygon> inner = lines_in(endo, plane);
+  const std::vector<Polygon> outer = lines_in(epi, plane);
+  if (outer.size() != 1 || inner.size() > 1 || !is_closed(outer.front()) ||
+      (!inner.empty() && !is_closed(inner.front())))
+    return {};
+  return WallOutlines{inner.empty() ? Polygon{} : inner.front(), outer.front()};
+}
+
+/// The same through the slab of a slice, from `below` to `above` its plane.
+std::vector<WallOutlines> outlines_in_slab(const Triangles& endo, const Triangles& epi,
+                                           const image::Plane& plane, double below, double above) {
+  constexpr int levels = 6;
+  std::vector<WallOutlines> all;
+  for (int k = 0; k < levels; ++k) {
+    image::Plane level = plane;
+    level.origin += (-below + (k + 0.5) / levels * (below + above)) * plane.normal();
+    if (const auto found = outlines(endo, epi, level))
+      all.push_back(*found);
+  }
+  return all;
+}
+
+/// 0 cavity, 1 wall, 2 surroundings.
+int tissue_at(const WallOutlines& lines, const Eigen::Vector2d& x) {
+  if (!geometry::encloses(lines.epi, x))
+    return 2;
+  return !lines.endo.empty() && geometry::encloses(lines.endo, x) ? 0 : 1;
+}
+
+/// What the wall says of a slice, up to 10 mm around it, on points half a pixel apart.
+image::SliceTissue tissue_of(const std::vector<WallOutlines>& slab, const image::Plane& plane) {
+  constexpr double around = 10.0;  // [mm]
+  Eigen::AlignedBox2d box;
+  for (const WallOutlines& level : slab)
+    for (const Eigen::Vector2d& x : level.epi)
+      box.extend(x);
+  const Eigen::Vector2d step(0.5 * plane.spacing_i, 0.5 * plane.spacing_j);
+  const Eigen::Vector2d first = box.min().array() - around;
+  const Eigen::Vector2d last = box.max().array() + around;
+  image::SliceTissue tissue{{}, step.prod()};
+  for (double y = first.y(); y <= last.y(); y += step.y())
+    for (double x = first.x(); x <= last.x(); x += step.x()) {
+      image::SliceTissue::Point point{plane.origin + x * plane.along_row + y * plane.along_column,
+                                      {}};
+      for (const WallOutlines& level : slab)
+        point.parts[tissue_at(level, {x, y})] += 1.0 / static_cast<double>(slab.size());
+      tissue.points.push_back(point);
+    }
+  return tissue;
+}
+
+/// From the plane of a slice to the ends of its slab, half way to its neighbours [mm].
+struct Slab {
+  double below, above;
+};
+
+Slab slab_of(const image::Cine& stack, std::size_t s) {
+  constexpr double alone = 5.0;
+  const auto height = [&](std::size_t k) {
+    const Vec3 d =
+        stack.slices[k].frames.front().plane.origin - stack.slices[s].frames.front().plane.origin;
+    return d.dot(stack.slices[s].frames.front().plane.normal());
+  };
+  Slab slab{0.0, 0.0};
+  for (const std::size_t k : {s - 1, s + 1})  // s - 1 of the first is no slice
+    if (k < stack.slices.size()) {
+      const double half = 0.5 * height(k);
+      (half < 0.0 ? slab.below : slab.above) = std::abs(half);
+    }
+  if (slab.below == 0.0)
+    slab.below = slab.above;
+  if (slab.above == 0.0)
+    slab.above = slab.below;
+  return slab.above > 0.0 ? slab : Slab{alone, alone};
+}
+
+SliceMove move_of(const image::Picture& picture, const std::vector<WallOutlines>& slab,
+                  double largest) {
+  const double clear = std::min(3.0, 0.5 * largest);  // doubt [mm]
+  constexpr double at_limit = 0.25;                   // [mm]
+  if (slab.empty())
+    return {Vec3::Zero(), 0.0, Evidence::no_wall};
+  const image::SliceTissue tissue = tissue_of(slab, picture.plane);
+  const image::Registration found = image::register_slice(picture, tissue, largest);
+  if (found.doubt > clear)
+    return {Vec3::Zero(), found.doubt, Evidence::weak};
+  if (found.move.norm() > largest - at_limit)
+    return {Vec3::Zero(), found.doubt, Evidence::at_limit};
+  return {found.move, found.doubt, Evidence::clear};
+}
+
+}  // namespace
+
+const char* name(Evidence evidence) {
+  switch (evidence) {
+    case Evidence::clear:
+      return "clear";
+    case Evidence::weak:
+      return "weak";
+    case Evidence::at_limit:
+      return "at_limit";
+    default:
+      return "no_wall";
+  }
+}
+
+std::vector<SliceMove> register_slices(const image::Cine& stack, const Triangles& endo,
+                                       const Triangles& epi, double largest) {
+  std::vector<SliceMove> moves;
+  Progress progress("moving slices onto the wall", stack.slices.size());
+  for (std::size_t s = 0; s < stack.slices.size(); ++s) {
+    const image::Picture& picture = stack.slices[s].frames.front();
+    const Slab slab = slab_of(stack, s);
+    moves.push_back(move_of(
+        picture, outlines_in_slab(endo, epi, picture.plane, slab.below, slab.above), largest));
+    progress.add();
+  }
+  return moves;
+}
+
+void report_moves(const image::Cine& image, const std::vector<SliceMove>& moves) {
+  for (std::size_t s = 0; s < moves.size(); ++s) {
+    const std::string slice = "late enhancement, " + image.slices[s].name;
+    const SliceMove& m = moves[s];
+    if (m.evidence == Evidence::clear)
+      log::info("{}: moved by {:.1f} mm", slice, m.move.norm());
+    else if (m.evidence == Evidence::no_wall)
+      log::info("{}: shows no ring of the wall and stays", slice);
+    else if (m.evidence == Evidence::weak)
+      log::warn("{} stays where it is: a move {:.0f} mm from the best fits it as well", slice,
+                m.doubt);
+    else
+      log::warn("{} stays where it is: its best move is as long as infarct.lge.largest_shift",
+                slice);
+  }
+}
+
+Table table_of(const image::Cine& image, const std::vector<SliceMove>& moves) {
+  Table table({"slice", "x_mm", "y_mm", "z_mm", "move_mm", "doubt_mm", "evidence"});
+  for (std::size_t s = 0; s < moves.size(); ++s) {
+    const SliceMove& m = moves[s];
+    table.add_row({image.slices[s].name, Table::number(m.move.x(), 4), Table::number(m.move.y(), 4),
+                   Table::number(m.move.z(), 4), Table::number(m.move.norm(), 4),
+                   Table::number(m.doubt, 4), name(m.evidence)});
+  }
+  return table;
+}
+
+}  // namespace lv::scar

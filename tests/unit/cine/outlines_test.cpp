@@ -1,0 +1,137 @@
+#include "lv/cine/outlines.hpp"
+
+#include "lv/base/table.hpp"
+#include "lv/geometry/ellipsoid.hpp"
+#include "lv/mesh/wall_mesh.hpp"
+#include "lv/pipeline/stages.hpp"
+
+#include "support/temporary_folder.hpp"
+#include <Eigen/Geometry>
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <numbers>
+
+namespace {
+
+using namespace lv;
+using cine::CineStudy;
+using geometry::Contour;
+using geometry::Side;
+
+const geometry::Ellipsoid ellipsoid;
+
+// An image space in which the ventricle lies askew.
+const geometry::Frame frame{
+    Eigen::AngleAxisd(0.7, Vec3(1.0, 2.0, -1.0).normalized()).toRotationMatrix(),
+    Vec3(120.0, -35.0, 410.0)};
+
+/// Empty images on a plane of the model frame, its middle at `centre`.
+image::CineSlice cine_slice(const Vec3& centre, const Vec3& along_row, const Vec3& along_column,
+                            int images) {
+  constexpr int pixels = 70;
+  constexpr double spacing = 2.0;
+  const Vec3 corner = centre - 0.5 * (pixels - 1) * spacing * (along_row + along_column);
+  const image::Plane plane{frame.to_image(corner),
+                           frame.axes * along_row,
+                           frame.axes * along_column,
+                           spacing,
+                           spacing,
+                           pixels,
+                           pixels};
+  const image::Picture picture{plane, std::vector<float>(pixels * pixels, 1.0F)};
+  return {"cine", std::vector<image::Picture>(images, picture), {}, 0.0};
+}
+
+/// The wall's side in the plane x = 0, from the base over the apex to the base.
+Contour long_axis_curve(Side side) {
+  Contour curve{1, side, {}, {}, {}};
+  for (int i = -40; i <= 40; ++i)
+    curve.points.push_back(
+        frame.to_image(ellipsoid.point(std::abs(i) / 40.0, (i < 0 ? -0.5 : 0.5) * std::numbers::pi,
+                                       side == Side::endo ? 0.0 : 1.0)));
+  return curve;
+}
+
+Contour short_axis_loop(int slice, Side side, double u) {
+  Contour loop{slice, side, {}, {}, {}};
+  for (int i = 0; i < 40; ++i)
+    loop.points.push_back(frame.to_image(ellipsoid.point(u, i * std::numbers::pi / 20.0, 0.0)));
+  return loop;
+}
+
+/// A short axis of ten images, drawn on at end-diastole, and a long axis of twenty-five.
+CineStudy study() {
+  constexpr double u = 0.8;
+  CineStudy s;
+  const double z = ellipsoid.point(u, 0.0, 0.0).z();
+  s.cine.slices = {cine_slice(Vec3(0.0, 0.0, z), Vec3::UnitX(), Vec3::UnitY(), 10)};
+  s.drawn.short_axis = {short_axis_loop(4, Side::endo, u)};
+  s.slice_of = {0};
+  s.long_axis.push_back(
+      {{{cine_slice(Vec3(0.0, 0.0, -40.0), Vec3::UnitY(), -Vec3::UnitZ(), 25)}, {}},
+       long_axis_curve(Side::endo),
+       long_axis_curve(Side::epi)});
+  return s;
+}
+
+}  // namespace
+
+TEST_CASE("a long axis with more images shows the one nearest in the cycle", "[cine]") {
+  const CineStudy s = study();
+  const auto diastolic = cine::images_at(s, 9, 9);
+  REQUIRE(diastolic.size() == 2);
+  CHECK(diastolic[0].slice == "4");
+  CHECK(diastolic[1].slice == "long axis 1");
+  CHECK(diastolic[1].phase == 9);
+  CHECK(diastolic[1].endo == &s.long_axis[0].endo);
+  CHECK(diastolic[1].epi == &s.long_axis[0].epi);
+
+  const auto systolic = cine::images_at(s, 3, 9);  // 4 of 10 images later: 10 of 25
+  CHECK(systolic[0].phase == 3);
+  CHECK(systolic[1].phase == 19);
+  CHECK(systolic[1].picture == &s.long_axis[0].cine.slices[0].frames[18]);
+  CHECK(systolic[1].endo == nullptr);
+  CHECK(cine::images_at(s, 7, 9)[1].phase == 4);  // over the end of the cycle: 20 of 25
+}
+
+TEST_CASE("outlines on a long axis are the ventricle's, beside those on short axes", "[cine]") {
+  const test::TemporaryFolder temporary;
+  const std::filesystem::path folder = temporary / "results";
+  std::filesystem::create_directories(folder);
+  const auto wall = [](double u, double theta, double t) { return ellipsoid.point(u, theta, t); };
+  const anatomy::MeshResult mesh{mesh::wall_mesh(wall, {.edge_length = 6.0}), {}, {}};
+  heartbeat::Beat beat;
+  for (const char* name : {heartbeat::end_diastole, heartbeat::end_systole}) {
+    beat.moments.push_back({.name = name});
+    beat.moments.back().wall.positions = mesh.mesh.nodes;
+  }
+  const analysis::BeatFields fields;
+  const std::string words =
+      cine::write_outlines({mesh, beat, fields, frame}, study(), 9, 3, folder);
+  CHECK(words.find("at end_diastole") != std::string::npos);
+  CHECK(words.find("at end_systole") == std::string::npos);  // nothing was drawn then
+
+  const Table distances = Table::read_csv(folder / "outline_distances.csv");
+  CHECK(distances.words("slice") == std::vector<std::string>{"4", "long axis 1", "long axis 1"});
+  for (const double largest : distances.numbers("largest_mm"))
+    CHECK(largest < 0.7);  // chords of 6 mm at the endocardial apex, where the radius is 6.3 mm
+
+  const Table outlines = Table::read_csv(folder / "outlines.csv");
+  const auto state = outlines.words("state");
+  const auto slice = outlines.words("slice");
+  const auto source = outlines.words("source");
+  const auto count = [&](const std::string& s, const std::string& from) {
+    int rows = 0;
+    for (std::size_t i = 0; i < state.size(); ++i)
+      rows += state[i] == s && slice[i] == "long axis 1" && source[i] == from ? 1 : 0;
+    return rows;
+  };
+  CHECK(count("end_diastole", "contours") == 2 * 81);  // open: the first point is not repeated
+  CHECK(count("end_systole", "contours") == 0);
+  CHECK(count("end_diastole", "model") > 20);
+  CHECK(count("end_systole", "model") == count("end_diastole", "model"));
+  CHECK(std::filesystem::exists(folder / "pictures" / "end_systole_long_axis_1.png"));
+  CHECK(std::filesystem::exists(folder / "outlines_ed.png"));
+}

@@ -1,0 +1,104 @@
+#include "lv/implicit/unload.hpp"
+
+#include "lv/base/check.hpp"
+#include "lv/base/interrupt.hpp"
+#include "lv/base/units.hpp"
+#include "lv/geometry/ellipsoid.hpp"
+#include "lv/mesh/wall_mesh.hpp"
+
+#include <catch2/catch.hpp>
+
+namespace {
+
+using namespace lv;
+using implicit::Engine;
+using implicit::StaticModel;
+using units::mmHg;
+
+mesh::Mesh coarse_ventricle() {
+  return mesh::wall_mesh([e = geometry::Ellipsoid{}](double u, double theta,
+                                                     double t) { return e.point(u, theta, t); },
+                         {.edge_length = 8.0, .layers = 2, .order = 2});
+}
+
+StaticModel model(double stiffness) {
+  solid::CardiacModel heart{.base = {.stiffness = implicit::rigid_base}};
+  heart.myocardium.passive = material::HolzapfelOgden{}.scaled(stiffness);
+  return heart;
+}
+
+}  // namespace
+
+TEST_CASE("muscle that is replaced at rest fills as if it had been there from the start",
+          "[implicit]") {
+  const mesh::Mesh mesh = coarse_ventricle();
+  Engine changed(mesh, model(3.0), {});
+  changed.set_model(model(1.0)).value();
+  changed.go_to({4.0 * mmHg, 0.0}).value();
+  Engine fresh(mesh, model(1.0), {});
+  fresh.go_to({4.0 * mmHg, 0.0}).value();
+  CHECK(changed.cavity_volume() == Approx(fresh.cavity_volume()).epsilon(1e-5));
+}
+
+TEST_CASE("a wall goes on from where its loads were taken away", "[implicit]") {
+  const mesh::Mesh mesh = coarse_ventricle();
+  Engine engine(mesh, model(1.0), {});
+  engine.go_to({4.0 * mmHg, 0.0}).value();
+  const double filled = engine.cavity_volume();
+  engine.go_to({0.0, 0.0}).value();
+  engine.set_model(model(1.0)).value();
+  engine.go_to({4.0 * mmHg, 0.0}).value();
+  CHECK(engine.cavity_volume() == Approx(filled).epsilon(1e-5));
+}
+
+TEST_CASE("unloading from the result for other muscle finds the same wall", "[implicit]") {
+  const mesh::Mesh seen = coarse_ventricle();
+  const implicit::UnloadParameters parameters{.pressure = 3.0 * mmHg, .tolerance = 1e-3};
+  const auto soft = implicit::unload(seen, model(1.0), parameters, {}).value();
+  const auto stiff = implicit::unload(seen, model(2.0), parameters, {}).value();
+  const auto again = implicit::unload(seen, model(2.0), parameters, {}, &soft).value();
+  CHECK(soft.steps.back().unloaded_volume < stiff.steps.back().unloaded_volume);
+  CHECK(stiff.steps.back().unloaded_volume < solid::EndocardialSurface(seen).volume(seen.nodes));
+  CHECK(stiff.steps.back().largest <= 1e-3);
+  CHECK(again.steps.back().unloaded_volume ==
+        Approx(stiff.steps.back().unloaded_volume).epsilon(1e-4));
+}
+
+TEST_CASE("unloading that does not come to its tolerance says what is left", "[implicit]") {
+  const mesh::Mesh seen = coarse_ventricle();
+  using Catch::Matchers::Contains;
+  const auto unloaded =
+      implicit::unload(seen, model(1.0), {.pressure = 3.0 * mmHg, .iterations = 2}, {});
+  REQUIRE_FALSE(unloaded);
+  CHECK_THAT(unloaded.why().what, Contains("loaded again it is off by"));
+  CHECK_THAT(unloaded.why().what_to_do, Contains("unloaded.iterations"));
+}
+
+TEST_CASE("a search that was stopped goes on to the same wall, bit for bit", "[implicit]") {
+  const mesh::Mesh seen = coarse_ventricle();
+  const implicit::UnloadParameters parameters{.pressure = 3.0 * mmHg, .tolerance = 1e-3};
+  const auto unload = [&](const implicit::UnloadRecord& record) {
+    return implicit::unload(seen, model(1.0), parameters, {}, nullptr, record).value();
+  };
+  const auto undisturbed = unload({});
+  implicit::Equilibria left;
+  const auto stop_after_three = [&](const implicit::Equilibria& known) {
+    left = known;
+    if (known.size() == 3)
+      throw Interrupted("stopped");
+  };
+  CHECK_THROWS_AS(unload({{}, stop_after_three}), Interrupted);
+  REQUIRE(left.size() == 3);
+  const auto resumed = unload({left, {}});
+  CHECK(resumed.nodes == undisturbed.nodes);
+  CHECK(resumed.loaded.positions == undisturbed.loaded.positions);
+  CHECK(resumed.steps.size() == undisturbed.steps.size());
+}
+
+TEST_CASE("an equilibrium of another wall is refused", "[implicit]") {
+  const mesh::Mesh seen = coarse_ventricle();
+  Engine engine(seen, model(1.0), {});
+  implicit::State other = engine.state();
+  other.pressures.pop_back();
+  CHECK_THROWS_AS(engine.restore(other, {}), InputError);
+}
