@@ -255,7 +255,7 @@ class FigureFolder {
       for (const std::string& moment : moments)
         if (!means(*table, quantity, moment, "aha17").values.empty())
           write(bulls_eyes_figure(*table, quantity, moment, orientation),
-                         fmt::format("bulls_eyes_{}_{}", quantity, moment));
+                fmt::format("bulls_eyes_{}_{}", quantity, moment));
   }
 
   void rotation() const {
@@ -275,7 +275,7 @@ class FigureFolder {
       for (const char* scheme : {"sector", "aha17"})
         if (table && pairs_of(*table, scheme).size() > 1)
           write(agreement_figure(*table, component, scheme),
-                         fmt::format("strain_agreement_{}_{}", component, scheme));
+                fmt::format("strain_agreement_{}_{}", component, scheme));
     }
   }
 
