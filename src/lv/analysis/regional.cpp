@@ -10,25 +10,6 @@
 namespace lv::analysis {
 namespace {
 
-/// One column per quantity, computed element by element.
-class Columns {
- public:
-  explicit Columns(std::size_t cells) : cells_(cells) {}
-
-  template <class Value>
-  void add(const std::string& name, const std::string& unit, const Value& value) {
-    CellQuantity q{name, unit, std::vector<double>(cells_)};
-    for (std::size_t c = 0; c < cells_; ++c)
-      q.values[c] = value(c);
-    columns.push_back(std::move(q));
-  }
-
-  std::vector<CellQuantity> columns;
-
- private:
-  std::size_t cells_;
-};
-
 template <class Selected>
 Region select(const std::string& scheme, const std::string& name, std::size_t cells,
               const Selected& selected) {
@@ -54,30 +35,19 @@ void add_zones(const std::vector<CellFields>& cells, std::vector<Region>& list) 
 
 }  // namespace
 
-std::vector<CellQuantity> quantities(const std::vector<CellFields>& now,
-                                     const std::vector<CellFields>& then) {
+std::vector<CellQuantity> cell_quantities(const std::vector<CellFields>& now,
+                                          const std::vector<CellFields>& then) {
   std::vector<CellStrain> strains;
   for (std::size_t c = 0; c < now.size(); ++c)
     strains.push_back(then.empty() ? strain(now[c]) : strain(now[c], then[c]));
-  Columns q(now.size());
-  q.add("active_tension", "kPa", [&](auto c) { return now[c].tension; });
-  q.add("fibre_stress", "kPa", [&](auto c) { return now[c].fibre_stress(); });
-  q.add("fibre_stress_passive", "kPa", [&](auto c) { return now[c].fibre_stress_passive; });
-  q.add("fibre_stress_active", "kPa", [&](auto c) { return now[c].fibre_stress_active; });
-  q.add("fibre_stretch", "1", [&](auto c) { return now[c].fibre_stretch; });
-  q.add("fibre_strain", "1", [&](auto c) { return strains[c].fibre; });
-  q.add("circumferential_strain", "1", [&](auto c) { return strains[c].circumferential; });
-  q.add("radial_strain", "1", [&](auto c) { return strains[c].radial; });
-  q.add("longitudinal_strain", "1", [&](auto c) { return strains[c].longitudinal; });
-  q.add("circumferential_radial_strain", "1",
-        [&](auto c) { return strains[c].circumferential_radial; });
-  q.add("circumferential_longitudinal_strain", "1",
-        [&](auto c) { return strains[c].circumferential_longitudinal; });
-  q.add("radial_longitudinal_strain", "1", [&](auto c) { return strains[c].radial_longitudinal; });
-  q.add("thickening", "1", [&](auto c) { return strains[c].thickening; });
-  q.add("J", "1", [&](auto c) { return now[c].J; });
-  q.add("pressure", "kPa", [&](auto c) { return now[c].pressure; });
-  return std::move(q.columns);
+  std::vector<CellQuantity> all;
+  for (const Quantity& q : quantities()) {
+    std::vector<double> values;
+    for (std::size_t c = 0; c < now.size(); ++c)
+      values.push_back(q.of(now[c], strains[c]));
+    all.push_back({&q, std::move(values)});
+  }
+  return all;
 }
 
 std::vector<Region> region_list(const mesh::Regions& regions,

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "lv/analysis/wall_fields.hpp"
+#include "lv/analysis/quantities.hpp"
 #include "lv/mesh/regions.hpp"
 
 #include <functional>
@@ -11,15 +11,14 @@ namespace lv::analysis {
 
 /// A quantity with its value in every element.
 struct CellQuantity {
-  std::string name;
-  std::string unit;
+  const Quantity* quantity;
   std::vector<double> values;
 };
 
-/// The quantities of sections 3.3-3.5 for one state, with strains from `then` (end-diastole for
-/// systole; the undeformed wall when empty).
-[[nodiscard]] std::vector<CellQuantity> quantities(const std::vector<CellFields>& now,
-                                                   const std::vector<CellFields>& then);
+/// All quantities for one state, with strains from `then` (end-diastole for systole; the undeformed
+/// wall when empty).
+[[nodiscard]] std::vector<CellQuantity> cell_quantities(const std::vector<CellFields>& now,
+                                                        const std::vector<CellFields>& then);
 
 /// A part of the wall: its elements.
 struct Region {

@@ -47,7 +47,7 @@ void add_regional(const std::string& state, const std::vector<CellQuantity>& qua
     for (const int c : region.cells)
       volume += cells[c].volume;
     for (const CellQuantity& q : quantities)
-      rows.push_back({state, region.scheme, region.name, q.name, q.unit, volume,
+      rows.push_back({state, region.scheme, region.name, q.quantity->name, q.quantity->unit, volume,
                       statistics(q.values, cells, region.cells)});
   }
 }
@@ -102,7 +102,7 @@ Results results(const mesh::Mesh& mesh, const mesh::Regions& regions, const hear
   std::vector<CellFields> from;  // strains start at early diastole, then at end-diastole
   for (const auto& [name, cells] : fields.moments) {
     r.moments.emplace_back(name, shape(mesh, beat.at(name), cells));
-    add_regional(name, quantities(cells, from), list, early, r.regional);
+    add_regional(name, cell_quantities(cells, from), list, early, r.regional);
     if (name == heartbeat::end_diastole)
       from = cells;
   }

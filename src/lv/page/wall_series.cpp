@@ -1,5 +1,6 @@
 #include "lv/page/wall_series.hpp"
 
+#include "lv/analysis/quantities.hpp"
 #include "lv/base/check.hpp"
 #include "lv/base/interrupt.hpp"
 #include "lv/base/table.hpp"
@@ -23,25 +24,9 @@
 namespace lv::page {
 namespace {
 
-struct Source {
-  const char* quantity;
-  const char* array;  ///< a strain's name lacks the state it is measured from
-  bool is_strain;
-};
-
-constexpr std::array<Source, 8> sources{{{"active_tension", "active_tension", false},
-                                         {"fibre_stress", "fibre_stress", false},
-                                         {"fibre_stress_passive", "fibre_stress_passive", false},
-                                         {"fibre_strain", "E_fibre", true},
-                                         {"circumferential_strain", "E_circumferential", true},
-                                         {"radial_strain", "E_radial", true},
-                                         {"longitudinal_strain", "E_longitudinal", true},
-                                         {"J", "J", false}}};
-
-std::string array_name(const Source& source, bool from_end_diastole) {
-  if (!source.is_strain)
-    return source.array;
-  return fmt::format("{}_{}", source.array, from_end_diastole ? "end_diastole" : "early_diastole");
+/// The state that a frame's strains are from.
+const char* strained_from(bool from_end_diastole) {
+  return from_end_diastole ? "end_diastole" : "early_diastole";
 }
 
 [[noreturn]] void fail(const std::filesystem::path& file) {
@@ -151,8 +136,9 @@ WallSeries fixed_part(const WrittenFrame& frame) {
 
 std::vector<std::string> moving_arrays(bool from_end_diastole) {
   std::vector<std::string> names;
-  for (const Source& source : sources)
-    names.push_back(array_name(source, from_end_diastole));
+  for (const analysis::Quantity& q : analysis::quantities())
+    if (q.is_shown)
+      names.push_back(q.field_name(strained_from(from_end_diastole)));
   return names;
 }
 
@@ -167,9 +153,10 @@ void add_frame(WallSeries& wall, const TimedFrame& timed, bool from_end_diastole
   for (vtkIdType a = 0; a < frame->GetNumberOfPoints(); ++a)
     for (const double component : displacement(frame, a))
       u.push_back(static_cast<float>(component));
-  for (const Source& source : sources)
-    if (vtkDataArray* array = frame.cells(array_name(source, from_end_diastole)))
-      wall.quantities[source.quantity].push_back(to_nodes(array, wall));
+  for (const analysis::Quantity& q : analysis::quantities())
+    if (q.is_shown)
+      if (auto* array = frame.cells(q.field_name(strained_from(from_end_diastole))))
+        wall.quantities[q.name].push_back(to_nodes(array, wall));
 }
 
 /// The value of an attribute in the text of an XML element; empty if it has none.

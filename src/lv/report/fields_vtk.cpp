@@ -1,5 +1,6 @@
 #include "lv/report/fields_vtk.hpp"
 
+#include "lv/analysis/quantities.hpp"
 #include "lv/base/check.hpp"
 #include "lv/base/table.hpp"
 
@@ -133,17 +134,13 @@ void add_frames(Arrays& arrays, const std::vector<CellFields>& cells) {
   arrays.scalar("reference_volume", [&](auto c) { return cells[c].volume; });
 }
 
-void add_strain(Arrays& arrays, const std::string& against, const std::vector<CellStrain>& strains,
-                const std::vector<Mat3>& E) {
-  const auto named = [&](const char* component) {
-    return fmt::format("E_{}_{}", component, against);
-  };
-  arrays.tensor(fmt::format("E_{}", against).c_str(), [&](auto c) { return E[c]; });
-  arrays.scalar(named("fibre").c_str(), [&](auto c) { return strains[c].fibre; });
-  arrays.scalar(named("circumferential").c_str(),
-                [&](auto c) { return strains[c].circumferential; });
-  arrays.scalar(named("radial").c_str(), [&](auto c) { return strains[c].radial; });
-  arrays.scalar(named("longitudinal").c_str(), [&](auto c) { return strains[c].longitudinal; });
+/// Strain and its components.
+void add_strain(Arrays& arrays, const std::string& from, const std::vector<CellFields>& now,
+                const std::vector<CellStrain>& strains, const std::vector<Mat3>& E) {
+  arrays.tensor(fmt::format("E_{}", from).c_str(), [&](auto c) { return E[c]; });
+  for (const analysis::Quantity& q : analysis::quantities())
+    if (q.is_strain)
+      arrays.scalar(q.field_name(from).c_str(), [&](auto c) { return q.of(now[c], strains[c]); });
 }
 
 Mat3 green_lagrange(const Mat3& F) {
@@ -158,7 +155,7 @@ void add_strains(Arrays& arrays, const std::vector<CellFields>& now,
     strains.push_back(analysis::strain(cell));
     E.push_back(green_lagrange(cell.F));
   }
-  add_strain(arrays, "early_diastole", strains, E);
+  add_strain(arrays, "early_diastole", now, strains, E);
   constexpr double missing = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t c = 0; c < now.size(); ++c) {
     const bool known = !end_diastole.empty();
@@ -168,18 +165,20 @@ void add_strains(Arrays& arrays, const std::vector<CellFields>& now,
     E[c] = known ? green_lagrange(now[c].F * end_diastole[c].F.inverse())
                  : Mat3::Constant(missing).eval();
   }
-  add_strain(arrays, "end_diastole", strains, E);
+  add_strain(arrays, "end_diastole", now, strains, E);
 }
 
 void add_stresses(Arrays& arrays, const std::vector<CellFields>& now) {
   arrays.tensor("cauchy_total", [&](auto c) { return now[c].cauchy_total(); });
   arrays.tensor("cauchy_passive", [&](auto c) { return now[c].cauchy_passive; });
   arrays.tensor("cauchy_active", [&](auto c) { return now[c].cauchy_active; });
-  arrays.scalar("fibre_stress", [&](auto c) { return now[c].fibre_stress(); });
-  arrays.scalar("fibre_stress_passive", [&](auto c) { return now[c].fibre_stress_passive; });
-  arrays.scalar("fibre_stress_active", [&](auto c) { return now[c].fibre_stress_active; });
-  arrays.scalar("active_tension", [&](auto c) { return now[c].tension; });
-  arrays.scalar("pressure", [&](auto c) { return now[c].pressure; });
+}
+
+/// All that needs no other state.
+void add_quantities(Arrays& arrays, const std::vector<CellFields>& now) {
+  for (const analysis::Quantity& q : analysis::quantities())
+    if (!q.is_strain && *q.field != '\0')
+      arrays.scalar(q.field, [&](auto c) { return q.of(now[c], {}); });
 }
 
 }  // namespace
@@ -195,8 +194,7 @@ void write_wall(const std::filesystem::path& file, const mesh::Mesh& mesh,
   Arrays cells(grid->GetCellData(), now.size());
   add_frames(cells, now);
   cells.tensor("F", [&](auto c) { return now[c].F; });
-  cells.scalar("J", [&](auto c) { return now[c].J; });
-  cells.scalar("fibre_stretch", [&](auto c) { return now[c].fibre_stretch; });
+  add_quantities(cells, now);
   add_strains(cells, now, end_diastole);
   add_stresses(cells, now);
   add_regions(cells, regions);

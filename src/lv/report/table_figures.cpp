@@ -1,5 +1,6 @@
 #include "lv/report/table_figures.hpp"
 
+#include "lv/analysis/quantities.hpp"
 #include "lv/base/json_file.hpp"
 #include "lv/base/units.hpp"
 #include "lv/heartbeat/beat.hpp"
@@ -27,10 +28,6 @@ std::string spaced(std::string name) {
 
 std::string with_unit(const std::string& name, const std::string& unit) {
   return unit == "1" || unit.empty() ? spaced(name) : fmt::format("{} [{}]", spaced(name), unit);
-}
-
-bool is_strain(const std::string& quantity) {
-  return quantity.ends_with("_strain");
 }
 
 // ---- curves ----
@@ -146,15 +143,14 @@ drawing::ColourScale scale_of(std::vector<double> values, const std::string& qua
   const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
   double low = *least;
   double high = std::max(*greatest, low + 1e-6);
-  const bool is_signed = is_strain(quantity) || quantity == "J";
-  if (is_signed) {
-    const double middle = quantity == "J" ? 1.0 : 0.0;
-    const double most = std::max(std::abs(low - middle), std::abs(high - middle));
-    low = middle - most;
-    high = middle + most;
+  const analysis::Quantity& q = analysis::quantity(quantity);
+  if (q.is_signed) {
+    const double most = std::max(std::abs(low - q.middle), std::abs(high - q.middle));
+    low = q.middle - most;
+    high = q.middle + most;
   }
   const double step = std::pow(10.0, std::floor(std::log10(high - low))) / 2.0;
-  return {is_signed ? drawing::diverging() : drawing::sequential(), step * std::floor(low / step),
+  return {q.is_signed ? drawing::diverging() : drawing::sequential(), step * std::floor(low / step),
           step * std::ceil(high / step)};
 }
 
@@ -249,13 +245,11 @@ class FigureFolder {
     const drawing::Orientation orientation = orientation_of(work_);
     const auto states = table->words("state");
     const std::set<std::string> moments(states.begin(), states.end());
-    for (const char* quantity :
-         {"active_tension", "fibre_stress", "fibre_stress_passive", "fibre_strain",
-          "circumferential_strain", "radial_strain", "longitudinal_strain", "J"})
+    for (const analysis::Quantity& q : analysis::quantities())
       for (const std::string& moment : moments)
-        if (!means(*table, quantity, moment, "aha17").values.empty())
-          write(bulls_eyes_figure(*table, quantity, moment, orientation),
-                fmt::format("bulls_eyes_{}_{}", quantity, moment));
+        if (q.is_shown && !means(*table, q.name, moment, "aha17").values.empty())
+          write(bulls_eyes_figure(*table, q.name, moment, orientation),
+                fmt::format("bulls_eyes_{}_{}", q.name, moment));
   }
 
   void rotation() const {
@@ -342,7 +336,7 @@ drawing::Figure bulls_eyes_figure(const Table& regions, const std::string& quant
       .panels = {bulls_eye_panel("seven slices", slices.values, scale, digits, orientation),
                  bulls_eye_panel("17 segments (AHA)", segments.values, scale, digits, orientation)},
       .title = fmt::format("{}, mean at {}", label, heartbeat::title(state)),
-      .footnote = with_stars(is_strain(quantity) ? strain : "", orientation),
+      .footnote = with_stars(analysis::quantity(quantity).is_strain ? strain : "", orientation),
       .colour_bar = drawing::ColourBar{label, scale}};
 }
 

@@ -161,8 +161,8 @@ TEST_CASE("quantities without an earlier state are from the undeformed wall", "[
   now[0].axes = mesh::wall_axes(Vec3::UnitX());
   now[0].pressure = 2.5;
   const auto value = [&](const std::vector<CellFields>& then, const std::string& name) {
-    for (const auto& q : analysis::quantities(now, then))
-      if (q.name == name)
+    for (const auto& q : analysis::cell_quantities(now, then))
+      if (q.quantity->name == name)
         return q.values.at(0);
     FAIL("no quantity " << name);
     return 0.0;
