@@ -17,9 +17,9 @@
 namespace lv::verify {
 namespace {
 
-constexpr double density = 1e-6;    // [kg/mm^3]
-constexpr double end = 0.024;       // [s]
-constexpr double interval = 0.004;  // between the times that are compared [s]
+constexpr double rubber_density = 1e-6;   // [kg/mm^3]
+constexpr double end_of_swing = 0.024;    // [s]
+constexpr double compared_every = 0.004;  // between the times that are compared [s]
 
 /// Rises and falls smoothly, once [kPa].
 double swinging_pressure(double t) {
@@ -35,8 +35,8 @@ Radius slope(const HalfSphere& sphere, double t, const Radius& now) {
   const HalfSphere there{sphere.A, sphere.B, now.a, sphere.mu};
   const double ratio = now.a / there.outer_radius();
   const double rest = now.rate * now.rate * (1.5 - 2.0 * ratio + 0.5 * std::pow(ratio, 4));
-  return {now.rate,
-          ((swinging_pressure(t) - there.pressure()) / density - rest) / (now.a * (1.0 - ratio))};
+  return {now.rate, ((swinging_pressure(t) - there.pressure()) / rubber_density - rest) /
+                        (now.a * (1.0 - ratio))};
 }
 
 /// The volumes of the half sphere's cavity at the times that are compared, by the classical
@@ -48,8 +48,8 @@ std::vector<double> exact_volumes(const HalfSphere& sphere) {
   };
   Radius y{sphere.A, 0.0};
   std::vector<double> volumes;
-  const auto per_interval = static_cast<int>(std::lround(interval / dt));
-  for (int i = 1; i * dt < end + 0.5 * dt; ++i) {
+  const auto per_interval = static_cast<int>(std::lround(compared_every / dt));
+  for (int i = 1; i * dt < end_of_swing + 0.5 * dt; ++i) {
     const double t = (i - 1) * dt;
     const Radius k1 = slope(sphere, t, y);
     const Radius k2 = slope(sphere, t + 0.5 * dt, moved(y, 0.5 * dt, k1));
@@ -67,7 +67,7 @@ implicit::StaticModel swinging_rubber(const HalfSphere& sphere) {
   heart.myocardium.passive = material::NeoHookean{sphere.mu};
   heart.myocardium.active = material::PrescribedTension{0.0};
   implicit::StaticModel model(heart);
-  model.density = density;
+  model.density = rubber_density;
   return model;
 }
 
@@ -77,8 +77,8 @@ std::vector<double> volumes_with(const HalfSphere& sphere, const mesh::Mesh& mes
     return material::Tension{};
   };
   std::vector<double> volumes;
-  const auto per_interval = static_cast<int>(std::lround(interval / dt));
-  for (int i = 1; i * dt < end + 0.5 * dt; ++i) {
+  const auto per_interval = static_cast<int>(std::lround(compared_every / dt));
+  for (int i = 1; i * dt < end_of_swing + 0.5 * dt; ++i) {
     const double t = (i - 1 + engine.balance()) * dt;
     const auto report = engine.move(dt, {none, swinging_pressure(t)});
     LV_CHECK(report.converged);
