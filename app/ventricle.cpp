@@ -229,6 +229,10 @@ void add_verify(CLI::App& app, Command& command) {
       ->add_option("--ranks", command.verify.ranks,
                    "MPI ranks of the problems that are solved on several (default: as listed)")
       ->check(CLI::Range(1, most_ranks));
+  verify->add_option("--constants", command.verify.constants,
+                     "table (CSV: constant, value) of other constants, for the arostica problems");
+  verify->add_option("--tables", command.verify.tables,
+                     "folder that gets the tables which problems make");
   verify->add_option(lv::verify::solve_option, command.solve_in)->group("");
 }
 

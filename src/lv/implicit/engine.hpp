@@ -75,6 +75,13 @@ class Engine {
   /// InputError when it is one of another wall.
   void restore(const State& state, const Loads& loads);
 
+  /// Takes over the state at the end of a step whose balance is not at its end, which find()
+  /// found. The tangent may be kept.
+  void place(State state) { state_ = std::move(state); }
+
+  /// Another step or rule of time makes the tangent another one.
+  void forget_tangent() { newton_.forget_tangent(); }
+
  private:
   SolverParameters parameters_;
   Equations equations_;

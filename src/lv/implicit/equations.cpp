@@ -7,6 +7,7 @@
 #include "lv/mesh/shapes.hpp"
 
 #include <algorithm>
+#include <optional>
 
 namespace lv::implicit {
 namespace {
@@ -20,6 +21,13 @@ double shear_modulus(const Tangent<double>& C, const Mat3& F) {
       Eigen::Map<const Eigen::Matrix<double, 9, 1>>(cofactor(F).eval().data()).normalized();
   return 0.1 * (C.trace() - volumetric.dot(C * volumetric));
 }
+
+/// What a motion adds to one element.
+struct ElementMotion {
+  Eigen::Matrix3Xd v;            ///< of its nodes [mm/s]
+  double slope = 0.0;            ///< dv/dx [1/s]
+  Eigen::MatrixXd inertia = {};  ///< c_a int rho phi phi^T dX [mN/mm]; may be empty
+};
 
 /// The element's tangent, displacements (node by node) before pressures.
 class ElementTangent {
@@ -35,12 +43,16 @@ class ElementTangent {
   }
 
   const Eigen::MatrixXd& compute(const std::vector<Point>& points, const ElementState& s,
-                                 Constitution law, const Eigen::MatrixXd& pressure_shapes) {
+                                 Constitution law, const Eigen::MatrixXd& pressure_shapes,
+                                 const std::optional<ElementMotion>& motion) {
     K_.setZero();
     pressure_mass_.setZero();
     for (law.point = 0; law.point < points.size(); ++law.point)
-      add_point(points[law.point], static_cast<Eigen::Index>(law.point), s, law, pressure_shapes);
+      add_point(points[law.point], static_cast<Eigen::Index>(law.point), s, law, pressure_shapes,
+                motion);
     multiply();
+    if (motion && motion->inertia.size() > 0)
+      add_inertia(motion->inertia);
     K_.bottomLeftCorner(m_, 3 * n_) = K_.topRightCorner(3 * n_, m_).transpose();
     return K_;
   }
@@ -52,12 +64,20 @@ class ElementTangent {
   using Index = Eigen::Index;
 
   void add_point(const Point& point, Index q, const ElementState& s, const Constitution& law,
-                 const Eigen::MatrixXd& pressure_shapes) {
+                 const Eigen::MatrixXd& pressure_shapes,
+                 const std::optional<ElementMotion>& motion) {
     const Mat3 F = s.x * point.gradient.transpose();
     const Eigen::VectorXd N = pressure_shapes.row(q);
-    const Tangent<double> dP_dF = law.tangent(F, point.infarct);
+    Tangent<double> dP_dF = law.tangent(F, point.infarct);
+    if (motion && law.model.viscosity.eta > 0.0)
+      dP_dF +=
+          law.model.viscosity.tangent(F, motion->v * point.gradient.transpose(), motion->slope);
     const Tangent<double> C = point.volume * (dP_dF + N.dot(s.p) * material::cofactor_tangent(F));
     pressure_mass_ += point.volume / std::max(shear_modulus(dP_dF, F), 1e-3) * N * N.transpose();
+    if (const double compliance = law.model.compressibility.slope(N.dot(s.p)); compliance > 0.0) {
+      K_.bottomRightCorner(m_, m_) -= point.volume * compliance * N * N.transpose();
+      pressure_mass_ += point.volume * compliance * N * N.transpose();
+    }
     gradients_.middleRows(3 * q, 3) = point.gradient;
     for (int i = 0; i < 3; ++i) {
       for (int k = 0; k < 3; ++k) {
@@ -84,6 +104,12 @@ class ElementTangent {
             K_(3 * a + i, 3 * b + k) = product_(a, b);
       }
     }
+  }
+
+  void add_inertia(const Eigen::MatrixXd& inertia) {
+    for (Index b = 0; b < n_; ++b)
+      for (Index a = 0; a < n_; ++a)
+        K_.block<3, 3>(3 * a, 3 * b).diagonal().array() += inertia(a, b);
   }
 
   Index n_, m_;
@@ -131,6 +157,29 @@ std::vector<std::vector<Pattern::Share>> shares_of_corners(const ReferenceWall& 
   return result;
 }
 
+Eigen::Matrix3Xd of_nodes(std::span<const Vec3> values, std::span<const int> nodes) {
+  Eigen::Matrix3Xd result(3, static_cast<Eigen::Index>(nodes.size()));
+  for (std::size_t a = 0; a < nodes.size(); ++a)
+    result.col(static_cast<Eigen::Index>(a)) = values[nodes[a]];
+  return result;
+}
+
+/// int rho phi phi^T dX of this rank's elements [kg]; none without a density.
+std::vector<Eigen::MatrixXd> masses(const mesh::Mesh& mesh, const ReferenceWall& wall,
+                                    double density) {
+  std::vector<Eigen::MatrixXd> result;
+  if (density == 0.0)
+    return result;
+  const Eigen::MatrixXd phi = solid::element_shapes(mesh.kind, mesh.order).value;
+  for (const std::vector<Point>& points : wall.points) {
+    Eigen::VectorXd mass(phi.rows());
+    for (Eigen::Index q = 0; q < phi.rows(); ++q)
+      mass[q] = density * points[static_cast<std::size_t>(q)].volume;
+    result.emplace_back(phi.transpose() * mass.asDiagonal() * phi);
+  }
+  return result;
+}
+
 /// Linear elements would lock with the stabilisation of quadratic ones.
 StaticModel for_order(StaticModel model, int order) {
   if (order == 1)
@@ -156,11 +205,17 @@ Equations::Equations(const mesh::Mesh& mesh, const StaticModel& model)
       wall_(reference_wall(mesh, model.heart.fibres)),
       endocardium_(mesh),
       model_(for_order(model, mesh.order)),
-      base_(mesh, model.heart.base) {}
+      base_(mesh, model.heart.base),
+      epicardial_support_(mesh, mesh.epi, model.surroundings.epicardium),
+      basal_support_(mesh, mesh.base, model.surroundings.base),
+      masses_(masses(mesh, wall_, model.density)) {}
 
 void Equations::set_model(const StaticModel& model) {
   model_ = for_order(model, mesh_.order);
   base_ = solid::BasalPenalty(mesh_, model.heart.base);
+  epicardial_support_ = {mesh_, mesh_.epi, model.surroundings.epicardium};
+  basal_support_ = {mesh_, mesh_.base, model.surroundings.base};
+  masses_ = masses(mesh_, wall_, model.density);
 }
 
 State Equations::rest() const {
@@ -182,37 +237,62 @@ TensionAt Equations::steady(double activation) const {
   };
 }
 
-std::vector<double> Equations::residual(const State& state, double pressure,
-                                        const TensionAt& tension) const {
-  std::vector<double> R(size(), 0.0);
-  bool inverted = false;
+Equations::Inside Equations::inside(const State& state, const TensionAt& tension,
+                                    const Motion* motion) const {
+  Inside result{std::vector<double>(size(), 0.0)};
+  const std::vector<Vec3> v =
+      motion != nullptr ? motion->velocities(state.positions) : std::vector<Vec3>{};
+  const std::vector<Vec3> a = motion != nullptr && !masses_.empty()
+                                  ? motion->accelerations(state.positions)
+                                  : std::vector<Vec3>{};
   for (std::size_t i = 0; i < wall_.points.size(); ++i) {
     const int e = wall_.own[i];
+    const auto nodes = wall_.elements.element(e);
     const ElementState s = element_state(wall_, e, state);
+    const Eigen::Matrix3Xd rates = v.empty() ? Eigen::Matrix3Xd{} : of_nodes(v, nodes);
     Eigen::Matrix3Xd force = Eigen::Matrix3Xd::Zero(3, s.x.cols());
     Eigen::VectorXd swelling = Eigen::VectorXd::Zero(s.p.size());
     for (std::size_t q = 0; q < wall_.points[i].size(); ++q) {
       const Point& point = wall_.points[i][q];
       const Mat3 F = s.x * point.gradient.transpose();
       const double J = determinant(F);
-      inverted = inverted || !(J > 0.0);
+      result.inverted = result.inverted || !(J > 0.0);
       const Eigen::VectorXd N = wall_.pressure_shapes.value.row(static_cast<Eigen::Index>(q));
       const Constitution law{model_, tension, i, q};
-      const Mat3 P = law.stress(F, J, point.infarct) + N.dot(s.p) * cofactor(F);
+      Mat3 P = law.stress(F, J, point.infarct) + N.dot(s.p) * cofactor(F);
+      if (!v.empty() && model_.viscosity.eta > 0.0)
+        P += model_.viscosity.stress(F, rates * point.gradient.transpose());
       force.noalias() += point.volume * P * point.gradient;
-      swelling += point.volume * (J - 1.0) * N;
+      swelling += point.volume * (J - model_.compressibility.J(N.dot(s.p))) * N;
     }
+    if (!a.empty())
+      force += of_nodes(a, nodes) * masses_[i];
     const auto to = unknowns(wall_, e, node_count());
     for (Eigen::Index k = 0; k < force.size(); ++k)
-      R[to[k]] += force.data()[k];
+      result.R[to[k]] += force.data()[k];
     for (Eigen::Index m = 0; m < swelling.size(); ++m)
-      R[to[force.size() + m]] += swelling[m];
+      result.R[to[force.size() + m]] += swelling[m];
   }
+  return result;
+}
+
+void Equations::add_supports(const State& state, double pressure, const Motion* motion,
+                             std::span<Vec3> forces) const {
+  endocardium_.add_gradient(pressure, state.positions, forces);
+  base_.add_forces(state.positions, forces);
+  const std::vector<Vec3> v =
+      motion != nullptr ? motion->velocities(state.positions) : std::vector<Vec3>{};
+  epicardial_support_.add_forces(state.positions, v, forces);
+  basal_support_.add_forces(state.positions, v, forces);
+}
+
+std::vector<double> Equations::residual(const State& state, double pressure,
+                                        const TensionAt& tension, const Motion* motion) const {
+  auto [R, inverted] = inside(state, tension, motion);
   if (parallel::any(inverted))
     return {};
   std::vector<Vec3> forces(state.positions.size(), Vec3::Zero());
-  endocardium_.add_gradient(pressure, state.positions, forces);
-  base_.add_forces(state.positions, forces);
+  add_supports(state, pressure, motion, forces);
   for (std::size_t a = 0; a < forces.size(); ++a)
     for (int i = 0; i < 3; ++i)
       R[3 * a + i] -= forces[a][i];
@@ -240,25 +320,35 @@ std::vector<double> Equations::fibre_stretch(const State& state) const {
 }
 
 void Equations::tangent(const State& state, double pressure, const TensionAt& tension,
-                        SparseMatrix& K) const {
+                        SparseMatrix& K, const Motion* motion) const {
   K.set_zero();
   ElementTangent element(wall_.elements.nodes_per_element, wall_.pressures.nodes_per_element,
                          wall_.points.empty() ? 0 : wall_.points.front().size());
+  const std::vector<Vec3> v =
+      motion != nullptr ? motion->velocities(state.positions) : std::vector<Vec3>{};
   for (std::size_t i = 0; i < wall_.points.size(); ++i) {
     const int e = wall_.own[i];
     const std::vector<int> at = unknowns(wall_, e, node_count());
+    std::optional<ElementMotion> moving;
+    if (motion != nullptr)
+      moving = {of_nodes(v, wall_.elements.element(e)), motion->velocity_slope};
+    if (motion != nullptr && !masses_.empty())
+      moving->inertia = motion->acceleration_slope * masses_[i];
     K.add(at, element.compute(wall_.points[i], element_state(wall_, e, state), {model_, tension, i},
-                              wall_.pressure_shapes.value));
+                              wall_.pressure_shapes.value, moving));
     K.add_pressure_mass(std::span(at).last(wall_.pressures.nodes_per_element),
                         element.pressure_mass());
   }
-  endocardium_.add_hessian(-pressure, state.positions,
-                           [&](std::span<const int> nodes, const Eigen::MatrixXd& block) {
-                             std::vector<int> at;
-                             for (const int node : nodes)
-                               at.insert(at.end(), {3 * node, 3 * node + 1, 3 * node + 2});
-                             K.add(at, block);
-                           });
+  const auto add = [&](std::span<const int> nodes, const Eigen::MatrixXd& block) {
+    std::vector<int> at;
+    for (const int node : nodes)
+      at.insert(at.end(), {3 * node, 3 * node + 1, 3 * node + 2});
+    K.add(at, block);
+  };
+  endocardium_.add_hessian(-pressure, state.positions, add);
+  const double slope = motion != nullptr ? motion->velocity_slope : 0.0;
+  epicardial_support_.add_stiffness(slope, add);
+  basal_support_.add_stiffness(slope, add);
   if (parallel::is_root())
     for (const auto& spring : base_.springs())
       K.add(std::array{3 * spring.node, 3 * spring.node + 1, 3 * spring.node + 2},

@@ -1,12 +1,16 @@
 #pragma once
 
 #include "lv/implicit/contractility.hpp"
+#include "lv/implicit/motion.hpp"
 #include "lv/implicit/reference_wall.hpp"
 #include "lv/implicit/sparse.hpp"
+#include "lv/material/compressibility.hpp"
+#include "lv/material/viscosity.hpp"
 #include "lv/solid/cardiac_model.hpp"
 #include "lv/solid/cell_stress.hpp"
 #include "lv/solid/endocardial_surface.hpp"
 #include "lv/solid/loads.hpp"
+#include "lv/solid/support.hpp"
 
 #include <functional>
 #include <vector>
@@ -22,7 +26,8 @@ using TensionAt = std::function<Tension(std::size_t element, std::size_t point, 
 /// Springs that yield by micrometres under the pressures of a ventricle [kPa/mm].
 inline constexpr double rigid_base = 1e6;
 
-/// A cardiac model as equilibria without time see it.
+/// A cardiac model as the implicit engine sees it. Viscosity, density and dashpots count in a
+/// motion alone.
 struct StaticModel {
   /// Volumetric stiffness at every quadrature point, beside the pressures' weaker constraint. Zero
   /// at J = 1, so no solution sees it, but it holds the deformations inside an element that change
@@ -40,6 +45,15 @@ struct StaticModel {
   solid::CardiacModel heart;  ///< its volumetric penalty is not used: the wall is incompressible
   Contractility contractility;
   material::Volumetric stabilisation;
+  material::Compressibility compressibility = {};
+  solid::Surroundings surroundings = {};
+  material::Viscosity viscosity = {};
+  double density = 0.0;  ///< of the wall [kg/mm^3]; 0: without inertia
+
+  /// Whether its forces depend on rates.
+  [[nodiscard]] bool has_rates() const {
+    return density > 0.0 || viscosity.eta > 0.0 || surroundings.has_dashpots();
+  }
 };
 
 /// Positions of the nodes [mm] and pressures of the elements [kPa]: all unknowns, on every rank.
@@ -68,6 +82,11 @@ struct ElementState {
 /// with P_passive from (2.18) and (2.23), P_active from (2.21) and (2.24), V of the cavity. p is
 /// the tension that holds J = 1: the Cauchy stress is sigma^p + sigma^a + p 1, so -p is the p of
 /// (2.6). Unknowns are numbered 3 a + i for the positions, then the pressures.
+///
+/// A wall that resists changes of volume with a finite modulus has J - J(p) for J - 1. Supports of
+/// the epicardium and the base add their forces to R_a, and a motion its rates:
+///
+///   R_a += int rho phi_a sum_b phi_b a_b dX + int F S_viscous grad phi_a dX - F_support(x, v)
 class Equations {
  public:
   /// The mesh must outlive the equations.
@@ -86,6 +105,7 @@ class Equations {
   [[nodiscard]] std::span<const Vec3> undeformed() const { return mesh_.nodes; }
 
   [[nodiscard]] const solid::EndocardialSurface& endocardium() const { return endocardium_; }
+  [[nodiscard]] const StaticModel& model() const { return model_; }
 
   /// Which unknowns the tangent joins.
   [[nodiscard]] Pattern pattern() const;
@@ -96,7 +116,8 @@ class Equations {
   /// R under a pressure in the cavity [kPa], complete on every rank; empty when an element is
   /// turned inside out at some point of any rank.
   [[nodiscard]] std::vector<double> residual(const State& state, double pressure,
-                                             const TensionAt& tension) const;
+                                             const TensionAt& tension,
+                                             const Motion* motion = nullptr) const;
 
   /// The same under loads, with steady tension.
   [[nodiscard]] std::vector<double> residual(const State& state, const Loads& loads) const {
@@ -104,8 +125,8 @@ class Equations {
   }
 
   /// Sets a matrix to dR/d(unknowns), and its pressure mass.
-  void tangent(const State& state, double pressure, const TensionAt& tension,
-               SparseMatrix& K) const;
+  void tangent(const State& state, double pressure, const TensionAt& tension, SparseMatrix& K,
+               const Motion* motion = nullptr) const;
   void tangent(const State& state, const Loads& loads, SparseMatrix& K) const {
     tangent(state, loads.pressure, steady(loads.activation), K);
   }
@@ -132,11 +153,22 @@ class Equations {
                                                            const TensionAt& tension) const;
 
  private:
+  struct Inside {
+    std::vector<double> R;
+    bool inverted = false;  ///< at some point
+  };
+  [[nodiscard]] Inside inside(const State& state, const TensionAt& tension,
+                              const Motion* motion) const;
+  void add_supports(const State& state, double pressure, const Motion* motion,
+                    std::span<Vec3> forces) const;
+
   const mesh::Mesh& mesh_;
   ReferenceWall wall_;
   solid::EndocardialSurface endocardium_;
   StaticModel model_;
   solid::BasalPenalty base_;
+  solid::SupportedSurface epicardial_support_, basal_support_;
+  std::vector<Eigen::MatrixXd> masses_;  ///< int rho phi phi^T dX of own elements; none: no inertia
 };
 
 }  // namespace lv::implicit

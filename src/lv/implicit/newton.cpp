@@ -75,8 +75,8 @@ class Newton::Attempt {
 
   /// R, with r_V at its end where a volume is given; empty when elements are turned inside out.
   [[nodiscard]] std::vector<double> residual_of(const State& state) {
-    std::vector<double> R =
-        newton_.equations_.residual(state, pressure_of(state), equilibrium_.tension);
+    std::vector<double> R = newton_.equations_.residual(state, pressure_of(state),
+                                                        equilibrium_.tension, equilibrium_.motion);
     if (has_volume() && !R.empty()) {
       given_ = equilibrium_.volume(state.cavity_pressure);
       R.push_back(newton_.equations_.endocardium().volume(state.positions) - given_.volume);
@@ -128,7 +128,8 @@ class Newton::Attempt {
   }
 
   void renew_tangent() {
-    newton_.equations_.tangent(state_, pressure_of(state_), equilibrium_.tension, newton_.tangent_);
+    newton_.equations_.tangent(state_, pressure_of(state_), equilibrium_.tension, newton_.tangent_,
+                               equilibrium_.motion);
     newton_.has_tangent_ = true;
     ++report_.factorisations;
     if (has_volume() && !renew_response())

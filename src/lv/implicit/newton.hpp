@@ -35,8 +35,9 @@ using VolumeOfPressure = std::function<GivenVolume(double pressure)>;
 /// in the cavity or around a volume of it.
 struct Equilibrium {
   TensionAt tension;
-  double pressure = 0.0;         ///< [kPa], where no volume is given
-  VolumeOfPressure volume = {};  ///< may be empty
+  double pressure = 0.0;           ///< [kPa], where no volume is given
+  VolumeOfPressure volume = {};    ///< may be empty
+  const Motion* motion = nullptr;  ///< none: the wall is at rest
 };
 
 /// Damped Newton with the error-oriented monotonicity test (P. Deuflhard, Newton Methods for

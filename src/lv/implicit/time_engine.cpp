@@ -1,12 +1,37 @@
 #include "lv/implicit/time_engine.hpp"
 
+#include "lv/base/check.hpp"
+
 namespace lv::implicit {
 
+namespace {
+
+/// The value at a step's end of what has the value `now` at its start and `then` at a share of it.
+template <class T>
+T at_end(const T& now, const T& then, double share) {
+  return now + (then - now) / share;
+}
+
+}  // namespace
+
 TimeEngine::TimeEngine(const mesh::Mesh& mesh, const StaticModel& model,
-                       const SolverParameters& parameters)
+                       const SolverParameters& parameters, double spectral_radius)
     : engine_(mesh, model, parameters),
       muscle_(model.heart.myocardium.active,
-              engine_.equations().own_elements() * engine_.equations().points_per_element()) {}
+              engine_.equations().own_elements() * engine_.equations().points_per_element()),
+      has_rates_(model.has_rates()),
+      has_inertia_(model.density > 0.0),
+      rule_(GeneralisedAlpha::of_radius(spectral_radius)) {
+  rest();
+}
+
+void TimeEngine::rest() {
+  dt_before_ = 0.0;
+  if (has_rates_)
+    rates_.velocity.assign(engine_.state().positions.size(), Vec3::Zero());
+  if (has_inertia_)
+    rates_.acceleration = rates_.velocity;
+}
 
 Outcome<double> TimeEngine::fill(double pressure, double Ca_0) {
   engine_.relax();
@@ -17,11 +42,13 @@ Outcome<double> TimeEngine::fill(double pressure, double Ca_0) {
   filled.cavity_pressure = pressure;
   engine_.restore(filled, engine_.loads());
   muscle_.relax(Ca_0, engine_.equations().fibre_stretch(filled));
-  dt_before_ = 0.0;
+  rest();
   return volume;
 }
 
 NewtonReport TimeEngine::advance(const TimeStep& step, const VolumeOfPressure& volume) {
+  if (has_rates_)
+    return advance_with_rates(step, volume);
   const State now = engine_.state();
   const State guess = dt_before_ > 0.0 ? extrapolate(before_, now, step.dt / dt_before_) : now;
   const TensionAt tension = [&](std::size_t element, std::size_t point, double stretch) {
@@ -38,6 +65,69 @@ NewtonReport TimeEngine::advance(const TimeStep& step, const VolumeOfPressure& v
   before_ = now;
   dt_before_ = step.dt;
   return report;
+}
+
+NewtonReport TimeEngine::advance_with_rates(const TimeStep& step, const VolumeOfPressure& volume) {
+  const double share = balance();
+  const std::vector<double> stretch_now = engine_.equations().fibre_stretch(state());
+  const double pressure_now = pressure();
+  const double volume_now = cavity_volume();
+  const TensionAt tension = [&](std::size_t element, std::size_t point, double stretch) {
+    const std::size_t i = point_number(element, point);
+    Tension T = muscle_.after(step, i, at_end(stretch_now[i], stretch, share));
+    T.value = share * T.value + (1.0 - share) * muscle_.now(i).value;
+    return T;  // its slope by the stretch at balance is that at the end by the stretch there
+  };
+  const auto at_balance = [&](double p) {
+    GivenVolume given = volume(at_end(pressure_now, p, share));
+    given.volume = share * given.volume + (1.0 - share) * volume_now;
+    return given;
+  };
+  NewtonReport report = move(step.dt, {tension, 0.0, at_balance});
+  if (report.converged)
+    muscle_.advance(step, engine_.equations().fibre_stretch(state()));
+  return report;
+}
+
+NewtonReport TimeEngine::move(double dt, Equilibrium at_balance) {
+  LV_CHECK(has_rates_);
+  const State now = engine_.state();
+  if (dt != dt_before_)
+    engine_.forget_tangent();
+  const Motion motion = motion_in_step(rule_, dt, now.positions, rates_);
+  at_balance.motion = &motion;
+  NewtonReport report = engine_.find(predicted(now, dt), at_balance);
+  if (!report.converged)
+    report = engine_.find(now, at_balance);
+  if (!report.converged) {
+    dt_before_ = 0.0;
+    return report;
+  }
+  State end = engine_.state();
+  for (std::size_t a = 0; a < end.positions.size(); ++a)
+    end.positions[a] = at_end(now.positions[a], end.positions[a], balance());
+  end.cavity_pressure = at_balance.volume
+                            ? at_end(now.cavity_pressure, end.cavity_pressure, balance())
+                            : at_balance.pressure;
+  rates_ = rates_after(rule_, dt, now.positions, rates_, end.positions);
+  engine_.place(std::move(end));
+  before_ = now;
+  dt_before_ = dt;
+  return report;
+}
+
+/// Where the rates lead, at the moment of balance.
+State TimeEngine::predicted(const State& now, double dt) const {
+  const State straight =
+      dt_before_ > 0.0 ? extrapolate(before_, now, balance() * dt / dt_before_) : now;
+  State guess = straight;
+  for (std::size_t a = 0; a < guess.positions.size(); ++a) {
+    Vec3 step = dt * rates_.velocity[a];
+    if (has_inertia_)
+      step += 0.5 * dt * dt * rates_.acceleration[a];
+    guess.positions[a] = now.positions[a] + balance() * step;
+  }
+  return guess;
 }
 
 }  // namespace lv::implicit

@@ -5,6 +5,7 @@
 #include "lv/material/guccione.hpp"
 #include "lv/material/holzapfel_ogden.hpp"
 #include "lv/material/neo_hookean.hpp"
+#include "lv/material/smooth_holzapfel_ogden.hpp"
 
 #include <concepts>
 #include <variant>
@@ -22,10 +23,11 @@ concept PassiveLaw = requires(const L& law, const Tensor<double>& F, const Tenso
   { law.tangent(F) } -> std::same_as<Tangent<double>>;
 };
 
-static_assert(PassiveLaw<HolzapfelOgden> && PassiveLaw<Guccione> && PassiveLaw<NeoHookean>);
+static_assert(PassiveLaw<HolzapfelOgden> && PassiveLaw<Guccione> && PassiveLaw<NeoHookean> &&
+              PassiveLaw<SmoothHolzapfelOgden>);
 
 /// The passive law of a wall.
-using AnyPassiveLaw = std::variant<HolzapfelOgden, Guccione, NeoHookean>;
+using AnyPassiveLaw = std::variant<HolzapfelOgden, Guccione, NeoHookean, SmoothHolzapfelOgden>;
 
 /// How an infarct changes the muscle, with M(X) the local extent (2.11): 1 in the scar, 0 in
 /// healthy muscle.

@@ -54,6 +54,7 @@ struct Problem {
   Length length = Length::brief;
   std::vector<int> ranks;          ///< it is solved once on each of these numbers of ranks
   void (*solve)(Findings& found);  ///< collective
+  bool has_constants = false;      ///< it can be solved with others: Options::constants
 };
 
 /// All problems, from the laws up.

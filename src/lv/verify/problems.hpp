@@ -34,12 +34,16 @@ void thick_sphere_at_rest(Findings& found);
 // equilibrium without time, and through it
 void thick_sphere_static(Findings& found);
 void coupled_sphere(Findings& found);
+void generalised_alpha(Findings& found);
 void no_locking(Findings& found);
 void land2015_problem1(Findings& found);
 void land2015_problem2(Findings& found);
 void land2015_problem3(Findings& found);
 void land2015_problem2_immersed(Findings& found);
 void land2015_problem3_immersed(Findings& found);
+void arostica_0a(Findings& found);
+void arostica_0b(Findings& found);
+void arostica_1(Findings& found);
 void iterative_solver(Findings& found);
 void calibration_twin(Findings& found);
 void strain_twin(Findings& found);

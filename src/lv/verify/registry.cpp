@@ -21,6 +21,11 @@ Problem nightly(const char* name, Solve solve, const char* proves, const Ranks& 
   return {name, proves, Length::nightly, ranks, solve};
 }
 
+Problem with_constants(Problem problem) {
+  problem.has_constants = true;
+  return problem;
+}
+
 }  // namespace
 
 // NOLINTNEXTLINE(readability-function-size): a table
@@ -66,6 +71,8 @@ std::span<const Problem> problems() {
       brief("coupled_sphere", coupled_sphere,
             "a sphere of rubber empties through a resistance, its pressure the multiplier of its "
             "volume"),
+      brief("generalised_alpha", generalised_alpha,
+            "a sphere of rubber that swings, exact solution, and second order in time"),
       brief("no_locking", no_locking,
             "incompressible elements of every kind are not too stiff on coarse meshes", {2}),
       brief("land2015_problem1", land2015_problem1,
@@ -102,6 +109,12 @@ std::span<const Problem> problems() {
               "inflation of a ventricle: Land et al. 2015, problem 2 (immersed engine)", {2}),
       nightly("land2015_problem3_immersed", land2015_problem3_immersed,
               "inflation and contraction: Land et al. 2015, problem 3 (immersed engine)", {2}),
+      with_constants(nightly("arostica_0a", arostica_0a,
+                             "a ventricle that contracts: Arostica et al. 2025, step 0, case A")),
+      with_constants(nightly("arostica_0b", arostica_0b,
+                             "a ventricle under pressure: Arostica et al. 2025, step 0, case B")),
+      with_constants(nightly("arostica_1", arostica_1,
+                             "a beat with inertia and supports: Arostica et al. 2025, step 1")),
       nightly("engines_agree", engines_agree,
               "both engines move the default ventricle alike, at the paper's resolution", {2}),
   };

@@ -5,6 +5,7 @@
 #include "lv/base/launch.hpp"
 #include "lv/base/log.hpp"
 #include "lv/base/parallel.hpp"
+#include "lv/base/table.hpp"
 #include "lv/verify/problem.hpp"
 
 #include <fmt/format.h>
@@ -65,8 +66,20 @@ std::vector<int> rank_counts(const Problem& problem, int several) {
   return counts;
 }
 
-std::vector<Quantity> solve_all(const Problem& problem, int several) {
+/// Leaves the tables that a problem made.
+void keep_tables(const std::filesystem::path& scratch, const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
+  for (const auto& entry : std::filesystem::directory_iterator(scratch))
+    if (entry.path().extension() == ".csv" && entry.path().filename() != constants_file)
+      std::filesystem::copy_file(entry.path(), folder / entry.path().filename(),
+                                 std::filesystem::copy_options::overwrite_existing);
+}
+
+std::vector<Quantity> solve_all(const Problem& problem, const Options& options) {
+  const int several = options.ranks;
   const ScratchFolder scratch;
+  if (!options.constants.empty())
+    write_file(scratch.path() / constants_file, read_file(options.constants));
   std::vector<Quantity> all;
   for (const int ranks : rank_counts(problem, several)) {
     const auto start = std::chrono::steady_clock::now();
@@ -79,7 +92,18 @@ std::vector<Quantity> solve_all(const Problem& problem, int several) {
                failed == 0 ? "pass" : fmt::format("{} of {} FAIL", failed, found.size()));
     all.insert(all.end(), found.begin(), found.end());
   }
+  if (!options.tables.empty())
+    keep_tables(scratch.path(), options.tables);
   return all;
+}
+
+/// Throws InputError where the table of constants is for none of them.
+void check_constants(const std::vector<const Problem*>& problems, const Options& options) {
+  for (const Problem* p : problems)
+    if (!options.constants.empty() && !p->has_constants)
+      throw InputError("--constants", fmt::format("is given, but {} has none to choose", p->name),
+                       "Name the problems that the table is for: arostica_0a, arostica_0b, "
+                       "arostica_1");
 }
 
 std::vector<const Problem*> chosen(const Options& options) {
@@ -97,8 +121,10 @@ std::vector<const Problem*> chosen(const Options& options) {
 
 bool run(const Options& options) {
   std::vector<Quantity> all;
-  for (const Problem* p : chosen(options)) {
-    const std::vector<Quantity> found = solve_all(*p, options.ranks);
+  const std::vector<const Problem*> problems = chosen(options);
+  check_constants(problems, options);
+  for (const Problem* p : problems) {
+    const std::vector<Quantity> found = solve_all(*p, options);
     if (options.json)
       for (const Quantity& q : found)
         fmt::print("{}\n", json_line(q));

@@ -11,7 +11,12 @@ struct Options {
   bool nightly = false;            ///< without names: the long problems too
   bool json = false;               ///< one JSON object a line instead of a table
   int ranks = 0;  ///< on which problems of several ranks are solved; 0: as each of them asks
+  std::string constants;  ///< a table of other constants for the problems that have some; or empty
+  std::string tables;     ///< the folder that gets the problems' tables (CSV); or empty
 };
+
+/// The name of the table of constants in a problem's scratch folder.
+inline constexpr const char* constants_file = "constants.csv";
 
 /// Solves problems, each in a process of its own on as many ranks as it asks for, and prints what
 /// they found. Returns whether all quantities pass. Throws Interrupted when asked to stop. The

@@ -1,0 +1,94 @@
+#include "lv/solid/support.hpp"
+
+#include "lv/base/parallel.hpp"
+#include "lv/mesh/mesh.hpp"
+#include "lv/solid/side_points.hpp"
+
+#include <algorithm>
+
+namespace lv::solid {
+namespace {
+
+/// The weight of a support at a height of its surface.
+class AxialWeight {
+ public:
+  AxialWeight(const mesh::Mesh& mesh, const mesh::Surface& surface, const Support& support)
+      : support_(support) {
+    for (const int node : surface.nodes) {
+      low_ = std::min(low_, mesh.nodes[node].z());
+      high_ = std::max(high_, mesh.nodes[node].z());
+    }
+  }
+
+  [[nodiscard]] double at(double z) const {
+    const double height = high_ > low_ ? (z - low_) / (high_ - low_) : 0.0;
+    return support_.weight_below + height * (support_.weight_above - support_.weight_below);
+  }
+
+ private:
+  const Support& support_;
+  double low_ = std::numeric_limits<double>::infinity();
+  double high_ = -std::numeric_limits<double>::infinity();
+};
+
+Eigen::VectorXd gather(std::span<const Vec3> values, std::span<const int> nodes) {
+  Eigen::VectorXd result(3 * static_cast<Eigen::Index>(nodes.size()));
+  for (std::size_t a = 0; a < nodes.size(); ++a)
+    result.segment<3>(3 * static_cast<Eigen::Index>(a)) = values[nodes[a]];
+  return result;
+}
+
+}  // namespace
+
+SupportedSurface::SupportedSurface(const mesh::Mesh& mesh, const mesh::Surface& surface,
+                                   const Support& support) {
+  if (support.is_none())
+    return;
+  const AxialWeight weight(mesh, surface, support);
+  const mesh::ElementNodes sides = mesh::sides(mesh.kind, mesh.order, surface);
+  const ShapeTable shapes = side_shapes(mesh.kind, mesh.order);
+  const int n = shapes.nodes();
+  const auto share = parallel::share(sides.size(), parallel::rank(), parallel::size());
+  for (int f = share.begin; f < share.end; ++f) {
+    const auto nodes = sides.element(f);
+    Side side{{nodes.begin(), nodes.end()},
+              Eigen::MatrixXd::Zero(3 * n, 3 * n),
+              Eigen::MatrixXd::Zero(3 * n, 3 * n),
+              gather(mesh.nodes, nodes)};
+    for_side_points(shapes, nodes, mesh.nodes, [&](const SidePoint& point) {
+      const double dA = shapes.weight[point.q] * point.normal().norm();
+      const Vec3 N = point.normal().normalized();
+      const Mat3 along = N * N.transpose();
+      const Mat3 across = Mat3::Identity() - along;
+      const double w = weight.at(point.x.z()) * dA;
+      for (int a = 0; a < n; ++a) {
+        for (int b = 0; b < n; ++b) {
+          const double wab = w * shapes.value(point.q, a) * shapes.value(point.q, b);
+          side.stiffness.block<3, 3>(3 * a, 3 * b) +=
+              wab * (support.normal_stiffness * along + support.tangential_stiffness * across);
+          side.viscosity.block<3, 3>(3 * a, 3 * b) +=
+              wab * (support.normal_viscosity * along + support.tangential_viscosity * across);
+        }
+      }
+    });
+    sides_.push_back(std::move(side));
+  }
+}
+
+void SupportedSurface::add_forces(std::span<const Vec3> positions, std::span<const Vec3> velocities,
+                                  std::span<Vec3> forces) const {
+  for (const Side& side : sides_) {
+    Eigen::VectorXd force = side.stiffness * (gather(positions, side.nodes) - side.reference);
+    if (!velocities.empty())
+      force += side.viscosity * gather(velocities, side.nodes);
+    for (std::size_t a = 0; a < side.nodes.size(); ++a)
+      forces[side.nodes[a]] -= force.segment<3>(3 * static_cast<Eigen::Index>(a));
+  }
+}
+
+void SupportedSurface::add_stiffness(double slope, const EndocardialSurface::Block& add) const {
+  for (const Side& side : sides_)
+    add(side.nodes, side.stiffness + slope * side.viscosity);
+}
+
+}  // namespace lv::solid

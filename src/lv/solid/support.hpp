@@ -1,0 +1,69 @@
+#pragma once
+
+#include "lv/mesh/quadratic.hpp"
+#include "lv/solid/endocardial_surface.hpp"
+
+#include <span>
+#include <vector>
+
+namespace lv::solid {
+
+/// Springs and dashpots per reference area of a surface, along its reference normal N and in the
+/// plane across it. The weight changes evenly along the long axis, from the surface's lowest to its
+/// highest node.
+struct Support {
+  double normal_stiffness = 0.0, tangential_stiffness = 0.0;  ///< [kPa/mm]
+  double normal_viscosity = 0.0, tangential_viscosity = 0.0;  ///< [kPa s/mm]
+  double weight_below = 1.0, weight_above = 1.0;              ///< [-]
+
+  /// The same along all directions.
+  [[nodiscard]] static Support in_all_directions(double stiffness, double viscosity) {
+    return {stiffness, stiffness, viscosity, viscosity};
+  }
+
+  [[nodiscard]] bool is_none() const {
+    return normal_stiffness == 0.0 && tangential_stiffness == 0.0 && !has_dashpots();
+  }
+  [[nodiscard]] bool has_dashpots() const {
+    return normal_viscosity != 0.0 || tangential_viscosity != 0.0;
+  }
+};
+
+/// What holds a wall from outside, beside the springs at the base's nodes (BasalSupport).
+struct Surroundings {
+  Support epicardium, base;
+
+  [[nodiscard]] bool has_dashpots() const {
+    return epicardium.has_dashpots() || base.has_dashpots();
+  }
+};
+
+/// A supported surface. With u = x - X and the velocity v of its points,
+///
+///   F_a = -int phi_a w(Z) {N (N.(k_n u + c_n v)) + (1 - N (x) N)(k_t u + c_t v)} dA      [mN]
+///
+/// over the undeformed surface: linear in u and v, and symmetric.
+class SupportedSurface {
+ public:
+  SupportedSurface(const mesh::Mesh& mesh, const mesh::Surface& surface, const Support& support);
+
+  /// Adds the forces of this rank's share of the sides. Velocities [mm/s] may be empty: at rest.
+  void add_forces(std::span<const Vec3> positions, std::span<const Vec3> velocities,
+                  std::span<Vec3> forces) const;
+
+  /// -dF/dx where velocities change by `slope` [1/s] times positions: a block for each of this
+  /// rank's sides.
+  void add_stiffness(double slope, const EndocardialSurface::Block& add) const;
+
+ private:
+  struct Side {
+    std::vector<int> nodes;
+    Eigen::MatrixXd stiffness;  ///< [mN/mm]
+    Eigen::MatrixXd viscosity;  ///< [mN s/mm]
+    Eigen::VectorXd reference;  ///< X of the nodes [mm]
+  };
+
+  std::vector<Side> sides_;  ///< this rank's
+};
+
+}  // namespace lv::solid

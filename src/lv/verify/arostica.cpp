@@ -1,0 +1,217 @@
+#include "lv/verify/arostica.hpp"
+
+#include "lv/base/check.hpp"
+#include "lv/base/log.hpp"
+#include "lv/mesh/shapes.hpp"
+#include "lv/mesh/wall_mesh.hpp"
+
+#include <Eigen/LU>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+namespace lv::verify {
+namespace {
+
+double mix(double a, double b, double t) {
+  return (1.0 - t) * a + t * b;
+}
+
+double base_angle(const ArosticaWall& wall, double t) {
+  return mix(std::acos(wall.endo_cosine), std::acos(wall.epi_cosine), t);
+}
+
+/// A point of the wall that is watched.
+struct Probe {
+  std::vector<int> nodes;
+  Eigen::VectorXd phi;
+
+  [[nodiscard]] Vec3 displacement(std::span<const Vec3> from, std::span<const Vec3> to) const {
+    Vec3 u = Vec3::Zero();
+    for (std::size_t a = 0; a < nodes.size(); ++a)
+      u += phi[static_cast<Eigen::Index>(a)] * (to[nodes[a]] - from[nodes[a]]);
+    return {u.z(), u.x(), u.y()};
+  }
+};
+
+/// The point of an element with this place, if it has one: by Newton's method.
+std::optional<Probe> probe_in(const mesh::Mesh& mesh, std::span<const int> nodes, const Vec3& X) {
+  constexpr double rounding = 1e-9;
+  Vec3 xi = Vec3::Constant(0.5);
+  for (int i = 0; i < 30; ++i) {
+    const mesh::Shapes shapes = mesh::shapes<3>(mesh.kind, mesh.order, {xi[0], xi[1], xi[2]});
+    Vec3 error = X;
+    Mat3 slope = Mat3::Zero();
+    for (std::size_t a = 0; a < nodes.size(); ++a) {
+      const auto k = static_cast<Eigen::Index>(a);
+      error -= shapes.value[k] * mesh.nodes[nodes[a]];
+      slope += mesh.nodes[nodes[a]] * shapes.gradient.col(k).transpose();
+    }
+    if (error.norm() < 1e-8 && xi.minCoeff() > -rounding && xi.maxCoeff() < 1.0 + rounding)
+      return Probe{{nodes.begin(), nodes.end()}, shapes.value};
+    xi += slope.partialPivLu().solve(error);
+    if ((xi - Vec3::Constant(0.5)).norm() > 5.0)
+      return {};
+  }
+  return {};
+}
+
+/// `place` in the benchmark's axes [mm].
+Probe probe_at(const mesh::Mesh& mesh, const Vec3& place) {
+  const mesh::ElementNodes elements = mesh::elements(mesh);
+  for (int e = 0; e < elements.size(); ++e)
+    if (auto probe = probe_in(mesh, elements.element(e), {place.y(), place.z(), place.x()}))
+      return *probe;
+  throw LogicError("a watched point is outside the wall");
+}
+
+implicit::StaticModel model_of(const ArosticaConstants& c) {
+  solid::CardiacModel heart;
+  heart.fibres = {c.helix_endo, c.helix_epi, 0.5 * std::numbers::pi, 0.5 * std::numbers::pi};
+  heart.base.stiffness = 0.0;
+  heart.myocardium.passive = c.muscle;
+  heart.myocardium.active = material::PrescribedTension{0.0};
+  heart.myocardium.active_form = material::ActiveForm::second_piola;
+  implicit::StaticModel model(heart, {}, {.beta_s = 0.0});
+  model.compressibility.kappa = c.kappa;
+  model.surroundings.epicardium = {.normal_stiffness = c.k_epi, .normal_viscosity = c.c_epi};
+  model.surroundings.base = solid::Support::in_all_directions(c.k_base, c.c_base);
+  model.viscosity.eta = c.eta;
+  model.density = c.rho;
+  return model;
+}
+
+/// The wall driven through time.
+class ArosticaRun {
+ public:
+  ArosticaRun(const ArosticaConstants& c, const ArosticaLoads& loads)
+      : constants_(c),
+        loads_(loads),
+        mesh_(ArosticaWall{}.mesh(c.edge_length, static_cast<int>(c.layers))),
+        engine_(mesh_, model_of(c), {}, c.spectral_radius),
+        histories_(c.drive.histories(history_step, c.end)),
+        p0_(probe_at(mesh_, {25.0, 30.0, 0.0})),
+        p1_(probe_at(mesh_, {0.0, 30.0, 0.0})) {
+    log::info("{} elements, {} nodes", mesh_.cell_count() / 8, mesh_.nodes.size());
+  }
+
+  [[nodiscard]] ArosticaSample sample(double time) const {
+    const auto& x = engine_.state().positions;
+    return {time, p0_.displacement(mesh_.nodes, x), p1_.displacement(mesh_.nodes, x)};
+  }
+
+  /// A step, or where Newton's method fails two of half its length.
+  void advance(double time, double dt) {
+    const ArosticaDrive::Values now = at(time + engine_.balance() * dt);
+    const implicit::TensionAt tension = [&](std::size_t, std::size_t, double) {
+      return material::Tension{now.tension, 0.0};
+    };
+    const auto report = engine_.move(dt, {tension, now.pressure});
+    corrections_ += report.iterations;
+    if (report.converged)
+      return;
+    log::info("at {:.4f} s a step of {:.2g} s failed: {}", time, dt, report.why);
+    if (dt < 0.05 * constants_.time_step)
+      throw RunError("no motion was found: " + report.why, "Try a shorter step or a finer mesh");
+    advance(time, 0.5 * dt);
+    advance(time + 0.5 * dt, 0.5 * dt);
+  }
+
+  [[nodiscard]] int corrections() const { return corrections_; }
+
+ private:
+  static constexpr double history_step = 2e-5;  // [s]
+
+  [[nodiscard]] ArosticaDrive::Values at(double time) const {
+    const double place = time / history_step;
+    const auto i = std::min(static_cast<std::size_t>(place), histories_.size() - 2);
+    const double s = place - static_cast<double>(i);
+    const auto& [before, after] = std::pair(histories_[i], histories_[i + 1]);
+    return {loads_.tension ? mix(before.tension, after.tension, s) : 0.0,
+            loads_.pressure ? mix(before.pressure, after.pressure, s) : 0.0};
+  }
+
+  ArosticaConstants constants_;
+  ArosticaLoads loads_;
+  mesh::Mesh mesh_;
+  implicit::TimeEngine engine_;
+  std::vector<ArosticaDrive::Values> histories_;
+  Probe p0_, p1_;
+  int corrections_ = 0;
+};
+
+}  // namespace
+
+double ArosticaWall::base_height(double t) const {
+  return mix(endo_length, epi_length, t) * std::cos(base_angle(*this, t));
+}
+
+Vec3 ArosticaWall::point(double u, double theta, double t) const {
+  const double mu = std::numbers::pi - u * (std::numbers::pi - base_angle(*this, t));
+  const double r = mix(endo_radius, epi_radius, t) * std::sin(mu);
+  return {r * std::cos(theta), r * std::sin(theta), mix(endo_length, epi_length, t) * std::cos(mu)};
+}
+
+/// The mesher's base is plane, so it gets a wall whose shells are moved along the axis until theirs
+/// are, and its nodes are moved back.
+mesh::Mesh ArosticaWall::mesh(double edge_length, int layers) const {
+  const auto shifted = [this](double u, double theta, double t) {
+    return Vec3(point(u, theta, t) - base_height(t) * Vec3::UnitZ());
+  };
+  mesh::Mesh mesh = mesh::wall_mesh(
+      shifted, {.edge_length = 0.5 * edge_length, .layers = 2 * layers, .order = 2});
+  for (std::size_t a = 0; a < mesh.nodes.size(); ++a)
+    mesh.nodes[a].z() += base_height(mesh.transmural[a]);
+  return mesh;
+}
+
+std::vector<ArosticaDrive::Values> ArosticaDrive::histories(double step, double end) const {
+  const auto rise = [&](double x) { return 0.5 * (1.0 + std::tanh(x / gamma)); };
+  const auto rate = [&](double t, const Values& y) {
+    const double f = rise(t - t_sys) * rise(t_dias - t);
+    const double a = mix(a_min, a_max, f);
+    const double g = rise(t_dias_pre - t);
+    const double b = mix(a_min, a_max, rise(t - t_sys_pre) * g) + alpha_pre * g + alpha_mid;
+    return Values{
+        -std::abs(a) * y.tension + sigma_0 * std::max(a, 0.0),
+        -std::abs(b) * y.pressure + sigma_mid * std::max(b, 0.0) + sigma_pre * std::max(g, 0.0)};
+  };
+  const auto moved = [](const Values& y, double by, const Values& k) {
+    return Values{y.tension + by * k.tension, y.pressure + by * k.pressure};
+  };
+  std::vector<Values> result{{}};
+  const auto count = static_cast<int>(std::lround(end / step)) + 1;
+  for (int i = 0; i < count; ++i) {
+    const double t = i * step;
+    const Values y = result.back();
+    const Values k1 = rate(t, y);
+    const Values k2 = rate(t + 0.5 * step, moved(y, 0.5 * step, k1));
+    const Values k3 = rate(t + 0.5 * step, moved(y, 0.5 * step, k2));
+    const Values k4 = rate(t + step, moved(y, step, k3));
+    const Values outer = moved(moved(y, step / 6.0, k1), step / 6.0, k4);
+    result.push_back(moved(moved(outer, step / 3.0, k2), step / 3.0, k3));
+  }
+  return result;
+}
+
+std::vector<ArosticaSample> run_arostica(const ArosticaConstants& constants,
+                                         const ArosticaLoads& loads) {
+  constexpr double interval = 0.01;
+  ArosticaRun run(constants, loads);
+  std::vector<ArosticaSample> result{run.sample(0.0)};
+  const auto steps = static_cast<int>(std::ceil(interval / constants.time_step - 1e-9));
+  const double dt = interval / steps;
+  for (int i = 0; i * interval < constants.end - 0.5 * interval; ++i) {
+    for (int k = 0; k < steps; ++k)
+      run.advance(i * interval + k * dt, dt);
+    result.push_back(run.sample((i + 1) * interval));
+    const Vec3& u = result.back().p0;
+    log::info("{:.2f} s  p0 {:.3f} {:.3f} {:.3f} mm  {} corrections", result.back().time, u.x(),
+              u.y(), u.z(), run.corrections());
+  }
+  return result;
+}
+
+}  // namespace lv::verify

@@ -1,0 +1,96 @@
+#pragma once
+
+#include "lv/implicit/time_engine.hpp"
+#include "lv/material/smooth_holzapfel_ogden.hpp"
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+/// The elastodynamic benchmark of R. Arostica et al., Comput. Methods Appl. Mech. Engrg.
+/// 435:117485, 2025, one ventricle ("step 0, case A and B" and "step 1").
+namespace lv::verify {
+
+/// A ventricle between truncated ellipsoids of revolution: semi-axes across and along in mm, and
+/// the cosine of the angle at the base's edge, whose angle is linear through the wall. Its long
+/// axis, x in the benchmark, is z here; y and z there are x and y here.
+struct ArosticaWall {
+  double endo_radius = 25.0, endo_length = 90.0, endo_cosine = 5.0 / 17.0;
+  double epi_radius = 35.0, epi_length = 97.0, epi_cosine = 5.0 / 20.0;
+
+  [[nodiscard]] Vec3 point(double u, double theta, double t) const;
+
+  /// z of the base's edge at depth t [mm].
+  [[nodiscard]] double base_height(double t) const;
+
+  /// Quadratic hexahedra with edges of about this length [mm] and so many through the wall.
+  [[nodiscard]] mesh::Mesh mesh(double edge_length, int layers) const;
+};
+
+/// Active stress and cavity pressure of J. Bestel, F. Clement and M. Sorine, MICCAI 2001:
+///
+///   tau' = -|a| tau + sigma_0 max(a, 0),   a = a_max f + a_min (1 - f),  f = S(t - t_sys) S(t_dias - t)
+///   p' = -|b| p + sigma_mid max(b, 0) + sigma_pre max(g, 0),   b = a_pre + alpha_pre g + alpha_mid
+///
+/// with S(x) = (1 + tanh(x/gamma))/2, a_pre as a but with t_sys_pre and t_dias_pre, and
+/// g = S(t_dias_pre - t).
+struct ArosticaDrive {
+  double sigma_0 = 150.0;                       ///< [kPa]
+  double a_max = 5.0, a_min = -30.0;            ///< [1/s]
+  double t_sys = 0.16, t_dias = 0.484;          ///< [s]
+  double gamma = 0.005;                         ///< [s]
+  double sigma_pre = 7.0, sigma_mid = 16.0;     ///< [kPa]
+  double alpha_pre = 5.0, alpha_mid = 1.0;      ///< [1/s]
+  double t_sys_pre = 0.17, t_dias_pre = 0.484;  ///< [s]
+
+  struct Values {
+    double tension = 0.0, pressure = 0.0;  ///< [kPa]
+  };
+  /// At equal steps from 0 on, by the classical Runge-Kutta method.
+  [[nodiscard]] std::vector<Values> histories(double step, double end) const;
+};
+
+/// All constants of the benchmark, and how finely it is solved.
+struct ArosticaConstants {
+  material::SmoothHolzapfelOgden muscle;
+  double kappa = 1000.0;                    ///< bulk modulus [kPa]
+  double eta = 0.1;                         ///< viscosity [kPa s]
+  double rho = 1e-6;                        ///< density [kg/mm^3]
+  double k_epi = 100.0, c_epi = 0.005;      ///< along N [kPa/mm, kPa s/mm]
+  double k_base = 0.1, c_base = 0.005;      ///< along all directions
+  double helix_endo = -1.0471975511965976;  ///< in the paper's sign [rad]
+  double helix_epi = 1.0471975511965976;
+  ArosticaDrive drive;
+  double edge_length = 16.0;  ///< of the elements [mm]
+  double layers = 2;          ///< elements through the wall
+  double time_step = 5e-3;    ///< [s]
+  double end = 1.0;           ///< [s]
+  double spectral_radius = implicit::TimeEngine::default_spectral_radius;
+  std::string teams;  ///< folder with the teams' histories; empty: there is none at hand
+
+  /// Reads a table of two columns, `constant` and `value` with its unit. Throws InputError.
+  static ArosticaConstants read(const std::filesystem::path& file);
+};
+
+/// Which of the two loads act.
+struct ArosticaLoads {
+  bool tension = true, pressure = true;
+};
+
+/// Displacements in the benchmark's axes [mm].
+struct ArosticaSample {
+  double time = 0.0;  ///< [s]
+  Vec3 p0 = Vec3::Zero(), p1 = Vec3::Zero();
+};
+
+/// Every 0.01 s from 0 on.
+[[nodiscard]] std::vector<ArosticaSample> run_arostica(const ArosticaConstants& constants,
+                                                       const ArosticaLoads& loads);
+
+/// The mean of the ten teams' displacements every 0.02 s.
+[[nodiscard]] std::span<const ArosticaSample> teams_0a();
+[[nodiscard]] std::span<const ArosticaSample> teams_0b();
+[[nodiscard]] std::span<const ArosticaSample> teams_1();
+
+}  // namespace lv::verify

@@ -1,0 +1,103 @@
+#include "lv/solid/support.hpp"
+
+#include "lv/mesh/refine.hpp"
+
+#include "support/block_mesh.hpp"
+#include "support/random_values.hpp"
+#include <catch2/catch.hpp>
+
+namespace {
+
+using namespace lv;
+using mesh::CellKind;
+using solid::Support;
+using solid::SupportedSurface;
+
+std::vector<mesh::Mesh> meshes() {
+  return {test::block_mesh(CellKind::hexahedron, 2),
+          mesh::refine(test::block_mesh(CellKind::hexahedron, 2)),
+          mesh::refine(test::block_mesh(CellKind::tetrahedron, 1))};
+}
+
+/// A cube of 6 mm whose top at z = 6 is its base.
+mesh::Mesh cube() {
+  mesh::Mesh m = test::cubes(CellKind::hexahedron, 1);
+  for (const int node : {4, 5, 6, 7})
+    m.base.nodes.push_back(m.cells[node]);
+  for (Vec3& X : m.nodes)
+    X *= 3.0;
+  return m;
+}
+
+std::vector<Vec3> forces(const mesh::Mesh& mesh, const Support& support, const Vec3& u,
+                         const Vec3& v) {
+  const SupportedSurface surface(mesh, mesh.base, support);
+  std::vector<Vec3> f(mesh.nodes.size(), Vec3::Zero());
+  surface.add_forces(test::moved(mesh.nodes, Mat3::Identity(), u),
+                     std::vector<Vec3>(mesh.nodes.size(), v), f);
+  return f;
+}
+
+}  // namespace
+
+TEST_CASE("a support pulls back along its normal and across it", "[unit][solid]") {
+  const mesh::Mesh m = cube();
+  const Support support{2.0, 0.5, 0.03, 0.01};
+  const Vec3 f = test::resultant(forces(m, support, {0.1, -0.2, 0.3}, {1.0, 2.0, -3.0}));
+  constexpr double area = 36.0;
+  CHECK(f.x() == Approx(-area * (0.5 * 0.1 + 0.01 * 1.0)));
+  CHECK(f.y() == Approx(-area * (0.5 * -0.2 + 0.01 * 2.0)));
+  CHECK(f.z() == Approx(-area * (2.0 * 0.3 + 0.03 * -3.0)));
+}
+
+TEST_CASE("a support of all directions is one spring", "[unit][solid]") {
+  for (const mesh::Mesh& m : meshes()) {
+    const Vec3 u(0.2, 0.1, -0.3);
+    const Vec3 f = test::resultant(forces(m, Support::in_all_directions(3.0, 0.0), u, u));
+    CHECK(f.cross(u).norm() < 1e-10 * f.norm());
+    CHECK(f.dot(u) < 0.0);
+  }
+}
+
+TEST_CASE("a support's weight changes along the long axis", "[unit][solid]") {
+  mesh::Mesh m = cube();
+  for (Vec3& X : m.nodes)
+    X = Vec3(X.z(), X.x(), X.y());  // the surface stands upright, z from 0 to 6
+  Support support = Support::in_all_directions(1.0, 0.0);
+  const Vec3 even = test::resultant(forces(m, support, Vec3::UnitX(), Vec3::Zero()));
+  support.weight_below = 3.0;
+  support.weight_above = 0.0;
+  const auto f = forces(m, support, Vec3::UnitX(), Vec3::Zero());
+  CHECK(test::resultant(f).x() == Approx(1.5 * even.x()));
+  double below = 0.0;
+  for (std::size_t a = 0; a < m.nodes.size(); ++a)
+    below += m.nodes[a].z() < 3.0 ? f[a].x() : 0.0;
+  CHECK(below == Approx(2.0 / 3.0 * test::resultant(f).x()));  // int of 3 (1-s) (1-s) over 3/2
+}
+
+TEST_CASE("a support's stiffness is the derivative of its forces", "[unit][solid]") {
+  const Support support{2.0, 0.5, 0.03, 0.01, 0.4, 1.2};
+  constexpr double slope = 25.0;
+  for (const mesh::Mesh& m : meshes()) {
+    const SupportedSurface surface(m, m.epi, support);
+    test::RandomValues random(9);
+    std::vector<Vec3> d, velocities;
+    for (std::size_t a = 0; a < m.nodes.size(); ++a) {
+      d.push_back(random.vector());
+      velocities.push_back(slope * d.back());
+    }
+    std::vector<Vec3> expected(m.nodes.size(), Vec3::Zero());  // linear: from rest along d
+    surface.add_forces(test::displaced(m.nodes, d, 1.0), velocities, expected);
+    std::vector<Vec3> found(m.nodes.size(), Vec3::Zero());
+    surface.add_stiffness(slope, [&](std::span<const int> nodes, const Eigen::MatrixXd& K) {
+      CHECK((K - K.transpose()).norm() < 1e-14 * K.norm());
+      for (std::size_t a = 0; a < nodes.size(); ++a)
+        for (std::size_t b = 0; b < nodes.size(); ++b)
+          found[nodes[a]] -=
+              K.block<3, 3>(3 * static_cast<Eigen::Index>(a), 3 * static_cast<Eigen::Index>(b)) *
+              d[nodes[b]];
+    });
+    for (std::size_t a = 0; a < m.nodes.size(); ++a)
+      CHECK((found[a] - expected[a]).norm() < 1e-11);
+  }
+}
