@@ -43,6 +43,10 @@ export const section = (id: string, title: string, help: string, ...children: Ch
 export const folded = (id: string, title: string, why: string) =>
   titled(id, title, { class: "folded" }, missing(why));
 
+/** What a section says of each case, side by side, with their names where there are two. */
+export const perCase = <C extends { name: string }>(cases: C[], content: (c: C) => Child[]) =>
+  el("div", { class: "cases" }, ...cases.map((c) => el("div", { class: "panel" }, cases.length > 1 && el("h3", {}, c.name), ...content(c))));
+
 export const missing = (what: string) => el("p", { class: "missing" }, what);
 
 export function save(name: string, blob: Blob): void {

@@ -4,7 +4,7 @@ import { colourBar } from "./bar.ts";
 import type { Scale } from "./colours.ts";
 import { Case, type Scheme, value } from "./data.ts";
 import { el, figure, fileName, folded, missing, section } from "./dom.ts";
-import { heartOf } from "./orientation.ts";
+import { heartOf, starNote } from "./orientation.ts";
 import { label, type Quantity, quantity, shown, stateTitle } from "./quantities.ts";
 import { Shared, statesOf } from "./shared.ts";
 import { regionName } from "./wall_section.ts";
@@ -19,12 +19,13 @@ class Marked {
   clear(): void { this.plots = []; }
 
   draw(c: Case, scheme: Scheme, values: number[], details: string[], scale: Scale, title: string, file: string): HTMLElement {
-    const { assumed } = heartOf(c);
+    const heart = heartOf(c);
     const names = c.regionNames(scheme);
-    const drawn = drawBullsEye({ scheme, names, values, details, scale, title, assumed,
+    const drawn = drawBullsEye({ scheme, names, values, details, scale, title, assumed: heart.assumed,
       pick: (index, fixed) => this.shared.pick(index === undefined ? undefined : { scheme, index }, fixed) });
     this.plots.push({ drawn, scheme });
-    return figure(assumed ? `${title} (* the septum is assumed)` : title, file, drawn.figure);
+    const note = starNote(heart);
+    return figure(note ? `${title}* (${note})` : title, file, drawn.figure);
   }
 
   mark(): void {
