@@ -33,4 +33,5 @@ export const screens = {
   "390x844": { viewport: { width: 390, height: 844 }, deviceScaleFactor: 2 },
   "zoom200": { viewport: { width: 720, height: 450 }, deviceScaleFactor: 2 },
   "dark": { viewport: { width: 1440, height: 900 }, colorScheme: "dark" },
+  "print": { viewport: { width: 718, height: 1000 }, media: "print" },  // the width of A4 within its margins
 };

@@ -1,7 +1,7 @@
 // Pictures of a report page.
 // node tests/web/shots.mjs PAGE.html FOLDER [ID=NAME ...]
 // ID is that of a section; "phone" is the wall on a screen of 390 x 800, "top" what the page opens with. Without IDs: what the page
-// opens with and all of it, on screens of 1440 x 900, 1280 x 720 and 390 x 844 pixels, at 200% zoom, dark, and printed (PDF).
+// opens with and every section, on screens of 1440 x 900, 1280 x 720 and 390 x 844 pixels, at 200% zoom, dark, and printed, and print.pdf.
 import { mkdirSync } from "node:fs";
 import { join } from "node:path";
 import { lacking, launch, openPage, screens } from "./browser.mjs";
@@ -22,16 +22,17 @@ async function shootPart(id, name) {
   await page.context().close();
 }
 
-async function shootScreen(name, settings) {
+async function shootScreen(name, { media = "screen", ...settings }) {
   const page = await openPage(browser, file, settings);
+  await page.emulateMedia({ media });
+  if (media === "print") await page.evaluate(() => dispatchEvent(new Event("beforeprint")));
   await drawn(page);
   await page.screenshot({ path: join(folder, `${name}_top.png`) });
-  for (const id of await page.locator("section").evaluateAll((all) => all.map((one) => one.id))) {
+  for (const id of await page.locator("section:not(.folded)").evaluateAll((all) => all.map((one) => one.id))) {
     await page.locator(`#${id}`).scrollIntoViewIfNeeded();
-    await page.waitForTimeout(200);
+    await drawn(page);
+    await page.locator(`#${id}`).screenshot({ path: join(folder, `${name}_${id}.png`) });
   }
-  await drawn(page);
-  await page.screenshot({ path: join(folder, `${name}.png`), fullPage: true });
   await page.context().close();
 }
 

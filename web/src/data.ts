@@ -58,6 +58,7 @@ interface CaseJson {
   engine?: string;         // as the case file calls it
   wall?: WallJson;
   flow?: FlowJson;
+  has_blood?: boolean;     // there are frames of the blood
   pictures?: string;  // id of the element with them
 }
 
@@ -225,6 +226,9 @@ export class Case {
   }
 
   assumes(part: string): boolean { return this.assumptions.some((a) => a.part === part); }
+
+  /** Whether the infarct is where somebody said, and not where images show it. */
+  get assumesInfarct(): boolean { return this.mark("infarct") === "assumed"; }
 
   /** measured, fitted, assumed or computed: that of the longest path that a figure's path in summary.json begins with. */
   mark(path: string): string | undefined {

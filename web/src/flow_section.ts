@@ -10,7 +10,7 @@ const none = "There are no frames of the blood in the work folder (output.blood 
 const noWall = "There are frames of the blood, but none of the wall, without which its borders are not known.";
 
 /** Why a case's flow is not shown; nothing where it is. */
-const absent = (c: Case) => (!c.flow ? none : !c.json.wall ? noWall : undefined);
+const absent = (c: Case) => (c.flow ? undefined : c.json.has_blood ? noWall : none);
 
 /** "four-chamber long axis", or where the plane lies. */
 const planeName = (c: Case) => axisName((c.flow?.plane_deg ?? 0) - heartOf(c).septum);

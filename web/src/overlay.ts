@@ -41,6 +41,7 @@ export class Overlay {
   place(): void {
     // all is read before anything is written: the browser lays out once
     const { clientWidth: width, clientHeight: height } = this.view.canvas;
+    if (!width) return;  // in print a copy stands for the canvas, and what was written over that holds
     const [length, letters] = [20 * this.view.scale, this.view.letters()];
     this.element.setAttribute("viewBox", `0 0 ${width} ${height}`);
     this.element.setAttribute("width", String(width));

@@ -9,7 +9,7 @@ import { shown } from "./quantities.ts";
 const components = ["circumferential", "radial"];
 const schemes: [string, string][] = [["sector", "sectors of slices"], ["aha17", "AHA segments"]];
 /** A caption, with what was assumed of the anatomy that the regions hang on. */
-const withStars = (c: Case, caption: string) => [caption, starNote(heartOf(c))].filter(Boolean).join("; regions* ");
+const withStars = (c: Case, caption: string) => [`${c.name}: ${caption}`, starNote(heartOf(c))].filter(Boolean).join("; regions* ");
 
 interface Agreement { count: number; bias: number; standard_deviation: number; lower_limit: number; upper_limit: number; correlation: number }
 
@@ -38,7 +38,7 @@ function blandAltman(c: Case, component: string, rows: Row[], a: Agreement): HTM
   const chart = drawChart({ x: `mean of both, ${component} strain`, y: "model − images", lines: [
     { label: "a region", colour: lineColours[0], x, y, dots: true, bare: true }, level(`bias ${shown(a.bias)}`, a.bias, false),
     level(`upper limit ${shown(a.upper_limit)}`, a.upper_limit, true), level(`lower limit ${shown(a.lower_limit)}`, a.lower_limit, true)] });
-  return figure(withStars(c, `Bland and Altman: ${component} strain`), fileName(c.name, component, "bland-altman"), chart.figure);
+  return figure(withStars(c, `Bland and Altman, ${component} strain`), fileName(c.name, component, "bland-altman"), chart.figure);
 }
 
 function agreementTable(c: Case, all: any): HTMLElement {

@@ -51,7 +51,7 @@ function stateTable(c: Case): HTMLElement {
 function plausibilityTable(c: Case): HTMLElement | undefined {
   const all = judgements(c);
   return all.length === 0 ? undefined : table(fileName(c.name, "plausibility"), ["figure", "value", "usual", "answer", "why, source"], all.map((j) =>
-    [j.label, `${shown(j.value)}${j.unit === "1" ? "" : ` ${j.unit}`}`, rangeOf(j), answerOf(j), [j.reason, j.source].filter(Boolean).join("; ")]));
+    [j.label, `${shown(j.value)}${j.unit === "1" ? "" : j.unit === "deg" ? "°" : ` ${j.unit}`}`, rangeOf(j), answerOf(j), [j.reason, j.source].filter(Boolean).join("; ")]));
 }
 
 function runTable(c: Case): HTMLElement {

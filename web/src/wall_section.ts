@@ -112,7 +112,7 @@ class Panel {
     const [q, scale] = [quantity(state.quantity), this.scale()];
     const lines = [this.c.name, this.moment(state.step), cutName(state.cut),
       ...(field ? [] : [`${q.title} is not in this case's frames`])];
-    this.overlay!.write(lines, scale, label(q));
+    this.overlay!.write(lines, scale, q === infarct && this.c.assumesInfarct ? `${label(q)}* (* assumed)` : label(q));
     this.view.canvas.setAttribute("aria-label", `The wall in 3-D, ${label(q)}: ${lines.join("; ")}. Arrow keys turn it.`);
     this.view.show(frame, field, scale, state.cut, state.fibres ? this.fibres : undefined);
   }

@@ -352,16 +352,18 @@ Data case_html(const PageCase& shown, int number, std::size_t count) {
             {"state", state_of(shown)},
             {"files", files_json(shown.work)}};
   add_mesh_facts(json, shown.work);
+  const auto blood = frames_of(report::file_of(shown.work, "beat", "blood.pvd"));
+  json["has_blood"] = !blood.empty();
   if (const auto frames = wall_frames(shown.work); !frames.empty()) {
     constexpr double never = std::numeric_limits<double>::infinity();
     const WallSeries wall = read_wall_series(
         frames, report::time_of(shown.work, heartbeat::end_diastole).value_or(never));
     json["wall"] = wall_json(wall, arrays);
     json["wall"]["order"] = is_quadratic(shown.work) ? 2 : 1;
-    const auto blood = frames_of(report::file_of(shown.work, "beat", "blood.pvd"));
     const LongAxis plane = flow_plane(shown.work);
     const auto [lower, upper] = surroundings(wall, plane);
-    if (!blood.empty())
+    // the wall's frames are the blood's borders; the undeformed mesh is none
+    if (!blood.empty() && !report::file_of(shown.work, "beat", "wall.pvd").empty())
       json["flow"] = flow_json(read_flow_series(blood, plane, lower, upper), plane, arrays);
   }
   if (const std::string pictures = pictures_json(shown.work); !pictures.empty()) {

@@ -169,7 +169,7 @@ drawing::Look facing(const Vec3& middle) {
 constexpr const char* four_chamber_title = "four-chamber view, cut open";
 
 std::string notes(const drawing::Orientation& o) {
-  return drawing::star_note(o, {"septum", "early diastole", "apex", "base"});
+  return drawing::star_note(o, {"septum", "early diastole", "apex", "base", "infarct"});
 }
 
 std::string base_and_apex(const drawing::Orientation& o) {
@@ -316,7 +316,7 @@ drawing::Figure infarct_figure(const Mesh& mesh, const drawing::Orientation& o) 
                       .content = picture(wall.open(drawing::two_chamber_plane(o)),
                                          drawing::two_chamber(o), o)}},
           .columns = 2,
-          .title = "infarct",
+          .title = o.starred("infarct", "infarct"),
           .footnote = notes(o),
           .colour_bar = drawing::ColourBar{"extent M: 1 infarct, 0 remote muscle", scale}};
 }
