@@ -1,25 +1,18 @@
 // The page of a run in a real browser, opened from a file without a network.
-// node check.mjs VENTRICLE [--work WORK] [--images WORK] [--screenshots FOLDER]   exit code 77: skipped
+// node check.mjs VENTRICLE [--work WORK] [--images WORK]   exit code 77: skipped
 // WORK: folders of runs that are there, of a case with flow and of one with a cine; without, small ones are run.
 import { execFile } from "node:child_process";
 import { cpSync, existsSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, renameSync, rmSync, statSync, writeFileSync } from "node:fs";
-import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
-import { fileURLToPath, pathToFileURL } from "node:url";
 import { promisify } from "node:util";
+import { lacking, launch, openPage, root } from "./browser.mjs";
+import { thickSeptum } from "./thick_septum.mjs";
 
-const root = fileURLToPath(new URL("../..", import.meta.url));
 const program = resolve(process.argv[2]);
 const option = (name) => (process.argv.includes(name) ? resolve(process.argv[process.argv.indexOf(name) + 1]) : undefined);
-const screenshots = option("--screenshots");
 
-const skip = (why) => { console.log(`skipped: ${why}`); process.exit(77); };
-const chromium = process.env.CHROMIUM ?? "/usr/bin/chromium";
-if (!existsSync(chromium)) skip(`${chromium} is not there (apt-get install chromium, or set CHROMIUM)`);
-if (!existsSync(join(root, "web/node_modules/playwright-core"))) skip("playwright-core is not there (cd web && npm ci)");
-const require = createRequire(join(root, "web/"));
-const playwright = require("playwright-core");
+if (lacking) { console.log(`skipped: ${lacking}`); process.exit(77); }
 
 let failed = 0;
 function check(claim, holds, detail = "") {
@@ -65,7 +58,7 @@ async function pretendFit() {
   const file = join(to, "04_results/summary.json");
   const summary = JSON.parse(readFileSync(file, "utf8"));
   summary.calibration = ["EDV", "ESV"].map((volume, i) => ({ volume, measured_ml: fit.measured[i], quasi_static_ml: 130, beat_ml: 129, within_tolerance: false }));
-  summary.assumptions = [{ part: "septum", text: "the septum is assumed on the x axis" }];
+  summary.assumptions = [{ part: "septum", text: "the septum is assumed on the x axis" }, { part: "apex", text: "the apex is continued below the last contour" }];
   summary.marks = { edv_ml: "fitted", end_diastole: "computed", "end_diastole.pressure_mmHg": "assumed" };
   const judged = { unit: "%", low: 48, high: 77, source: "a study" };
   summary.plausibility = [
@@ -99,29 +92,29 @@ async function makePages() {
   await pretendFit();
   await makeHalf();
   await meshInfarct();
+  thickSeptum(join(folder, "thick.work"), 70);
+  await ventricle("report", "thick.work", "--output", "thick.html");
+  rmSync(join(folder, "thick.work/03_beat/wall.pvd"));
+  await ventricle("report", "thick.work", "--output", "blood.html");
   await ofPhantom;
   await ventricle("report", images, "--output", "images.html");
   await ventricle("compare", images, work, "--output", "mixed.html");
 }
 
-const browser = await playwright.chromium.launch({ executablePath: chromium, args: ["--no-sandbox", "--use-gl=angle",
-  "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-background-networking", "--disable-component-update",
-  "--disable-sync", "--disable-quic", "--no-first-run"] });
+const browser = await launch();
 
 /** Opens a page and watches what it says and asks for. */
 async function open(file, viewport = { width: 1200, height: 900 }) {
-  const context = await browser.newContext({ viewport, acceptDownloads: true, offline: true });
-  const page = await context.newPage();
   const said = [];
   const asked = [];
-  page.on("console", (message) => ["error", "warning"].includes(message.type()) && !/GPU stall|swiftshader/i.test(message.text()) && said.push(message.text()));
-  page.on("pageerror", (error) => said.push(error.stack));
-  page.on("request", (request) => asked.push(request.url()));
-  await page.goto(pathToFileURL(join(folder, file)).href);
-  await page.waitForFunction(() => document.body.dataset.ready, null, { timeout: 120_000 });
+  const page = await openPage(browser, resolve(folder, file), { viewport }, (one) => {
+    one.on("console", (message) => ["error", "warning"].includes(message.type()) && !/GPU stall|swiftshader/i.test(message.text()) && said.push(message.text()));
+    one.on("pageerror", (error) => said.push(error.stack));
+    one.on("request", (request) => asked.push(request.url()));
+  });
   await page.evaluate(() => document.getElementById("flow").scrollIntoView());
   await page.waitForFunction(() => document.querySelector("#flow canvas, #flow .missing"), null, { timeout: 60_000 });
-  return { page, said, asked, close: () => context.close() };
+  return { page, said, asked, close: () => page.context().close() };
 }
 
 const settled = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done, 350)  /* longer than the view takes to come to rest */))));
@@ -185,6 +178,8 @@ async function checkControls(page) {
   check("the caption names the phase of curves.csv", (await caption()).startsWith(`${csv(join(work, "03_beat/curves.csv"))[0].phase}, `), await caption());
   await changed("and back", () => setSlider(page, "#time", 1000));
   check("and the moment of moments.csv", (await caption()).startsWith(`${last.moment.replace("_", "-")}, ${Number(last.time_s).toFixed(3)} s`), await caption());
+  const spoken = await page.locator("#time").getAttribute("aria-valuetext");
+  check("the slider's spoken text is the caption", spoken === await caption(), `${spoken} ${await caption()}`);
   await changed("fibres are drawn", () => page.check("#fibres"));
   await changed("another quantity has other colours", () => page.selectOption("#wall select >> nth=0", "fibre_strain"));
   await changed("the plane turns", () => setSlider(page, "#wall .controls input[type=range] >> nth=0", 60));
@@ -401,8 +396,6 @@ async function checkImages() {
   await checkOutlines(page);
   await checkStrain(page);
   await checkGaps(page);
-  if (screenshots) for (const id of ["outlines", "strain", "input", "zones", "summary"])
-    await page.locator(`#${id}`).screenshot({ path: join(screenshots, `images_${id}.png`) });
   await checkDownloads(page, images);
   check("a page with images: no error, no network", said.length === 0 && asked.every((url) => /^(file|blob|data):/.test(url)), said.join("\n"));
   await done();
@@ -420,8 +413,16 @@ async function checkFitted() {
     ["131.5", "61.25", "1.234", "1.11 / 1.36", "One volume determines"].every((part) => text.includes(part)) && !text.includes("No measured volumes"), text.match(/fitted[^]{0,300}/)?.[0]);
   const letters = await page.locator("#wall text.letter").allTextContents();
   const words = await page.locator("svg.bullseye").first().textContent();
-  check("an assumed septum is starred in the 3-D view and in bull's-eyes, and said first", letters.join() === "S*,A*,L*,I*" && /septal\*/.test(words) &&
+  check("an assumed septum and apex are starred in the 3-D view and in bull's-eyes, and said first", letters.join() === "S*,A*,L*,I*,apex*" && /septal\*/.test(words) &&
     /assumed, septum/.test(text), `${letters} ${words}`);
+  const starred = {
+    "the 3-D view": await page.locator("#wall svg.overlay").textContent(), "bull's-eyes": await page.locator("#regions figcaption").first().textContent(),
+    "rotation": await page.locator("#rotation svg.chart").textContent(), "flow": await page.locator("#flow svg.overlay").textContent() };
+  const marks = { "the 3-D view": "* assumed: septum, apex", "bull's-eyes": "* assumed: septum, apex", "rotation": "to the apex*", "flow": "S*" };
+  for (const [name, mark] of Object.entries(marks)) check(`what was assumed is marked in ${name}`, starred[name].includes(mark), starred[name]);
+  const saved = await savedSvg(page, "#regions");
+  check("and in a saved bull's-eye, with its case, quantity and colour bar", /assumed: septum,/.test(saved.text) && /circumferential strain/.test(saved.text) &&
+    saved.text.includes("mean of the region") && saved.gradients === 1 && saved.anchors === 0, JSON.stringify(saved));
   const cells = (name) => text.split("\n").find((line) => line.startsWith(name)) ?? "";
   check("figures bear their origin", /fitted/.test(cells("end-diastolic volume (ml)")) && /assumed/.test(cells("endocardial pressure")), cells("end-diastolic volume (ml)"));
   check("a figure is within, outside, or the range does not apply", /within/.test(cells("end-diastolic volume\t")) && /outside/.test(cells("rotation of the apex")) &&
@@ -518,6 +519,66 @@ async function checkSavedWall(page) {
   check("a saved picture of the wall has legend, caption, letters and scale bar", seen.legend > 60 && seen.caption > 5 && seen.letter > 5 && seen.bar > 1, JSON.stringify(seen));
 }
 
+/** The first SVG that a section saves: its words, its colour bars, and ids that another page's drawings have too. */
+async function savedSvg(page, section) {
+  const button = page.locator(`${section} button.save[aria-label$=".svg"]`).first();
+  const texts = [];
+  for (let i = 0; i < 2; ++i) {
+    const [download] = await Promise.all([page.waitForEvent("download"), button.evaluate((one) => one.click())]);
+    texts.push(readFileSync(await download.path(), "utf8"));
+  }
+  const words = [...texts[0].matchAll(/<text[^>]*>([^<]*)</g)].map((match) => match[1]).join(" ");
+  return { text: words, gradients: texts[0].split("<linearGradient").length - 1, anchors: texts[0].split("var(--").length - 1 };
+}
+
+/** Flow in a wall whose septum, at 70 degrees, is twice as thick as its lateral wall. */
+async function checkFlowPlane() {
+  const { page, said, close: done } = await open("thick.html");
+  const texts = await page.locator("#flow svg.overlay text").allTextContents();
+  check("the flow's plane is the four-chamber view's, by name", texts.includes("4-chamber long axis") && /4-chamber long axis/.test(await page.locator("#flow .help").textContent()), texts);
+  const letters = await page.locator("#flow text.letter").evaluateAll((all) => Object.fromEntries(all.map((one) => [one.textContent, one.getBoundingClientRect().x])));
+  check("its letters are S on the left and L on the right", Object.keys(letters).sort().join() === "L,S" && letters.S < letters.L, JSON.stringify(letters));
+  const seen = await page.locator("canvas.flow").evaluate((canvas) => {
+    const { width, height } = canvas;
+    const row = canvas.getContext("2d").getImageData(0, Math.round(0.55 * height), width, 1).data;
+    const kinds = Array.from({ length: width }, (_, x) => {
+      const [r, g, b, a] = row.subarray(4 * x, 4 * x + 4);
+      return a === 0 ? " " : Math.abs(r - 222) + Math.abs(g - 205) + Math.abs(b - 200) < 12 ? "w" : "b";
+    }).join("");
+    const walls = [...kinds.matchAll(/w{4,}/g)].map((match) => match[0].length);
+    return { walls, kinds: kinds.replace(/(.)\1*/g, "$1") };
+  });
+  check("the thick septum is on the left", seen.walls.length === 2 && seen.walls[0] > 1.6 * seen.walls[1], JSON.stringify(seen));
+  check("no error is reported", said.length === 0, said.join("\n"));
+  const { caption, legend } = await savedFlow(page);
+  check("a saved picture of the flow has its caption and its legend", caption > 5 && legend > 60, `${caption} ${legend}`);
+  await done();
+  const without = await open("blood.html");
+  check("blood without a wall is said to be there", /frames of the blood, but none of the wall/.test(await without.page.locator("#flow").textContent()), await without.page.locator("#flow").textContent());
+  await without.close();
+}
+
+/** Colours of a saved flow where its caption and its legend are. */
+async function savedFlow(page) {
+  const [download] = await Promise.all([page.waitForEvent("download"), page.locator("#flow button.save").first().click()]);
+  return page.evaluate(async (data) => {
+    const image = new Image();
+    image.src = `data:image/png;base64,${data}`;
+    await image.decode();
+    const canvas = document.createElement("canvas");
+    [canvas.width, canvas.height] = [image.width, image.height];
+    const context = canvas.getContext("2d", { willReadFrequently: true });
+    context.drawImage(image, 0, 0);
+    const colours = (x, y, width, height) => {
+      const part = context.getImageData(x, y, width, height).data;
+      const all = new Set();
+      for (let i = 0; i < part.length; i += 4) all.add((part[i] << 16) | (part[i + 1] << 8) | part[i + 2]);
+      return all.size;
+    };
+    return { caption: colours(20, 10, 300, 26), legend: colours(22, image.height - 66, 0.38 * image.width, 20) };
+  }, readFileSync(await download.path()).toString("base64"));
+}
+
 async function checkFirstScreen() {
   const { page, close: done } = await open("page.html", { width: 1280, height: 720 });
   await page.evaluate(() => scrollTo(0, 0));
@@ -581,6 +642,8 @@ async function checkRealVentricle() {
 function checkFigures() {
   const figures = (run) => readdirSync(join(run, "05_report/figures")).filter((name) => name.endsWith(".svg"));
   const wrong = figures(images).filter((name) => !/<svg[^>]*>[^]*<path/.test(readFileSync(join(images, "05_report/figures", name), "utf8")));
+  const muscle = readFileSync(join(work, "05_report/figures/stress_stretch.svg"), "utf8");
+  check("the paper's subjects are in no figure that was not asked for", /Holzapfel/.test(muscle) && !/Gao/.test(muscle));
   check("a run writes its charts and bull's-eyes as SVG", figures(work).length === 20 && figures(images).length === 24 && wrong.length === 0,
     `${figures(work).length} ${figures(images).length} ${wrong}`);
 }
@@ -589,10 +652,6 @@ async function checkPhone() {
   const { page, close: done } = await open("page.html", { width: 390, height: 800 });
   const width = await page.evaluate(() => document.documentElement.scrollWidth);
   check("a phone's width is enough", width <= 391, width);
-  if (screenshots) {
-    await page.evaluate(() => document.querySelector("canvas.wall").scrollIntoView({ block: "center" }));
-    await page.screenshot({ path: join(screenshots, "phone.png") });
-  }
   await done();
 }
 
@@ -605,10 +664,6 @@ async function checkHalf() {
   const text = await page.locator("body").innerText();
   check("and makes up nothing", !/NaN|undefined/.test(text), text.match(/.{30}(NaN|undefined).{20}/)?.[0]);
   check("and no error is reported", said.length === 0, said.join("\n"));
-  if (screenshots) {
-    await page.evaluate(() => scrollTo(0, 0));
-    await page.screenshot({ path: join(screenshots, "unfinished.png") });
-  }
   await done();
   const mesh = await open("mesh.html");
   check("a run with a mesh alone shows it", (await pixels(mesh.page, "canvas.wall")).drawn > 0.08 && mesh.said.length === 0, mesh.said.join("\n"));
@@ -627,21 +682,16 @@ async function checkCompare() {
   const turned = await pixels(page, "canvas.wall", 1);
   check("turning one turns the other", turned.print !== later[1].print);
   check("no error, no network", said.length === 0 && asked.every((url) => /^(file|blob|data):/.test(url)), said.join("\n"));
-  if (screenshots) for (const id of ["wall", "regions", "curves", "flow"])
-    await page.locator(`#${id}`).screenshot({ path: join(screenshots, `compare_${id}.png`) });
   await done();
 }
 
 await makePages();
-if (screenshots) mkdirSync(screenshots, { recursive: true });
 const opened = await open("page.html");
 const megabytes = statSync(join(folder, "page.html")).size / 1e6;
 console.log(`info  the page has ${megabytes.toFixed(2)} MB; its first view is there ${await opened.page.evaluate(() => document.body.dataset.first)} ms and the wall ` +
   `${await opened.page.evaluate(() => document.body.dataset.ready)} ms after its start`);
 check("the page is smaller than 15 MB", megabytes < 15, megabytes);
 await checkDrawn(opened.page);
-if (screenshots) for (const id of ["summary", "wall", "regions", "curves", "rotation", "flow", "muscle", "normal", "zones", "input"])
-  await opened.page.locator(`#${id}`).screenshot({ path: join(screenshots, `${id}.png`) });
 await checkControls(opened.page);
 await checkPicking(opened.page);
 await checkNumbers(opened.page);
@@ -654,6 +704,7 @@ check("nothing is asked from a network", opened.asked.every((url) => /^(file|blo
 await opened.close();
 await checkFirstScreen();
 await checkOrientation();
+await checkFlowPlane();
 await checkAccessible("page.html", "light");
 await checkAccessible("images.html", "dark");
 await checkPhone();

@@ -1,13 +1,11 @@
 // A colour bar: what the colours of a picture mean.
 import { colourTable, cssOf, type Scale, uncoloured } from "./colours.ts";
-import { ink, svg } from "./dom.ts";
+import { ink, svg, uniqueId } from "./dom.ts";
 import { shown } from "./quantities.ts";
-
-let numbers = 0;
 
 /** `title` says quantity and unit; the bar is `width` wide and 46 high. */
 export function barParts(scale: Scale, title: string, width: number): SVGElement[] {
-  const id = `bar-${++numbers}`;
+  const id = uniqueId("bar");
   const table = colourTable(scale);
   const stops = Array.from({ length: 33 }, (_, i) =>
     svg("stop", { offset: i / 32, "stop-color": cssOf(table[Math.round((255 * i) / 32)]) }));

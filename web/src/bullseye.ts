@@ -2,7 +2,7 @@
 // follow anticlockwise (septum on the left).
 import { colourOf, inkOn, type Scale } from "./colours.ts";
 import { sectorsPerRing, type Scheme } from "./data.ts";
-import { ink, svg } from "./dom.ts";
+import { ink, svg, uniqueId } from "./dom.ts";
 import { marked } from "./orientation.ts";
 import { shown } from "./quantities.ts";
 
@@ -98,7 +98,7 @@ function texts(plot: BullsEye, place: Place, index: number, text: string, longes
 export function drawBullsEye(plot: BullsEye): DrawnBullsEye {
   const root = svg("svg", { viewBox: `0 0 ${size} ${size}`, class: "bullseye", role: "group", "font-family": "sans-serif",
     "aria-label": `${plot.title}; arrow keys go from region to region` });
-  const id = `stripes-${Math.random().toString(36).slice(2)}`;
+  const id = uniqueId("stripes");
   root.append(svg("defs", {}, svg("pattern", { id, width: 6, height: 6, patternUnits: "userSpaceOnUse", patternTransform: "rotate(45)" },
     svg("rect", { width: 6, height: 6, fill: "#d9d9d9" }), svg("rect", { width: 2, height: 6, fill: "#9a9a9a" }))));
   const all = places(plot.scheme);

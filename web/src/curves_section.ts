@@ -3,6 +3,7 @@ import { type Chart, drawChart, type DrawnChart, type Line } from "./chart.ts";
 import { lineColours } from "./colours.ts";
 import { type Case, type Row, rowAt, value } from "./data.ts";
 import { el, figure, fileName, folded, missing, paperSwitch, section, table } from "./dom.ts";
+import { heartOf, starNote } from "./orientation.ts";
 import { shown, stateMark } from "./quantities.ts";
 import type { Shared, Timeline } from "./shared.ts";
 
@@ -43,7 +44,7 @@ export function curvesSection(cases: Case[], shared: Shared, time: Timeline): HT
     if (x !== "time_s") chart.points = named.flat();
     const one = drawChart(chart);
     drawn.push({ chart: one, x, y });
-    return figure(caption, fileName(joined(cases), y, "against", x), one.figure);
+    return figure(`${shownCases.map(({ c }) => c.name).join(", ")}: ${caption}`, fileName(joined(cases), y, "against", x), one.figure);
   };
   const figures = [make("pressure-volume path (no valves)", "cavity_volume_ml", "cavity volume (ml)", "pressure_mmHg", "endocardial pressure (mmHg)"),
     ...against.map(({ y, title: words }) => make(`${words} against ${loads ? "load" : "time"}`, "time_s", course, y, words))];
@@ -70,9 +71,11 @@ export function rotationSection(cases: Case[]): HTMLElement {
   const lines = found.flatMap(({ c, rows }, i) => columns.map(([name, title], k): Line => ({
     label: cases.length > 1 ? `${c.name}: ${title}` : title, colour: lineColours[i], dashed: k === 1, dots: true,
     x: column(rows, "slice"), y: column(rows, name) })));
-  const chart = drawChart({ x: "slice, from the base (1) to the apex (7)", y: "rotation (°)", lines, zero: true, width: 560 });
+  const starred = (end: string) => (found.some(({ c }) => c.assumes(end)) ? `${end}*` : end);
+  const note = [...new Set(found.map(({ c }) => starNote({ ...heartOf(c), assumed: false })))].join("");  // heights hang on apex and base alone
+  const chart = drawChart({ x: `slice, from the ${starred("base")} (1) to the ${starred("apex")} (7)`, y: "rotation (°)", lines, zero: true, width: 560 });
   return section("rotation", "Rotation per slice", help, el("div", { class: "figures" },
-    figure("Rotation of the slices", fileName(joined(cases), "rotation"), chart.figure),
+    figure([`${found.map(({ c }) => c.name).join(", ")}: rotation of the slices`, note].filter(Boolean).join("; "), fileName(joined(cases), "rotation"), chart.figure),
     el("p", { class: "help of-paper" }, "In the paper the healthy apex turns by 16°, the patient's by about 3°."),
     ...found.map(({ c, rows }) => table(fileName(c.name, "rotation"), ["slice", ...columns.map(([, title]) => `${title} (°)`)],
       rows.map((row) => [row.slice, ...columns.map(([name]) => shown(value(row[name])))]))), ...turnDifference(found)));
@@ -103,5 +106,5 @@ export function muscleSection(cases: Case[]): HTMLElement {
     ({ ...line, colour: lineColours[i], x: column(rows, "fibre_stretch"), y: column(rows, "cauchy_stress_kPa") }));
   const chart = drawChart({ x: "fibre stretch", y: "Cauchy stress (kPa)", lines, zero: true, width: 640, height: 380 });
   return section("muscle", title, help, paperSwitch(), ...absent,
-    el("div", { class: "figures" }, figure("Stress against stretch along the fibre", fileName(joined(cases), "stress-stretch"), chart.figure)));
+    el("div", { class: "figures" }, figure(`${found.map(({ c }) => c.name).join(", ")}: stress against stretch along the fibre`, fileName(joined(cases), "stress-stretch"), chart.figure)));
 }

@@ -4,13 +4,14 @@ import { stateTitle } from "./quantities.ts";
 
 export type Row = Record<string, string>;
 
-/** offset + sum_k course_k(t) step shape_k(i); see src/lv/report/modes.hpp. */
+/** offset + sum_k course_k(t) step shape_k(i); see src/lv/page/modes.hpp. */
 interface ModesJson { offset: number; step: number; largest_error: number; courses: number[][]; shapes: string[]; min?: number; max?: number }
 interface Packed { step: number; values: string }
 
 interface WallJson {
   nodes_per_cell: number;
   nodes: number;
+  order?: number;  // 2: eight consecutive cells are the parts of a quadratic element; without: 1
   times: number[];
   cells: string;
   skin: string;
@@ -26,6 +27,7 @@ interface WallJson {
 }
 
 interface FlowJson {
+  plane_deg?: number;  // of the long-axis plane about z, from x; velocities are along it, across it and along z
   cells: [number, number];
   lower: [number, number];
   spacing: [number, number];
@@ -56,6 +58,7 @@ interface CaseJson {
   engine?: string;         // as the case file calls it
   wall?: WallJson;
   flow?: FlowJson;
+  has_blood?: boolean;     // there are frames of the blood
   pictures?: string;  // id of the element with them
 }
 
@@ -67,7 +70,7 @@ const parsed = new Promise((done) => document.addEventListener("DOMContentLoaded
 /** The arrays of the first picture have been read; they stand before all others. */
 const wallData = new Promise((done) => addEventListener("wall-data", done));
 
-/** Undoes src/lv/report/packing.hpp. */
+/** Undoes src/lv/page/packing.hpp. */
 async function unpacked(id: string, bytes: 2 | 4): Promise<Int16Array | Int32Array> {
   // the page's data stand after the script, in the order in which they are needed
   if (!document.getElementById(id)) await wallData;
@@ -146,6 +149,7 @@ export class Wall {
   get nodes(): number { return this.json.nodes; }
   get times(): number[] { return this.json.times; }
   get nodesPerCell(): number { return this.json.nodes_per_cell; }
+  get order(): number { return this.json.order ?? 1; }
   get nodesPerFace(): number { return this.nodesPerCell === 8 ? 4 : 3; }
   get quantities(): string[] { return Object.keys(this.json.quantities); }
 
@@ -222,6 +226,9 @@ export class Case {
   }
 
   assumes(part: string): boolean { return this.assumptions.some((a) => a.part === part); }
+
+  /** Whether the infarct is where somebody said, and not where images show it. */
+  get assumesInfarct(): boolean { return this.mark("infarct") === "assumed"; }
 
   /** measured, fitted, assumed or computed: that of the longest path that a figure's path in summary.json begins with. */
   mark(path: string): string | undefined {

@@ -19,6 +19,9 @@ export function svg<K extends keyof SVGElementTagNameMap>(tag: K, attributes: At
   return fill(document.createElementNS("http://www.w3.org/2000/svg", tag), attributes, children);
 }
 
+/** An id that does not clash when drawings of two pages are put into one document. */
+export const uniqueId = (name: string) => `${name}-${Math.random().toString(36).slice(2)}`;
+
 /** Colours of drawings: the page's, or those of paper in a file that is saved. */
 export const ink = { text: "var(--ink, #1a1a1a)", soft: "var(--soft, #505050)", grid: "var(--grid, #e6e6e6)",
   frame: "var(--frame, #888)", paper: "var(--paper, #fff)" };
@@ -42,6 +45,10 @@ export const section = (id: string, title: string, help: string, ...children: Ch
 /** A section without data: one line. */
 export const folded = (id: string, title: string, why: string) =>
   titled(id, title, { class: "folded" }, missing(why));
+
+/** What a section says of each case, side by side, with their names where there are two. */
+export const perCase = <C extends { name: string }>(cases: C[], content: (c: C) => Child[]) =>
+  el("div", { class: "cases" }, ...cases.map((c) => el("div", { class: "panel" }, cases.length > 1 && el("h3", {}, c.name), ...content(c))));
 
 export const missing = (what: string) => el("p", { class: "missing" }, what);
 
@@ -96,13 +103,35 @@ const saveButton = (name: string, format: string, make: () => Promise<Blob>) =>
 /** A button that saves what is drawn on a canvas; `name` without extension. */
 export const savePng = (name: string, make: () => Promise<Blob>) => el("div", { class: "buttons" }, saveButton(name, "png", make));
 
-const saveSvg = (name: string, drawing: SVGSVGElement) => el("div", { class: "buttons" },
-  saveButton(name, "svg", async () => new Blob([svgText(drawing)], { type: "image/svg+xml" })),
-  saveButton(name, "png", () => svgToPng(drawing)));
+/** Words in lines of at most so many letters. */
+function inLines(words: string, most: number): string[] {
+  return words.split(" ").reduce<string[]>((lines, word) => (lines.length && lines.at(-1)!.length + word.length < most
+    ? [...lines.slice(0, -1), `${lines.at(-1)} ${word}`] : [...lines, word]), []);
+}
+
+/** A colour bar for a file: its parts for a width, of a height of 46. */
+export type Legend = (width: number) => SVGElement[];
+
+/** What is saved of a figure: its caption above it, its colour bar below it. */
+function framed(content: SVGSVGElement, caption: string, legend: Legend | undefined): SVGSVGElement {
+  const { width, height } = content.viewBox.baseVal;
+  const [font, edge] = [12, 10];
+  const lines = inLines(caption, width / (0.56 * font));
+  const top = 6 + 1.3 * font * lines.length;
+  const copy = content.cloneNode(true) as SVGSVGElement;
+  for (const [name, value] of Object.entries({ x: 0, y: top, width, height })) copy.setAttribute(name, String(value));
+  return svg("svg", { viewBox: `0 0 ${width} ${top + height + (legend ? 56 : 0)}`, "font-family": "sans-serif", "font-size": font },
+    ...lines.map((line, i) => svg("text", { class: "caption", x: edge, y: 4 + 1.3 * font * (i + 0.8), fill: ink.text }, line)), copy,
+    legend && svg("g", { class: "legend", transform: `translate(${edge} ${top + height + 2})` }, ...legend(width - 2 * edge)));
+}
+
+const saveSvg = (name: string, drawing: () => SVGSVGElement) => el("div", { class: "buttons" },
+  saveButton(name, "svg", async () => new Blob([svgText(drawing())], { type: "image/svg+xml" })),
+  saveButton(name, "png", () => svgToPng(drawing())));
 
 /** A figure with its caption and its buttons. */
-export function figure(caption: string, name: string, content: SVGSVGElement): HTMLElement {
-  return el("figure", {}, content, el("figcaption", {}, caption, saveSvg(name, content)));
+export function figure(caption: string, name: string, content: SVGSVGElement, legend?: Legend): HTMLElement {
+  return el("figure", {}, content, el("figcaption", {}, caption, saveSvg(name, () => framed(content, caption, legend))));
 }
 
 /** A table with a button that saves it as CSV. Numbers are right-aligned; columns `ofPaper` are shown on request. */

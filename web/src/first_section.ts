@@ -57,11 +57,12 @@ export function rangeOf(j: Judgement, factor = 1): string {
   return `${end(j.low)} to ${end(j.high)}`;
 }
 
-function ofOne(c: Case): (string | number)[][] {
+/** Model, measured where anything was, usual range, answer, origin. */
+function ofOne(c: Case, measured: boolean): (string | number)[][] {
   const judged = (name: string | undefined) => judgements(c).find((j) => j.quantity === name);
   return figures.filter((f) => f.of(c) !== undefined).map((f) => {
     const j = judged(f.range);
-    return [`${f.title} (${f.unit})`, shown(f.of(c)), shown(f.measured?.(c)), j ? rangeOf(j, j.unit === "1" ? 100 : 1) : "–", j ? answerOf(j) : "–",
+    return [`${f.title} (${f.unit})`, shown(f.of(c)), ...(measured ? [shown(f.measured?.(c))] : []), j ? rangeOf(j, j.unit === "1" ? 100 : 1) : "–", j ? answerOf(j) : "–",
       c.mark(f.path) ?? "–"];
   });
 }
@@ -93,10 +94,10 @@ export function firstSection(cases: Case[]): HTMLElement {
   const found = cases.some((c) => c.summary);
   const several = cases.length > 1;
   const name = fileName(...cases.map((c) => c.name), "figures");
+  const none = found && cases.every((c) => figures.every((f) => f.measured?.(c) === undefined));
   const content = !found ? missing("summary.json is missing: the results have not been computed.")
     : several ? table(name, ["", ...cases.flatMap((c) => [c.name, "measured"]), "difference"], ofTwo(cases))
-    : table(name, ["", "model", "measured", "usual", "answer", "origin"], ofOne(cases[0]));
-  const none = found && cases.every((c) => figures.every((f) => f.measured?.(c) === undefined));
+    : table(name, ["", "model", ...(none ? [] : ["measured"]), "usual", "answer", "origin"], ofOne(cases[0], !none));
   return titled("summary", "Summary", {}, content,
     none ? el("p", { class: "help" }, "No measured volumes: the case is not fitted to any.") : undefined,
     el("p", { class: "help" }, "Strain at end-systole is Green-Lagrange, the mean over the wall; measured, the mean over the regions of the images. " +

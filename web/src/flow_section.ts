@@ -2,18 +2,26 @@
 import { type Case, type Wall } from "./data.ts";
 import { el, fileName, folded, missing, overlaidPng, savePng, section } from "./dom.ts";
 import { fastestFrame, type FlowFrame, flowScale, type FlowQuantity, flowTitle, FlowView, readFlow } from "./flow_view.ts";
-import { heartOf } from "./orientation.ts";
+import { axisName, heartOf } from "./orientation.ts";
 
 interface Shown { c: Case; wall: Wall; frame: number; data: FlowFrame; view: FlowView }
 
 const none = "There are no frames of the blood in the work folder (output.blood = false, or an engine without blood).";
+const noWall = "There are frames of the blood, but none of the wall, without which its borders are not known.";
+
+/** Why a case's flow is not shown; nothing where it is. */
+const absent = (c: Case) => (c.flow ? undefined : c.json.has_blood ? noWall : none);
+
+/** "four-chamber long axis", or where the plane lies. */
+const planeName = (c: Case) => axisName((c.flow?.plane_deg ?? 0) - heartOf(c).septum);
 
 export function flowSection(cases: Case[]): HTMLElement {
-  if (cases.every((c) => !c.flow)) return folded("flow", "Flow in a long-axis plane", none);
+  const missed = cases.map(absent);
+  if (missed.every((why) => why !== undefined)) return folded("flow", "Flow in a long-axis plane", [...new Set(missed)].join(" "));
   const place = el("div");
   const whole = section("flow", "Flow in a long-axis plane",
-    "Blood in the plane y = 0 through the long axis, within the wall and, above the base, in line with its inner rim; letters name the walls on both " +
-    "sides. Colours: speed with all three components, or pressure. Arrows: velocity in the plane, to the scale of the arrow at the lower " +
+    `Blood in the plane of the ${[...new Set(cases.filter((c) => absent(c) === undefined).map(planeName))].join(" and of the ")}, within the wall and, above ` +
+    "the base, in line with its inner rim; letters name the walls on both sides. Colours: speed with all three components, or pressure. Arrows: velocity in the plane, to the scale of the arrow at the lower " +
     "right, which is set by the fastest blood of the moment. It opens at the moment after end-diastole with the fastest blood among those the " +
     "run wrote. There are no valves and no atrium: blood passes freely through the open base, so the pattern there is not physiological.", place);
   // drawn when it comes near the screen: the first view does not wait for it
@@ -42,9 +50,9 @@ async function fill(cases: Case[], place: HTMLElement): Promise<void> {
     const scale = flowScale(found.map(({ c, data }) => ({ flow: c.flow!, frame: data })), what);
     for (const { c, frame, data, view } of found) {
       const t = c.flow!.times[frame];
-      const caption = `${c.name}, ${c.words(t)}, ${t.toFixed(3)} s`;
-      view.show(data, what, scale, caption);
-      view.canvas.setAttribute("aria-label", `${what} and velocity in the long-axis plane: ${caption}`);
+      const captions = [`${c.name}, ${c.words(t)}, ${t.toFixed(3)} s`, `${planeName(c)}${heartOf(c).assumed ? " (* the septum is assumed)" : ""}`];
+      view.show(data, what, scale, captions);
+      view.canvas.setAttribute("aria-label", `${what} and velocity: ${captions.join("; ")}`);
     }
   };
   const choice = el("select", { change: () => { what = choice.value as FlowQuantity; draw(); } },
@@ -57,6 +65,6 @@ async function fill(cases: Case[], place: HTMLElement): Promise<void> {
         draw();
       } })), savePng(fileName(one.c.name, "flow"), () => overlaidPng(one.view.canvas, one.view.overlay)));
   place.replaceChildren(el("div", { class: "controls" }, el("label", {}, "colours", choice)),
-    el("div", { class: "cases" }, ...found.map(panel), ...cases.filter((c) => !c.flow).map((c) => missing(`${c.name}: ${none}`))));
+    el("div", { class: "cases" }, ...found.map(panel), ...cases.filter(absent).map((c) => missing(`${c.name}: ${absent(c)}`))));
   draw();
 }

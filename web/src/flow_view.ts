@@ -1,19 +1,21 @@
-// Blood in the long-axis plane y = 0, seen from +y so that x points to the left: speed or pressure as colours, velocity as arrows,
-// the wall's section around it.
+// Blood in a long-axis plane, that of the four-chamber view, seen so that its direction s, towards the middle of the septum, points
+// to the left: speed or pressure as colours, velocity as arrows, the wall's section around it.
 import { barParts } from "./bar.ts";
 import { rgbOf, type Scale } from "./colours.ts";
+import { DrawnWall } from "./curved.ts";
 import { nearest, shorts, type FlowJson, type Wall } from "./data.ts";
 import { ink, svg } from "./dom.ts";
-import { type Heart, letterAt } from "./orientation.ts";
+import { type Heart, letterAt, unit } from "./orientation.ts";
 import { shown } from "./quantities.ts";
 import { cutWall, type Section } from "./section.ts";
 
 export type FlowQuantity = "speed" | "pressure";
 
 export interface FlowFrame {
-  velocity: Float32Array;  // m/s (x, then y, then z)
+  velocity: Float32Array;  // m/s (along s, then across the plane, then z)
   pressure: Float32Array;  // mmHg
   section: Section;        // of the wall
+  s: Float32Array;         // of the section's points
   sides: [number, number][];  // its outline
   cavity: ([number, number] | undefined)[];  // of each row of cells: from, to [mm]
 }
@@ -47,8 +49,8 @@ function outline(section: Section): [number, number][] {
 const topOf = (section: Section) => section.points.reduce((top, value, i) => (i % 3 === 2 ? Math.max(top, value) : top), -Infinity);
 
 /** Where the plane meets blood within the wall, row after row from the base down; above the base, between its inner rims. */
-function cavityOf(flow: FlowJson, section: Section, sides: [number, number][]): ([number, number] | undefined)[] {
-  const x = (p: number) => section.points[3 * p];
+function cavityOf(flow: FlowJson, section: Section, s: Float32Array, sides: [number, number][]): ([number, number] | undefined)[] {
+  const x = (p: number) => s[p];
   const z = (p: number) => section.points[3 * p + 2];
   const base = topOf(section);
   const rows: ([number, number] | undefined)[] = Array.from({ length: flow.cells[1] });
@@ -70,9 +72,12 @@ function cavityOf(flow: FlowJson, section: Section, sides: [number, number][]): 
 /** A frame of the blood with the wall at the nearest moment. */
 export async function readFlow(flow: FlowJson, frame: number, wall: Wall): Promise<FlowFrame> {
   const [velocity, p] = await Promise.all([velocityOf(flow, frame), shorts(flow.pressure.frames[frame])]);
-  const section = cutWall(wall, wall.positions(nearest(wall.times, flow.times[frame])), { normal: [0, 1, 0], offset: 0 });
+  const [c, d] = unit(flow.plane_deg ?? 0);
+  const { section } = cutWall(new DrawnWall(wall), wall.positions(nearest(wall.times, flow.times[frame])), { normal: [-d, c, 0], offset: 0 });
+  const along = section.weight.map((_, i) => c * section.points[3 * i] + d * section.points[3 * i + 1]);
   const sides = outline(section);
-  return { velocity, pressure: Float32Array.from(p, (n) => (n * flow.pressure.step) / kPaPerMmHg), section, sides, cavity: cavityOf(flow, section, sides) };
+  return { velocity, pressure: Float32Array.from(p, (n) => (n * flow.pressure.step) / kPaPerMmHg), section, s: along, sides,
+    cavity: cavityOf(flow, section, along, sides) };
 }
 
 /** The frame after end-diastole with the fastest blood; of all when there is none. */
@@ -87,10 +92,10 @@ export async function fastestFrame(flow: FlowJson, endDiastole: number | undefin
   return best.frame;
 }
 
-const centreX = (flow: FlowJson, i: number) => flow.lower[0] + (i + 0.5) * flow.spacing[0];
+const centreS = (flow: FlowJson, i: number) => flow.lower[0] + (i + 0.5) * flow.spacing[0];
 const isBlood = (flow: FlowJson, frame: FlowFrame, i: number, k: number) => {
   const row = frame.cavity[k];
-  return row !== undefined && centreX(flow, i) > row[0] && centreX(flow, i) < row[1];
+  return row !== undefined && centreS(flow, i) > row[0] && centreS(flow, i) < row[1];
 };
 const bloodCells = (flow: FlowJson, frame: FlowFrame) =>
   [...frame.pressure.keys()].filter((cell) => isBlood(flow, frame, cell % flow.cells[0], Math.floor(cell / flow.cells[0])));
@@ -111,7 +116,7 @@ export class FlowView {
   readonly canvas = document.createElement("canvas");
   readonly overlay = svg("svg", { class: "overlay", "font-family": "sans-serif", "font-size": 26, "aria-hidden": "true" });
   private zoom: number;  // pixels a millimetre
-  private head = 56;     // pixels for the caption
+  private head = 86;     // pixels for the captions
   private context: CanvasRenderingContext2D;
   constructor(private flow: FlowJson, private heart: Heart) {
     this.zoom = Math.max(2, Math.round(900 / (flow.cells[1] * flow.spacing[1])));
@@ -126,14 +131,14 @@ export class FlowView {
   private px(x: number): number { return this.canvas.width - (x - this.flow.lower[0]) * this.zoom; }
   private py(z: number): number { return this.canvas.height - (z - this.flow.lower[1]) * this.zoom; }
 
-  show(frame: FlowFrame, what: FlowQuantity, scale: Scale, caption: string): void {
+  show(frame: FlowFrame, what: FlowQuantity, scale: Scale, captions: string[]): void {
     this.context.clearRect(0, 0, this.canvas.width, this.canvas.height);
     const values = valuesOf(frame, what);
     this.colour(frame, values, scale);
     this.wall(frame);
     const fastest = this.fastest(frame);
     this.arrows(frame, values, what, scale, fastest);
-    this.write(what, scale, caption, fastest);
+    this.write(what, scale, captions, fastest);
   }
 
   /** Blood alone: the colours are cut by the cavity's outline. */
@@ -161,9 +166,9 @@ export class FlowView {
     context.restore();
   }
 
-  private wall({ section, sides }: FlowFrame): void {
+  private wall({ section, s, sides }: FlowFrame): void {
     const { context } = this;
-    const at = (p: number): [number, number] => [this.px(section.points[3 * p]), this.py(section.points[3 * p + 2])];
+    const at = (p: number): [number, number] => [this.px(s[p]), this.py(section.points[3 * p + 2])];
     context.fillStyle = context.strokeStyle = "rgb(222, 205, 200)";
     context.lineWidth = 1;
     context.beginPath();
@@ -210,7 +215,7 @@ export class FlowView {
         const length = (this.longest * Math.hypot(u, w)) / fastest;
         if (length < 2) continue;
         const dark = what === "pressure" || (values[cell] - scale.min) / (scale.max - scale.min) > 0.55;
-        this.arrow(this.px(centreX(flow, i)), this.py(flow.lower[1] + (k + 0.5) * flow.spacing[1]), length, Math.atan2(-w, u), dark ? "#111" : "#fff");
+        this.arrow(this.px(centreS(flow, i)), this.py(flow.lower[1] + (k + 0.5) * flow.spacing[1]), length, Math.atan2(-w, u), dark ? "#111" : "#fff");
       }
     this.context.restore();
   }
@@ -232,16 +237,16 @@ export class FlowView {
     context.fill();
   }
 
-  private write(what: FlowQuantity, scale: Scale, caption: string, fastest: number): void {
+  private write(what: FlowQuantity, scale: Scale, captions: string[], fastest: number): void {
     const { width, height } = this.canvas;
     const [bar, edge] = [20 * this.zoom, 20];
     const text = (x: number, y: number, anchor: string, words: string, more = {}) =>
       svg("text", { x, y, "text-anchor": anchor, fill: ink.text, ...more }, words);
     const letter = (x: number, anchor: string, degrees: number) =>
-      text(x, this.py(0) - 30, anchor, letterAt(this.heart, degrees), { class: "letter", "font-size": 36, "font-weight": 700 });
+      text(x, this.py(0) - 30, anchor, letterAt(this.heart, (this.flow.plane_deg ?? 0) + degrees), { class: "letter", "font-size": 36, "font-weight": 700 });
     const length = Math.min(this.longest, 0.4 * width);
     const speed = (fastest * length) / this.longest;
-    this.overlay.replaceChildren(text(edge, 34, "start", caption, { "font-weight": 600 }),
+    this.overlay.replaceChildren(...captions.map((line, i) => text(edge, 34 + 30 * i, "start", line, i === 0 ? { "font-weight": 600 } : {})),
       letter(edge, "start", 0), letter(width - edge, "end", 180),
       svg("g", { class: "legend", transform: `translate(${edge} ${height - 106}) scale(2)`, "font-size": 12 }, ...barParts(scale, flowTitle[what], 0.2 * width)),
       svg("path", { d: `M${width - edge - bar} ${height - 36}v12h${bar}v-12`, stroke: ink.text, "stroke-width": 3, fill: "none" }),

@@ -1,15 +1,23 @@
 // Where the walls of the heart are, and the views that have names. Model frame: z along the long axis towards the base; the
 // middle of the septum lies at an angle about z from x, the anterior wall a quarter turn further, anticlockwise seen from the base.
 import type { Case } from "./data.ts";
+import { shown } from "./quantities.ts";
 import type { Cut } from "./shared.ts";
 
 export interface Heart {
   septum: number;    // [degrees]
   assumed: boolean;  // nothing shows where the septum is
+  ends: string[];    // of "apex" and "base", those that were not drawn but assumed
 }
 
 export function heartOf(c: Case): Heart {
-  return { septum: c.json.septum_deg ?? 0, assumed: c.assumes("septum") };
+  return { septum: c.json.septum_deg ?? 0, assumed: c.assumes("septum"), ends: ["apex", "base"].filter((part) => c.assumes(part)) };
+}
+
+/** "* assumed: septum, apex": what the stars of a picture of the wall mean; empty without any. */
+export function starNote(heart: Heart): string {
+  const parts = [...(heart.assumed ? ["septum"] : []), ...heart.ends];
+  return parts.length ? `* assumed: ${parts.join(", ")}` : "";
 }
 
 /** Letters of the walls and their angles from the septum [degrees]. */
@@ -41,12 +49,16 @@ export const looks: Look[] = [
   { name: "apex", azimuth: 90, elevation: below, cut: { kind: "none" } },
 ];
 
-/** What a cut is called: a named long axis, or what it is. */
+/** A plane through the long axis at an angle from the septum [degrees]: its clinical name, or where it is. */
+export function axisName(angle: number): string {
+  const named = looks.find((look) => look.cut?.kind === "long" && Math.abs(Math.sin(((look.cut.angle! - angle) * Math.PI) / 180)) < 1e-4);
+  return named ? `${named.name} long axis` : `long axis, ${shown(angle)}° from the septum`;
+}
+
+/** What a cut is called. */
 export function cutName(cut: Cut): string {
   if (cut.kind === "none") return "whole wall";
-  if (cut.kind === "short") return `short axis, ${-cut.height} mm below the base`;
-  const named = looks.find((look) => look.cut?.kind === "long" && (look.cut.angle! - cut.angle) % 180 === 0);
-  return named ? `${named.name} long axis` : `long axis, ${cut.angle}° from the septum`;
+  return cut.kind === "short" ? `short axis, ${shown(-cut.height)} mm below the base` : axisName(cut.angle);
 }
 
 export const unit = (degrees: number): [number, number] =>

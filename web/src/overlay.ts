@@ -2,7 +2,7 @@
 import { barParts } from "./bar.ts";
 import type { Scale } from "./colours.ts";
 import { ink, svg } from "./dom.ts";
-import { marked } from "./orientation.ts";
+import { starNote } from "./orientation.ts";
 import type { WallView } from "./wall_view.ts";
 
 const edge = 10;  // [pixels]
@@ -19,13 +19,13 @@ export class Overlay {
 
   constructor(private view: WallView) {
     this.element.append(this.caption, this.region, this.legend, this.bar, this.length, this.star);
-    for (const { name } of view.letters()) {
-      const letter = svg("text", { class: "letter", "data-letter": name, "text-anchor": "middle", dy: "0.35em", "font-size": 18, "font-weight": 700,
-        fill: ink.text, stroke: ink.paper, "stroke-width": 4, "paint-order": "stroke" }, marked(name, view.heart.assumed));
+    for (const { name, label } of view.letters()) {
+      const letter = svg("text", { class: "letter", "data-letter": name, "text-anchor": "middle", dy: "0.35em", "font-size": name.length > 1 ? 13 : 18,
+        "font-weight": 700, fill: ink.text, stroke: ink.paper, "stroke-width": 4, "paint-order": "stroke" }, label);
       this.letters.set(name, letter);
       this.element.append(letter);
     }
-    if (view.heart.assumed) this.star.textContent = "* the septum is assumed";
+    this.star.textContent = starNote(view.heart);
   }
 
   write(lines: string[], scale: Scale, title: string): void {
@@ -41,6 +41,7 @@ export class Overlay {
   place(): void {
     // all is read before anything is written: the browser lays out once
     const { clientWidth: width, clientHeight: height } = this.view.canvas;
+    if (!width) return;  // in print a copy stands for the canvas, and what was written over that holds
     const [length, letters] = [20 * this.view.scale, this.view.letters()];
     this.element.setAttribute("viewBox", `0 0 ${width} ${height}`);
     this.element.setAttribute("width", String(width));

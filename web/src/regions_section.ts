@@ -1,10 +1,10 @@
 // Bull's-eyes of the quantity that the 3-D view shows, which point at the same regions; those of the infarct.
 import { drawBullsEye, type DrawnBullsEye } from "./bullseye.ts";
-import { colourBar } from "./bar.ts";
+import { barParts, colourBar } from "./bar.ts";
 import type { Scale } from "./colours.ts";
 import { Case, type Scheme, value } from "./data.ts";
 import { el, figure, fileName, folded, missing, section } from "./dom.ts";
-import { heartOf } from "./orientation.ts";
+import { heartOf, starNote } from "./orientation.ts";
 import { label, type Quantity, quantity, shown, stateTitle } from "./quantities.ts";
 import { Shared, statesOf } from "./shared.ts";
 import { regionName } from "./wall_section.ts";
@@ -18,13 +18,16 @@ class Marked {
 
   clear(): void { this.plots = []; }
 
-  draw(c: Case, scheme: Scheme, values: number[], details: string[], scale: Scale, title: string, file: string): HTMLElement {
-    const { assumed } = heartOf(c);
+  draw(c: Case, scheme: Scheme, values: number[], details: string[], scale: Scale, title: string, file: string,
+    barTitle: string): HTMLElement {
+    const heart = heartOf(c);
     const names = c.regionNames(scheme);
-    const drawn = drawBullsEye({ scheme, names, values, details, scale, title, assumed,
+    const drawn = drawBullsEye({ scheme, names, values, details, scale, title, assumed: heart.assumed,
       pick: (index, fixed) => this.shared.pick(index === undefined ? undefined : { scheme, index }, fixed) });
     this.plots.push({ drawn, scheme });
-    return figure(assumed ? `${title} (* the septum is assumed)` : title, file, drawn.figure);
+    const note = starNote(heart);
+    return figure(note ? `${title}* (${note})` : title, file, drawn.figure,
+      (width) => barParts(scale, barTitle, width));
   }
 
   mark(): void {
@@ -51,7 +54,7 @@ function difference(cases: Case[], q: Quantity, marks: Marked): HTMLElement | un
   const [a, b] = cases.map((c) => c.name);
   return el("div", { class: "differences" }, el("h3", {}, `Difference, ${b} − ${a}`), colourBar(scale, `${label(q)}, ${b} − ${a}`),
     el("div", { class: "pair" }, ...states.map((state, s) => marks.draw(cases[1], "aha17", all[s], all[s].map((x) => shown(x)), scale,
-      `${q.title} at ${stateTitle(state)}, ${b} − ${a}`, fileName(b, "minus", a, q.name, state)))));
+      `${q.title} at ${stateTitle(state)}, ${b} − ${a}`, fileName(b, "minus", a, q.name, state), `${label(q)}, ${b} − ${a}`))));
 }
 
 function readOut(cases: Case[], shared: Shared): string {
@@ -84,7 +87,7 @@ export function bullsEyeSection(cases: Case[], shared: Shared, scaleNow: () => S
     ? el("div", { class: "pair" }, ...(["aha17", "sector"] as const).map((scheme) => {
       const { values, details } = means(c, q, state, scheme);
       return marks.draw(c, scheme, values, details, scale, `${c.name}: ${q.title} at ${stateTitle(state)}, ${schemeTitle[scheme]}`,
-        fileName(c.name, q.name, state, scheme));
+        fileName(c.name, q.name, state, scheme), `${label(q)}, mean of the region`);
     }))
     : missing(`${c.name}: regions.csv is missing, so there are no regional means.`);
   const refresh = () => {
@@ -119,9 +122,10 @@ export function transmurality(c: Case, shared: Shared): HTMLElement | undefined 
   const of = c.regionNames("aha17").map((name) => rows.find((row) => row.segment === name.replace(/^\d+ /, "")));
   const scale: Scale = { min: 0, max: 100, diverging: false, middle: 0, floor: 0.5 };
   const marks = new Marked(shared);
+  const title = c.assumesInfarct ? "transmurality of the infarct* (%; * assumed: infarct)" : "transmurality of the infarct (%)";
   const drawn = marks.draw(c, "aha17", of.map((row) => row?.transmurality_percent ?? 0), of.map((row) => row
     ? `infarct through ${shown(row.transmurality_percent)}% of the wall, in ${shown(row.percent_of_segment)}% of the segment` : "no infarct"),
-    scale, `${c.name}: transmurality of the infarct (%)`, fileName(c.name, "transmurality"));
+    scale, `${c.name}: ${title}`, fileName(c.name, "transmurality"), title);
   shared.onChange((_, changed) => changed.has("selection") && marks.mark());
-  return el("div", { class: "one-figure" }, colourBar(scale, "transmurality of the infarct (%)"), drawn);
+  return el("div", { class: "one-figure" }, colourBar(scale, title), drawn);
 }

@@ -1,6 +1,6 @@
 // The wall's section by a plane, one convex polygon per cell that the plane crosses. Neighbouring polygons share their
 // corners, which lie on edges of the mesh, so the section has no gaps.
-import type { Wall } from "./data.ts";
+import type { DrawnWall } from "./curved.ts";
 
 export interface Plane { normal: [number, number, number]; offset: number }  // n.x = offset
 
@@ -9,7 +9,7 @@ export interface Section {
   from: Int32Array;        // the two nodes of the edge that each point lies on
   weight: Float32Array;    // of the second node
   triangles: number[];
-  cells: number[];         // behind each triangle
+  cells: number[];         // of the wall, behind each triangle
   polygons: number[][];    // corners of each cut cell
   polygonCells: number[];
 }
@@ -17,9 +17,12 @@ export interface Section {
 const hexEdges = [[0, 1], [1, 2], [2, 3], [3, 0], [4, 5], [5, 6], [6, 7], [7, 4], [0, 4], [1, 5], [2, 6], [3, 7]];
 const tetEdges = [[0, 1], [1, 2], [2, 0], [0, 3], [1, 3], [2, 3]];
 
-/** `positions`: x, then y, then z of the nodes. */
-export function cutWall(wall: Wall, positions: Float32Array, plane: Plane): Section {
-  const { cells, nodes: n, nodesPerCell } = wall;
+/** `undrawn`: x, then y, then z of the wall's nodes. The section, and the positions of all nodes that are drawn. */
+export function cutWall(drawn: DrawnWall, undrawn: Float32Array, plane: Plane): { section: Section; positions: Float32Array } {
+  const { nodesPerCell } = drawn.wall;
+  const { cells, of } = drawn.near(plane, undrawn);
+  const positions = drawn.at(undrawn, 3);
+  const n = drawn.nodes;
   const [nx, ny, nz] = plane.normal;
   const height = new Float32Array(n);
   for (let a = 0; a < n; ++a)
@@ -64,12 +67,12 @@ export function cutWall(wall: Wall, positions: Float32Array, plane: Plane): Sect
     corners.sort((p, q) => angle.get(p)! - angle.get(q)!);
     for (let i = 1; i + 1 < corners.length; ++i) {
       section.triangles.push(corners[0], corners[i], corners[i + 1]);
-      section.cells.push(c);
+      section.cells.push(of ? of[c] : c);
     }
     section.polygons.push(corners);
-    section.polygonCells.push(c);
+    section.polygonCells.push(of ? of[c] : c);
   }
-  return { ...section, points: Float32Array.from(points), from: Int32Array.from(from), weight: Float32Array.from(weight) };
+  return { positions, section: { ...section, points: Float32Array.from(points), from: Int32Array.from(from), weight: Float32Array.from(weight) } };
 }
 
 const unit = (v: number[]) => v.map((x) => x / Math.hypot(...v));

@@ -2,11 +2,14 @@
 import { drawChart, type Line } from "./chart.ts";
 import { lineColours } from "./colours.ts";
 import { type Case, type Row, value } from "./data.ts";
-import { el, figure, fileName, folded, missing, section, table } from "./dom.ts";
+import { el, figure, fileName, folded, missing, perCase, section, table } from "./dom.ts";
+import { heartOf, starNote } from "./orientation.ts";
 import { shown } from "./quantities.ts";
 
 const components = ["circumferential", "radial"];
 const schemes: [string, string][] = [["sector", "sectors of slices"], ["aha17", "AHA segments"]];
+/** A caption, with what was assumed of the anatomy that the regions hang on. */
+const withStars = (c: Case, caption: string) => [`${c.name}: ${caption}`, starNote(heartOf(c))].filter(Boolean).join("; regions* ");
 
 interface Agreement { count: number; bias: number; standard_deviation: number; lower_limit: number; upper_limit: number; correlation: number }
 
@@ -17,17 +20,17 @@ const region = (r: Row) => (r.scheme === "aha17" ? r.segment : `slice ${r.slice}
 const across = (values: number[]) => [Math.min(...values), Math.max(...values)];
 
 /** Model against images, with the line on which they are the same. */
-function scatter(name: string, component: string, rows: Row[]): HTMLElement {
+function scatter(c: Case, component: string, rows: Row[]): HTMLElement {
   const [x, y] = [rows.map((r) => value(r.measured)), rows.map((r) => value(r.model))];
   const ends = across([...x, ...y]);
   const lines: Line[] = [{ label: "a region", colour: lineColours[0], x, y, dots: true, bare: true },
     { label: "the same", colour: "#777", dashed: true, x: ends, y: ends }];
   const chart = drawChart({ x: `${component} strain, images`, y: `${component} strain, model`, lines });
-  return figure(`${component} strain of the model against that of the images`, fileName(name, component, "scatter"), chart.figure);
+  return figure(withStars(c, `${component} strain of the model against that of the images`), fileName(c.name, component, "scatter"), chart.figure);
 }
 
 /** Difference against mean, with bias and 95% limits. */
-function blandAltman(name: string, component: string, rows: Row[], a: Agreement): HTMLElement {
+function blandAltman(c: Case, component: string, rows: Row[], a: Agreement): HTMLElement {
   const x = rows.map((r) => (value(r.measured) + value(r.model)) / 2);
   const y = rows.map((r) => value(r.difference));
   const ends = across(x);
@@ -35,7 +38,7 @@ function blandAltman(name: string, component: string, rows: Row[], a: Agreement)
   const chart = drawChart({ x: `mean of both, ${component} strain`, y: "model − images", lines: [
     { label: "a region", colour: lineColours[0], x, y, dots: true, bare: true }, level(`bias ${shown(a.bias)}`, a.bias, false),
     level(`upper limit ${shown(a.upper_limit)}`, a.upper_limit, true), level(`lower limit ${shown(a.lower_limit)}`, a.lower_limit, true)] });
-  return figure(`Bland and Altman: ${component} strain`, fileName(name, component, "bland-altman"), chart.figure);
+  return figure(withStars(c, `Bland and Altman, ${component} strain`), fileName(c.name, component, "bland-altman"), chart.figure);
 }
 
 function agreementTable(c: Case, all: any): HTMLElement {
@@ -74,7 +77,7 @@ function ofCase(c: Case): (Node | undefined)[] {
   const figures = components.flatMap((component, k) => {
     const chosen = rows[k].filter((r) => r.scheme === scheme);
     const a: Agreement | undefined = all[component]?.[scheme];
-    return a && chosen.length ? [scatter(c.name, component, chosen), blandAltman(c.name, component, chosen, a)] : [];
+    return a && chosen.length ? [scatter(c, component, chosen), blandAltman(c, component, chosen, a)] : [];
   });
   const unfollowed = c.table("strain_slices.csv").filter((r) => r.followed === "no").map((r) => r.slice);
   return [
@@ -93,5 +96,5 @@ export function strainSection(cases: Case[]): HTMLElement {
     "327:307, 1986). Points on the dashed line agree. Tracking in short-axis planes cannot see tissue that moves through them, and radial " +
     "strain from images is far less certain than circumferential: a difference is not the model's error alone. " +
     "From strain_comparison_*.csv and strain_agreement.json.",
-    el("div", { class: "cases" }, ...cases.map((c) => el("div", { class: "panel" }, cases.length > 1 && el("h3", {}, c.name), ...ofCase(c)))));
+    perCase(cases, ofCase));
 }

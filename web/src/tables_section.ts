@@ -1,6 +1,6 @@
 // Summary, comparisons with print, infarct zones, quality of the input, parameters, files.
 import { type Case, type Row, value } from "./data.ts";
-import { el, fileName, folded, missing, paperSwitch, save, section, table } from "./dom.ts";
+import { el, fileName, folded, missing, paperSwitch, perCase, save, section, table } from "./dom.ts";
 import { calibration, measuredVolume } from "./calibration_section.ts";
 import { answerOf, judgements, rangeOf } from "./first_section.ts";
 import { transmurality } from "./regions_section.ts";
@@ -8,9 +8,6 @@ import type { Shared } from "./shared.ts";
 import { healthyAdults, healthySubject, type MeanSd, paper, patient, volunteers } from "./published.ts";
 import { label, quantities, quantity, shown, stateTitle } from "./quantities.ts";
 
-const perCase = (cases: Case[], content: (c: Case) => (Node | undefined)[]) =>
-  el("div", { class: "cases" }, ...cases.map((c) => el("div", { class: "panel" },
-    cases.length > 1 && el("h3", {}, c.name), ...content(c))));
 const pm = (x: MeanSd | undefined) => (x ? `${shown(x.mean)} ± ${shown(x.sd, 2)}` : "–");
 /** As it is printed. */
 const printed = (x: MeanSd | undefined) => (x ? `${x.mean} ± ${x.sd}`.replace("-", "−") : "–");
@@ -54,7 +51,7 @@ function stateTable(c: Case): HTMLElement {
 function plausibilityTable(c: Case): HTMLElement | undefined {
   const all = judgements(c);
   return all.length === 0 ? undefined : table(fileName(c.name, "plausibility"), ["figure", "value", "usual", "answer", "why, source"], all.map((j) =>
-    [j.label, `${shown(j.value)}${j.unit === "1" ? "" : ` ${j.unit}`}`, rangeOf(j), answerOf(j), [j.reason, j.source].filter(Boolean).join("; ")]));
+    [j.label, `${shown(j.value)}${j.unit === "1" ? "" : j.unit === "deg" ? "°" : ` ${j.unit}`}`, rangeOf(j), answerOf(j), [j.reason, j.source].filter(Boolean).join("; ")]));
 }
 
 function runTable(c: Case): HTMLElement {

@@ -92,10 +92,11 @@ class Panel {
     return this.series.get(name);
   }
 
-  /** "end-systole, 150 mmHg, 59.5 ml" */
-  private moment(t: number): string {
+  /** What the step shows: "end-systole, 150 mmHg, 59.5 ml". */
+  moment(step: number): string {
+    const t = this.time.time(this.number, step);
     const row = rowAt(this.c.table("curves.csv"), t);
-    return [this.c.words(t), this.c.isLoaded ? "" : `${t.toFixed(3)} s`, row && `${shown(value(row.pressure_mmHg))} mmHg`,
+    return [this.c.words(t), this.c.isLoaded || Number.isNaN(t) ? "" : `${t.toFixed(3)} s`, row && `${shown(value(row.pressure_mmHg))} mmHg`,
       row && `${shown(value(row.cavity_volume_ml))} ml`].filter(Boolean).join(", ");
   }
 
@@ -109,9 +110,9 @@ class Panel {
       this.fibres = f0 && new Fibres(this.c.wall!, f0);
     }
     const [q, scale] = [quantity(state.quantity), this.scale()];
-    const lines = [this.c.name, this.moment(this.time.time(this.number, state.step)), cutName(state.cut),
+    const lines = [this.c.name, this.moment(state.step), cutName(state.cut),
       ...(field ? [] : [`${q.title} is not in this case's frames`])];
-    this.overlay!.write(lines, scale, label(q));
+    this.overlay!.write(lines, scale, q === infarct && this.c.assumesInfarct ? `${label(q)}* (* assumed)` : label(q));
     this.view.canvas.setAttribute("aria-label", `The wall in 3-D, ${label(q)}: ${lines.join("; ")}. Arrow keys turn it.`);
     this.view.show(frame, field, scale, state.cut, state.fibres ? this.fibres : undefined);
   }
@@ -193,7 +194,7 @@ export function wallSection(cases: Case[], shared: Shared, time: Timeline): Wall
   const has = (name: string) => cases.some((c) => c.wall?.quantities.includes(name));
   const offered = [...quantities.filter((q) => has(q.name)), ...(cases.some((c) => c.wall) ? [infarct] : [])];
   const what = el("p", { class: "help" });
-  const bar = timeBar(shared, time, (step) => cases.map((_, i) => `${time.time(i, step).toFixed(3)} s`).join(", "));
+  const bar = timeBar(shared, time, (step) => panels.map((panel, i) => (panels.length > 1 ? `${cases[i].name}: ` : "") + panel.moment(step)).join("; "));
   const cut = (change: Partial<Cut>) => shared.set({ cut: { ...shared.state.cut, ...change } });
   const angle = slider("plane from the septum", -180, 180, 5, "°", (x) => cut({ angle: x }));
   const height = slider("height of the plane", -110, 0, 1, "mm", (x) => cut({ height: x }));

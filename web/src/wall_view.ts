@@ -6,9 +6,10 @@ import {
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { colourTable, type Scale, uncoloured } from "./colours.ts";
 import type { Scheme, Selection, Series, Wall } from "./data.ts";
+import { DrawnWall } from "./curved.ts";
 import type { Fibres } from "./fibres.ts";
 import { atPoints, cutWall, type Plane, type Section } from "./section.ts";
-import { type Heart, unit, walls } from "./orientation.ts";
+import { type Heart, marked, unit, walls } from "./orientation.ts";
 import type { Cut } from "./shared.ts";
 
 const vertexShader = `
@@ -54,7 +55,7 @@ function planeOf(cut: Cut, heart: Heart): Plane | undefined {
 const turned = ({ normal: [x, y, z], offset }: Plane): Plane => ({ normal: [-x, -y, -z], offset: -offset });
 
 /** A letter of the picture, in pixels of the screen from its upper left corner. */
-export interface Letter { name: string; x: number; y: number; seen: boolean }
+export interface Letter { name: string; label: string; x: number; y: number; seen: boolean }
 
 export class WallView {
   readonly canvas = document.createElement("canvas");
@@ -65,9 +66,11 @@ export class WallView {
   private skin: Mesh<BufferGeometry, ShaderMaterial>;
   private cap: Mesh<BufferGeometry, ShaderMaterial>;
   private sticks: LineSegments;
+  private drawn: DrawnWall;
   private skinNodes: Int32Array;
   private section?: Section;
-  private positions!: Float32Array;
+  private undrawn!: Float32Array;    // positions of the wall's own nodes
+  private positions!: Float32Array;  // and of all that are drawn
   private values?: Float32Array;
   private plane?: Plane;
   private cut: Cut = { kind: "none", angle: 0, height: 0 };
@@ -85,7 +88,8 @@ export class WallView {
     const context = this.renderer.getContext();
     const facts = context.getExtension("WEBGL_debug_renderer_info");
     this.slow = /swiftshader|llvmpipe|software/i.test(facts ? String(context.getParameter(facts.UNMASKED_RENDERER_WEBGL)) : "");
-    this.skinNodes = Int32Array.from(new Set(wall.skin)).sort();
+    this.drawn = new DrawnWall(wall);
+    this.skinNodes = Int32Array.from(new Set(this.drawn.skin)).sort();
     this.skin = this.makeSkin();
     this.cap = new Mesh(new BufferGeometry(), this.material(1));
     const stickMaterial = new LineBasicMaterial({ color: 0x101010 });
@@ -124,12 +128,12 @@ export class WallView {
   }
 
   private makeSkin(): Mesh<BufferGeometry, ShaderMaterial> {
-    const { wall, skinNodes } = this;
+    const { drawn, skinNodes } = this;
     const place = new Map<number, number>();
     skinNodes.forEach((node, i) => place.set(node, i));
-    const corners = Int32Array.from(wall.skin, (node) => place.get(node)!);
+    const corners = Int32Array.from(drawn.skin, (node) => place.get(node)!);
     const index: number[] = [];
-    const n = wall.nodesPerFace;
+    const n = drawn.wall.nodesPerFace;
     for (let f = 0; f < corners.length; f += n) {
       index.push(corners[f], corners[f + 1], corners[f + 2]);
       if (n === 4) index.push(corners[f], corners[f + 2], corners[f + 3]);
@@ -199,17 +203,24 @@ export class WallView {
   /** Pixels of the screen a millimetre. */
   get scale(): number { return (this.camera.zoom * this.canvas.clientHeight) / (this.camera.top - this.camera.bottom); }
 
-  /** The walls' letters around the base, or around the plane of a short axis. One in line with the eye is not seen. */
+  /** The walls' letters around the base, or around the plane of a short axis, and an apex or a base that was assumed. One in line
+   * with the eye is not seen. */
   letters(): Letter[] {
     const height = this.cut.kind === "short" ? this.cut.height : this.reach.top + 5;
     const { clientWidth: width, clientHeight } = this.canvas;
     this.camera.updateMatrixWorld();
     const eye = this.camera.getWorldDirection(new Vector3());
-    return walls.map(([name, angle]) => {
+    const letter = (name: string, label: string, place: Vector3, direction: Vector3): Letter => {
+      const at = place.project(this.camera);
+      return { name, label, x: 0.5 * (1 + at.x) * width, y: 0.5 * (1 - at.y) * clientHeight, seen: Math.abs(eye.dot(direction)) < 0.8 };
+    };
+    const up = new Vector3(0, 0, 1);
+    const ends: Record<string, number> = { apex: this.reach.bottom - 4, base: this.reach.top + 4 };
+    return [...walls.map(([name, angle]) => {
       const [x, y] = unit(this.heart.septum + angle);
-      const at = new Vector3(x, y, 0).multiplyScalar(this.reach.radius + 7).setZ(height).project(this.camera);
-      return { name, x: 0.5 * (1 + at.x) * width, y: 0.5 * (1 - at.y) * clientHeight, seen: Math.abs(eye.x * x + eye.y * y) < 0.8 };
-    });
+      const direction = new Vector3(x, y, 0);
+      return letter(name, marked(name, this.heart.assumed), direction.clone().multiplyScalar(this.reach.radius + 7).setZ(height), direction);
+    }), ...this.heart.ends.map((end) => letter(end, `${end}*`, new Vector3(0, 0, ends[end]), up))];
   }
 
   /** Paper behind the wall. */
@@ -228,11 +239,14 @@ export class WallView {
 
   /** The wall at a frame; `series` colours it, M if it is an array. */
   show(frame: number, field: Series | Float32Array | undefined, scale: Scale, cut: Cut, fibres: Fibres | undefined): void {
-    this.positions = this.wall.positions(frame);
-    this.values = field instanceof Float32Array ? field : field?.addTo(new Float32Array(this.wall.nodes), frame);
+    this.undrawn = this.wall.positions(frame);
     this.cut = cut;
     this.plane = planeOf(cut, this.heart);
     this.fibres = fibres;
+    if (this.plane) ({ section: this.section, positions: this.positions } = cutWall(this.drawn, this.undrawn, this.plane));
+    else [this.section, this.positions] = [undefined, this.drawn.at(this.undrawn, 3)];
+    const values = field instanceof Float32Array ? field : field?.addTo(new Float32Array(this.wall.nodes), frame);
+    this.values = values && this.drawn.at(values);
     this.updateSkin();
     this.updateCap();
     this.turnPlane();
@@ -262,7 +276,7 @@ export class WallView {
     const { geometry } = this.skin;
     const position = geometry.getAttribute("position") as BufferAttribute;
     const value = geometry.getAttribute("value") as BufferAttribute;
-    const n = this.wall.nodes;
+    const n = this.drawn.nodes;
     this.skinNodes.forEach((node, i) => {
       position.setXYZ(i, this.positions[node], this.positions[n + node], this.positions[2 * n + node]);
       value.setX(i, this.values ? this.values[node] : 0);
@@ -273,7 +287,6 @@ export class WallView {
 
   private updateCap(): void {
     this.cap.visible = this.plane !== undefined;
-    this.section = this.plane && cutWall(this.wall, this.positions, this.plane);
     if (!this.section) return;
     const { geometry } = this.cap;
     const count = this.section.weight.length;
@@ -291,20 +304,20 @@ export class WallView {
     this.sticks.visible = fibres !== undefined;
     if (!fibres) return;
     const ends: number[] = [];
-    const n = this.wall.nodes;
+    const n = this.drawn.nodes;
     const half = 1.6;
     const before = 0.35;
     const add = (x: number[], normal: number[], cell: number) => {
-      const fibre = fibres.direction(this.positions, cell);
+      const fibre = fibres.direction(this.undrawn, cell);
       const out = fibre[0] * normal[0] + fibre[1] * normal[1] + fibre[2] * normal[2];
       const f = fibre.map((v, d) => v - out * normal[d]);
       for (const side of [-half, half]) for (let d = 0; d < 3; ++d) ends.push(x[d] + before * normal[d] + side * f[d]);
     };
+    const { skin, skinCells, facesPerFace } = this.drawn;
     const perFace = this.wall.nodesPerFace;
-    const faces = this.wall.skinCells.length;
-    const every = Math.max(1, Math.round(faces / 6000));
-    for (let f = 0; f < faces; f += every) {
-      const nodes = this.wall.skin.subarray(perFace * f, perFace * (f + 1));
+    const every = facesPerFace * Math.max(1, Math.round(skinCells.length / facesPerFace / 6000));
+    for (let f = 0; f < skinCells.length; f += every) {
+      const nodes = skin.subarray(perFace * f, perFace * (f + 1));
       const corner = (i: number) => [0, 1, 2].map((d) => this.positions[d * n + nodes[i]]);
       const x = [0, 1, 2].map((d) => nodes.reduce((sum, node) => sum + this.positions[d * n + node], 0) / perFace);
       if (this.plane && x[0] * this.plane.normal[0] + x[1] * this.plane.normal[1] + x[2] * this.plane.normal[2] > this.plane.offset) continue;
@@ -313,11 +326,15 @@ export class WallView {
       const w = a.map((v, d) => c[d] - v);
       const normal = [u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2], u[0] * w[1] - u[1] * w[0]];
       const length = Math.hypot(...normal) || 1;
-      add(x, normal.map((v) => v / length), this.wall.skinCells[f]);
+      add(x, normal.map((v) => v / length), skinCells[f]);
     }
+    const seen = new Set<number>();  // cells, one stick each
     this.section?.polygons.forEach((corners, i) => {
+      const cell = this.section!.polygonCells[i];
+      if (seen.has(cell)) return;
+      seen.add(cell);
       const x = [0, 1, 2].map((d) => corners.reduce((sum, p) => sum + this.section!.points[3 * p + d], 0) / corners.length);
-      add(x, this.plane!.normal, this.section!.polygonCells[i]);
+      add(x, this.plane!.normal, cell);
     });
     this.sticks.geometry.dispose();
     this.sticks.geometry.setAttribute("position", new BufferAttribute(Float32Array.from(ends), 3));
@@ -330,7 +347,7 @@ export class WallView {
     for (const { material } of [this.skin, this.cap]) material.uniforms.choosing.value = region ? 1 : 0;
     if (region) {
       const index = selection!.index;
-      this.mark(this.skin.geometry, this.wall.skinCells, this.wall.nodesPerFace === 4 ? 2 : 1, region, index);
+      this.mark(this.skin.geometry, this.drawn.skinCells, this.wall.nodesPerFace === 4 ? 2 : 1, region, index);
       if (this.section) this.mark(this.cap.geometry, this.section.cells, 1, region, index);
     }
     this.render();
@@ -360,7 +377,7 @@ export class WallView {
     const mesh = hit.object as Mesh<BufferGeometry>;
     const triangle = hit.faceIndex!;
     const cell = mesh === this.cap ? this.section!.cells[triangle]
-      : this.wall.skinCells[this.wall.nodesPerFace === 4 ? triangle >> 1 : triangle];
+      : this.drawn.skinCells[this.wall.nodesPerFace === 4 ? triangle >> 1 : triangle];
     const value = mesh.geometry.getAttribute("value");
     const { a, b, c } = hit.face!;
     return { cell, at: hit.point, value: this.values ? (value.getX(a) + value.getX(b) + value.getX(c)) / 3 : NaN };

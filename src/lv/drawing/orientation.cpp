@@ -33,6 +33,13 @@ std::string Orientation::starred(const std::string& label, const std::string& pa
   return assumes(part) ? label + "*" : label;
 }
 
+std::string Orientation::starred(const std::string& label,
+                                 std::initializer_list<const char*> parts) const {
+  const bool any =
+      std::any_of(parts.begin(), parts.end(), [&](auto* part) { return assumes(part); });
+  return any ? label + "*" : label;
+}
+
 std::array<Orientation::WallDirection, 4> Orientation::walls() const {
   const auto wall = [&](const char* letter, const Vec3& direction) {
     return WallDirection{starred(letter, "septum"), direction};
@@ -83,6 +90,22 @@ std::vector<Letter> wall_letters(const Orientation& orientation, const std::vect
   std::vector<Letter> letters;
   for (const auto& [letter, direction] : orientation.walls())
     letters.push_back({letter, height + 1.2 * radius * direction});
+  return letters;
+}
+
+std::vector<Letter> assumed_ends(const Orientation& orientation, const std::vector<Vec3>& points) {
+  constexpr double apart = 7.0;  // from the wall [mm]
+  double lowest = 0.0;
+  double highest = 0.0;
+  for (const Vec3& x : points) {
+    lowest = std::min(lowest, x.z());
+    highest = std::max(highest, x.z());
+  }
+  std::vector<Letter> letters;
+  if (orientation.assumes("apex"))
+    letters.push_back({"apex*", (lowest - apart) * Vec3::UnitZ()});
+  if (orientation.assumes("base"))
+    letters.push_back({"base*", (highest + apart) * Vec3::UnitZ()});
   return letters;
 }
 

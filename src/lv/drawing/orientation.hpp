@@ -4,6 +4,7 @@
 #include "lv/geometry/fit_report.hpp"
 
 #include <array>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,9 @@ struct Orientation {
   [[nodiscard]] bool assumes(const std::string& part) const;
   /// The label with a star where the part was assumed: "septal*".
   [[nodiscard]] std::string starred(const std::string& label, const std::string& part) const;
+  /// The same where any of these parts was.
+  [[nodiscard]] std::string starred(const std::string& label,
+                                    std::initializer_list<const char*> parts) const;
 
   /// A letter for a wall, with a star where the septum is assumed, and the way to it from the axis.
   struct WallDirection {
@@ -64,6 +68,10 @@ struct Letter {
 /// A, S, I and L around the base of a wall whose points are given, outside of it and a little
 /// above.
 [[nodiscard]] std::vector<Letter> wall_letters(const Orientation& orientation,
+                                               const std::vector<Vec3>& points);
+
+/// "apex*" below the wall and "base*" above it, each where it was assumed.
+[[nodiscard]] std::vector<Letter> assumed_ends(const Orientation& orientation,
                                                const std::vector<Vec3>& points);
 
 }  // namespace lv::drawing

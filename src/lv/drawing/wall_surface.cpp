@@ -33,15 +33,44 @@ std::span<const Edge> cell_edges(mesh::CellKind kind) {
                                             : std::span<const Edge>(tetrahedron);
 }
 
-/// A polygon as a fan of triangles; its own sides are outlined, those within the fan are not.
-void add_polygon(WallPatch& wall, std::span<const int> corners, int cell) {
-  const std::size_t n = corners.size();
-  for (std::size_t i = 1; i + 1 < n; ++i) {
-    wall.patch.triangles.push_back({corners[0], corners[i], corners[i + 1]});
-    wall.patch.outlined.push_back({i == 1, true, i + 2 == n});
-    wall.cells.push_back(cell);
+/// A patch in the making: polygons as fans of triangles, each in a group that is outlined as one.
+class Polygons {
+ public:
+  explicit Polygons(WallPatch& wall) : wall_(wall) {}
+
+  void add(std::span<const int> corners, int cell, int group) {
+    for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
+      wall_.patch.triangles.push_back({corners[0], corners[i], corners[i + 1]});
+      wall_.cells.push_back(cell);
+      groups_.push_back(group);
+    }
   }
-}
+
+  /// Sides between two triangles of one group lie within it; all others are outlined.
+  void outline() {
+    std::map<Edge, std::vector<int>> around;
+    for (std::size_t t = 0; t < groups_.size(); ++t)
+      for (int i = 0; i < 3; ++i)
+        around[side(t, i)].push_back(groups_[t]);
+    for (std::size_t t = 0; t < groups_.size(); ++t) {
+      auto& outlined = wall_.patch.outlined.emplace_back();
+      for (int i = 0; i < 3; ++i) {
+        const auto& both = around.at(side(t, i));
+        outlined.at(i) = both.size() != 2 || both[0] != both[1];
+      }
+    }
+  }
+
+ private:
+  [[nodiscard]] Edge side(std::size_t triangle, int i) const {
+    const auto& corners = wall_.patch.triangles[triangle];
+    return {std::min(corners.at(i), corners.at((i + 1) % 3)),
+            std::max(corners.at(i), corners.at((i + 1) % 3))};
+  }
+
+  WallPatch& wall_;
+  std::vector<int> groups_;
+};
 
 /// The cells around each node.
 std::vector<std::vector<int>> cells_of_nodes(const mesh::Mesh& mesh) {
@@ -76,12 +105,14 @@ class Cutter {
       height_.push_back(plane.height(x));
   }
 
-  WallPatch section() {
+  WallPatch section(int outlined_together) {
+    Polygons polygons(wall_);
     for (int c = 0; c < mesh_.cell_count(); ++c) {
       std::vector<int> corners = crossings(mesh_.cell(c));
       sort_around_centre(corners);
-      add_polygon(wall_, corners, c);
+      polygons.add(corners, c, c / outlined_together);
     }
+    polygons.outline();
     return std::move(wall_);
   }
 
@@ -131,8 +162,9 @@ class Cutter {
 }  // namespace
 
 WallPatch wall_surface(const mesh::Mesh& mesh, std::span<const Vec3> positions,
-                       const mesh::Surface& side) {
+                       const mesh::Surface& side, int outlined_together) {
   WallPatch wall;
+  Polygons polygons(wall);
   const auto cells_of = cells_of_nodes(mesh);
   std::map<int, int> points;
   for (int f = 0; f < side.size(); ++f) {
@@ -145,14 +177,15 @@ WallPatch wall_surface(const mesh::Mesh& mesh, std::span<const Vec3> positions,
       }
       corners.push_back(entry->second);
     }
-    add_polygon(wall, corners, cell_behind(side.face(f), cells_of));
+    polygons.add(corners, cell_behind(side.face(f), cells_of), f / outlined_together);
   }
+  polygons.outline();
   return wall;
 }
 
-WallPatch wall_section(const mesh::Mesh& mesh, std::span<const Vec3> positions,
-                       const Plane& plane) {
-  return Cutter(mesh, positions, plane).section();
+WallPatch wall_section(const mesh::Mesh& mesh, std::span<const Vec3> positions, const Plane& plane,
+                       int outlined_together) {
+  return Cutter(mesh, positions, plane).section(outlined_together);
 }
 
 }  // namespace lv::drawing

@@ -41,13 +41,15 @@ struct WallPatch {
   }
 };
 
-/// One side of the wall (`mesh.endo`, `mesh.epi` or `mesh.base`) with the nodes at `positions`.
+/// One side of the wall (`mesh.endo`, `mesh.epi` or `mesh.base`) with the nodes at `positions`; so
+/// many consecutive faces are outlined as one.
 [[nodiscard]] WallPatch wall_surface(const mesh::Mesh& mesh, std::span<const Vec3> positions,
-                                     const mesh::Surface& side);
+                                     const mesh::Surface& side, int outlined_together = 1);
 
 /// The wall's section by a plane, one convex polygon per cell that the plane crosses. Neighbouring
 /// polygons share their corners, which lie on edges of the mesh, so the section has no gaps.
+/// So many consecutive cells are outlined as one.
 [[nodiscard]] WallPatch wall_section(const mesh::Mesh& mesh, std::span<const Vec3> positions,
-                                     const Plane& plane);
+                                     const Plane& plane, int outlined_together = 1);
 
 }  // namespace lv::drawing

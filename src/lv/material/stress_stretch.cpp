@@ -14,6 +14,8 @@ double stress_at(double l, const AnyPassiveLaw& any) {
   return P(0, 0) * l - P(1, 1) * w;
 }
 
+const std::string paper = "Gao et al. 2014: ";  // its subjects' names begin so
+
 }  // namespace
 
 StressStretch pulled_along_fibre(const std::string& muscle, const AnyPassiveLaw& law) {
@@ -36,13 +38,16 @@ std::vector<StressStretch> published_muscles() {
   const HolzapfelOgden healthy;
   const HolzapfelOgden excised{0.059, 8.023, 18.472, 16.026, 2.481, 11.12, 0.216, 11.436};
   std::vector<StressStretch> all{
-      pulled_along_fibre("Gao et al. 2014: healthy subject", healthy),
-      pulled_along_fibre("Gao et al. 2014: patient's remote muscle",
-                         healthy.with_anisotropy_scaled(7.5)),
+      pulled_along_fibre(paper + "healthy subject", healthy),
+      pulled_along_fibre(paper + "patient's remote muscle", healthy.with_anisotropy_scaled(7.5)),
       pulled_along_fibre("Holzapfel & Ogden 2009: excised pig muscle", excised)};
   for (StressStretch& curve : all)
     curve.is_published = true;
   return all;
+}
+
+bool is_subject_of_paper(const std::string& muscle) {
+  return muscle.starts_with(paper);
 }
 
 }  // namespace lv::material

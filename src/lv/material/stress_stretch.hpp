@@ -26,4 +26,8 @@ struct StressStretch {
 /// (C_a = 7.5), and excised muscle (Holzapfel & Ogden, Phil. Trans. R. Soc. A 367:3445, 2009).
 [[nodiscard]] std::vector<StressStretch> published_muscles();
 
+/// Whether a name is that of one of the paper's two subjects, which stand beside a case on request
+/// only.
+[[nodiscard]] bool is_subject_of_paper(const std::string& muscle);
+
 }  // namespace lv::material

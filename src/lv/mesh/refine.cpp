@@ -34,7 +34,7 @@ class Refiner {
     }
   }
 
-  Mesh refine() {
+  Refinement refine() {
     for (int c = 0; c < coarse_.cell_count(); ++c) {
       if (coarse_.kind == CellKind::hexahedron)
         refine_hexahedron(coarse_.cell(c));
@@ -44,7 +44,13 @@ class Refiner {
     fine_.endo = refine(coarse_.endo);
     fine_.epi = refine(coarse_.epi);
     fine_.base = refine(coarse_.base);
-    return std::move(fine_);
+    Refinement result{std::move(fine_), {}};
+    for (std::size_t a = 0; a < coarse_.nodes.size(); ++a)
+      result.middle_of.push_back({static_cast<int>(a)});
+    result.middle_of.resize(result.mesh.nodes.size());
+    for (const auto& [of, node] : middles_)
+      result.middle_of[node] = of;
+    return result;
   }
 
  private:
@@ -178,6 +184,10 @@ class Refiner {
 }  // namespace
 
 Mesh refine(const Mesh& mesh) {
+  return refinement(mesh).mesh;
+}
+
+Refinement refinement(const Mesh& mesh) {
   return Refiner(mesh).refine();
 }
 

@@ -11,6 +11,13 @@ namespace lv::mesh {
 /// cells hang together as quadratic elements.
 [[nodiscard]] Mesh refine(const Mesh& mesh);
 
+/// A refined mesh, and the old nodes in whose middle each of its nodes lies (one for an old node).
+struct Refinement {
+  Mesh mesh;
+  std::vector<std::vector<int>> middle_of;
+};
+[[nodiscard]] Refinement refinement(const Mesh& mesh);
+
 /// A flag per cell, handed on to the eight cells that refine() makes of it.
 [[nodiscard]] std::vector<bool> refine_flags(const std::vector<bool>& cells);
 

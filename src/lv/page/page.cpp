@@ -21,6 +21,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 
 namespace lv::page {
 namespace {
@@ -225,8 +226,9 @@ Json frames_json(const std::vector<std::vector<float>>& frames, std::size_t comp
   return json;
 }
 
-Json flow_json(const FlowSeries& flow, PagedArrays& arrays) {
+Json flow_json(const FlowSeries& flow, const LongAxis& plane, PagedArrays& arrays) {
   return {
+      {"plane_deg", rounded(plane.angle / units::degree)},
       {"cells", flow.cells},
       {"lower", flow.lower},
       {"spacing", flow.spacing},
@@ -238,20 +240,22 @@ Json flow_json(const FlowSeries& flow, PagedArrays& arrays) {
         {"frames", frames_json(flow.pressure, 1, pressure_step, arrays)}}}};
 }
 
-/// The rectangle (x and z) that the wall ever touches, with room for the jet at the base.
-std::array<std::array<double, 2>, 2> surroundings(const WallSeries& wall) {
+/// The rectangle in a long-axis plane that the wall ever touches, with room for the jet at the
+/// base.
+std::array<std::array<double, 2>, 2> surroundings(const WallSeries& wall, const LongAxis& plane) {
   constexpr double margin = 6.0;  // [mm]
   constexpr double above = 35.0;  // [mm]
   std::array<double, 2> lower{1e9, 1e9};
   std::array<double, 2> upper{-1e9, -1e9};
   for (const auto& frame : wall.displacement)
-    for (std::size_t a = 0; a < wall.undeformed.size(); ++a)
+    for (std::size_t a = 0; a < wall.undeformed.size(); ++a) {
+      const Vec3 x = wall.undeformed[a] + Vec3(frame[3 * a], frame[3 * a + 1], frame[3 * a + 2]);
+      const std::array<double, 2> at{plane.along(x.x(), x.y()), x.z()};
       for (const std::size_t i : {0U, 1U}) {
-        const double at =
-            wall.undeformed[a][static_cast<Eigen::Index>(2 * i)] + frame[3 * a + 2 * i];
-        lower.at(i) = std::min(lower.at(i), at);
-        upper.at(i) = std::max(upper.at(i), at);
+        lower.at(i) = std::min(lower.at(i), at.at(i));
+        upper.at(i) = std::max(upper.at(i), at.at(i));
       }
+    }
   return {{{lower[0] - margin, lower[1] - margin}, {upper[0] + margin, upper[1] + above}}};
 }
 
@@ -293,10 +297,27 @@ Json files_json(const fs::path& work) {
   return json;
 }
 
+/// Where the middle of the septum is [degrees]; nothing when no mesh has been made.
+std::optional<double> septum_degrees(const fs::path& work) {
+  const auto angle = report::recorded(work, "mesh", "regions.septum_angle");
+  return angle ? std::optional(std::stod(*angle)) : std::nullopt;
+}
+
+/// The four-chamber view's.
+LongAxis flow_plane(const fs::path& work) {
+  return {septum_degrees(work).value_or(0.0) * units::degree};
+}
+
+/// Whether eight consecutive cells of the mesh are the parts of a quadratic element.
+bool is_quadratic(const fs::path& work) {
+  return report::recorded(work, "mesh", "engine") == "quasi_static" &&
+         report::recorded(work, "mesh", "quasi_static.order") == "2";
+}
+
 /// What the mesh was made with: where the septum is, and the engine.
 void add_mesh_facts(Json& json, const fs::path& work) {
-  if (const auto angle = report::recorded(work, "mesh", "regions.septum_angle"))
-    json["septum_deg"] = std::stod(*angle);
+  if (const auto angle = septum_degrees(work))
+    json["septum_deg"] = *angle;
   if (const auto engine = report::recorded(work, "mesh", "engine"))
     json["engine"] = *engine;
 }
@@ -331,15 +352,19 @@ Data case_html(const PageCase& shown, int number, std::size_t count) {
             {"state", state_of(shown)},
             {"files", files_json(shown.work)}};
   add_mesh_facts(json, shown.work);
+  const auto blood = frames_of(report::file_of(shown.work, "beat", "blood.pvd"));
+  json["has_blood"] = !blood.empty();
   if (const auto frames = wall_frames(shown.work); !frames.empty()) {
     constexpr double never = std::numeric_limits<double>::infinity();
     const WallSeries wall = read_wall_series(
         frames, report::time_of(shown.work, heartbeat::end_diastole).value_or(never));
     json["wall"] = wall_json(wall, arrays);
-    const auto blood = frames_of(report::file_of(shown.work, "beat", "blood.pvd"));
-    const auto [lower, upper] = surroundings(wall);
-    if (!blood.empty())
-      json["flow"] = flow_json(read_flow_series(blood, lower, upper), arrays);
+    json["wall"]["order"] = is_quadratic(shown.work) ? 2 : 1;
+    const LongAxis plane = flow_plane(shown.work);
+    const auto [lower, upper] = surroundings(wall, plane);
+    // the wall's frames are the blood's borders; the undeformed mesh is none
+    if (!blood.empty() && !report::file_of(shown.work, "beat", "wall.pvd").empty())
+      json["flow"] = flow_json(read_flow_series(blood, plane, lower, upper), plane, arrays);
   }
   if (const std::string pictures = pictures_json(shown.work); !pictures.empty()) {
     json["pictures"] = fmt::format("case{}-pictures", number);

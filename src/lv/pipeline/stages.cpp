@@ -124,12 +124,16 @@ bool is_measurement(const std::string& parameter) {
           !parameter.starts_with("anatomy.ellipsoid."));
 }
 
+/// Whether images show the infarct; otherwise it lies where somebody said.
+bool scar_is_measured(const Case& c) {
+  return c.scar.source == mesh::InfarctSource::labels || c.scar.source == mesh::InfarctSource::lge;
+}
+
 /// What was measured, fitted and assumed.
 void add_marks(const Case& c, report::RunFacts& facts) {
   facts.muscle_density = c.muscle_density;
   facts.shape = case_file::is_drawn(c) ? report::Mark::measured : report::Mark::assumed;
-  facts.scar_is_measured =
-      c.scar.source == mesh::InfarctSource::labels || c.scar.source == mesh::InfarctSource::lge;
+  facts.scar_is_measured = scar_is_measured(c);
   facts.fitted_parameters = fitted_names(c.calibration);
   for (const auto& [name, place] : c.origin)
     if (is_measurement(name))
@@ -311,12 +315,15 @@ void show_mesh(const anatomy::MeshResult& result, const Case& c,
     report::write_mesh(folder / "mesh.vtu", m, result.regions, undeformed);
     report::quality_table(mesh::quality(m)).write_csv(folder / "quality.csv");
     interrupt::check();
-    const drawing::Orientation orientation{c.regions.septum_angle, anatomy_beside(folder).assumed};
+    drawing::Orientation orientation{c.regions.septum_angle, anatomy_beside(folder).assumed};
     drawing::write(report::mesh_figure(m, orientation), folder / "mesh.png");
     drawing::write(report::fibre_figure(m, undeformed, orientation), folder / "fibres.png");
     if (const std::string infarct = scar::describe_infarct(c, result); !infarct.empty()) {
       log::info("{}", infarct);
       scar::infarct_table(c, result).write_csv(folder / "infarct.csv");
+      if (!scar_is_measured(c))
+        orientation.assumed.push_back(
+            {"infarct", "the infarct lies where the case says; no image shows it"});
       drawing::write(report::infarct_figure(m, orientation), folder / "infarct.png");
     }
   });

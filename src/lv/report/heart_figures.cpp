@@ -3,12 +3,14 @@
 #include "lv/base/units.hpp"
 #include "lv/drawing/sticks.hpp"
 #include "lv/drawing/wall_surface.hpp"
+#include "lv/mesh/curved.hpp"
 #include "lv/mesh/fibres.hpp"
 #include "lv/mesh/regions.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace lv::report {
@@ -52,20 +54,41 @@ drawing::ColourScale common_scale(std::vector<double> values,
   return {map, step * std::floor(low / step), step * std::ceil(high / step)};
 }
 
-/// A nodal field on a wall whose nodes are at `x`.
+/// A wall to draw, its elements curved as they are, with the nodes of its mesh at `positions`.
+struct DrawnWall {
+  const mesh::CurvedMesh& curved;
+  std::vector<Vec3> x;
+
+  DrawnWall(const mesh::CurvedMesh& wall, std::span<const Vec3> positions)
+      : curved(wall), x(wall.at_nodes(positions)) {}
+
+  [[nodiscard]] drawing::WallPatch surface(mesh::Surface Mesh::*side) const {
+    return drawing::wall_surface(curved.mesh, x, curved.mesh.*side, curved.faces_per_side);
+  }
+  [[nodiscard]] drawing::WallPatch section(const drawing::Plane& plane) const {
+    return drawing::wall_section(curved.mesh, x, plane, curved.cells_per_element);
+  }
+};
+
+constexpr std::array sides{&Mesh::endo, &Mesh::epi, &Mesh::base};
+
+/// A nodal field on a wall.
 struct PaintedWall {
-  const Mesh& m;
-  std::span<const Vec3> x;
-  const std::vector<double>& nodal;
+  DrawnWall wall;
+  std::vector<double> nodal;
   drawing::ColourScale scale;
+
+  PaintedWall(const DrawnWall& drawn, const std::vector<double>& field,
+              const drawing::ColourScale& colours)
+      : wall(drawn), nodal(drawn.curved.at_nodes(field)), scale(colours) {}
 
   [[nodiscard]] drawing::Item item(const drawing::WallPatch& patch) const {
     return {.patch = patch.patch, .paint = drawing::PointValues{patch.at_points(nodal), scale}};
   }
   [[nodiscard]] drawing::Scene whole() const {
     drawing::Scene scene;
-    for (const mesh::Surface* side : {&m.endo, &m.epi, &m.base})
-      scene.items.push_back(item(drawing::wall_surface(m, x, *side)));
+    for (const auto side : sides)
+      scene.items.push_back(item(wall.surface(side)));
     return scene;
   }
   /// What a plane leaves, and the section.
@@ -76,13 +99,13 @@ struct PaintedWall {
     return scene;
   }
   [[nodiscard]] drawing::Item section(const drawing::Plane& plane) const {
-    return item(drawing::wall_section(m, x, plane));
+    return item(wall.section(plane));
   }
   /// Half of the way from the base to the endocardial apex.
   [[nodiscard]] drawing::Plane middle() const {
     double lowest = 0.0;
-    for (const int node : m.endo.nodes)
-      lowest = std::min(lowest, x[node].z());
+    for (const int node : wall.curved.mesh.endo.nodes)
+      lowest = std::min(lowest, wall.x[node].z());
     return drawing::short_axis_plane(0.5 * lowest);
   }
 };
@@ -98,7 +121,10 @@ std::vector<Vec3> points_of(const std::vector<drawing::Scene>& scenes) {
 /// Pictures of scenes by one camera, with letters.
 std::vector<drawing::Picture> pictures(const std::vector<drawing::Scene>& scenes,
                                        const drawing::Look& look, const drawing::Orientation& o) {
-  const auto letters = drawing::wall_letters(o, points_of(scenes));
+  auto letters = drawing::wall_letters(o, points_of(scenes));
+  if (std::abs(look.view.normalized().z()) < 0.9)  // not along the axis, where they would hide it
+    for (const drawing::Letter& end : drawing::assumed_ends(o, points_of(scenes)))
+      letters.push_back(end);
   std::vector<Vec3> places;
   for (const drawing::Letter& letter : letters)
     places.push_back(letter.at);
@@ -143,7 +169,7 @@ drawing::Look facing(const Vec3& middle) {
 constexpr const char* four_chamber_title = "four-chamber view, cut open";
 
 std::string notes(const drawing::Orientation& o) {
-  return drawing::star_note(o, {"septum", "early diastole", "apex", "base"});
+  return drawing::star_note(o, {"septum", "early diastole", "apex", "base", "infarct"});
 }
 
 std::string base_and_apex(const drawing::Orientation& o) {
@@ -194,17 +220,25 @@ double helix_degrees(const CellFields& cell) {
 }
 
 /// Fibres on one side of the wall as sticks coloured by their helix angle.
-drawing::Item fibre_sticks(const drawing::WallPatch& patch, const std::vector<CellFields>& cells,
+drawing::Item fibre_sticks(const drawing::WallPatch& patch, const mesh::CurvedMesh& curved,
+                           const std::vector<CellFields>& cells,
                            const drawing::ColourScale& scale) {
   const FacesToShow shown = thinned(patch, 3.2);
   std::vector<Vec3> directions;
   std::vector<std::optional<drawing::Colour>> colours;
   for (const int c : shown.cells) {
-    directions.emplace_back(cells[c].fibre_frame.col(0));
-    colours.push_back(scale(helix_degrees(cells[c])));
+    const CellFields& cell = cells[c / curved.cells_per_part];
+    directions.emplace_back(cell.fibre_frame.col(0));
+    colours.push_back(scale(helix_degrees(cell)));
   }
   const auto segments = drawing::sticks(shown.centres, directions, 4.0);
   return {.patch = drawing::tubes(segments, 0.45), .paint = drawing::tube_colours(colours)};
+}
+
+/// "552 quadratic elements"
+std::string elements_text(const Mesh& mesh) {
+  return mesh.order == 2 ? fmt::format("{} quadratic elements", mesh.cell_count() / 8)
+                         : fmt::format("{} elements", mesh.cell_count());
 }
 
 }  // namespace
@@ -213,12 +247,13 @@ drawing::Figure mesh_figure(const Mesh& mesh, const drawing::Orientation& o) {
   const auto drawn = [](const drawing::WallPatch& wall) {
     return drawing::Item{.patch = wall.patch, .paint = tissue, .outline_width = 0.25};
   };
+  const mesh::CurvedMesh curved = mesh::curved(mesh);
+  const DrawnWall wall(curved, mesh.nodes);
   drawing::Scene outside;
-  for (const mesh::Surface* side : {&mesh.epi, &mesh.endo, &mesh.base})
-    outside.items.push_back(drawn(drawing::wall_surface(mesh, mesh.nodes, *side)));
+  for (const auto side : {&Mesh::epi, &Mesh::endo, &Mesh::base})
+    outside.items.push_back(drawn(wall.surface(side)));
   drawing::Scene inside = outside;
-  inside.items.push_back(
-      drawn(drawing::wall_section(mesh, mesh.nodes, drawing::four_chamber_plane(o))));
+  inside.items.push_back(drawn(wall.section(drawing::four_chamber_plane(o))));
   inside.cut = drawing::four_chamber_plane(o);
   return {
       .panels = {{.title = "from the anterior side",
@@ -228,7 +263,7 @@ drawing::Figure mesh_figure(const Mesh& mesh, const drawing::Orientation& o) {
                  {.title = o.starred("apex", "apex") + ", from below",
                   .content = picture({{outside.items.front()}, {}}, drawing::short_axis(o), o)}},
       .columns = 3,
-      .title = fmt::format("mesh: {} elements, {} nodes; {}", mesh.cell_count(), mesh.nodes.size(),
+      .title = fmt::format("mesh: {}, {} nodes; {}", elements_text(mesh), mesh.nodes.size(),
                            base_and_apex(o)),
       .footnote = notes(o)};
 }
@@ -236,15 +271,16 @@ drawing::Figure mesh_figure(const Mesh& mesh, const drawing::Orientation& o) {
 drawing::Figure fibre_figure(const Mesh& mesh, const std::vector<CellFields>& undeformed,
                              const drawing::Orientation& o) {
   const drawing::ColourScale scale{drawing::diverging(), -60.0, 60.0};
-  const drawing::WallPatch epi = drawing::wall_surface(mesh, mesh.nodes, mesh.epi);
-  const drawing::WallPatch endo = drawing::wall_surface(mesh, mesh.nodes, mesh.endo);
+  const mesh::CurvedMesh curved = mesh::curved(mesh);
+  const DrawnWall drawn(curved, mesh.nodes);
+  const drawing::WallPatch epi = drawn.surface(&Mesh::epi);
+  const drawing::WallPatch endo = drawn.surface(&Mesh::endo);
   const drawing::Scene outside{.items = {{.patch = epi.patch, .paint = drawing::hex(0xf2f2f2)},
-                                         fibre_sticks(epi, undeformed, scale)}};
+                                         fibre_sticks(epi, curved, undeformed, scale)}};
   drawing::Scene inside{.items = {{.patch = endo.patch, .paint = drawing::hex(0xf2f2f2)},
-                                  fibre_sticks(endo, undeformed, scale)}};
+                                  fibre_sticks(endo, curved, undeformed, scale)}};
   inside.cut = drawing::four_chamber_plane(o);
-  const auto helix = at_nodes(mesh, undeformed, helix_degrees);
-  const PaintedWall wall{mesh, mesh.nodes, helix, scale};
+  const PaintedWall wall(drawn, at_nodes(mesh, undeformed, helix_degrees), scale);
   return {.panels = {{.title = "epicardium, from the anterior side",
                       .content = picture(outside, drawing::four_chamber(o), o)},
                      {.title = "endocardium, cut open",
@@ -265,7 +301,8 @@ drawing::Figure fibre_figure(const Mesh& mesh, const std::vector<CellFields>& un
 
 drawing::Figure infarct_figure(const Mesh& mesh, const drawing::Orientation& o) {
   const drawing::ColourScale scale{drawing::sequential(), 0.0, 1.0};
-  const PaintedWall wall{mesh, mesh.nodes, mesh.infarct, scale};
+  const mesh::CurvedMesh curved = mesh::curved(mesh);
+  const PaintedWall wall({curved, mesh.nodes}, mesh.infarct, scale);
   const Vec3 middle = infarct_middle(mesh);
   const drawing::Scene across{.items = {wall.section(drawing::short_axis_plane(middle.z()))}};
   return {.panels = {{.title = "from outside, the infarct in front",
@@ -279,7 +316,7 @@ drawing::Figure infarct_figure(const Mesh& mesh, const drawing::Orientation& o) 
                       .content = picture(wall.open(drawing::two_chamber_plane(o)),
                                          drawing::two_chamber(o), o)}},
           .columns = 2,
-          .title = "infarct",
+          .title = o.starred("infarct", "infarct"),
           .footnote = notes(o),
           .colour_bar = drawing::ColourBar{"extent M: 1 infarct, 0 remote muscle", scale}};
 }
@@ -296,9 +333,10 @@ drawing::Figure states_figure(const Mesh& mesh, const heartbeat::Beat& beat,
     titles.push_back(fmt::format("{}: {:.0f} mmHg, {:.1f} ml", heartbeat::title(name),
                                  wall.pressure / mmHg, 1e-3 * wall.volume));
   }
-  std::vector<PaintedWall> walls{{mesh, mesh.nodes, nodal.front(), scale}};
+  const mesh::CurvedMesh curved = mesh::curved(mesh);
+  std::vector<PaintedWall> walls{{{curved, mesh.nodes}, nodal.front(), scale}};
   for (std::size_t i = 0; i < beat.moments.size(); ++i)
-    walls.push_back({mesh, beat.moments[i].wall.positions, nodal[i + 1], scale});
+    walls.push_back({{curved, beat.moments[i].wall.positions}, nodal[i + 1], scale});
   return {.panels = both_axes(titles, walls, o),
           .columns = static_cast<int>(walls.size()),
           .footnote = notes(o),
@@ -312,10 +350,14 @@ drawing::Figure stress_figure(const Mesh& mesh, const heartbeat::Beat& beat,
   const auto ed = at_nodes(mesh, fields.at(heartbeat::end_diastole), stress);
   const auto es = at_nodes(mesh, fields.at(heartbeat::end_systole), stress);
   const auto active = at_nodes(mesh, fields.at(heartbeat::end_systole), tension);
-  const std::vector<PaintedWall> walls{
-      {mesh, beat.at(heartbeat::end_diastole).positions, ed, common_scale(ed)},
-      {mesh, beat.at(heartbeat::end_systole).positions, es, common_scale(es)},
-      {mesh, beat.at(heartbeat::end_systole).positions, active, common_scale(active)}};
+  const mesh::CurvedMesh curved = mesh::curved(mesh);
+  const DrawnWall filled(curved, beat.at(heartbeat::end_diastole).positions);
+  const DrawnWall contracted(curved, beat.at(heartbeat::end_systole).positions);
+  std::vector<double> both = ed;
+  both.insert(both.end(), es.begin(), es.end());
+  const std::vector<PaintedWall> walls{{filled, ed, common_scale(both)},
+                                       {contracted, es, common_scale(both)},
+                                       {contracted, active, common_scale(active)}};
   drawing::Figure figure{.panels = both_axes({heartbeat::title(heartbeat::end_diastole),
                                               heartbeat::title(heartbeat::end_systole),
                                               heartbeat::title(heartbeat::end_systole)},

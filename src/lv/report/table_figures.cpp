@@ -4,6 +4,7 @@
 #include "lv/base/json_file.hpp"
 #include "lv/base/units.hpp"
 #include "lv/heartbeat/beat.hpp"
+#include "lv/material/stress_stretch.hpp"
 #include "lv/report/work_folder.hpp"
 #include "lv/strain/agreement.hpp"
 
@@ -129,9 +130,10 @@ std::vector<double> all_means(const Table& regions, const std::string& quantity)
   return all;
 }
 
-/// The footnote, and what the stars at names of walls mean.
-std::string with_stars(const std::string& footnote, const drawing::Orientation& orientation) {
-  const std::string note = drawing::star_note(orientation, {"septum"});
+/// The footnote, and what the stars of a figure of these parts mean.
+std::string with_stars(const std::string& footnote, const drawing::Orientation& orientation,
+                       const std::vector<std::string>& parts = {"septum", "apex", "base"}) {
+  const std::string note = drawing::star_note(orientation, parts);
   return footnote + (footnote.empty() || note.empty() ? "" : ". ") + note;
 }
 
@@ -168,7 +170,8 @@ drawing::Panel bulls_eye_panel(const std::string& title, const std::vector<doubl
     wall = orientation.starred(wall, "septum");
   if (values.size() != 17)
     plot.sectors = drawing::seven_slices();
-  return {.title = title, .content = plot};
+  // rings are parts of the way from the base to the apex
+  return {.title = orientation.starred(title, {"apex", "base"}), .content = plot};
 }
 
 /// The value of every AHA segment at end-systole.
@@ -254,7 +257,7 @@ class FigureFolder {
 
   void rotation() const {
     if (const auto table = table_of(work_, "results", "rotation.csv"))
-      write(rotation_figure(*table), "rotation");
+      write(rotation_figure(*table, orientation_of(work_)), "rotation");
   }
 
   void muscle() const {
@@ -268,7 +271,7 @@ class FigureFolder {
           table_of(work_, "results", fmt::format("strain_comparison_{}.csv", component));
       for (const char* scheme : {"sector", "aha17"})
         if (table && pairs_of(*table, scheme).size() > 1)
-          write(agreement_figure(*table, component, scheme),
+          write(agreement_figure(*table, component, scheme, orientation_of(work_)),
                 fmt::format("strain_agreement_{}_{}", component, scheme));
     }
   }
@@ -328,19 +331,23 @@ drawing::Figure bulls_eyes_figure(const Table& regions, const std::string& quant
   const drawing::ColourScale scale = scale_of(all_means(regions, quantity), quantity);
   const int digits = decimals(scale);
   const std::string label = with_unit(quantity, segments.unit);
-  const std::string strain =
-      fmt::format("Green-Lagrange strain from {}", state == heartbeat::end_diastole
-                                                       ? "early diastole"
-                                                       : heartbeat::title(heartbeat::end_diastole));
+  const std::string strain = fmt::format(
+      "Green-Lagrange strain from {}", state == heartbeat::end_diastole
+                                           ? orientation.starred("early diastole", "early diastole")
+                                           : heartbeat::title(heartbeat::end_diastole));
+  std::vector<std::string> parts{"septum", "apex", "base"};
+  if (state == heartbeat::end_diastole && is_strain(quantity))
+    parts.emplace_back("early diastole");
   return {
       .panels = {bulls_eye_panel("seven slices", slices.values, scale, digits, orientation),
                  bulls_eye_panel("17 segments (AHA)", segments.values, scale, digits, orientation)},
       .title = fmt::format("{}, mean at {}", label, heartbeat::title(state)),
-      .footnote = with_stars(analysis::quantity(quantity).is_strain ? strain : "", orientation),
+      .footnote =
+          with_stars(analysis::quantity(quantity).is_strain ? strain : "", orientation, parts),
       .colour_bar = drawing::ColourBar{label, scale}};
 }
 
-drawing::Figure rotation_figure(const Table& rotation) {
+drawing::Figure rotation_figure(const Table& rotation, const drawing::Orientation& orientation) {
   const auto slice = rotation.numbers("slice");
   const auto series = [&](const char* label, const char* column, bool dashed) {
     return drawing::Series{.label = label,
@@ -351,14 +358,16 @@ drawing::Figure rotation_figure(const Table& rotation) {
                            .marker = drawing::Marker::circle};
   };
   const drawing::LineChart chart{
-      .x = {"slice, from the base (1) to the apex (7)"},
+      .x = {fmt::format("slice, from the {} (1) to the {} (7)", orientation.starred("base", "base"),
+                        orientation.starred("apex", "apex"))},
       .y = {"rotation [deg]"},
       .series = {series("end-diastole to end-systole", "end_diastole_to_end_systole_deg", false),
                  series("early to end-diastole", "early_to_end_diastole_deg", true)}};
   return {.panels = {{.content = chart}},
           .columns = 1,
           .panel_width = 420.0,
-          .footnote = "Anticlockwise seen from the apex is positive"};
+          .footnote = with_stars("Anticlockwise seen from the apex is positive", orientation,
+                                 {"apex", "base"})};
 }
 
 drawing::Figure muscle_figure(const Table& curves) {
@@ -368,6 +377,8 @@ drawing::Figure muscle_figure(const Table& curves) {
   const auto stress = curves.numbers("cauchy_stress_kPa");
   drawing::LineChart chart{.x = {"fibre stretch"}, .y = {"Cauchy stress [kPa]"}};
   for (std::size_t i = 0; i < muscle.size(); ++i) {
+    if (material::is_subject_of_paper(muscle[i]))
+      continue;
     if (i == 0 || muscle[i] != muscle[i - 1])
       chart.series.push_back({.label = muscle[i], .dashed = published[i] == "yes"});
     chart.series.back().x.push_back(stretch[i]);
@@ -377,7 +388,8 @@ drawing::Figure muscle_figure(const Table& curves) {
 }
 
 drawing::Figure agreement_figure(const Table& table, const std::string& component,
-                                 const std::string& scheme) {
+                                 const std::string& scheme,
+                                 const drawing::Orientation& orientation) {
   const auto pairs = pairs_of(table, scheme);
   const strain::Agreement a = strain::agreement(pairs);
   drawing::Series scatter{.width = 0.0, .marker = drawing::Marker::circle};
@@ -399,8 +411,11 @@ drawing::Figure agreement_figure(const Table& table, const std::string& componen
                                                     .y = {"strain of the model"},
                                                     .series = {scatter, same}}},
                      {.title = "Bland and Altman", .content = bland_altman(difference, a)}},
-          .title = fmt::format("{} strain at end-systole, {} {}", component, a.count,
-                               scheme == "sector" ? "sectors of slices" : "AHA segments")};
+          .title = fmt::format(
+              "{} strain at end-systole, {} {}", component, a.count,
+              orientation.starred(scheme == "sector" ? "sectors of slices" : "AHA segments",
+                                  {"septum", "apex", "base"})),
+          .footnote = with_stars("", orientation)};
 }
 
 drawing::Orientation orientation_of(const fs::path& work) {

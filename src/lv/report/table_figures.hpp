@@ -39,17 +39,19 @@ struct CurveFacts {
                                                 const drawing::Orientation& orientation);
 
 /// Rotation of the slices, from rotation.csv.
-[[nodiscard]] drawing::Figure rotation_figure(const Table& rotation);
+[[nodiscard]] drawing::Figure rotation_figure(const Table& rotation,
+                                              const drawing::Orientation& orientation);
 
-/// Stress against stretch of the case's passive muscle and of published ones, from
-/// stress_stretch.csv.
+/// Stress against stretch of the case's passive muscle and of excised muscle, from
+/// stress_stretch.csv; the paper's subjects are left out.
 [[nodiscard]] drawing::Figure muscle_figure(const Table& curves);
 
 /// Strain of the model against that from images, and their difference against their mean with bias
 /// and 95% limits of agreement (Bland & Altman, Lancet 327:307, 1986), of the pairs of one scheme
 /// in strain_comparison_COMPONENT.csv.
 [[nodiscard]] drawing::Figure agreement_figure(const Table& pairs, const std::string& component,
-                                               const std::string& scheme);
+                                               const std::string& scheme,
+                                               const drawing::Orientation& orientation);
 
 /// How the ventricle of a run lies, by the record of its mesh, and what of it was assumed, by its
 /// summary.json; nothing is known of what is not there.
