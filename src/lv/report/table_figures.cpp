@@ -336,7 +336,7 @@ drawing::Figure bulls_eyes_figure(const Table& regions, const std::string& quant
                                            ? orientation.starred("early diastole", "early diastole")
                                            : heartbeat::title(heartbeat::end_diastole));
   std::vector<std::string> parts{"septum", "apex", "base"};
-  if (state == heartbeat::end_diastole && is_strain(quantity))
+  if (state == heartbeat::end_diastole && analysis::quantity(quantity).is_strain)
     parts.emplace_back("early diastole");
   return {
       .panels = {bulls_eye_panel("seven slices", slices.values, scale, digits, orientation),
