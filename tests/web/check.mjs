@@ -6,7 +6,7 @@ import { cpSync, existsSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, 
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { promisify } from "node:util";
-import { lacking, launch, openPage, root } from "./browser.mjs";
+import { lacking, launch, openPage, root, scrub } from "./browser.mjs";
 import { thickSeptum } from "./thick_septum.mjs";
 
 const program = resolve(process.argv[2]);
@@ -288,29 +288,10 @@ async function checkDownloads(page, work) {
 }
 
 async function checkSpeed(page) {
-  const session = await browser.newBrowserCDPSession();
-  const cpu = async () => (await session.send("SystemInfo.getProcessInfo")).processInfo.reduce((sum, p) => sum + p.cpuTime, 0);
-  await page.locator("canvas.wall").scrollIntoViewIfNeeded();
-  const before = await cpu();
-  const result = await page.evaluate(async () => {
-    const slider = document.getElementById("time");
-    const count = Number(slider.max) + 1;
-    const frame = () => new Promise((done) => requestAnimationFrame(done));
-    let script = 0;
-    const start = performance.now();
-    for (let i = 0; i < 60; ++i) {
-      const t = performance.now();
-      slider.value = i % count;
-      slider.dispatchEvent(new Event("input"));
-      script += performance.now() - t;
-      await frame();
-    }
-    return { fps: 60e3 / (performance.now() - start), script: script / 60, count };
-  });
-  const spent = (await cpu()) - before;
-  console.log(`info  scrubbing 60 moments (of ${result.count}): ${result.fps.toFixed(1)} frames per second, software rendering; ` +
-    `${result.script.toFixed(1)} ms of script and ${(1000 * spent / 60).toFixed(1)} ms of processor time a frame`);
-  check("scrubbing is not slower than 4 frames per second, software rendering on a busy machine", result.fps > 4, result.fps);
+  const { fps, script, processor, count } = await scrub(browser, page);
+  console.log(`info  scrubbing 60 moments (of ${count}): ${fps.toFixed(1)} frames per second, software rendering; ` +
+    `${script.toFixed(1)} ms of script and ${processor.toFixed(1)} ms of processor time a frame`);
+  check("scrubbing is not slower than 4 frames per second, software rendering on a busy machine", fps > 4, fps);
 }
 
 const dot = (a, b) => a.reduce((sum, v, d) => sum + v * b[d], 0);
