@@ -307,6 +307,18 @@ function firstPoints(state, slice) {
   });
 }
 
+/** Where septum and anterior wall lie in a short-axis image, to its right and down, from the model's frame and the recorded angle. */
+function wallDirections(slice) {
+  const frame = JSON.parse(readFileSync(join(images, "01_anatomy/frame.json"), "utf8"));
+  const place = csv(join(images, "04_results/pictures/pictures.csv")).find((r) => r.slice === String(slice));
+  const septum = parseFloat(JSON.parse(readFileSync(join(images, "02_mesh/stage.json"), "utf8")).ingredients["regions.septum_angle"].replaceAll('"', "")) * Math.PI / 180;
+  const at = (angle) => {
+    const inSpace = frame.x_axis_in_image_space.map((x, d) => x * Math.cos(angle) + frame.y_axis_in_image_space[d] * Math.sin(angle));
+    return ["along_row", "along_column"].map((name) => dot(inSpace, vector(place, name, "")));
+  };
+  return { septal: at(septum), anterior: at(septum + Math.PI / 2) };
+}
+
 async function checkOutlines(page) {
   await page.waitForSelector("#outlines svg.outlined");
   const listed = csv(join(images, "04_results/pictures/pictures.csv"));
@@ -338,6 +350,12 @@ async function checkOutlines(page) {
       expected.every((e, i) => e.source === now.starts[i].source && e.at.every((x, d) => Math.abs(x - now.starts[i].at[d]) < 0.03)),
       JSON.stringify({ expected, starts: now.starts }));
   }
+  const placed = await page.locator("#outlines figure text.letter").evaluateAll((all) => Object.fromEntries(all.map((one) => [one.textContent[0], [Number(one.getAttribute("x")), Number(one.getAttribute("y"))]])));
+  const expected = wallDirections(seen[1].slice);
+  const away = (a, b) => placed[a].map((x, d) => x - placed[b][d]);
+  const along = (v, w) => dot(v, w) / Math.hypot(...v) / Math.hypot(...w);
+  check("letters over an image lie where the frame has the walls", Object.keys(placed).sort().join() === "A,I,L,S" && along(away("A", "I"), expected.anterior) > 0.95 &&
+    along(away("S", "L"), expected.septal) > 0.95, JSON.stringify({ placed, expected }));
   check("the two moments have different images", seen[0].png !== seen[1].png || JSON.stringify(seen[0].starts) !== JSON.stringify(seen[1].starts));
   await setSlider(page, "#outlines input[type=range]", 1);
   check("the slider goes to another slice", (await look()).slice !== seen[1].slice);
