@@ -539,7 +539,7 @@ async function checkFlowPlane() {
   check("its letters are S on the left and L on the right", Object.keys(letters).sort().join() === "L,S" && letters.S < letters.L, JSON.stringify(letters));
   const seen = await page.locator("canvas.flow").evaluate((canvas) => {
     const { width, height } = canvas;
-    const row = canvas.getContext("2d").getImageData(0, Math.round(0.55 * height), width, 1).data;
+    const row = canvas.getContext("2d").getImageData(0, Math.round(0.5 * height), width, 1).data;
     const kinds = Array.from({ length: width }, (_, x) => {
       const [r, g, b, a] = row.subarray(4 * x, 4 * x + 4);
       return a === 0 ? " " : Math.abs(r - 222) + Math.abs(g - 205) + Math.abs(b - 200) < 12 ? "w" : "b";
