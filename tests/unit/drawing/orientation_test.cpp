@@ -148,4 +148,8 @@ TEST_CASE("the script for ParaView knows where the walls are", "[drawing]") {
   CHECK_THAT(script, Catch::Contains("{time:.3f}"));
   CHECK_THAT(script, Catch::Contains("anterior, septal = [-0.644218, 0.764842, 0.000000], "
                                      "[0.764842, 0.644218, 0.000000]"));
+  CHECK_THAT(
+      script,
+      Catch::Contains(
+          R"((("A", 48.0, anterior), ("S", 48.0, septal), ("I", -48.0, anterior), ("L", -48.0, septal)))"));
 }
