@@ -35,3 +35,33 @@ export const screens = {
   "dark": { viewport: { width: 1440, height: 900 }, colorScheme: "dark" },
   "print": { viewport: { width: 718, height: 1000 }, media: "print" },  // the width of A4 within its margins
 };
+
+/** Milliseconds of processor time that all of a browser's processes have taken. */
+export async function processorTime(browser) {
+  const session = await browser.newBrowserCDPSession();
+  return 1000 * (await session.send("SystemInfo.getProcessInfo")).processInfo.reduce((sum, p) => sum + p.cpuTime, 0);
+}
+
+/** Drags the time slider through 60 moments: frames a second, milliseconds of script and of processor time (of all the browser's
+ * processes) a frame, and how many moments there are. */
+export async function scrub(browser, page) {
+  await page.locator("canvas.wall").first().scrollIntoViewIfNeeded();
+  await page.waitForTimeout(1000);
+  const before = await processorTime(browser);
+  const result = await page.evaluate(async () => {
+    const slider = document.getElementById("time");
+    const count = Number(slider.max) + 1;
+    const frame = () => new Promise((done) => requestAnimationFrame(done));
+    let script = 0;
+    const start = performance.now();
+    for (let i = 0; i < 60; ++i) {
+      const t = performance.now();
+      slider.value = i % count;
+      slider.dispatchEvent(new Event("input"));
+      script += performance.now() - t;
+      await frame();
+    }
+    return { fps: 60e3 / (performance.now() - start), script: script / 60, count };
+  });
+  return { ...result, processor: ((await processorTime(browser)) - before) / 60 };
+}

@@ -6,7 +6,7 @@ import { cpSync, existsSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, 
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { promisify } from "node:util";
-import { lacking, launch, openPage, root } from "./browser.mjs";
+import { lacking, launch, openPage, root, scrub } from "./browser.mjs";
 import { thickSeptum } from "./thick_septum.mjs";
 
 const program = resolve(process.argv[2]);
@@ -288,29 +288,10 @@ async function checkDownloads(page, work) {
 }
 
 async function checkSpeed(page) {
-  const session = await browser.newBrowserCDPSession();
-  const cpu = async () => (await session.send("SystemInfo.getProcessInfo")).processInfo.reduce((sum, p) => sum + p.cpuTime, 0);
-  await page.locator("canvas.wall").scrollIntoViewIfNeeded();
-  const before = await cpu();
-  const result = await page.evaluate(async () => {
-    const slider = document.getElementById("time");
-    const count = Number(slider.max) + 1;
-    const frame = () => new Promise((done) => requestAnimationFrame(done));
-    let script = 0;
-    const start = performance.now();
-    for (let i = 0; i < 60; ++i) {
-      const t = performance.now();
-      slider.value = i % count;
-      slider.dispatchEvent(new Event("input"));
-      script += performance.now() - t;
-      await frame();
-    }
-    return { fps: 60e3 / (performance.now() - start), script: script / 60, count };
-  });
-  const spent = (await cpu()) - before;
-  console.log(`info  scrubbing 60 moments (of ${result.count}): ${result.fps.toFixed(1)} frames per second, software rendering; ` +
-    `${result.script.toFixed(1)} ms of script and ${(1000 * spent / 60).toFixed(1)} ms of processor time a frame`);
-  check("scrubbing is not slower than 4 frames per second, software rendering on a busy machine", result.fps > 4, result.fps);
+  const { fps, script, processor, count } = await scrub(browser, page);
+  console.log(`info  scrubbing 60 moments (of ${count}): ${fps.toFixed(1)} frames per second, software rendering; ` +
+    `${script.toFixed(1)} ms of script and ${processor.toFixed(1)} ms of processor time a frame`);
+  check("scrubbing is not slower than 4 frames per second, software rendering on a busy machine", fps > 4, fps);
 }
 
 const dot = (a, b) => a.reduce((sum, v, d) => sum + v * b[d], 0);
@@ -324,6 +305,18 @@ function firstPoints(state, slice) {
     const from = ["x_mm", "y_mm", "z_mm"].map((name, d) => Number(r[name]) - vector(place, "origin", "_mm")[d]);
     return { source: r.source, at: [dot(from, vector(place, "along_row", "")) + spacing[0] / 2, dot(from, vector(place, "along_column", "")) + spacing[1] / 2] };
   });
+}
+
+/** Where septum and anterior wall lie in a short-axis image, to its right and down, from the model's frame and the recorded angle. */
+function wallDirections(slice) {
+  const frame = JSON.parse(readFileSync(join(images, "01_anatomy/frame.json"), "utf8"));
+  const place = csv(join(images, "04_results/pictures/pictures.csv")).find((r) => r.slice === String(slice));
+  const septum = parseFloat(JSON.parse(readFileSync(join(images, "02_mesh/stage.json"), "utf8")).ingredients["regions.septum_angle"].replaceAll('"', "")) * Math.PI / 180;
+  const at = (angle) => {
+    const inSpace = frame.x_axis_in_image_space.map((x, d) => x * Math.cos(angle) + frame.y_axis_in_image_space[d] * Math.sin(angle));
+    return ["along_row", "along_column"].map((name) => dot(inSpace, vector(place, name, "")));
+  };
+  return { septal: at(septum), anterior: at(septum + Math.PI / 2) };
 }
 
 async function checkOutlines(page) {
@@ -357,6 +350,12 @@ async function checkOutlines(page) {
       expected.every((e, i) => e.source === now.starts[i].source && e.at.every((x, d) => Math.abs(x - now.starts[i].at[d]) < 0.03)),
       JSON.stringify({ expected, starts: now.starts }));
   }
+  const placed = await page.locator("#outlines figure text.letter").evaluateAll((all) => Object.fromEntries(all.map((one) => [one.textContent[0], [Number(one.getAttribute("x")), Number(one.getAttribute("y"))]])));
+  const expected = wallDirections(seen[1].slice);
+  const away = (a, b) => placed[a].map((x, d) => x - placed[b][d]);
+  const along = (v, w) => dot(v, w) / Math.hypot(...v) / Math.hypot(...w);
+  check("letters over an image lie where the frame has the walls", Object.keys(placed).sort().join() === "A,I,L,S" && along(away("A", "I"), expected.anterior) > 0.95 &&
+    along(away("S", "L"), expected.septal) > 0.95, JSON.stringify({ placed, expected }));
   check("the two moments have different images", seen[0].png !== seen[1].png || JSON.stringify(seen[0].starts) !== JSON.stringify(seen[1].starts));
   await setSlider(page, "#outlines input[type=range]", 1);
   check("the slider goes to another slice", (await look()).slice !== seen[1].slice);
@@ -540,7 +539,7 @@ async function checkFlowPlane() {
   check("its letters are S on the left and L on the right", Object.keys(letters).sort().join() === "L,S" && letters.S < letters.L, JSON.stringify(letters));
   const seen = await page.locator("canvas.flow").evaluate((canvas) => {
     const { width, height } = canvas;
-    const row = canvas.getContext("2d").getImageData(0, Math.round(0.55 * height), width, 1).data;
+    const row = canvas.getContext("2d").getImageData(0, Math.round(0.5 * height), width, 1).data;
     const kinds = Array.from({ length: width }, (_, x) => {
       const [r, g, b, a] = row.subarray(4 * x, 4 * x + 4);
       return a === 0 ? " " : Math.abs(r - 222) + Math.abs(g - 205) + Math.abs(b - 200) < 12 ? "w" : "b";

@@ -64,9 +64,12 @@ function neighbour(all: Place[], index: number, key: string): number | undefined
   return next.reduce<{ p: Place; i: number } | undefined>((best, one) => (!best || away(one.p) < away(best.p) ? one : best), undefined)?.i;
 }
 
+/** On light paper and dark alike: lines between segments, and those around the territories. */
+const [parting, rimmed] = ["#fff", "#1a1a1a"];
+
 /** The segments of one artery after the other, each group in front of a dark rim: what is left of it parts the territories. */
 function territoryGroups(all: Place[], shapes: SVGPathElement[]): SVGElement[] {
-  const rim = (index: number) => svg("path", { d: all[index].d, fill: "none", stroke: ink.text, "stroke-width": 5, "pointer-events": "none" });
+  const rim = (index: number) => svg("path", { d: all[index].d, fill: "none", stroke: rimmed, "stroke-width": 5, "pointer-events": "none" });
   return Object.values(territories).flatMap((members) => [...members.map(rim), ...members.map((i) => shapes[i])]);
 }
 
@@ -118,7 +121,7 @@ export function drawBullsEye(plot: BullsEye): DrawnBullsEye {
   const shapes = all.map(({ d }, index) => {
     const value = plot.values[index];
     const name = `${plot.names[index]}: ${plot.details[index]}`;
-    return svg("path", { d, fill: Number.isNaN(value) ? `url(#${id})` : colourOf(plot.scale, value), stroke: ink.paper, "stroke-width": 1.2,
+    return svg("path", { d, fill: Number.isNaN(value) ? `url(#${id})` : colourOf(plot.scale, value), stroke: parting, "stroke-width": 1.2,
       tabindex: index === 0 ? 0 : -1, "data-index": index, role: "button", "aria-label": name,
       pointerenter: () => plot.pick(index, false), pointerleave: () => plot.pick(undefined, false),
       focus: () => plot.pick(index, false), blur: () => plot.pick(undefined, false), click: () => plot.pick(index, true),

@@ -45,6 +45,8 @@ export interface Outlined {
   rows: number;
   spacing_i_mm: number;
   spacing_j_mm: number;
+  along_row?: number[];     // unit vectors in image space
+  along_column?: number[];
   png: string;
   lines: { source: "model" | "contours"; contour: string; points: number[] }[];
 }
@@ -223,6 +225,12 @@ export class Case {
   get assumptions(): { part: string; text: string }[] {
     const frame = this.json.files["frame.json"];
     return this.summary?.assumptions ?? (frame ? JSON.parse(frame).assumed : undefined) ?? [];
+  }
+
+  /** The axes of the model in image space; undefined when they are not known. */
+  get axes(): { x: number[]; y: number[] } | undefined {
+    const frame = this.json.files["frame.json"] ? JSON.parse(this.json.files["frame.json"]) : {};
+    return frame.x_axis_in_image_space && { x: frame.x_axis_in_image_space, y: frame.y_axis_in_image_space };
   }
 
   assumes(part: string): boolean { return this.assumptions.some((a) => a.part === part); }

@@ -67,12 +67,13 @@ function ofOne(c: Case, measured: boolean): (string | number)[][] {
   });
 }
 
+const anyMeasured = (c: Case) => figures.some((f) => f.measured?.(c) !== undefined);
+
 function ofTwo(cases: Case[]): (string | number)[][] {
-  const [a, b] = cases;
   return figures.filter((f) => cases.some((c) => f.of(c) !== undefined)).map((f) => {
     const [x, y] = cases.map((c) => f.of(c));
     const less = x !== undefined && y !== undefined ? shown(y - x) : "–";
-    return [`${f.title} (${f.unit})`, shown(f.of(a)), shown(f.measured?.(a)), shown(f.of(b)), shown(f.measured?.(b)), less];
+    return [`${f.title} (${f.unit})`, ...cases.flatMap((c) => [shown(f.of(c)), ...(anyMeasured(c) ? [shown(f.measured?.(c))] : [])]), less];
   });
 }
 
@@ -94,9 +95,9 @@ export function firstSection(cases: Case[]): HTMLElement {
   const found = cases.some((c) => c.summary);
   const several = cases.length > 1;
   const name = fileName(...cases.map((c) => c.name), "figures");
-  const none = found && cases.every((c) => figures.every((f) => f.measured?.(c) === undefined));
+  const none = found && !cases.some(anyMeasured);
   const content = !found ? missing("summary.json is missing: the results have not been computed.")
-    : several ? table(name, ["", ...cases.flatMap((c) => [c.name, "measured"]), "difference"], ofTwo(cases))
+    : several ? table(name, ["", ...cases.flatMap((c) => [c.name, ...(anyMeasured(c) ? ["measured"] : [])]), "difference"], ofTwo(cases))
     : table(name, ["", "model", ...(none ? [] : ["measured"]), "usual", "answer", "origin"], ofOne(cases[0], !none));
   return titled("summary", "Summary", {}, content,
     none ? el("p", { class: "help" }, "No measured volumes: the case is not fitted to any.") : undefined,

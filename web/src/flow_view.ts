@@ -117,11 +117,12 @@ export class FlowView {
   readonly overlay = svg("svg", { class: "overlay", "font-family": "sans-serif", "font-size": 26, "aria-hidden": "true" });
   private zoom: number;  // pixels a millimetre
   private head = 86;     // pixels for the captions
+  private foot = 120;    // and for what explains arrows and colours
   private context: CanvasRenderingContext2D;
   constructor(private flow: FlowJson, private heart: Heart) {
     this.zoom = Math.max(2, Math.round(900 / (flow.cells[1] * flow.spacing[1])));
     this.canvas.width = Math.round(flow.cells[0] * flow.spacing[0] * this.zoom);
-    this.canvas.height = Math.round(flow.cells[1] * flow.spacing[1] * this.zoom) + this.head;
+    this.canvas.height = Math.round(flow.cells[1] * flow.spacing[1] * this.zoom) + this.head + this.foot;
     this.context = this.canvas.getContext("2d")!;
     this.overlay.setAttribute("viewBox", `0 0 ${this.canvas.width} ${this.canvas.height}`);
     this.overlay.setAttribute("width", String(this.canvas.width));
@@ -129,7 +130,7 @@ export class FlowView {
   }
 
   private px(x: number): number { return this.canvas.width - (x - this.flow.lower[0]) * this.zoom; }
-  private py(z: number): number { return this.canvas.height - (z - this.flow.lower[1]) * this.zoom; }
+  private py(z: number): number { return this.canvas.height - this.foot - (z - this.flow.lower[1]) * this.zoom; }
 
   show(frame: FlowFrame, what: FlowQuantity, scale: Scale, captions: string[]): void {
     this.context.clearRect(0, 0, this.canvas.width, this.canvas.height);
@@ -162,7 +163,7 @@ export class FlowView {
     for (const at of [...path(0), ...path(1).reverse()]) context.lineTo(...at);
     context.clip();
     context.imageSmoothingQuality = "high";
-    context.drawImage(colours, 0, this.head, this.canvas.width, this.canvas.height - this.head);
+    context.drawImage(colours, 0, this.head, this.canvas.width, this.canvas.height - this.head - this.foot);
     context.restore();
   }
 
@@ -205,7 +206,7 @@ export class FlowView {
     const [nx, nz] = flow.cells;
     this.context.save();
     this.context.beginPath();
-    this.context.rect(0, this.head, this.canvas.width, this.canvas.height);
+    this.context.rect(0, this.head, this.canvas.width, this.canvas.height - this.head - this.foot);
     this.context.clip();
     for (let k = every >> 1; k < nz; k += every)
       for (let i = every >> 1; i < nx; i += every) {
@@ -251,7 +252,7 @@ export class FlowView {
       svg("g", { class: "legend", transform: `translate(${edge} ${height - 106}) scale(2)`, "font-size": 12 }, ...barParts(scale, flowTitle[what], 0.2 * width)),
       svg("path", { d: `M${width - edge - bar} ${height - 36}v12h${bar}v-12`, stroke: ink.text, "stroke-width": 3, fill: "none" }),
       text(width - edge - bar / 2, height - 40, "middle", "20 mm"),
-      svg("path", { d: `M${width - edge - length} ${height - 130}h${length - 4}m-14 -7l14 7l-14 7`, stroke: ink.text, "stroke-width": 3, fill: "none" }),
-      text(width - edge, height - 96, "end", `${shown(speed, 2)} m/s in the plane`));
+      svg("path", { d: `M${width - edge - length} ${height - 168}h${length - 4}m-14 -7l14 7l-14 7`, stroke: ink.text, "stroke-width": 3, fill: "none" }),
+      text(width - edge, height - 134, "end", `${shown(speed, 2)} m/s in the plane`));
   }
 }

@@ -1,6 +1,7 @@
 // Outlines of the model and contours drawn, over the cine images.
 import { type Case, type Outlined, value } from "./data.ts";
 import { el, figure, fileName, folded, missing, section, svg, table } from "./dom.ts";
+import { heartOf, marked, starNote, unit, walls } from "./orientation.ts";
 import { shown, stateTitle } from "./quantities.ts";
 
 const modelColour = "#e69f00";
@@ -15,8 +16,29 @@ function pathOf(points: number[]): string {
   return path;
 }
 
+const white = { "font-family": "sans-serif", fill: "#fff", stroke: "#000", "stroke-width": 0.9, "paint-order": "stroke" };
+
+/** The walls' letters at the edges of an image to which their walls lie; one that points out of its plane is left out. */
+function letters(c: Case, { along_row, along_column }: Outlined, width: number, height: number): SVGElement[] {
+  const { axes } = c;
+  if (!axes || !along_row || !along_column) return [];
+  const [heart, inside] = [heartOf(c), 5];
+  return walls.flatMap(([name, angle]) => {
+    const [x, y] = unit(heart.septum + angle);
+    const towards = (along: number[]) => along.reduce((sum, v, d) => sum + v * (x * axes.x[d] + y * axes.y[d]), 0);
+    const [across, down] = [towards(along_row), towards(along_column)];
+    if (Math.hypot(across, down) < 0.5) return [];
+    const reach = Math.min((width / 2 - inside) / Math.max(Math.abs(across), 1e-9), (height / 2 - inside) / Math.max(Math.abs(down), 1e-9));
+    return [svg("text", { class: "letter", x: width / 2 + reach * across, y: height / 2 + reach * down, "text-anchor": "middle", dy: "0.35em", "font-size": 7,
+      "font-weight": 700, ...white }, marked(name, heart.assumed))];
+  });
+}
+
+const scaleBar = (width: number, height: number) => [svg("rect", { x: width - 23, y: height - 5, width: 20, height: 1, fill: "#fff" }),
+  svg("text", { x: width - 13, y: height - 6.5, "text-anchor": "middle", "font-size": 4.5, ...white }, "20 mm")];
+
 /** An image with its lines; `scale` pixels of the screen a millimetre. */
-function drawPicture(picture: Outlined, scale: number): SVGSVGElement {
+function drawPicture(c: Case, picture: Outlined, scale: number): SVGSVGElement {
   const { columns, rows, spacing_i_mm: across, spacing_j_mm: down } = picture;
   const [width, height] = [columns * across, rows * down];
   const title = `${titleOf(picture.slice)}, image ${picture.phase} (${stateTitle(picture.state)})`;
@@ -28,8 +50,8 @@ function drawPicture(picture: Outlined, scale: number): SVGSVGElement {
   for (const line of picture.lines)
     lines.append(svg("path", { d: pathOf(line.points), fill: "none", stroke: line.source === "model" ? modelColour : contourColour,
       "stroke-width": 1.6 / scale, "stroke-dasharray": line.source === "model" ? "none" : `${4.5 / scale} ${3 / scale}`, "data-source": line.source }));
-  root.append(lines, svg("text", { x: 2, y: height - 2.5, "font-size": 4 + 6 / scale, "font-family": "sans-serif", fill: "#fff",
-    stroke: "#000", "stroke-width": 0.9, "paint-order": "stroke" }, scale < 2 ? titleOf(picture.slice) : title));
+  root.append(lines, svg("text", { x: 2, y: height - 2.5, "font-size": 4 + 6 / scale, ...white }, scale < 2 ? titleOf(picture.slice) : title),
+    ...(scale < 2 ? [] : [...letters(c, picture, width, height), ...scaleBar(width, height)]));
   return root;
 }
 
@@ -68,11 +90,12 @@ class Sheet {
     const now = this.pictures.filter((p) => p.state === this.state);
     const chosen = now.find((p) => p.slice === this.slice);
     this.large.replaceChildren(chosen
-      ? figure(`${this.c.name}: ${titleOf(this.slice)} at ${stateTitle(this.state)}`,
-        fileName(this.c.name, "outlines", this.state, titleOf(this.slice)), drawPicture(chosen, 4))
+      ? figure([`${this.c.name}: ${titleOf(this.slice)} at ${stateTitle(this.state)}, model (solid, orange) and contours (dashed, blue)`, starNote(heartOf(this.c))]
+        .filter(Boolean).join("; "),
+        fileName(this.c.name, "outlines", this.state, titleOf(this.slice)), drawPicture(this.c, chosen, 4))
       : missing(`No image of ${titleOf(this.slice)} at ${stateTitle(this.state)}.`));
     this.grid.replaceChildren(...now.map((p) => el("button", { type: "button", class: "thumb", "aria-label": `show ${titleOf(p.slice)}`,
-      "aria-pressed": p.slice === this.slice, click: () => { this.slice = p.slice; this.draw(); } }, drawPicture(p, 1.3))));
+      "aria-pressed": p.slice === this.slice, click: () => { this.slice = p.slice; this.draw(); } }, drawPicture(this.c, p, 1.3))));
   }
 
   private distances(): HTMLElement {

@@ -47,6 +47,10 @@ std::map<Place, std::vector<Outline>> read_outlines(const Table& table) {
   return outlines;
 }
 
+Json vector_json(const Vec3& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
 /// To a hundredth of a pixel.
 double rounded_pixels(double pixels) {
   return std::round(100.0 * pixels) / 100.0;
@@ -85,6 +89,8 @@ std::string pictures_json(const std::filesystem::path& work) {
                     {"rows", p.plane.rows},
                     {"spacing_i_mm", p.plane.spacing_i},
                     {"spacing_j_mm", p.plane.spacing_j},
+                    {"along_row", vector_json(p.plane.along_row)},
+                    {"along_column", vector_json(p.plane.along_column)},
                     {"png", base64(read_file(p.file))},
                     {"lines", lines}});
   }

@@ -64,7 +64,8 @@ std::array<double, 2> yellow(const test::Pixels& p) {
 
 /// Where an SVG file has its letters [points].
 std::map<std::string, std::array<double, 2>> letters(const std::string& svg) {
-  static const std::regex element(R"(translate\(([-\d.]+) ([-\d.]+)\)[^>]*>([ASIL]\*?)</text>)");
+  static const std::regex element(
+      R"(translate\(([-\d.]+) ([-\d.]+)\)[^>]*>([ASIL]\*?|apex\*|base\*)</text>)");
   std::map<std::string, std::array<double, 2>> found;
   for (std::sregex_iterator match(svg.begin(), svg.end(), element); match != std::sregex_iterator();
        ++match)
@@ -120,10 +121,25 @@ TEST_CASE("a septum that was assumed has stars and a note", "[drawing]") {
   CHECK_THAT(figure.footnote, Catch::Contains("* assumed: nothing shows it"));
   figure.panels.resize(2);
   CHECK(letters(drawing::svg(figure)).contains("S*"));
+  const auto four = letters(drawing::svg(
+      Figure{.panels = {report::infarct_figure(phantom(turned.anterior()), assumed).panels[2]}}));
+  REQUIRE(four.contains("apex*"));
+  CHECK(four.at("apex*")[1] > four.at("S*")[1] + 100.0);
+  CHECK_FALSE(four.contains("base*"));
+  const auto across = letters(drawing::svg(Figure{.panels = {figure.panels[1]}}));
+  CHECK_FALSE(across.contains("apex*"));  // it would lie in the cavity
   const Figure mesh = report::mesh_figure(phantom(turned.anterior()), assumed);
   CHECK_THAT(mesh.title, Catch::Contains("apex*"));
   CHECK_THAT(mesh.title, !Catch::Contains("base*"));
   CHECK(drawing::star_note(turned, {"septum"}).empty());
+}
+
+TEST_CASE("an infarct that no image shows has a star", "[drawing]") {
+  const Orientation assumed{septum_angle, {{"infarct", "the case says so"}}};
+  const Figure figure = report::infarct_figure(phantom(turned.anterior()), assumed);
+  CHECK(figure.title == "infarct*");
+  CHECK(figure.footnote == "* assumed: the case says so");
+  CHECK(report::infarct_figure(phantom(turned.anterior()), turned).title == "infarct");
 }
 
 TEST_CASE("the script for ParaView knows where the walls are", "[drawing]") {
@@ -132,4 +148,8 @@ TEST_CASE("the script for ParaView knows where the walls are", "[drawing]") {
   CHECK_THAT(script, Catch::Contains("{time:.3f}"));
   CHECK_THAT(script, Catch::Contains("anterior, septal = [-0.644218, 0.764842, 0.000000], "
                                      "[0.764842, 0.644218, 0.000000]"));
+  CHECK_THAT(
+      script,
+      Catch::Contains(
+          R"((("A", 48.0, anterior), ("S", 48.0, septal), ("I", -48.0, anterior), ("L", -48.0, septal)))"));
 }

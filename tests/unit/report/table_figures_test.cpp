@@ -1,6 +1,7 @@
 #include "lv/report/table_figures.hpp"
 
 #include "lv/base/table.hpp"
+#include "lv/material/stress_stretch.hpp"
 
 #include "support/temporary_folder.hpp"
 #include <catch2/catch.hpp>
@@ -126,6 +127,33 @@ TEST_CASE("each muscle is a line of its table, published ones dashed", "[report]
   CHECK_FALSE(series[0].dashed);
   CHECK(series[1].label == "excised");
   CHECK(series[1].dashed);
+}
+
+TEST_CASE("the paper's subjects stand beside no case that did not ask for them", "[report]") {
+  Table table({"muscle", "published", "fibre_stretch", "cauchy_stress_kPa"});
+  for (const auto& curve : material::published_muscles())
+    table.add_row({curve.muscle, "yes", "1.1", "2"});
+  table.add_row({"this case", "no", "1", "0"});
+  const auto& series = chart(report::muscle_figure(table)).series;
+  REQUIRE(series.size() == 2);  // of four
+  CHECK_THAT(series[0].label, Catch::Contains("excised"));
+  CHECK(series[1].label == "this case");
+}
+
+TEST_CASE("slices hang on apex and base: a figure says which of them was assumed", "[report]") {
+  Table table({"slice", "end_diastole_to_end_systole_deg", "early_to_end_diastole_deg"});
+  table.add_row({"1", "0", "0"});
+  table.add_row({"7", "20", "1"});
+  const drawing::Orientation assumed{0.0, {{"apex", "not drawn"}, {"septum", "nothing shows it"}}};
+  const Figure figure = report::rotation_figure(table, assumed);
+  CHECK(chart(figure).x.label == "slice, from the base (1) to the apex* (7)");
+  CHECK_THAT(figure.footnote, Catch::EndsWith("* assumed: not drawn"));
+  const Figure segments_of =
+      report::bulls_eyes_figure(segments("J", 0.9, 1.1), "J", "end_systole", assumed);
+  CHECK(segments_of.panels.at(1).title == "17 segments (AHA)*");
+  CHECK(segments_of.footnote == "* assumed: not drawn; nothing shows it");
+  CHECK(chart(report::rotation_figure(table, {})).x.label ==
+        "slice, from the base (1) to the apex (7)");
 }
 
 TEST_CASE("figures are written for what there is and for nothing else", "[report]") {
