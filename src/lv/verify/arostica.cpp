@@ -5,7 +5,9 @@
 #include "lv/mesh/shapes.hpp"
 #include "lv/mesh/wall_mesh.hpp"
 
+#include <Eigen/IterativeLinearSolvers>
 #include <Eigen/LU>
+#include <Eigen/SparseCore>
 #include <fmt/format.h>
 
 #include <cmath>
@@ -67,6 +69,63 @@ Probe probe_at(const mesh::Mesh& mesh, const Vec3& place) {
   throw LogicError("a watched point is outside the wall");
 }
 
+/// int grad phi_a . grad phi_b dX of an element.
+Eigen::MatrixXd laplacian(const mesh::Mesh& mesh, std::span<const int> nodes,
+                          const solid::ShapeTable& shapes) {
+  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(shapes.nodes(), shapes.nodes());
+  for (int q = 0; q < shapes.points(); ++q) {
+    Mat3 dX_dxi = Mat3::Zero();
+    for (std::size_t a = 0; a < nodes.size(); ++a)
+      dX_dxi +=
+          mesh.nodes[nodes[a]] * shapes.gradient[q].col(static_cast<Eigen::Index>(a)).transpose();
+    const Eigen::MatrixXd gradient = dX_dxi.inverse().transpose() * shapes.gradient[q];
+    K += shapes.weight[q] * dX_dxi.determinant() * gradient.transpose() * gradient;
+  }
+  return K;
+}
+
+/// The transmural coordinate of the benchmark: harmonic, 0 on the endocardium and 1 on the
+/// epicardium, whose normal derivative vanishes on the base.
+std::vector<double> harmonic_transmural(const mesh::Mesh& mesh) {
+  const mesh::ElementNodes elements = mesh::elements(mesh);
+  const solid::ShapeTable shapes = solid::element_shapes(mesh.kind, mesh.order);
+  const auto n = static_cast<Eigen::Index>(mesh.nodes.size());
+  Eigen::VectorXd t = Eigen::VectorXd::Zero(n);
+  std::vector<bool> is_given(mesh.nodes.size(), false);
+  for (const int node : mesh.endo.nodes)
+    is_given[node] = true;
+  for (const int node : mesh.epi.nodes) {
+    is_given[node] = true;
+    t[node] = 1.0;
+  }
+  std::vector<Eigen::Triplet<double>> entries;
+  Eigen::VectorXd right = t;
+  for (int e = 0; e < elements.size(); ++e) {
+    const auto nodes = elements.element(e);
+    const Eigen::MatrixXd K = laplacian(mesh, nodes, shapes);
+    for (Eigen::Index a = 0; a < K.rows(); ++a)
+      for (Eigen::Index b = 0; b < K.cols() && !is_given[nodes[a]]; ++b)
+        if (is_given[nodes[b]])
+          right[nodes[a]] -= K(a, b) * t[nodes[b]];
+        else
+          entries.emplace_back(nodes[a], nodes[b], K(a, b));
+  }
+  for (int node = 0; node < n; ++node)
+    if (is_given[node])
+      entries.emplace_back(node, node, 1.0);
+  Eigen::SparseMatrix<double> A(n, n);
+  A.setFromTriplets(entries.begin(), entries.end());
+  Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower | Eigen::Upper> solver(A);
+  solver.setTolerance(1e-10);
+  const Eigen::VectorXd solution = solver.solve(right);
+  LV_CHECK(solver.info() == Eigen::Success);
+  return {solution.data(), solution.data() + n};
+}
+
+/// A share of the bulk modulus acts at every quadrature point, as beta_s (ln J)^2 with kappa = 2
+/// beta_s, the rest through the elements' pressures. Without the share the muscle, of 0.06 kPa
+/// across its fibres, gives way inside elements in ways that leave their mean volume alone. The two
+/// energies differ in the third order of J - 1.
 implicit::StaticModel model_of(const ArosticaConstants& c) {
   solid::CardiacModel heart;
   heart.fibres = {c.helix_endo, c.helix_epi, 0.5 * std::numbers::pi, 0.5 * std::numbers::pi};
@@ -74,8 +133,8 @@ implicit::StaticModel model_of(const ArosticaConstants& c) {
   heart.myocardium.passive = c.muscle;
   heart.myocardium.active = material::PrescribedTension{0.0};
   heart.myocardium.active_form = material::ActiveForm::second_piola;
-  implicit::StaticModel model(heart, {}, {.beta_s = 0.0});
-  model.compressibility.kappa = c.kappa;
+  implicit::StaticModel model(heart, {}, {.beta_s = 0.5 * c.share_at_points * c.kappa});
+  model.compressibility.kappa = (1.0 - c.share_at_points) * c.kappa;
   model.surroundings.epicardium = {.normal_stiffness = c.k_epi, .normal_viscosity = c.c_epi};
   model.surroundings.base = solid::Support::in_all_directions(c.k_base, c.c_base);
   model.viscosity.eta = c.eta;
@@ -164,6 +223,7 @@ mesh::Mesh ArosticaWall::mesh(double edge_length, int layers) const {
       shifted, {.edge_length = 0.5 * edge_length, .layers = 2 * layers, .order = 2});
   for (std::size_t a = 0; a < mesh.nodes.size(); ++a)
     mesh.nodes[a].z() += base_height(mesh.transmural[a]);
+  mesh.transmural = harmonic_transmural(mesh);
   return mesh;
 }
 

@@ -24,7 +24,8 @@ struct ArosticaWall {
   /// z of the base's edge at depth t [mm].
   [[nodiscard]] double base_height(double t) const;
 
-  /// Quadratic hexahedra with edges of about this length [mm] and so many through the wall.
+  /// Quadratic hexahedra with edges of about this length [mm] and so many through the wall, with
+  /// the harmonic transmural coordinate of the benchmark's fibres.
   [[nodiscard]] mesh::Mesh mesh(double edge_length, int layers) const;
 };
 
@@ -55,6 +56,7 @@ struct ArosticaDrive {
 struct ArosticaConstants {
   material::SmoothHolzapfelOgden muscle;
   double kappa = 1000.0;                    ///< bulk modulus [kPa]
+  double share_at_points = 0.1;             ///< of kappa, see model_of
   double eta = 0.1;                         ///< viscosity [kPa s]
   double rho = 1e-6;                        ///< density [kg/mm^3]
   double k_epi = 100.0, c_epi = 0.005;      ///< along N [kPa/mm, kPa s/mm]

@@ -32,6 +32,7 @@ std::map<std::string, Constant> constants_of(ArosticaConstants& c) {
           {"b_fs", {&c.muscle.b_fs, ""}},
           {"k", {&c.muscle.k, ""}},
           {"kappa", {&c.kappa, "kPa"}},
+          {"share_at_points", {&c.share_at_points, ""}},
           {"eta", {&c.eta, "kPa s"}},
           {"rho", {&c.rho, "kg/mm^3"}},
           {"k_epi", {&c.k_epi, "kPa/mm"}},

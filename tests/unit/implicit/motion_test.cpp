@@ -187,12 +187,12 @@ TEST_CASE("a given volume is met at the end of a step with inertia", "[unit][imp
   implicit::TimeEngine time(mesh, model, {}, 0.5);
   const double start = time.fill(0.1, 0.0).value();
   for (int i = 1; i <= 5; ++i) {
-    const double volume = start * (1.0 + 1e-3 * i);
+    const double volume = start + 0.02 * i;
     REQUIRE(time.advance({.dt = 0.01},
                          [&](double) {
                            return implicit::GivenVolume{volume, 0.0};
                          })
                 .converged);
-    CHECK(time.cavity_volume() == Approx(volume).epsilon(1e-5));
+    CHECK(time.cavity_volume() == Approx(volume).margin(1e-4));
   }
 }

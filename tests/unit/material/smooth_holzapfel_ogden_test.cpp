@@ -13,7 +13,8 @@ using material::SmoothHolzapfelOgden;
 
 const SmoothHolzapfelOgden benchmark;
 // the differences that tangents are compared with resolve switches no sharper than this
-const SmoothHolzapfelOgden blunt{.a = 0.4, .k = 8.0};
+const SmoothHolzapfelOgden blunt{
+    .a = 0.4, .b = 5.0, .a_f = 1.5, .b_f = 4.0, .a_s = 0.9, .b_s = 1.6, .k = 3.0};
 
 }  // namespace
 
