@@ -233,6 +233,16 @@ def check_ranks(reference, work):
         check(f"two ranks give the same {volume}", abs(a[volume] / b[volume] - 1) < 1e-6, (a[volume], b[volume]))
 
 
+def check_same_bits(folder):
+    """Two searches for the wall without load on two ranks, whose linear equations ranks could have solved in any order."""
+    shapes = []
+    for work in (folder / "once", folder / "twice"):
+        done = run(work, 2, here / "unloaded.toml", "--until", "unload")
+        check("two ranks unload", done.returncode == 0, done.stderr)
+        shapes.append((work / "02c_unload" / "mesh.bin").read_bytes())
+    check("two runs on two ranks have the same bits", shapes[0] == shapes[1])
+
+
 def check_refusals(folder):
     shut = folder / "shut"
     shut.write_text("a file where a folder should be")
@@ -263,6 +273,7 @@ with tempfile.TemporaryDirectory(prefix="ventricle_regress_") as temporary:
         check_stop_and_resume(folder / "two_ranks", folder / "stopped_on_two", signal.SIGINT, 130, ranks=2)
         check_moved(undisturbed)
     check_unloading(folder / "unloaded")
+    check_same_bits(folder)
     check_refusals(folder)
 print(f"{len(failures)} failed")
 sys.exit(1 if failures else 0)

@@ -21,6 +21,10 @@ void start_petsc() {
   if (started)
     return;
   check(PetscOptionsSetValue(nullptr, "-no_signal_handler", "true"));  // interrupts are ours
+  // entries of a matrix that come from other ranks are added in the order of the ranks, not of
+  // their arrival: every run then has the same bits
+  check(PetscOptionsSetValue(nullptr, "-matstash_legacy", "true"));
+  check(PetscOptionsSetValue(nullptr, "-matstash_reproduce", "true"));
   check(PetscInitializeNoArguments());
   check(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr));
 }

@@ -2,6 +2,7 @@
 
 #include "lv/base/check.hpp"
 #include "lv/implicit/block_preconditioner.hpp"
+#include "lv/implicit/direct_solver.hpp"
 #include "lv/implicit/petsc.hpp"
 
 #include <fmt/format.h>
@@ -50,18 +51,16 @@ class SparseMatrix::Implementation {
       : parameters_(parameters), displacements_(pattern.displacements()), numbers_(pattern) {
     start_petsc();
     make_matrix(pattern);
+    if (parameters.method == LinearMethod::direct) {
+      direct_.emplace(K_);
+      return;
+    }
+    LV_CHECK(!pattern.corners.empty());  // linear elements are refused with the case
     check(MatCreateVecs(K_, &x_, &b_));
     check(VecScatterCreateToAll(x_, &to_all_, &everything_));
-    check(KSPCreate(PETSC_COMM_WORLD, &ksp_));
-    check(KSPSetOperators(ksp_, K_, K_));
-    if (parameters.method == LinearMethod::direct) {
-      configure_direct();
-    } else {
-      LV_CHECK(!pattern.corners.empty());  // linear elements are refused with the case
-      configure_iterative();
-      blocks_.emplace(ksp_, pattern, numbers_, nodes);
-      check(KSPSetFromOptions(ksp_));
-    }
+    configure_iterative();
+    blocks_.emplace(ksp_, pattern, numbers_, nodes);
+    check(KSPSetFromOptions(ksp_));
   }
   ~Implementation() {
     KSPDestroy(&ksp_);
@@ -84,7 +83,9 @@ class SparseMatrix::Implementation {
     at_.clear();
     for (const int u : unknowns)
       at_.push_back(numbers_[u]);
-    insert(block, K_);
+    const auto n = static_cast<PetscInt>(at_.size());
+    row_major_ = block;
+    check(MatSetValues(K_, n, at_.data(), n, at_.data(), row_major_.data(), ADD_VALUES));
   }
 
   void add_pressure_mass(std::span<const int> pressures, const Eigen::MatrixXd& block) {
@@ -99,81 +100,55 @@ class SparseMatrix::Implementation {
   void finish() {
     check(MatAssemblyBegin(K_, MAT_FINAL_ASSEMBLY));
     check(MatAssemblyEnd(K_, MAT_FINAL_ASSEMBLY));
+    if (direct_) {
+      direct_->update();
+      return;
+    }
     check(KSPSetOperators(ksp_, K_, K_));
-    if (blocks_)
-      blocks_->update();
+    blocks_->update();
   }
 
   [[nodiscard]] int iterations() const {
     PetscInt count = 0;
-    check(KSPGetIterationNumber(ksp_, &count));
-    return blocks_ ? count : 0;
+    if (blocks_)
+      check(KSPGetIterationNumber(ksp_, &count));
+    return count;
   }
 
   Outcome<std::vector<double>> solve(std::span<const double> b) {
-    set_right_hand_side(b);
-    check(KSPSolve(ksp_, b_, x_));
-    KSPConvergedReason reason{};
-    check(KSPGetConvergedReason(ksp_, &reason));
-    if (reason < 0) {
-      const Unsolved why = why_unsolved(reason);
-      if (!blocks_)
-        forget_factors();
-      return why;
-    }
-    check(VecScatterBegin(to_all_, x_, everything_, INSERT_VALUES, SCATTER_FORWARD));
-    check(VecScatterEnd(to_all_, x_, everything_, INSERT_VALUES, SCATTER_FORWARD));
-    const PetscScalar* values = nullptr;
-    check(VecGetArrayRead(everything_, &values));
+    std::vector<double> numbered(b.size());
+    for (std::size_t u = 0; u < b.size(); ++u)
+      numbered[numbers_[static_cast<int>(u)]] = b[u];
+    const auto found = direct_ ? direct_->solve(numbered) : iterate(numbered);
+    if (!found)
+      return found.why();
     std::vector<double> x(b.size());
     for (std::size_t u = 0; u < x.size(); ++u)
-      x[u] = values[numbers_[static_cast<int>(u)]];
-    check(VecRestoreArrayRead(everything_, &values));
+      x[u] = (*found)[numbers_[static_cast<int>(u)]];
     return x;
   }
 
  private:
-  [[nodiscard]] Unsolved why_unsolved(KSPConvergedReason reason) const {
-    if (parameters_.method == LinearMethod::iterative)
-      return {fmt::format("GMRES does not solve the linear equations ({})",
-                          KSPConvergedReasons[reason]),
-              "Set quasi_static.linear_solver = \"direct\""};
-    PC pc = nullptr;
-    check(KSPGetPC(ksp_, &pc));
-    PCFailedReason failure{};
-    check(PCGetFailedReason(pc, &failure));
-    if (failure == PC_FACTOR_OUTMEMORY)
-      throw RunError("Memory does not suffice to factorise the linear equations",
-                     "Take a coarser mesh, more machines, or quasi_static.linear_solver = "
-                     "\"iterative\"");
-    return {fmt::format("the linear equations are singular ({}), as those of a wall that nothing "
-                        "holds",
-                        KSPConvergedReasons[reason]),
-            "Look at the base"};
-  }
-
-  /// MUMPS cannot go on with the factors of a singular matrix: the next one begins anew.
-  void forget_factors() {
-    check(KSPReset(ksp_));
-    check(KSPSetOperators(ksp_, K_, K_));
-    configure_direct();
-  }
-
-  void insert(const Eigen::MatrixXd& block, Mat to) {
-    const auto n = static_cast<PetscInt>(at_.size());
-    row_major_ = block;
-    check(MatSetValues(to, n, at_.data(), n, at_.data(), row_major_.data(), ADD_VALUES));
-  }
-
-  void set_right_hand_side(std::span<const double> b) {
+  /// b and x in the matrix's order, complete on every rank.
+  Outcome<std::vector<double>> iterate(std::span<const double> b) {
     PetscScalar* mine = nullptr;
     check(VecGetArray(b_, &mine));
-    for (std::size_t u = 0; u < b.size(); ++u) {
-      const PetscInt number = numbers_[static_cast<int>(u)];
-      if (number >= numbers_.begin() && number < numbers_.end())
-        mine[number - numbers_.begin()] = b[u];
-    }
+    std::copy(b.begin() + numbers_.begin(), b.begin() + numbers_.end(), mine);
     check(VecRestoreArray(b_, &mine));
+    check(KSPSolve(ksp_, b_, x_));
+    KSPConvergedReason reason{};
+    check(KSPGetConvergedReason(ksp_, &reason));
+    if (reason < 0)
+      return Unsolved{fmt::format("GMRES does not solve the linear equations ({})",
+                                  KSPConvergedReasons[reason]),
+                      "Set quasi_static.linear_solver = \"direct\""};
+    check(VecScatterBegin(to_all_, x_, everything_, INSERT_VALUES, SCATTER_FORWARD));
+    check(VecScatterEnd(to_all_, x_, everything_, INSERT_VALUES, SCATTER_FORWARD));
+    const PetscScalar* values = nullptr;
+    check(VecGetArrayRead(everything_, &values));
+    std::vector<double> x(values, values + b.size());
+    check(VecRestoreArrayRead(everything_, &values));
+    return x;
   }
 
   void make_matrix(const Pattern& pattern) {
@@ -187,6 +162,8 @@ class SparseMatrix::Implementation {
   }
 
   void configure_iterative() {
+    check(KSPCreate(PETSC_COMM_WORLD, &ksp_));
+    check(KSPSetOperators(ksp_, K_, K_));
     check(KSPSetOptionsPrefix(ksp_, "lv_"));
     check(KSPSetType(ksp_, KSPFGMRES));
     check(KSPGMRESSetRestart(ksp_, 100));
@@ -194,24 +171,13 @@ class SparseMatrix::Implementation {
                            parameters_.iterations));
   }
 
-  void configure_direct() {
-    check(KSPSetType(ksp_, KSPPREONLY));
-    PC pc = nullptr;
-    check(KSPGetPC(ksp_, &pc));
-    check(PCSetType(pc, PCLU));
-    check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
-    check(PCFactorSetUpMatSolverType(pc));
-    Mat factor = nullptr;
-    check(PCFactorGetMatrix(pc, &factor));
-    check(MatMumpsSetIcntl(factor, 14, 60));  // room for pivots that move, in per cent
-  }
-
   LinearParameters parameters_;
   int displacements_;
   Numbering numbers_;
   Mat K_ = nullptr;
+  std::optional<DirectSolver> direct_;  ///< or, of the iterative method, what follows
   KSP ksp_ = nullptr;
-  std::optional<BlockPreconditioner> blocks_;  ///< of the iterative method
+  std::optional<BlockPreconditioner> blocks_;
   Vec x_ = nullptr, b_ = nullptr, everything_ = nullptr;
   VecScatter to_all_ = nullptr;
   std::vector<PetscInt> at_;
