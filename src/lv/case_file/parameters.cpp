@@ -868,6 +868,9 @@ constexpr Group of_measurements[]{
                 "largest distance of a node of the wall, loaded again, from where it was seen"),
          number("unloaded.iterations", LV_AT(unloaded.iterations), "", between(1, 1000),
                 "equilibria after which the search gives up"),
+         number("unloaded.smooth_within", LV_AT(unloaded.smooth_within), "mm", between(0.0, 10.0),
+                "where the wall without load would be folded: a smooth one is taken that comes, "
+                "loaded again, this near to where the wall was seen, rms; 0: none"),
      }},
     {Stages(Stage::strain),
      {},

@@ -4,13 +4,16 @@
 #include "lv/base/log.hpp"
 #include "lv/base/time_left.hpp"
 #include "lv/base/units.hpp"
+#include "lv/implicit/smooth_fields.hpp"
 
 #include <Eigen/QR>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <deque>
+#include <span>
 
 namespace lv::implicit {
 namespace {
@@ -20,6 +23,9 @@ constexpr double smallest_damping = 1.0 / 16;
 constexpr double smallest_share = 1.0 / 64;  // of the pressure, before it gives up
 constexpr double far_below = 0.02;
 constexpr double loose = 0.5;  // tolerance on the way to the whole pressure [mm]
+
+constexpr int smooth_degree = 3;
+constexpr std::array<double, 6> smoothings{0.8, 0.4, 0.2, 0.1, 0.05, 0.025};  // alpha
 
 using Nodes = std::vector<Vec3>;
 
@@ -53,9 +59,11 @@ bool is_sound(const mesh::Mesh& mesh) {
 /// A shape without load, and what becomes of it.
 struct Trial {
   Eigen::VectorXd X;  ///< nodes
-  Eigen::VectorXd R;  ///< given shape minus x(X)
+  Eigen::VectorXd R;  ///< given shape minus x(X), and what smoothing adds
   State loaded;
   UnloadStep step;
+  double left = 0.0;      ///< largest of R [mm]
+  double pressure = 0.0;  ///< [kPa]
 };
 
 class Unloader {
@@ -68,23 +76,99 @@ class Unloader {
         solver_(solver),
         record_(std::move(record)),
         endocardium_(given),
+        find_folds_(given),
         target_(as_vector(given.nodes)) {}
 
   Outcome<Unloaded> run(const Unloaded* start) {
+    if (start != nullptr && start->smoothing > 0.0) {
+      now_ = {as_vector(start->nodes), {}, start->loaded, {}};
+      return smooth(now_.X, std::array{start->smoothing});
+    }
     if (start == nullptr || !try_from(as_vector(start->nodes), &start->loaded))
       approach();
-    if (now_.step.largest > parameters_.tolerance)
-      return Unsolved{
-          fmt::format("The shape without load was not found at {:.2f} mmHg: loaded again it is off "
-                      "by {:.3g} mm (rms {:.3g} mm) after {} equilibria",
-                      parameters_.pressure / units::mmHg, now_.step.largest, now_.step.rms,
-                      equilibria_),
-          "Check unloaded.pressure (a soft wall may never have had so much), or raise "
-          "unloaded.tolerance or unloaded.iterations"};
-    return Unloaded{as_nodes(now_.X), std::move(now_.loaded), std::move(steps_)};
+    if (has_wall() && is_folded(now_.step.folds)) {
+      log::info("the wall that is looked for is folded: {}", words(now_.step.folds));
+      return smooth(target_ + smoothed(now_.X), smoothings);
+    }
+    if (has_wall() && now_.left <= parameters_.tolerance && now_.pressure == parameters_.pressure)
+      return result();
+    return not_found();
   }
 
  private:
+  Unloaded result() {
+    return {as_nodes(now_.X), std::move(now_.loaded), std::move(steps_), smoothing_};
+  }
+
+  /// Whether any wall had an equilibrium.
+  [[nodiscard]] bool has_wall() const { return now_.X.size() > 0; }
+
+  /// P (X - x*)
+  [[nodiscard]] Eigen::VectorXd smoothed(const Eigen::VectorXd& X) const {
+    return SmoothFields(given_.nodes, smooth_degree).nearest(X - target_);
+  }
+
+  [[nodiscard]] Unsolved not_found() const {
+    if (!has_wall())
+      return {fmt::format("The shape without load was not found: no wall that was tried has an "
+                          "equilibrium at {:.2f} mmHg or a 64th of it",
+                          parameters_.pressure / units::mmHg),
+              "Check unloaded.pressure, the stiffness and the mesh's worst element"};
+    return {fmt::format("The shape without load was not found at {:.2f} mmHg: loaded again it is "
+                        "off by {:.3g} mm (rms {:.3g} mm) at {:.2f} mmHg after {} equilibria",
+                        parameters_.pressure / units::mmHg, now_.step.largest, now_.step.rms,
+                        now_.pressure / units::mmHg, equilibria_),
+            "Check unloaded.pressure (a soft wall may never have had so much), or raise "
+            "unloaded.tolerance or unloaded.iterations"};
+  }
+
+  [[nodiscard]] Unsolved folded(const UnloadStep& last) const {
+    return {
+        fmt::format("The wall that becomes the given shape at {:.2f} mmHg is folded: {}; the "
+                    "nearest smooth one is off by {:.3g} mm rms ({:.3g} mm at most), loaded again",
+                    parameters_.pressure / units::mmHg, words(last.folds), smooth_rms_,
+                    smooth_largest_),
+        "Check unloaded.pressure and the stiffness (a softer wall under more pressure unloads "
+        "farther), look at the drawn borders for flat or thin places, or raise "
+        "unloaded.smooth_within"};
+  }
+
+  [[nodiscard]] static std::string words(const mesh::Folds& folds) {
+    return fmt::format(
+        "it turns inwards by {:.0f} degrees within three thicknesses near ({:.0f}, {:.0f}, {:.0f}) "
+        "mm, parts that lie apart come to {:.0f}% of their distance, and muscle is stretched "
+        "{:.2f} times",
+        folds.dent / units::degree, folds.dent_place.x(), folds.dent_place.y(),
+        folds.dent_place.z(), 100.0 * folds.approach, folds.stretch);
+  }
+
+  /// From a wall near the last one, ever less smooth; the last without folds.
+  Outcome<Unloaded> smooth(Eigen::VectorXd X, std::span<const double> alphas) {
+    const UnloadStep exact = now_.step;
+    pressure_ = parameters_.pressure;
+    smooth_.emplace(given_.nodes, smooth_degree);
+    std::optional<Trial> best;
+    for (const double alpha : alphas) {
+      smoothing_ = alpha;
+      if (!begin(X, &now_.loaded) || !improve(parameters_.tolerance) || is_folded(now_.step.folds))
+        break;
+      best = now_;
+      X = now_.X;
+    }
+    return near_enough(best, exact);
+  }
+
+  Outcome<Unloaded> near_enough(std::optional<Trial>& best, const UnloadStep& exact) {
+    smooth_rms_ = best ? best->step.rms : now_.step.rms;
+    smooth_largest_ = best ? best->step.largest : now_.step.largest;
+    if (!best || smooth_rms_ > parameters_.smooth_within)
+      return folded(exact);
+    smoothing_ = best->step.smoothing;
+    now_ = std::move(*best);
+    steps_.push_back(now_.step);
+    return result();
+  }
+
   /// The whole pressure from one guess; false when that has no equilibrium or does not lead to the
   /// tolerance.
   bool try_from(const Eigen::VectorXd& X, const State* loaded) {
@@ -95,6 +179,8 @@ class Unloader {
   /// From the given shape, by a part of the pressure where the whole is too much at once.
   void approach() {
     if (try_from(target_, nullptr))
+      return;
+    if (has_wall() && is_folded(now_.step.folds))
       return;
     double reached = 0.0;
     double share = 0.5;
@@ -117,7 +203,9 @@ class Unloader {
   }
 
   bool begin(const Eigen::VectorXd& X, const State* loaded) {
-    steps_.clear();
+    if (!smooth_)
+      steps_.clear();
+    lefts_.clear();
     history_.clear();
     auto trial = load(X, loaded);
     if (!trial)
@@ -129,14 +217,14 @@ class Unloader {
   /// Steps until the distance is far below the tolerance, or below it and hardly falls any more;
   /// false when no step brings the wall near enough. What is left scatters the volumes of a fit.
   bool improve(double tolerance) {
-    while (now_.step.largest > far_below * tolerance) {
-      const double before = now_.step.largest;
+    while (now_.left > far_below * tolerance) {
+      const double before = now_.left;
       if (!advance())
         break;
-      if (now_.step.largest <= tolerance && now_.step.largest > 0.5 * before)
+      if (now_.left > 0.5 * before && (now_.left <= tolerance || is_folded(now_.step.folds)))
         break;
     }
-    return now_.step.largest <= tolerance;
+    return now_.left <= tolerance;
   }
 
   bool advance() {
@@ -188,10 +276,25 @@ class Unloader {
     trial.step.volume = endocardium_.volume(trial.loaded.positions);
     trial.R = target_ - as_vector(trial.loaded.positions);
     trial.step.unloaded_volume = endocardium_.volume(wall.nodes);
-    const Eigen::Map<const Eigen::Matrix3Xd> R(trial.R.data(), 3, trial.R.size() / 3);
-    trial.step.largest = R.colwise().norm().maxCoeff();
-    trial.step.rms = std::sqrt(R.colwise().squaredNorm().mean());
+    trial.step.largest = largest_of(trial.R);
+    trial.step.rms = std::sqrt(3.0 * trial.R.squaredNorm() / static_cast<double>(trial.R.size()));
+    trial.step.folds = find_folds_(wall.nodes);
+    trial.step.smoothing = smoothing_;
+    trial.left = trial.step.largest;
+    trial.pressure = pressure_;
+    if (smooth_) {
+      const Eigen::VectorXd U = X - target_;
+      trial.R -= smoothing_ * (U - smooth_->nearest(U));
+      trial.left = largest_of(trial.R);
+    }
     return trial;
+  }
+
+  static double largest_of(const Eigen::VectorXd& R) {
+    return Eigen::Map<const Eigen::Matrix3Xd>(R.data(), 3, R.size() / 3)
+        .colwise()
+        .norm()
+        .maxCoeff();
   }
 
   /// From the record, or found and put there.
@@ -208,7 +311,7 @@ class Unloader {
   std::optional<State> equilibrium(const mesh::Mesh& wall, const State* near) {
     Engine engine(wall, model_, solver_);
     if (near != nullptr)
-      engine.restore({given_.nodes, near->pressures}, {pressure_, 0.0});
+      engine.restore(guess(wall, *near), {pressure_, 0.0});
     const auto volume = near != nullptr ? engine.set_model(model_) : engine.go_to({pressure_, 0.0});
     if (volume)
       return engine.state();
@@ -216,16 +319,25 @@ class Unloader {
     return {};
   }
 
+  /// The given shape is near what is looked for, unless the wall is a smooth one: then the last
+  /// equilibrium, moved as the wall is.
+  [[nodiscard]] State guess(const mesh::Mesh& wall, const State& near) const {
+    if (!smooth_)
+      return {given_.nodes, near.pressures};
+    return {as_nodes(as_vector(near.positions) + as_vector(wall.nodes) - now_.X), near.pressures};
+  }
+
   void accept(Trial&& trial) {
     now_ = std::move(trial);
     steps_.push_back(now_.step);
+    lefts_.push_back(now_.left);
     left_.record(equilibria_);
     const std::string left = left_.words(equilibria_left());
     log::info(
         "unloading {:2d}: off by {:.4f} mm (rms {:.4f}), {:.2f} ml fill to {:.2f} ml at {:.2f} "
-        "mmHg{}",
+        "mmHg, dent {:.0f} degrees{}",
         equilibria_, now_.step.largest, now_.step.rms, 1e-3 * now_.step.unloaded_volume,
-        1e-3 * now_.step.volume, pressure_ / units::mmHg,
+        1e-3 * now_.step.volume, pressure_ / units::mmHg, now_.step.folds.dent / units::degree,
         left.empty() ? "" : left + " of unloading");
   }
 
@@ -234,11 +346,11 @@ class Unloader {
   [[nodiscard]] double equilibria_left() const {
     constexpr double usual = 0.3;  // of the distance that a step leaves
     constexpr std::size_t last = 3;
-    const std::size_t n = std::min(last, steps_.size() - 1);
-    const double fall = steps_[steps_.size() - 1 - n].largest / now_.step.largest;
+    const std::size_t n = std::min(last, lefts_.size() - 1);
+    const double fall = lefts_[lefts_.size() - 1 - n] / now_.left;
     const double rate =
         n == 0 ? -std::log(usual) : std::max(0.1, std::log(fall) / static_cast<double>(n));
-    return std::log(now_.step.largest / (far_below * parameters_.tolerance)) / rate;
+    return std::log(now_.left / (far_below * parameters_.tolerance)) / rate;
   }
 
   struct Difference {
@@ -251,13 +363,18 @@ class Unloader {
   const SolverParameters& solver_;
   UnloadRecord record_;
   solid::EndocardialSurface endocardium_;
+  mesh::FoldFinder find_folds_;
   Eigen::VectorXd target_;
+  std::optional<SmoothFields> smooth_;  ///< once a fold was met
+  double smoothing_ = 0.0;              ///< alpha
+  double smooth_rms_ = 0.0, smooth_largest_ = 0.0;
   double pressure_ = 0.0;  ///< in force [kPa]
   int equilibria_ = 0;
   TimeLeft left_;
   Trial now_;
   std::deque<Difference> history_;
   std::vector<UnloadStep> steps_;
+  std::vector<double> lefts_;  ///< of the steps since the search began anew
 };
 
 }  // namespace

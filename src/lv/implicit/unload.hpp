@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lv/implicit/engine.hpp"
+#include "lv/mesh/folds.hpp"
 
 #include <functional>
 #include <optional>
@@ -13,6 +14,9 @@ struct UnloadParameters {
   double pressure = 0.0;    ///< under which the given shape was seen; 0: it is free of stress [kPa]
   double tolerance = 0.01;  ///< largest distance of a node, loaded again, from the given shape [mm]
   int iterations = 60;      ///< equilibria after which it gives up
+  /// Where the wall that is sought is folded: largest rms distance of a smooth one instead, loaded
+  /// again, from the given shape [mm]
+  double smooth_within = 1.5;
 };
 
 /// One shape that was tried, loaded again.
@@ -21,6 +25,8 @@ struct UnloadStep {
   double unloaded_volume = 0.0, volume = 0.0;  ///< of its cavity without and under load [mm^3]
   double damping = 1.0;                        ///< share of the correction that was taken
   bool accelerated = false;                    ///< by Anderson's method
+  double smoothing = 0.0;                      ///< alpha
+  mesh::Folds folds;                           ///< against the given shape
 };
 
 /// The shape that becomes the given one under load.
@@ -28,6 +34,7 @@ struct Unloaded {
   std::vector<Vec3> nodes;        ///< X [mm]
   State loaded;                   ///< its equilibrium under the load
   std::vector<UnloadStep> steps;  ///< shapes that came nearer, in their order; the last is X
+  double smoothing = 0.0;         ///< alpha; 0: loaded again it is the given shape
 };
 
 /// The equilibria of a search in the order in which they were sought, nothing where there was none.
@@ -54,8 +61,18 @@ struct UnloadRecord {
 /// brings are those of the given shape and turn with it (mesh::with_nodes). Depth t and M(X) are
 /// carried along with the nodes.
 ///
+/// What pressure does not tell apart grows when it is taken away: a flat place of the given shape
+/// may ask for a dent. Where the search meets a fold (mesh::FoldFinder) it goes on with
+///
+///   R = x* - x(X) - alpha (U - P U),   U = X - x*,
+///
+/// P to polynomials of degree 3 (SmoothFields): a displacement that is not smooth has to pay with
+/// the distance alpha that it leaves. Of falling alpha the last wall without folds is taken, if it
+/// comes near enough.
+///
 /// `start` may be the result for other muscle, from where few steps are needed. Unsolved, with the
-/// distance that is left, when the tolerance is not met. Throws Interrupted. Collective.
+/// distance that is left, when the tolerance is not met, or with the figures of the fold where no
+/// smooth wall comes near enough. Throws Interrupted. Collective.
 Outcome<Unloaded> unload(const mesh::Mesh& given, const StaticModel& model,
                          const UnloadParameters& parameters, const SolverParameters& solver,
                          const Unloaded* start = nullptr, UnloadRecord record = {});

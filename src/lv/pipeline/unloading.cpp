@@ -6,6 +6,7 @@
 #include "lv/base/parallel.hpp"
 #include "lv/base/table.hpp"
 #include "lv/base/units.hpp"
+#include "lv/calibrate/klotz.hpp"
 #include "lv/mesh/fibres.hpp"
 #include "lv/mesh/quality.hpp"
 #include "lv/solid/endocardial_surface.hpp"
@@ -24,6 +25,9 @@ using heartbeat::Archive;
 
 constexpr const char* summary_name = "unloaded.json";
 constexpr const char* search_record = "search.bin";
+
+/// A cavity without load below this share of Klotz's V0 is warned of.
+constexpr double least_of_klotz = 0.8;
 
 /// What a search that was stopped has found.
 implicit::Equilibria read_record(const std::filesystem::path& file, std::size_t nodes) {
@@ -59,25 +63,57 @@ std::optional<Unloaded> read_start(const std::filesystem::path& file, std::size_
 
 Table steps_table(const Unloaded& unloaded) {
   Table table({"step", "largest_distance_mm", "rms_distance_mm", "unloaded_volume_ml",
-               "loaded_volume_ml", "damping", "accelerated"});
+               "loaded_volume_ml", "damping", "accelerated", "smoothing", "dent_deg",
+               "nearest_to_itself", "largest_stretch"});
   const auto number = [](double value) { return Table::number(value, 9); };
   int row = 0;
   for (const implicit::UnloadStep& s : unloaded.steps)
-    table.add_row({std::to_string(++row), number(s.largest), number(s.rms),
-                   number(1e-3 * s.unloaded_volume), number(1e-3 * s.volume), number(s.damping),
-                   s.accelerated ? "1" : "0"});
+    table.add_row(
+        {std::to_string(++row), number(s.largest), number(s.rms), number(1e-3 * s.unloaded_volume),
+         number(1e-3 * s.volume), number(s.damping), s.accelerated ? "1" : "0", number(s.smoothing),
+         number(s.folds.dent / units::degree), number(s.folds.approach), number(s.folds.stretch)});
   return table;
+}
+
+double seen_volume(const mesh::Mesh& elements) {
+  return solid::EndocardialSurface(elements).volume(elements.nodes);
+}
+
+double klotz_volume(const case_file::Case& c, const mesh::Mesh& elements) {
+  return calibrate::klotz(seen_volume(elements), c.unloaded.pressure).V0;
+}
+
+/// What a user has to know of a wall without load that is not what it might be.
+void warn(const case_file::Case& c, const mesh::Mesh& elements, const Unloaded& unloaded) {
+  const implicit::UnloadStep& last = unloaded.steps.back();
+  if (unloaded.smoothing > 0.0)
+    log::warn(
+        "the wall without load would be folded: instead it is a smooth one, which loaded again is "
+        "off by {:.2f} mm rms, {:.2f} mm at most (smoothing {:g})",
+        last.rms, last.largest, unloaded.smoothing);
+  const double expected = klotz_volume(c, elements);
+  if (last.unloaded_volume < least_of_klotz * expected)
+    log::warn(
+        "the wall without load holds {:.1f} ml, less than {:.0f}% of the {:.1f} ml that Klotz et "
+        "al. (2006) expect of {:.1f} ml at {:.2f} mmHg: check unloaded.pressure and the stiffness",
+        1e-3 * last.unloaded_volume, 100.0 * least_of_klotz, 1e-3 * expected,
+        1e-3 * seen_volume(elements), c.unloaded.pressure / mmHg);
 }
 
 Json summary(const case_file::Case& c, const mesh::Mesh& elements, const Unloaded& unloaded) {
   const implicit::UnloadStep& last = unloaded.steps.back();
   return {{"pressure_mmHg", c.unloaded.pressure / mmHg},
-          {"seen_volume_ml", 1e-3 * solid::EndocardialSurface(elements).volume(elements.nodes)},
+          {"seen_volume_ml", 1e-3 * seen_volume(elements)},
           {"unloaded_volume_ml", 1e-3 * last.unloaded_volume},
           {"loaded_again_volume_ml", 1e-3 * last.volume},
           {"largest_distance_mm", last.largest},
           {"rms_distance_mm", last.rms},
           {"tolerance_mm", c.unloaded.tolerance},
+          {"klotz_volume_ml", 1e-3 * klotz_volume(c, elements)},
+          {"smoothing", unloaded.smoothing},
+          {"dent_deg", last.folds.dent / units::degree},
+          {"nearest_to_itself", last.folds.approach},
+          {"largest_stretch", last.folds.stretch},
           {"steps", unloaded.steps.size()}};
 }
 
@@ -126,6 +162,7 @@ void make_unloading(const case_file::Case& c, const anatomy::MeshResult& seen,
   check_elements(result.mesh);
   if (parallel::is_root()) {
     anatomy::write_mesh_result(result, folder);
+    warn(c, elements, unloaded);
     steps_table(unloaded).write_csv(folder / "unloading.csv");
     write_file(folder / summary_name, summary(c, elements, unloaded).dump(2) + "\n");
     std::filesystem::remove(record);
@@ -155,13 +192,15 @@ implicit::State load_state(const Archive& archive, const std::string& name, std:
 
 void store(const Unloaded& unloaded, Archive& archive) {
   archive.set("unloaded.nodes", heartbeat::flat(unloaded.nodes));
+  archive.set("unloaded.smoothing", {unloaded.smoothing});
   store(unloaded.loaded, "loaded", archive);
 }
 
 Unloaded load_unloaded(const Archive& archive, std::size_t nodes) {
   return {heartbeat::vectors(archive.get_rows("unloaded.nodes", 3, nodes)),
           load_state(archive, "loaded", nodes),
-          {}};
+          {},
+          archive.get_rows("unloaded.smoothing", 1, 1, heartbeat::not_negative).front()};
 }
 
 std::optional<report::UnloadedShape> unloaded_shape(const std::filesystem::path& folder) {
@@ -173,7 +212,12 @@ std::optional<report::UnloadedShape> unloaded_shape(const std::filesystem::path&
                                  1e3 * json.at("unloaded_volume_ml").get<double>(),
                                  1e3 * json.at("loaded_again_volume_ml").get<double>(),
                                  json.at("largest_distance_mm").get<double>(),
-                                 json.at("rms_distance_mm").get<double>()};
+                                 json.at("rms_distance_mm").get<double>(),
+                                 1e3 * json.at("klotz_volume_ml").get<double>(),
+                                 json.at("smoothing").get<double>(),
+                                 {.dent = json.at("dent_deg").get<double>() * units::degree,
+                                  .approach = json.at("nearest_to_itself").get<double>(),
+                                  .stretch = json.at("largest_stretch").get<double>()}};
   });
 }
 

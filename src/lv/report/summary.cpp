@@ -109,15 +109,25 @@ Json unloaded_json(const UnloadedShape& u) {
           {"unloaded_volume_ml", number(1e-3 * u.unloaded_volume)},
           {"loaded_again_volume_ml", number(1e-3 * u.loaded_volume)},
           {"largest_distance_mm", number(u.largest)},
-          {"rms_distance_mm", number(u.rms)}};
+          {"rms_distance_mm", number(u.rms)},
+          {"klotz_volume_ml", number(1e-3 * u.klotz_volume)},
+          {"smoothing", number(u.smoothing)},
+          {"dent_deg", number(u.folds.dent / units::degree)},
+          {"nearest_to_itself", number(u.folds.approach)},
+          {"largest_stretch", number(u.folds.stretch)}};
 }
 
 std::string unloaded_text(const UnloadedShape& u) {
   return fmt::format(
       "  the wall was seen under {:.2f} mmHg ({:.2f} ml); without load it holds {:.2f} ml, loaded "
-      "again\n  {:.2f} ml, and its nodes are off by {:.4f} mm at most ({:.4f} mm rms)\n\n",
+      "again\n  {:.2f} ml, and its nodes are off by {:.4f} mm at most ({:.4f} mm rms); Klotz et "
+      "al. (2006) expect\n  {:.1f} ml without load. It turns inwards by {:.0f} degrees at most "
+      "where the seen wall does not{}\n\n",
       u.pressure / mmHg, 1e-3 * u.seen_volume, 1e-3 * u.unloaded_volume, 1e-3 * u.loaded_volume,
-      u.largest, u.rms);
+      u.largest, u.rms, 1e-3 * u.klotz_volume, u.folds.dent / units::degree,
+      u.smoothing == 0.0
+          ? ""
+          : ";\n  the wall that loads to the very shape would be folded, so this is a smooth one");
 }
 
 std::vector<Judgement> judge(const RunFacts& facts, const heartbeat::Beat& beat, const Results& r) {

@@ -2,6 +2,7 @@
 
 #include "lv/analysis/results.hpp"
 #include "lv/geometry/fit_report.hpp"
+#include "lv/mesh/folds.hpp"
 #include "lv/report/marks.hpp"
 
 #include <limits>
@@ -28,6 +29,9 @@ struct UnloadedShape {
   double loaded_volume = 0.0;    ///< of the wall without load, loaded again [mm^3]
   double largest = 0.0;          ///< distance of its nodes from where they were seen [mm]
   double rms = 0.0;              ///< [mm]
+  double klotz_volume = 0.0;     ///< V0 of Klotz et al. from volume and pressure [mm^3]
+  double smoothing = 0.0;        ///< alpha of implicit::unload; 0: none was needed
+  mesh::Folds folds;             ///< against the shape that was seen
 };
 
 /// The infarct in one AHA segment that it touches.

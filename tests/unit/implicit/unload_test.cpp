@@ -8,6 +8,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+
 namespace {
 
 using namespace lv;
@@ -19,6 +21,19 @@ mesh::Mesh coarse_ventricle() {
   return mesh::wall_mesh([e = geometry::Ellipsoid{}](double u, double theta,
                                                      double t) { return e.point(u, theta, t); },
                          {.edge_length = 8.0, .layers = 2, .order = 2});
+}
+
+/// Dilated and thin, and bent, so that one side is nearly flat.
+mesh::Mesh bent_ventricle() {
+  const geometry::Ellipsoid e{33.0, 70.0, 38.0, 75.0, 24.0};
+  return mesh::wall_mesh(
+      [e](double u, double theta, double t) {
+        Vec3 X = e.point(u, theta, t);
+        const double along = X.z() / 90.0;
+        X.x() += 16.0 * along * along;
+        return X;
+      },
+      {.edge_length = 14.0, .layers = 1, .order = 2});
 }
 
 StaticModel model(double stiffness) {
@@ -101,4 +116,33 @@ TEST_CASE("an equilibrium of another wall is refused", "[implicit]") {
   implicit::State other = engine.state();
   other.pressures.pop_back();
   CHECK_THROWS_AS(engine.restore(other, {}), InputError);
+}
+
+TEST_CASE("a wall that would be folded is replaced by a smooth one, or refused", "[implicit]") {
+  using Catch::Matchers::Contains;
+  const mesh::Mesh seen = bent_ventricle();
+  implicit::UnloadParameters parameters{.pressure = 8.0 * mmHg, .tolerance = 0.05};
+  implicit::Equilibria found;
+  const auto keep = [&](const implicit::Equilibria& known) { found = known; };
+  const auto smooth = implicit::unload(seen, model(1.0), parameters, {}, nullptr, {{}, keep});
+  REQUIRE(smooth);
+  CHECK(smooth->smoothing > 0.0);
+  CHECK_FALSE(mesh::is_folded(mesh::FoldFinder(seen)(smooth->nodes)));
+  CHECK(smooth->steps.back().rms < 1.5);
+  CHECK(smooth->steps.back().rms > 0.05);
+  const bool met_a_fold =
+      std::any_of(smooth->steps.begin(), smooth->steps.end(),
+                  [](const auto& s) { return s.smoothing == 0.0 && mesh::is_folded(s.folds); });
+  CHECK(met_a_fold);
+  parameters.smooth_within = 0.01;
+  const auto refused = implicit::unload(seen, model(1.0), parameters, {}, nullptr, {found, {}});
+  REQUIRE_FALSE(refused);
+  CHECK_THAT(refused.why().what, Contains("is folded: it turns inwards by"));
+  CHECK_THAT(refused.why().what_to_do, Contains("unloaded.smooth_within"));
+}
+
+TEST_CASE("a wall without any equilibrium is not taken for one that was found", "[implicit]") {
+  const mesh::Mesh seen = coarse_ventricle();
+  const auto unloaded = implicit::unload(seen, model(1e-4), {.pressure = 90.0 * mmHg}, {});
+  REQUIRE_FALSE(unloaded);
 }
