@@ -117,9 +117,10 @@ class BeatWriter {
 /// Whether the program knows that a parameter's value was measured: borders, images and volumes
 /// that a case names.
 bool is_measurement(const std::string& parameter) {
-  return parameter == "calibrate.edv" || parameter == "calibrate.esv" ||
-         parameter == "calibrate.strains" || parameter.starts_with("strain.") ||
-         parameter == "segment.cine" || parameter == "segment.series" ||
+  return parameter == "protocol.cuff_systolic" || parameter == "calibrate.edv" ||
+         parameter == "calibrate.esv" || parameter == "calibrate.strains" ||
+         parameter.starts_with("strain.") || parameter == "segment.cine" ||
+         parameter == "segment.series" ||
          (parameter.starts_with("anatomy.") && parameter != "anatomy.source" &&
           !parameter.starts_with("anatomy.ellipsoid."));
 }
@@ -344,7 +345,7 @@ heartbeat::Beat make_beat(const Case& c, const anatomy::MeshResult& mesh,
 }
 
 std::string make_results(const Case& c, const anatomy::MeshResult& mesh, const BeatResult& beat,
-                         const std::vector<report::FittedVolume>& fitted,
+                         const FitRecord& fitted,
                          const std::optional<report::UnloadedShape>& unloaded,
                          const std::filesystem::path& folder) {
   const analysis::FieldAnalysis analysis = field_analysis(c, mesh.mesh);
@@ -357,7 +358,9 @@ std::string make_results(const Case& c, const anatomy::MeshResult& mesh, const B
     anatomy::AnatomyRecord anatomy = anatomy_beside(folder);
     facts.warnings.insert(facts.warnings.begin(), anatomy.warnings.begin(), anatomy.warnings.end());
     facts.assumed = std::move(anatomy.assumed);
-    facts.fitted = fitted;
+    facts.assumed.insert(facts.assumed.end(), fitted.assumed.begin(), fitted.assumed.end());
+    facts.fitted = fitted.volumes;
+    facts.klotz = fitted.klotz;
     facts.unloaded = unloaded;
     facts.scar = scar_facts(c, mesh);
     text = write_results(c, mesh, beat, facts, fields, folder);
