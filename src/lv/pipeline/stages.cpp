@@ -1,6 +1,7 @@
 #include "lv/pipeline/stages.hpp"
 
 #include "lv/anatomy/drawn.hpp"
+#include "lv/anatomy/shape_distance.hpp"
 #include "lv/base/bounds.hpp"
 #include "lv/base/check.hpp"
 #include "lv/base/interrupt.hpp"
@@ -245,6 +246,19 @@ std::string beside_measured(const Case& c, const anatomy::MeshResult& mesh, cons
                     folder);
 }
 
+/// How far the model's end-systolic surfaces are from drawn ones, if there are any.
+std::string beside_drawn(const mesh::Mesh& mesh, const heartbeat::Beat& beat,
+                         const std::filesystem::path& folder) {
+  const anatomy::AnatomyRecord anatomy = anatomy_beside(folder);
+  const heartbeat::NamedMoment* end = beat.find(heartbeat::end_systole);
+  if (anatomy.end_systole.empty() || end == nullptr)
+    return "";
+  const anatomy::ShapeDistance distance =
+      anatomy::shape_distance(mesh, end->wall.positions, anatomy.frame, anatomy.end_systole);
+  anatomy::shape_distance_table(distance).write_csv(folder / "es_distance.csv");
+  return anatomy::shape_distance_text(distance);
+}
+
 /// The case's passive muscle and what it is compared with.
 std::vector<material::StressStretch> muscles(const Case& c) {
   auto curves = material::published_muscles();
@@ -273,6 +287,7 @@ std::string write_results(const Case& c, const anatomy::MeshResult& mesh, const 
   drawing::write(report::segments_figure(report::regions_table(results), orientation),
                  folder / "segments.png");
   return report::summary_text(facts, beat.beat, results) +
+         beside_drawn(mesh.mesh, beat.beat, folder) +
          beside_measured(c, mesh, beat, fields, orientation, folder);
 }
 
