@@ -1,20 +1,21 @@
 #!/usr/bin/env python3
 """Made-up people through the whole program (labels, mesh, unloading, fit to Klotz's curve and the end-systolic volume, beat,
 results) on coarse elements: how many come to the end, and what stops the others.
-Usage: people.py VENTRICLE [FIRST LAST]; the environment variable VENTRICLE_PERSON_SECONDS says how long one may take
-(default: 600), VENTRICLE_PEOPLE_FOLDER keeps the runs."""
+Usage: people.py VENTRICLE [FIRST LAST]; the environment variable VENTRICLE_PERSON_SECONDS says how much processor time one
+may take (default: 600), VENTRICLE_PEOPLE_FOLDER keeps the runs."""
 import csv
 import json
 import os
 import pathlib
+import resource
+import signal
 import subprocess
 import sys
 import tempfile
-import time
 
 program = pathlib.Path(sys.argv[1]).resolve()
 first, last = (int(n) for n in (sys.argv[2:4] if len(sys.argv) > 3 else ("1", "100")))
-patience = float(os.environ.get("VENTRICLE_PERSON_SECONDS", "600"))
+patience = int(os.environ.get("VENTRICLE_PERSON_SECONDS", "600"))
 wanted = 0.98  # part of the people that must come to the end
 
 # Coarse, for tests only: one layer of quadratic elements.
@@ -42,17 +43,23 @@ def last_words(text):
 
 
 def run(case):
-    """Outcome, seconds, and the program's last words where it did not come to the end."""
-    began = time.monotonic()
+    """Outcome, processor seconds, and the program's last words where it did not come to the end."""
+    def used():
+        usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+        return usage.ru_utime + usage.ru_stime
+
+    def limit():
+        resource.setrlimit(resource.RLIMIT_CPU, (patience, patience + 5))
+
+    began = used()
     work = case.parent / "work"
-    try:
-        done = subprocess.run([program, "run", case, "--work", work, "--ranks", "1"], capture_output=True, text=True, timeout=patience)
-    except subprocess.TimeoutExpired:
-        log = work / "log.txt"
-        return "too long", time.monotonic() - began, last_words(log.read_text() if log.exists() else "")
-    seconds = time.monotonic() - began
+    done = subprocess.run([program, "run", case, "--work", work, "--ranks", "1"], capture_output=True, text=True, preexec_fn=limit)
+    seconds = used() - began
     if done.returncode == 0:
         return "done", seconds, ""
+    if done.returncode in (-signal.SIGXCPU, -signal.SIGKILL):
+        log = work / "log.txt"
+        return "too long", seconds, last_words(log.read_text() if log.exists() else "")
     return "stopped", seconds, last_words(done.stderr or done.stdout)
 
 
