@@ -8,6 +8,7 @@
 #include "lv/base/table.hpp"
 #include "lv/base/units.hpp"
 #include "lv/case_file/read_case.hpp"
+#include "lv/phantom/person.hpp"
 #include "lv/phantom/study.hpp"
 #include "lv/pipeline/run.hpp"
 #include "lv/pipeline/validate.hpp"
@@ -63,6 +64,7 @@ struct Command {
   lv::phantom::Ventricle ventricle;
   lv::phantom::Scan scan;
   lv::phantom::StudyFiles study;
+  std::uint32_t person = 0;  ///< 0: the study of the other options
   std::string folder;
   std::string solve_in;  ///< folder for the findings of one problem, see verify::solve_option
 };
@@ -181,6 +183,10 @@ int verify(const Command& command, int argc, char** argv) {
 
 int phantom(const Command& command) {
   lv::interrupt::install();
+  if (command.person > 0) {
+    lv::print(lv::phantom::write_person(command.person, command.folder));
+    return 0;
+  }
   lv::print(
       lv::phantom::write_study(command.ventricle, command.scan, command.study, command.folder));
   return 0;
@@ -303,6 +309,17 @@ void add_phantom(CLI::App& app, Command& command) {
   add_heart_options(*phantom, command.ventricle);
   phantom->add_option("--dicom", command.study.dicom, "write DICOM files")->capture_default_str();
   phantom->add_option("--nifti", command.study.nifti, "write NIfTI files")->capture_default_str();
+  const std::vector<CLI::Option*> others = phantom->get_options([&](const CLI::Option* o) {
+    return o->get_lnames().size() == 1 && o->get_lnames().front() != "help";
+  });
+  auto* person = phantom
+                     ->add_option("--person", command.person,
+                                  "a made-up person instead, by number: shape, wall, infarct, "
+                                  "pressures and slices are drawn from what is seen in people; "
+                                  "end-diastole and end-systole as label map and contours")
+                     ->check(CLI::Range(1, 1000000));
+  for (CLI::Option* other : others)
+    person->excludes(other);
 }
 
 void add_images(CLI::App& app, Command& command) {

@@ -22,16 +22,32 @@ function sensitivity(c: Case, fit: any): HTMLElement {
     fit.uncertainty.map((u: any) => [u.parameter, shown(u.value, 4), ...u.when_off.map((w: any) => `${shown(w.below)} / ${shown(w.above)}`)]));
 }
 
+/** Volumes that Klotz's curve gives the end-diastolic shape, beside the fitted model's, and the fit for other pressures. */
+function klotz(c: Case, fit: any): (Node | undefined)[] {
+  if (!Array.isArray(c.summary?.klotz)) return [];
+  const others: any[] = fit?.other_pressures ?? [];
+  const names: string[] = (fit?.uncertainty ?? []).map((u: any) => u.parameter);
+  return [
+    el("p", { class: "help" }, "The curve by Klotz et al. (2006) through the end-diastolic volume and pressure is a mean over hearts: assumed, not measured."),
+    table(fileName(c.name, "klotz"), ["volume", "pressure (mmHg)", "curve, assumed (ml)", "fitted model (ml)"],
+      c.summary.klotz.map((v: any) => [v.volume, shown(v.pressure_mmHg, 3), shown(v.target_ml, 4), shown(v.model_ml, 4)])),
+    others.length ? table(fileName(c.name, "other-pressures"), ["had the end-diastolic pressure been (mmHg)", ...names, "unloaded (ml)"],
+      others.map((o) => o.no_fit ? [shown(o.pressure_mmHg, 3), ...names.map(() => "no fit"), ""] :
+        [shown(o.pressure_mmHg, 3), ...names.map((n) => shown(o[n], 4)), shown(o.unloaded_volume_ml, 4)])) : undefined];
+}
+
 /** Empty for a case without calibration. */
 export function calibration(c: Case): (Node | undefined)[] {
-  if (!Array.isArray(c.summary?.calibration)) return [];
+  const volumesFitted = Array.isArray(c.summary?.calibration);
+  if (!volumesFitted && !Array.isArray(c.summary?.klotz)) return [];
   const text = c.json.files["calibration.json"];
   const fit = text ? JSON.parse(text) : undefined;
   return [
     el("h3", {}, "Fitted to measured volumes"),
     el("p", { class: "help" }, "Parameters found with the quasi-static engine, and what they would be if a measured value were too low / too " +
       "high by its error (to first order of the logarithms, all else equal). A parameter that moves far is little known."),
-    volumes(c),
+    volumesFitted ? volumes(c) : undefined,
+    ...klotz(c, fit),
     fit?.uncertainty?.length ? sensitivity(c, fit) : missing("calibration.json is missing: how sure the fitted parameters are is not known."),
     ...(fit?.ambiguities ?? []).map((line: string) => el("p", { class: "help" }, line))];
 }

@@ -5,6 +5,7 @@
 #include "lv/base/table.hpp"
 #include "lv/case_file/case_lines.hpp"
 #include "lv/case_file/parameters.hpp"
+#include "lv/geometry/contour_table.hpp"
 #include "lv/geometry/drawn_wall.hpp"
 #include "lv/mesh/refine.hpp"
 #include "lv/mesh_io/foreign_mesh.hpp"
@@ -25,6 +26,7 @@ using case_file::Case;
 namespace fs = std::filesystem;
 
 constexpr const char* frame_name = "frame.json";
+constexpr const char* es_contours_name = "es_contours.csv";
 
 constexpr const char* assumed_septum =
     "the septum is assumed at the first point of the basal endocardial loop: regions bear the "
@@ -71,6 +73,17 @@ std::string base_rule(const std::string& height, geometry::BasePlane direction) 
                                                                  : "parallel to that slice");
 }
 
+/// Loops of a breath-hold lie where those of the shape on the same slice do.
+std::vector<geometry::Contour> moved_with_slices(std::vector<geometry::Contour> loops,
+                                                 const geometry::FitReport& report) {
+  for (geometry::Contour& loop : loops)
+    for (const geometry::ImageReport& image : report.short_axis)
+      if (image.slice == loop.slice)
+        for (Vec3& x : loop.points)
+          x += image.shift;
+  return loops;
+}
+
 Shape from_drawn(const Case& c) {
   Drawn drawn = read_drawn(c);
   geometry::SplineFitParameters fit = c.anatomy.contours.fit;
@@ -83,6 +96,8 @@ Shape from_drawn(const Case& c) {
   Shape shape;
   shape.wall = [wall](double u, double theta, double t) { return wall->point(u, theta, t); };
   shape.frame = wall->frame();
+  if (drawn.end_systole)
+    shape.end_systole = moved_with_slices(std::move(drawn.end_systole->short_axis), wall->report());
   shape.notes = std::move(drawn.notes);
   for (const auto& notes : {wall->report().notes, found.notes})
     shape.notes.insert(shape.notes.end(), notes.begin(), notes.end());
@@ -194,6 +209,8 @@ void write_anatomy(const Shape& shape, const fs::path& folder) {
                                      {"assumed", json_of(shape.assumed)},
                                      {"warnings", json_of(shape.warnings)}};
   write_file(folder / frame_name, json_text(frame) + "\n");
+  if (!shape.end_systole.empty())
+    geometry::contour_table(shape.end_systole).write_csv(folder / es_contours_name);
   if (shape.segmentation)
     write_segmentation(*shape.segmentation, folder / "segmentation");
   if (!shape.quality)
@@ -205,7 +222,7 @@ void write_anatomy(const Shape& shape, const fs::path& folder) {
 }
 
 AnatomyRecord anatomy_record(const fs::path& folder) {
-  return from_json_file(folder / frame_name, [](const nlohmann::ordered_json& json) {
+  return from_json_file(folder / frame_name, [&](const nlohmann::ordered_json& json) {
     const auto vector = [&](const char* key) {
       return Vec3(json.at(key).get<std::array<double, 3>>().data());
     };
@@ -217,6 +234,8 @@ AnatomyRecord anatomy_record(const fs::path& folder) {
       record.assumed.push_back({a.at("part"), a.at("text")});
     for (const auto& a : json.at("warnings"))
       record.warnings.push_back(a.at("text"));
+    if (fs::exists(folder / es_contours_name))
+      record.end_systole = geometry::read_curves(folder / es_contours_name);
     return record;
   });
 }

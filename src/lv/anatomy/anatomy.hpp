@@ -21,8 +21,11 @@ struct Shape {
   geometry::Frame frame;
   std::optional<report::QualitySheet> quality;           ///< for a drawn wall
   std::shared_ptr<const CineSegmentation> segmentation;  ///< of borders that the program drew
-  std::vector<std::string> notes;                        ///< what was assumed or changed
-  std::vector<geometry::Assumption> assumed;             ///< septum, early diastole, apex, base
+  /// Loops at end-systole where the source shows them besides, moved as the slices were, image
+  /// space.
+  std::vector<geometry::Contour> end_systole;
+  std::vector<std::string> notes;             ///< what was assumed or changed
+  std::vector<geometry::Assumption> assumed;  ///< septum, early diastole, apex, base
   std::vector<geometry::Assumption>
       warnings;  ///< of these, what results may be wrong for: a septum that
                  ///< nothing shows, a filled wall taken as free of stress
@@ -36,7 +39,8 @@ struct Shape {
 
 /// Writes surfaces.vtu (in the model frame), frame.json and, for a drawn wall, fit.csv with the
 /// residual distances per image and the quality sheet as quality.csv, .json and .txt; for borders
-/// that the program drew, segmentation/ with what write_segmentation makes.
+/// that the program drew, segmentation/ with what write_segmentation makes. es_contours.csv holds
+/// the loops at end-systole where there are some.
 void write_anatomy(const Shape& shape, const std::filesystem::path& folder);
 
 /// What write_anatomy left in a folder of a shape's frame, assumptions and warnings.
@@ -44,6 +48,7 @@ struct AnatomyRecord {
   geometry::Frame frame;
   std::vector<geometry::Assumption> assumed;
   std::vector<std::string> warnings;
+  std::vector<geometry::Contour> end_systole;  ///< empty where none are drawn
 };
 [[nodiscard]] AnatomyRecord anatomy_record(const std::filesystem::path& folder);
 

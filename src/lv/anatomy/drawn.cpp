@@ -54,9 +54,19 @@ geometry::ContourFiles contour_files(const Case& c) {
   return files;
 }
 
+/// The moment with the smallest cavity, unless it is that of the shape; none of one moment alone.
+std::optional<int> other_end_systole(const Moments& m, int chosen) {
+  if (m.numbers.size() < 2 || m.end_systole == chosen)
+    return {};
+  return m.end_systole;
+}
+
 Drawn from_csv(const Case& c) {
   Drawn drawn;
   drawn.contours = geometry::read_contours(contour_files(c));
+  const std::string& es = c.anatomy.contours.es_short_axis;
+  if (!es.empty())
+    drawn.end_systole = geometry::read_contours({case_file::beside(c, es), {}, {}});
   drawn.source = "contours";
   return drawn;
 }
@@ -129,7 +139,16 @@ Drawn from_labels(const Case& c) {
   drawn.usual_base = geometry::BaseAt::slab;
   drawn.notes = std::move(traced.notes);
   drawn.moment_is_known = volume.frames > 1;
-  warn(end_diastole_note(c, moments_of(volume, a.cavity), frame + 1), drawn);
+  const Moments moments = moments_of(volume, a.cavity);
+  warn(end_diastole_note(c, moments, frame + 1), drawn);
+  if (const auto es = other_end_systole(moments, frame + 1))
+    try {
+      drawn.end_systole =
+          image::trace_labels(volume, {a.cavity, a.muscle, a.right_ventricle}, *es - 1).contours;
+    } catch (const InputError& failure) {  // they are only compared with
+      drawn.notes.push_back(
+          fmt::format("no contours of end-systole (frame {}): {}", *es, failure.what()));
+    }
   return drawn;
 }
 
@@ -159,7 +178,10 @@ Drawn from_sunnybrook(const Case& c) {
   drawn.notes = image::remarks(chosen.stack);
   drawn.notes.insert(drawn.notes.end(), chosen.read.notes.begin(), chosen.read.notes.end());
   drawn.moment_is_known = chosen.read.phases.size() > 1;
-  warn(end_diastole_note(c, moments_of(chosen.read.phases), a.phase), drawn);
+  const Moments moments = moments_of(chosen.read.phases);
+  warn(end_diastole_note(c, moments, a.phase), drawn);
+  if (const auto es = other_end_systole(moments, a.phase))
+    drawn.end_systole = chosen.read.phases.at(*es);
   drawn.contours = std::move(chosen.read.phases.at(a.phase));
   return drawn;
 }
@@ -178,7 +200,10 @@ Drawn from_guide_points(const Case& c) {
                     fmt::format("{} has\n{}", file.string(), describe_phases(frames, "frame")));
     }
     drawn.moment_is_known = true;
-    warn(end_diastole_note(c, moments_of(frames), a.frame), drawn);
+    const Moments moments = moments_of(frames);
+    warn(end_diastole_note(c, moments, a.frame), drawn);
+    if (const auto es = other_end_systole(moments, a.frame))
+      drawn.end_systole = frames.at(*es);
   }
   image::GuidePoints read = image::read_guide_points(
       file, a.frame < 0 ? std::nullopt : std::optional(a.frame), a.apex_point);
@@ -213,7 +238,12 @@ Drawn from_cine(const Case& c) {
   drawn.notes = found->cine.notes;
   drawn.notes.insert(drawn.notes.end(), found->found.doubts.begin(), found->found.doubts.end());
   drawn.moment_is_known = true;
-  warn(end_diastole_note(c, moments_of(found->found), static_cast<int>(frame) + 1), drawn);
+  const Moments moments = moments_of(found->found);
+  const int chosen = static_cast<int>(frame) + 1;
+  warn(end_diastole_note(c, moments, chosen), drawn);
+  if (const auto es = other_end_systole(moments, chosen))
+    drawn.end_systole =
+        segment::contours_at(found->cine, found->found, static_cast<std::size_t>(*es - 1));
   drawn.segmentation = std::move(found);
   return drawn;
 }
@@ -251,6 +281,12 @@ Drawn read_drawn(const Case& c) {
   if (mended)
     image::close_walls(drawn.contours, thinnest, drawn.notes);
   geometry::check_contours(drawn.contours);
+  if (drawn.end_systole) {
+    std::vector<std::string> of_comparison;  // says nothing of the wall
+    if (mended)
+      image::drop_strays(*drawn.end_systole, of_comparison);
+    image::drop_open_base(*drawn.end_systole, of_comparison);
+  }
   return drawn;
 }
 

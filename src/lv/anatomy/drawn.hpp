@@ -23,6 +23,8 @@ struct Drawn {
   geometry::BaseAt usual_base = geometry::BaseAt::slice;  ///< unless the case says otherwise
   std::shared_ptr<const CineSegmentation> segmentation;   ///< of borders that the program drew
   std::vector<std::string> notes;
+  /// Of the moment with the smallest cavity, where the source shows it besides.
+  std::optional<geometry::Contours> end_systole;
   bool moment_is_known = false;       ///< it was chosen among several
   std::vector<std::string> warnings;  ///< of an end-diastolic shape that is taken as free of stress
 };

@@ -7,6 +7,7 @@
 #include "lv/calibrate/forecast.hpp"
 #include "lv/calibrate/klotz.hpp"
 #include "lv/calibrate/least_squares.hpp"
+#include "lv/calibrate/unloaded_root.hpp"
 
 #include <Eigen/Core>
 #include <fmt/format.h>
@@ -29,6 +30,14 @@ constexpr std::array<double, 3> pressure_ratios{0.25, 0.5, 2.0};  // to the end-
 /// end-diastolic volumes the parameters are.
 constexpr double weight_of_edv = 1e3;
 
+/// The same, below it, for a shape of end-diastole; and how V0 weighs against them.
+constexpr std::array<double, 2> ratios_below{0.25, 0.5};
+constexpr double weight_of_unloaded = 10.0;
+constexpr double rough = 0.03;           // a first V0, as a fraction
+constexpr double first_stiffness = 2.0;  // stiff walls are unloaded more easily
+constexpr double shortest_step = 2e-3;   // of the logarithms of scale and exponent
+constexpr double unloaded_difference = 0.03;
+
 /// First steps of a bracket.
 constexpr double far = 1.5;
 constexpr double near = 1.05;
@@ -42,13 +51,14 @@ constexpr int most_corrections = 20;
 /// The parts of Fitter::run, with the equilibria that each takes, roughly (docs/progress.md).
 std::vector<FitPart> parts_of(const Plan& plan) {
   const bool passive = plan.passive != FittedPassive::none;
-  const bool curve = plan.passive == FittedPassive::scale_and_exponent;
+  const bool curve = plan.fits_exponent();
+  const bool klotz = plan.passive == FittedPassive::klotz;
   std::vector<FitPart> parts;
   const auto fit_passive = [&](double trials) {
     if (passive)
       parts.push_back({"bracket", {trials, 0.0}});
     if (curve)
-      parts.push_back({"curve", {5.0 * trials, 0.0}});
+      parts.push_back({"curve", {(klotz ? 3.0 : 5.0) * trials, 0.0}});
   };
   fit_passive(6.0);
   if (plan.active) {
@@ -101,7 +111,7 @@ class Fitter {
       fitted.push_back(plan_.passive == FittedPassive::C_a
                            ? Fitted{"C_a", &FitParameters::C_a}
                            : Fitted{"scale", &FitParameters::scale});
-    if (plan_.passive == FittedPassive::scale_and_exponent)
+    if (plan_.fits_exponent())
       fitted.push_back({"exponent", &FitParameters::exponent});
     fit_passive(fitted, far);
     if (plan_.active) {
@@ -114,6 +124,8 @@ class Fitter {
     if (model_.strains)
       fit_strains(fitted);
     measure();
+    if (plan_.parameters_alone)
+      return std::move(fit_);
     begin("sensitivity");
     fit_.sensitivity = sensitivity(model_, fit_.parameters, fitted, fit_.observations,
                                    {plan_.edv.volume, ed_loads(), es_loads(), plan_.errors});
@@ -133,6 +145,10 @@ class Fitter {
   void fit_passive(const std::vector<Fitted>& fitted, double first_factor) {
     if (plan_.passive == FittedPassive::none)
       return;
+    if (plan_.passive == FittedPassive::klotz) {
+      fit_klotz({fitted[0], fitted[1]}, first_factor == far && !plan_.parameters_alone);
+      return;
+    }
     bracket(fitted.front(), plan_.stiffness, ed_loads(), plan_.edv, first_factor);
     if (plan_.passive == FittedPassive::scale_and_exponent)
       fit_exponent(fitted[0], fitted[1]);
@@ -163,12 +179,78 @@ class Fitter {
     return root;
   }
 
+  /// Scale and exponent of a shape of end-diastole: first the scale alone, roughly.
+  void fit_klotz(const std::vector<Fitted>& fitted, bool first) {
+    begin("unloaded volume");
+    FitParameters& p = fit_.parameters;
+    if (first)
+      p.scale = find_unloaded_root(
+          [&](double x) {
+            p.scale = x;
+            return model_.volume(p, {});
+          },
+          {"scale", first_stiffness * p.scale, plan_.stiffness, far},
+          {fit_.observations.front().target, plan_.edv.origin}, plan_.edv.volume, rough);
+    begin("fit to the Klotz curve");
+    const Logarithms logs = logarithms(fitted);
+    const auto residuals = [&](const Eigen::VectorXd& x) -> Outcome<Eigen::VectorXd> {
+      const auto r = misfits(moved_to(fitted, x), 1 + ratios_below.size());
+      if (!r)
+        return r.why();
+      Eigen::VectorXd weighted = dense::as_vector(*r);
+      weighted[0] *= weight_of_unloaded;
+      return weighted;
+    };
+    const auto minimum = broyden_least_squares(residuals, logs.start, logs.low, logs.high,
+                                               {unloaded_difference, longest_step, shortest_step});
+    p = moved_to(fitted, minimum.value().x);
+  }
+
+  /// Of the passive parameters, or of all.
+  struct Logarithms {
+    Eigen::VectorXd start, low, high;
+  };
+  [[nodiscard]] Logarithms logarithms(const std::vector<Fitted>& fitted) const {
+    std::vector<double> start, low, high;
+    for (const Fitted& which : fitted) {
+      start.push_back(std::log(fit_.parameters.*which.member));
+      low.push_back(std::log(range_of(which).low));
+      high.push_back(std::log(range_of(which).high));
+    }
+    return {dense::as_vector(start), dense::as_vector(low), dense::as_vector(high)};
+  }
+  [[nodiscard]] FitParameters moved_to(const std::vector<Fitted>& fitted,
+                                       const Eigen::VectorXd& x) const {
+    FitParameters p = fit_.parameters;
+    for (std::size_t j = 0; j < fitted.size(); ++j)
+      p.*fitted[j].member = std::exp(x[static_cast<Eigen::Index>(j)]);
+    return p;
+  }
+
+  /// V0 and the filling curve by Klotz et al. for a shape of end-diastole.
+  void observe_klotz() {
+    const double V_m = plan_.edv.volume;
+    const double V_0 = klotz(V_m, plan_.ed_pressure).V0;
+    fit_.observations.push_back({"Klotz, V0", {}, V_0, weight_of_unloaded, 0.0, V_0 / V_m});
+    for (const double ratio : ratios_below) {
+      const double V = V_0 + (V_m - V_0) * klotz_filling(ratio);
+      fit_.observations.push_back({fmt::format("Klotz, {:g} p_ED", ratio),
+                                   {ratio * plan_.ed_pressure, 0.0},
+                                   V,
+                                   1.0,
+                                   ratio,
+                                   V / V_m});
+    }
+  }
+
   /// The measured points, and the Klotz curve where it is fitted to.
   void observe() {
     const double edv = plan_.edv.volume;
+    if (plan_.passive == FittedPassive::klotz)
+      observe_klotz();
     const bool curve = plan_.passive == FittedPassive::scale_and_exponent;
     auto& list = fit_.observations;
-    if (plan_.passive != FittedPassive::none)
+    if (plan_.passive != FittedPassive::none && plan_.passive != FittedPassive::klotz)
       list.push_back(
           {"EDV", ed_loads(), edv, curve && !model_.strains ? weight_of_edv : 1.0, 1.0, 1.0});
     if (curve)
@@ -344,7 +426,9 @@ class Fitter {
       measure_strains(*fit_.strain_fit);
       return;  // a compromise, whose volumes are reported and need not be met
     }
-    if (plan_.passive != FittedPassive::none)
+    if (plan_.passive == FittedPassive::klotz)
+      check("unloaded", fit_.volumes.front(), fit_.observations.front().target);
+    else if (plan_.passive != FittedPassive::none)
       check("end-diastolic", fit_.edv, plan_.edv.volume);
     if (plan_.active)
       check("end-systolic", fit_.esv, plan_.esv.volume);
@@ -366,7 +450,10 @@ class Fitter {
       throw RunError(fmt::format("The fitted model's {} volume is {:.2f} ml and misses {:.2f} ml "
                                  "by more than calibrate.tolerance",
                                  which, 1e-3 * volume, 1e-3 * target),
-                     "Widen the ranges in [calibrate], or set calibrate.passive = \"scale\"");
+                     plan_.passive == FittedPassive::klotz
+                         ? "Widen the ranges in [calibrate], or check unloaded.pressure"
+                         : "Widen the ranges in [calibrate], or set calibrate.passive = "
+                           "\"scale\"");
   }
 
   const Plan& plan_;

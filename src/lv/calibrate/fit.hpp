@@ -13,9 +13,10 @@ namespace lv::calibrate {
 /// What of the passive muscle is fitted to the end-diastolic volume.
 enum class FittedPassive {
   none,
-  C_a,                ///< the paper's way for a patient (2.25)
-  scale,              ///< all stiffnesses by one factor
-  scale_and_exponent  ///< all exponents by another besides, to the normalised Klotz curve
+  C_a,                 ///< the paper's way for a patient (2.25)
+  scale,               ///< all stiffnesses by one factor
+  scale_and_exponent,  ///< all exponents by another besides, to the normalised Klotz curve
+  klotz                ///< both, to Klotz's V0 and filling curve, for a shape of end-diastole
 };
 
 /// A measured mean strain of a part of the wall.
@@ -35,6 +36,12 @@ struct Plan {
   Range exponent, T_scale;
   std::vector<MeasuredStrain> strains;  ///< end-systolic; fitted to, besides the volumes, when any
   Errors errors;
+  /// Starts near the end and finds no sensitivities.
+  bool parameters_alone = false;
+
+  [[nodiscard]] bool fits_exponent() const {
+    return passive == FittedPassive::scale_and_exponent || passive == FittedPassive::klotz;
+  }
 };
 
 /// One equilibrium of the search.
@@ -53,6 +60,14 @@ struct StrainFit {
   double rms = 0.0, bias = 0.0;  ///< of model minus measured strain
 };
 
+/// What the fit would be, had the shape been seen under another end-diastolic pressure.
+struct OtherPressure {
+  double pressure = 0.0;                    ///< [kPa]
+  std::optional<FitParameters> parameters;  ///< none where there is no fit
+  double unloaded_volume = 0.0;             ///< [mm^3]
+  std::string why_not;
+};
+
 struct Fit {
   FitParameters parameters;
   double unloaded_volume = 0.0;  ///< of the model [mm^3]
@@ -61,6 +76,7 @@ struct Fit {
   std::vector<double> volumes;  ///< of the model at the observations [mm^3]
   std::optional<StrainFit> strain_fit;
   Sensitivity sensitivity;
+  std::vector<OtherPressure> other_pressures;  ///< of an end-diastolic shape; not filled by `fit`
   std::vector<Evaluation> history;
 };
 
@@ -75,6 +91,13 @@ struct Fit {
 /// at p_k/p_ED = 1/4, 1/2 and 2: the Klotz curve in normalised form through the measured point and
 /// the model's own volume without load, since the shape at early diastole, not the formula for V_0,
 /// is where the model starts.
+///
+/// For a shape of end-diastole (FittedPassive::klotz), whose volume under p_ED is EDV whatever its
+/// stiffness, scale and exponent minimise
+///
+///   [10 (V(0)/V_0 - 1)]^2 + sum_k [V(p_k)/V_k - 1]^2,   V_0 = EDV (0.6 - 0.006 p_ED/mmHg),
+///
+/// at p_k/p_ED = 1/4 and 1/2, V_k as above: V(0) of the wall that is unloaded with these values.
 ///
 /// With measured strains those values are the start of a least-squares fit of all fitted
 /// parameters,

@@ -1,11 +1,14 @@
 #include "lv/calibrate/least_squares.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/dense.hpp"
 
 #include <fmt/format.h>
 #include <unsupported/Eigen/NonLinearOptimization>
 
+#include <algorithm>
 #include <limits>
+#include <optional>
 
 namespace lv::calibrate {
 namespace {
@@ -92,6 +95,74 @@ Minimum least_squares(const Residuals& residuals, const Eigen::VectorXd& start,
   minimum.r = search.fvec;
   minimum.evaluations = bounded.evaluations;
   return minimum;
+}
+
+namespace {
+
+/// Forward differences, backward ones at the upper bound and where there is no residual.
+std::optional<Eigen::MatrixXd> differences(const Residuals& residuals, const Minimum& at,
+                                           const Eigen::VectorXd& high, double difference) {
+  Eigen::MatrixXd J(at.r.size(), at.x.size());
+  for (Eigen::Index j = 0; j < at.x.size(); ++j) {
+    bool found = false;
+    for (const double step : {difference, -difference}) {
+      if (found || at.x[j] + step > high[j])
+        continue;
+      Eigen::VectorXd moved = at.x;
+      moved[j] += step;
+      if (const auto r = residuals(moved)) {
+        J.col(j) = (*r - at.r) / step;
+        found = true;
+      }
+    }
+    if (!found)
+      return {};
+  }
+  return J;
+}
+
+}  // namespace
+
+Outcome<Minimum> broyden_least_squares(const Residuals& residuals, const Eigen::VectorXd& start,
+                                       const Eigen::VectorXd& low, const Eigen::VectorXd& high,
+                                       const StepLengths& lengths) {
+  Minimum best{start.cwiseMax(low).cwiseMin(high), {}, 0};
+  const Residuals counted = [&](const Eigen::VectorXd& x) {
+    ++best.evaluations;
+    return residuals(x);
+  };
+  const auto first = counted(best.x);
+  if (!first)
+    return first.why();
+  best.r = *first;
+  std::optional<Eigen::MatrixXd> J = differences(counted, best, high, lengths.difference);
+  bool fresh = true;
+  while (J && best.evaluations < most_evaluations) {
+    const Eigen::VectorXd full = -dense::least_squares(*J, best.r);
+    const double shortening = std::min(1.0, lengths.longest / full.cwiseAbs().maxCoeff());
+    Eigen::VectorXd step = (best.x + shortening * full).cwiseMax(low).cwiseMin(high) - best.x;
+    bool nearer = false;
+    while (!nearer && step.cwiseAbs().maxCoeff() >= lengths.shortest) {
+      const auto r = counted(best.x + step);
+      if (r)  // what was learnt counts wherever it leads
+        *J += (*r - best.r - *J * step) * step.transpose() / step.squaredNorm();
+      nearer = r && r->squaredNorm() < best.r.squaredNorm();
+      if (nearer) {
+        best.x += step;
+        best.r = *r;
+        fresh = false;
+      } else {
+        step *= 0.3;
+      }
+    }
+    if (nearer)
+      continue;
+    if (fresh || full.cwiseAbs().maxCoeff() < lengths.shortest)
+      break;
+    J = differences(counted, best, high, lengths.difference);
+    fresh = true;
+  }
+  return best;
 }
 
 }  // namespace lv::calibrate

@@ -26,4 +26,19 @@ using Residuals = std::function<Outcome<Eigen::VectorXd>(const Eigen::VectorXd&)
                                     const Eigen::VectorXd& low, const Eigen::VectorXd& high,
                                     double difference, double longest);
 
+/// Lengths of steps, in units of x.
+struct StepLengths {
+  double difference = 0.0;  ///< of the derivatives
+  double longest = 0.0;     ///< of each component
+  double shortest = 0.0;    ///< with which the search ends
+};
+
+/// The same for residuals that cost much: Gauss-Newton steps with one set of forward differences
+/// and Broyden's updates after it (C. G. Broyden, Math. Comput. 19:577, 1965). A step that comes no
+/// nearer is shortened; where that does not help the differences are taken anew, once. Unsolved
+/// without residuals at the start.
+Outcome<Minimum> broyden_least_squares(const Residuals& residuals, const Eigen::VectorXd& start,
+                                       const Eigen::VectorXd& low, const Eigen::VectorXd& high,
+                                       const StepLengths& lengths);
+
 }  // namespace lv::calibrate

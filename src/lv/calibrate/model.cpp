@@ -53,7 +53,8 @@ void Ventricle::restore(Memory memory) {
 }
 
 Outcome<double> Ventricle::volume(const FitParameters& parameters, const Loads& loads) {
-  if (const auto unloaded = unloaded_volume(parameters); !unloaded)
+  const auto unloaded = unloaded_volume(parameters);
+  if (!unloaded || distance(loads, {}) == 0.0)  // undeformed, as implicit::Engine::set_model says
     return unloaded;
   const auto volume = approach(model_of_(parameters), loads);
   if (!volume)

@@ -3,6 +3,7 @@
 #include "lv/base/dense.hpp"
 #include "lv/base/units.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace lv::calibrate {
@@ -83,9 +84,9 @@ Sensitivity sensitivity(const Model& model, const FitParameters& at,
     for (Eigen::Index j = 0; j < n; ++j)
       s.by_parameter(k, j) = by_parameter(model, at, parameters[j], o);
     const auto under = [&](double p) { return model.volume(at, {p, o.loads.activation}).value(); };
-    s.by_pressure[k] =
-        (under(o.loads.pressure + pressure_step) - under(o.loads.pressure - pressure_step)) /
-        (2.0 * pressure_step);
+    const double below = std::min(pressure_step, o.loads.pressure);  // no suction on a free wall
+    s.by_pressure[k] = (under(o.loads.pressure + pressure_step) - under(o.loads.pressure - below)) /
+                       (pressure_step + below);
     const bool systolic = o.loads.activation > 0.0;
     by_data(k, 0) = o.target_by_edv * edv / o.target;
     by_data(k, 1) = systolic ? 1.0 : 0.0;

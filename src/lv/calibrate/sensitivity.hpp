@@ -34,7 +34,8 @@ struct Errors {
 };
 
 /// How volumes follow from parameters, and parameters from measurements, near a fit. By central
-/// differences of the model: parameters by +-1%, pressures by +-0.25 mmHg.
+/// differences of the model: parameters by +-1%, pressures by +-0.25 mmHg
+/// (from 0 upwards alone).
 struct Sensitivity {
   std::vector<Fitted> parameters;
   Eigen::MatrixXd by_parameter;  ///< d ln (V_k/target_k) / d ln x_j

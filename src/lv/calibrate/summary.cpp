@@ -26,6 +26,13 @@ const std::array<double, 4> data_errors{volume_error, volume_error, pressure_err
 const std::array<std::string, 4> error_names{"EDV -+5%", "ESV -+5%", "p_ED -+2 mmHg",
                                              "p_ES -+2 mmHg"};
 
+/// The measurements that a fit can be moved by. A shape of end-diastole is its own EDV, and is
+/// fitted anew for other pressures.
+std::vector<int> data_of(const Plan& plan) {
+  return plan.passive == FittedPassive::klotz ? std::vector<int>{1, 3}
+                                              : std::vector<int>{0, 1, 2, 3};
+}
+
 /// Beyond this correlation two parameters count as not told apart.
 constexpr double alike = 0.9;
 
@@ -52,15 +59,15 @@ std::string volume_rows(const Fit& fit) {
   return text;
 }
 
-std::string parameter_rows(const Fit& fit) {
+std::string parameter_rows(const Plan& plan, const Fit& fit) {
   std::string text = fmt::format("\n  {:<12}{:>10}", "parameter", "fitted");
-  for (const std::string& name : error_names)
-    text += fmt::format("{:>20}", name);
+  for (const int d : data_of(plan))
+    text += fmt::format("{:>20}", error_names[d]);
   const auto& parameters = fit.sensitivity.parameters;
   for (std::size_t j = 0; j < parameters.size(); ++j) {
     text += fmt::format("\n  {:<12}{:>10.4g}", parameters[j].name,
                         fit.parameters.*parameters[j].member);
-    for (int d = 0; d < 4; ++d)
+    for (const int d : data_of(plan))
       text += fmt::format("{:>20}",
                           fmt::format("{:.3g} / {:.3g}", moved(fit, static_cast<int>(j), d, -1.0),
                                       moved(fit, static_cast<int>(j), d, 1.0)));
@@ -133,6 +140,52 @@ std::string weakest_direction(const Fit& fit) {
                      100.0 * deviation, deviation > unknown ? ", so they leave it open" : "");
 }
 
+/// What the fit says of the Klotz curve, and what the end-diastolic pressure does to it.
+std::string klotz_rows(const Plan& plan, const Fit& fit) {
+  const Klotz k = klotz(plan.edv.volume, plan.ed_pressure);
+  std::string text = fmt::format(
+      "  Klotz's curve through {:.2f} ml at {:.2f} mmHg (assumed, not measured): V0 {:.2f} ml, V30 "
+      "{:.2f} ml, P = {:.4g} (V/ml)^{:.3f} mmHg\n",
+      1e-3 * plan.edv.volume, plan.ed_pressure / mmHg, 1e-3 * k.V0, 1e-3 * k.V30, k.alpha, k.beta);
+  for (const OtherPressure& o : fit.other_pressures) {
+    text += fmt::format("  had it been {:.2f} mmHg: ", o.pressure / mmHg);
+    if (!o.parameters) {
+      text += "no fit (" + o.why_not + ")\n";
+      continue;
+    }
+    for (const Fitted& p : fit.sensitivity.parameters)
+      text += fmt::format("{} {:.4g}, ", p.name, (*o.parameters).*p.member);
+    text += fmt::format("unloaded {:.2f} ml\n", 1e-3 * o.unloaded_volume);
+  }
+  return text;
+}
+
+/// The interval that an assumed end-diastolic pressure leaves for every fitted value.
+Json other_pressures_json(const Fit& fit) {
+  Json rows = Json::array();
+  for (const OtherPressure& o : fit.other_pressures) {
+    Json row{{"pressure_mmHg", o.pressure / mmHg}};
+    if (!o.parameters)
+      row["no_fit"] = o.why_not;
+    for (const Fitted& p : fit.sensitivity.parameters)
+      row[p.name] = o.parameters ? Json((*o.parameters).*p.member) : Json();
+    row["unloaded_volume_ml"] = o.parameters ? Json(1e-3 * o.unloaded_volume) : Json();
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+Json klotz_json(const Plan& plan, const Fit& fit) {
+  const Klotz k = klotz(plan.edv.volume, plan.ed_pressure);
+  return {{"seen_volume_ml", 1e-3 * plan.edv.volume},
+          {"pressure_mmHg", plan.ed_pressure / mmHg},
+          {"V0_ml", 1e-3 * k.V0},
+          {"V30_ml", 1e-3 * k.V30},
+          {"alpha_mmHg", k.alpha},
+          {"beta", k.beta},
+          {"model_V0_ml", 1e-3 * fit.unloaded_volume}};
+}
+
 /// In words, which parameters the data cannot tell apart.
 std::vector<std::string> ambiguities(const Plan& plan, const Fit& fit) {
   std::vector<std::string> words;
@@ -148,9 +201,13 @@ std::vector<std::string> ambiguities(const Plan& plan, const Fit& fit) {
     words.emplace_back(
         "Scale and exponent are told apart by the Klotz curve alone, a mean over hearts and not a "
         "measurement of this one; how the a's compare, and how the b's, keep the case's values.");
+  if (plan.passive == FittedPassive::klotz)
+    words.emplace_back(
+        "Scale and exponent follow from the end-diastolic shape, its pressure and the Klotz curve, "
+        "a mean over hearts and not a measurement of this one; how the a's compare, and how the "
+        "b's, keep the case's values.");
   const double e = fit.parameters.exponent;
-  if (plan.passive == FittedPassive::scale_and_exponent &&
-      (e < 1.001 * plan.exponent.low || e > 0.999 * plan.exponent.high))
+  if (plan.fits_exponent() && (e < 1.001 * plan.exponent.low || e > 0.999 * plan.exponent.high))
     words.emplace_back("The exponent stands at the end of its range.");
   const Sensitivity& s = fit.sensitivity;
   for (Eigen::Index i = 0; i < s.correlation.rows(); ++i)
@@ -219,10 +276,10 @@ Json strains_json(const Plan& plan, const Fit& fit) {
   return json;
 }
 
-Json uncertainty_json(const Fit& fit, std::size_t j) {
+Json uncertainty_json(const Plan& plan, const Fit& fit, std::size_t j) {
   const Fitted& which = fit.sensitivity.parameters[j];
   Json json{{"parameter", which.name}, {"value", fit.parameters.*which.member}};
-  for (int d = 0; d < 4; ++d)
+  for (const int d : data_of(plan))
     json["when_off"].push_back({{"measurement", data_names[d]},
                                 {"by", d < 2 ? "5%" : "2 mmHg"},
                                 {"below", moved(fit, static_cast<int>(j), d, -1.0)},
@@ -237,7 +294,7 @@ Json uncertainty_json(const Fit& fit, std::size_t j) {
 
 std::string text(const Plan& plan, const Fit& fit) {
   std::string text = "calibration with the quasi-static engine\n\n" + volume_rows(fit) +
-                     (fit.strain_fit ? strain_rows(plan, fit) : "") + parameter_rows(fit) +
+                     (fit.strain_fit ? strain_rows(plan, fit) : "") + parameter_rows(plan, fit) +
                      (fit.strain_fit ? deviation_rows(fit) : "") + derivative_rows(fit) + "\n";
   if (plan.passive == FittedPassive::scale_and_exponent) {
     const Klotz k = klotz(plan.edv.volume, plan.ed_pressure);
@@ -245,6 +302,8 @@ std::string text(const Plan& plan, const Fit& fit) {
         "  Klotz's own estimate without pressure is {:.2f} ml; the model starts from {:.2f} ml.\n",
         1e-3 * k.V0, 1e-3 * fit.unloaded_volume);
   }
+  if (plan.passive == FittedPassive::klotz)
+    text += klotz_rows(plan, fit);
   for (const std::string& words : ambiguities(plan, fit))
     text += "  " + words + "\n";
   return text;
@@ -258,7 +317,11 @@ std::string json(const Plan& plan, const Fit& fit) {
   for (std::size_t k = 0; k < fit.observations.size(); ++k)
     json["volumes"].push_back(observation_json(fit, k));
   for (std::size_t j = 0; j < fit.sensitivity.parameters.size(); ++j)
-    json["uncertainty"].push_back(uncertainty_json(fit, j));
+    json["uncertainty"].push_back(uncertainty_json(plan, fit, j));
+  if (plan.passive == FittedPassive::klotz) {
+    json["klotz"] = klotz_json(plan, fit);
+    json["other_pressures"] = other_pressures_json(fit);
+  }
   if (fit.strain_fit)
     json["strains"] = strains_json(plan, fit);
   json["uncertainty_by"] = "derivatives of the logarithms at the fit";

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "lv/base/units.hpp"
 #include "lv/calibrate/fit.hpp"
 #include "lv/circulation/parameters.hpp"
 #include "lv/geometry/ellipsoid.hpp"
@@ -42,6 +43,7 @@ enum class BaseChoice { automatic, slice, slab, annulus };
 /// file gives them.
 struct ContourAnatomy {
   std::string short_axis, long_axis, apex_endo, apex_epi;
+  std::string es_short_axis;  ///< drawn at end-systole, for comparison
   BaseChoice base_at = BaseChoice::automatic;
   geometry::SplineFitParameters fit;
 };
@@ -136,6 +138,8 @@ struct Calibration {
   StrainMeasure strain_measure = StrainMeasure::green_lagrange;  ///< of that file
   calibrate::Errors errors;  ///< of what was measured, which weigh it
   bool confirm = false;      ///< with the immersed engine
+  /// By which the end-diastolic pressure of a fit to Klotz's curve may be off: fitted anew [kPa].
+  double pressure_error = 4.0 * units::mmHg;
 
   [[nodiscard]] bool asked() const { return passive != calibrate::FittedPassive::none || active; }
 };
@@ -184,6 +188,7 @@ struct Case {
   StrainStudy strain;
   circulation::Parameters circulation;
   heartbeat::Protocol protocol;
+  double cuff_systolic = 0.0;  ///< of a cuff on the arm; 0: not measured [kPa]
   heartbeat::StepControl time;
   heartbeat::OutputSchedule output;
 
@@ -193,6 +198,10 @@ struct Case {
   std::vector<std::string>
       without_effect;  ///< what is set in [mesh] and does nothing, as sentences
 };
+
+/// End-systolic pressure / systolic pressure of a cuff on the arm (R. P. Kelly et al., Circulation
+/// 86:513, 1992).
+inline constexpr double systolic_share = 0.9;
 
 /// Whether the anatomy of a case is drawn, not given as an ellipsoid or a mesh.
 [[nodiscard]] inline bool is_drawn(const Case& c) {

@@ -158,8 +158,15 @@ LV_CONDITION(quadratic_valves, c.circulation.valves.law == circulation::ValveLaw
 // measurements
 LV_CONDITION(fit, c.calibration.asked(), "with a fit: set calibrate.passive or calibrate.active")
 LV_CONDITION(passive_fit, has_passive_fit(c), "with a passive fit: set calibrate.passive")
-LV_CONDITION(exponent_fit, c.calibration.passive == calibrate::FittedPassive::scale_and_exponent,
-             "with calibrate.passive = \"scale_and_exponent\"")
+LV_CONDITION(exponent_fit,
+             c.calibration.passive == calibrate::FittedPassive::scale_and_exponent ||
+                 c.calibration.passive == calibrate::FittedPassive::klotz,
+             "with calibrate.passive = \"scale_and_exponent\" or \"klotz\"")
+LV_CONDITION(klotz_fit, c.calibration.passive == calibrate::FittedPassive::klotz,
+             "with calibrate.passive = \"klotz\"")
+LV_CONDITION(volume_fit,
+             has_passive_fit(c) && c.calibration.passive != calibrate::FittedPassive::klotz,
+             "with a passive fit: set calibrate.passive (to another than \"klotz\")")
 LV_CONDITION(active_fit, c.calibration.active, "with calibrate.active = true")
 LV_CONDITION(strains_given, !c.calibration.strains.empty(), "with calibrate.strains")
 LV_CONDITION(loaded, c.unloaded.pressure > 0.0, "with unloaded.pressure above 0")

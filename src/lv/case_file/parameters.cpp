@@ -62,6 +62,9 @@ constexpr Group of_anatomy[]{
               "CSV of points at the tip of the endocardium, same columns; may be left out"),
          path("anatomy.contours.apex_epi", LV_AT(anatomy.contours.apex_epi),
               "CSV of points at the tip of the epicardium, same columns; may be left out"),
+         path("anatomy.contours.es_short_axis", LV_AT(anatomy.contours.es_short_axis),
+              "CSV of short-axis loops at end-systole on the same slices, same columns, from which "
+              "the distance of the model's end-systolic surfaces is reported; may be left out"),
      }},
     {Stages(Stage::strain, Stage::anatomy),
      {&fitted},
@@ -778,15 +781,25 @@ constexpr Group of_measurements[]{
      {},
      {
          choice("calibrate.passive", LV_AT(calibration.passive),
-                "none C_a scale scale_and_exponent",
+                "none C_a scale scale_and_exponent klotz",
                 "what is fitted to edv: C_a; a factor of a, a_f, a_s and a_fs; or that and a "
-                "factor of the exponents b, to the Klotz curve besides",
+                "factor of the exponents b, to the Klotz curve besides. klotz: both factors and "
+                "the wall without load from the shape of end-diastole and its pressure alone, to "
+                "the unloaded volume and filling curve by Klotz et al.",
                 "2.25"),
          value("calibrate.active", LV_AT(calibration.active),
                "whether active.T_scale is fitted to esv"),
      }},
     {Stages(Stage::calibrate),
-     {&passive_fit},
+     {&klotz_fit},
+     {
+         number("calibrate.pressure_error", LV_AT(calibration.pressure_error), "mmHg",
+                between(0.0, 20.0),
+                "by which unloaded.pressure, which few have measured, may be off: the fit is made "
+                "again with as much less and more, for the interval that this leaves; 0: not"),
+     }},
+    {Stages(Stage::calibrate),
+     {&volume_fit},
      {
          number("calibrate.edv", LV_AT(calibration.edv), "ml", between(0.0, 2000.0),
                 "measured volume at protocol.ed_pressure; 0: none", "3.1"),
@@ -943,6 +956,9 @@ constexpr Group of_protocol[]{
                 "end-diastolic pressure", "2.4"),
          number("protocol.es_pressure", LV_AT(protocol.es_pressure), "mmHg", between(-50.0, 500.0),
                 "end-systolic pressure", "2.4"),
+         number("protocol.cuff_systolic", LV_AT(cuff_systolic), "mmHg", between(0.0, 400.0),
+                "systolic pressure of a cuff on the arm, in place of es_pressure, which is then "
+                "taken to be 0.9 of it (Kelly et al., Circulation 86:513, 1992); 0: none"),
      }},
     {Stages(Stage::beat),
      {},

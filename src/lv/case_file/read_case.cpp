@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 
 namespace lv::case_file {
 namespace {
@@ -78,8 +79,20 @@ class CaseReader {
     }
   }
 
+  /// The end-systolic pressure from that of a cuff.
+  void take_cuff() {
+    const double cuff = case_.cuff_systolic;
+    if (cuff == 0.0)
+      return;
+    rule(!case_.origin.contains("protocol.es_pressure"), "protocol.es_pressure",
+         "and protocol.cuff_systolic are both set: the end-systolic pressure is measured, or taken "
+         "from the cuff");
+    case_.protocol.es_pressure = systolic_share * cuff;
+  }
+
   /// Rules that concern several parameters.
   void check_together() {
+    take_cuff();
     const geometry::Ellipsoid& e = case_.anatomy.ellipsoid;
     rule(e.epi_radius > e.endo_radius, "anatomy.ellipsoid.epi_radius",
          "must be larger than endo_radius");
@@ -149,7 +162,21 @@ class CaseReader {
 
   void check_calibration() {
     const Calibration& k = case_.calibration;
-    const bool passive = k.passive != calibrate::FittedPassive::none;
+    const bool klotz = k.passive == calibrate::FittedPassive::klotz;
+    const bool passive = k.passive != calibrate::FittedPassive::none && !klotz;
+    rule(!klotz || is_loaded(case_), "calibrate.passive",
+         "is \"klotz\", which takes the shape of end-diastole: set the pressure that it bears, "
+         "pressure = \"... mmHg\" under [unloaded]");
+    rule(!klotz || !is_loaded(case_) ||
+             std::abs(case_.unloaded.pressure - case_.protocol.ed_pressure) <
+                 1e-6 * case_.unloaded.pressure,
+         "protocol.ed_pressure",
+         "is not unloaded.pressure: the shape that calibrate.passive = \"klotz\" takes is that of "
+         "end-diastole, so set both alike");
+    rule(!klotz || k.pressure_error < case_.unloaded.pressure, "calibrate.pressure_error",
+         "must be less than unloaded.pressure");
+    rule(!klotz || case_.passive.law == PassiveLaw::holzapfel_ogden, "calibrate.passive",
+         "fits the Holzapfel-Ogden law alone; passive.law is another");
     rule(!passive || k.edv > 0.0, "calibrate.passive",
          "needs the measured volume calibrate.edv: add edv = \"... ml\" under [calibrate]");
     rule(!k.active || k.esv > 0.0, "calibrate.active",
@@ -166,8 +193,8 @@ class CaseReader {
             case_.unloaded.pressure < 0.95 * case_.protocol.ed_pressure,
         "unloaded.pressure",
         "is (nearly) protocol.ed_pressure: the wall then fills to the shape that was seen whatever "
-        "its stiffness, and edv says nothing about calibrate.passive; give the pressure of early "
-        "diastole, with its shape");
+        "its stiffness, and edv says nothing about calibrate.passive; set calibrate.passive = "
+        "\"klotz\" for a shape of end-diastole, or give that of early diastole with its pressure");
     rule(k.stiffness.low < k.stiffness.high, "calibrate.stiffness_max",
          "must be larger than stiffness_min");
     rule(k.exponent.low < k.exponent.high, "calibrate.exponent_max",

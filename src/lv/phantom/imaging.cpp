@@ -1,13 +1,13 @@
 #include "lv/phantom/imaging.hpp"
 
 #include "lv/phantom/papillary.hpp"
+#include "lv/phantom/random.hpp"
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include <array>
 #include <cmath>
-#include <random>
 
 namespace lv::phantom {
 namespace {
@@ -23,19 +23,6 @@ constexpr double enhanced_blood = 450.0, nulled_muscle = 60.0, scar = 900.0;
 }  // namespace signals
 
 constexpr double image_turn = 25.0 * pi / 180.0;  ///< of the short-axis images about the long axis
-
-/// Numbers that are the same wherever the program runs: the library's distributions are not.
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : generator_(seed) {}
-  /// In (0, 1).
-  double uniform() { return (static_cast<double>(generator_() >> 11U) + 0.5) * 0x1.0p-53; }
-  /// Of variance 1, by the transformation of Box and Muller.
-  double normal() { return std::sqrt(-2.0 * std::log(uniform())) * std::cos(2.0 * pi * uniform()); }
-
- private:
-  std::mt19937_64 generator_;
-};
 
 image::Plane centred_plane(const Scan& scan, const Vec3& centre, const Vec3& along_row,
                            const Vec3& along_column) {

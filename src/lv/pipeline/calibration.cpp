@@ -5,6 +5,7 @@
 #include "lv/base/log.hpp"
 #include "lv/base/parallel.hpp"
 #include "lv/base/table.hpp"
+#include "lv/base/units.hpp"
 #include "lv/calibrate/summary.hpp"
 #include "lv/case_file/case_lines.hpp"
 #include "lv/case_file/parameters.hpp"
@@ -12,6 +13,7 @@
 #include "lv/heartbeat/immersed_beat.hpp"
 #include "lv/pipeline/answer_record.hpp"
 #include "lv/pipeline/unloading.hpp"
+#include "lv/solid/endocardial_surface.hpp"
 
 #include <fmt/format.h>
 
@@ -84,11 +86,13 @@ Json volumes_json(const Json& calibration, const heartbeat::Beat& beat) {
   return rows;
 }
 
-/// Parameters by which a beat's volumes should come to the measured ones.
+/// Parameters by which a beat's volumes should come to the measured ones. The exponent follows the
+/// Klotz curve; so does the scale of a shape of end-diastole, which fills to its own volume.
 Json corrected(const Json& calibration, Json parameters, const Json& rows) {
   std::vector<std::string> names;
   for (const Json& u : calibration.at("uncertainty"))
-    if (u.at("parameter") != "exponent")
+    if (u.at("parameter") != "exponent" &&
+        !(calibration.contains("klotz") && u.at("parameter") == "scale"))
       names.push_back(u.at("parameter"));
   const auto n = static_cast<Eigen::Index>(names.size());
   Eigen::MatrixXd J(n, n);
@@ -111,37 +115,21 @@ Json corrected(const Json& calibration, Json parameters, const Json& rows) {
   return parameters;
 }
 
-}  // namespace
+/// The fit of a case on a mesh, with the wall without load for the fitted parameters. Collective.
+struct FittedWall {
+  calibrate::Fit fit;
+  std::optional<implicit::Unloaded> unloaded;
+};
 
-std::vector<std::string> fitted_names(const case_file::Calibration& k) {
-  std::vector<std::string> names;
-  if (k.passive == FittedPassive::C_a)
-    names.emplace_back("passive.C_a");
-  if (k.passive == FittedPassive::scale || k.passive == FittedPassive::scale_and_exponent)
-    for (const char* a : {"a", "a_f", "a_s", "a_fs"})
-      names.push_back(std::string("passive.holzapfel_ogden.") + a);
-  if (k.passive == FittedPassive::scale_and_exponent)
-    for (const char* b : {"b", "b_f", "b_s", "b_fs"})
-      names.push_back(std::string("passive.holzapfel_ogden.") + b);
-  if (k.active)
-    names.emplace_back("active.T_scale");
-  return names;
-}
-
-Case for_calibration(Case c) {
-  c.engine = case_file::Engine::quasi_static;
-  return c;
-}
-
-void make_calibration(const Case& c, const anatomy::MeshResult& mesh,
-                      const std::filesystem::path& folder) {
+FittedWall fit_wall(const Case& c, const anatomy::MeshResult& mesh,
+                    const std::vector<cine::StrainTarget>& targets, const calibrate::Plan& task,
+                    const FitParameters& start, const std::filesystem::path& answers) {
   calibrate::Ventricle ventricle(
       mesh.mesh, [&](const FitParameters& p) { return case_file::static_model(with(c, p)); },
       c.quasi_static.solver, c.unloaded);
-  const std::vector<cine::StrainTarget> targets = cine::strain_targets(c, mesh.regions);
   using solid::Loads;
   using Numbers = std::vector<double>;
-  AnswerRecord record(ventricle, mesh.mesh.nodes.size(), folder / answers_name);
+  AnswerRecord record(ventricle, mesh.mesh.nodes.size(), answers);
   const auto number = [&](const std::function<Outcome<double>()>& ask) -> Outcome<double> {
     const auto answer = record.answer([&]() -> Outcome<Numbers> {
       const auto found = ask();
@@ -167,16 +155,124 @@ void make_calibration(const Case& c, const anatomy::MeshResult& mesh,
       [&](const FitParameters& p, const Loads& ed, const Loads& es) {
         return record.answer([&] { return strains(p, ed, es); });
       }};
-  const calibrate::Plan task = plan(c, targets);
-  const calibrate::Fit fit =
-      calibrate::fit(model, {.C_a = c.passive.C_a, .T_scale = c.active.T_scale}, task);
+  calibrate::Fit fit = calibrate::fit(model, start, task);
   ventricle.unloaded_volume(fit.parameters).value();
-  const auto& unloaded = ventricle.unloaded();
+  return {std::move(fit), ventricle.unloaded()};
+}
+
+/// The same fit for another end-diastolic pressure under which the shape was seen. Stress and
+/// pressure go together, so that it starts from a stiffness in proportion to the pressure.
+calibrate::OtherPressure fit_at(double pressure, Case c, const anatomy::MeshResult& mesh,
+                                calibrate::Plan task, FitParameters start,
+                                const std::filesystem::path& answers) {
+  log::info("the same with {:.2f} mmHg at end-diastole", pressure / units::mmHg);
+  start.scale *= pressure / c.unloaded.pressure;
+  c.unloaded.pressure = c.protocol.ed_pressure = task.ed_pressure = pressure;
+  task.parameters_alone = true;
+  task.strains.clear();
+  try {
+    const calibrate::Fit fit = fit_wall(c, mesh, {}, task, start, answers).fit;
+    return {pressure, fit.parameters, fit.unloaded_volume, ""};
+  } catch (const InputError& failure) {
+    return {pressure, {}, 0.0, failure.what()};
+  } catch (const RunError& failure) {
+    return {pressure, {}, 0.0, failure.what()};
+  }
+}
+
+/// Pressures that a case leaves to the defaults or to a rule of thumb.
+std::vector<geometry::Assumption> assumed_pressures(const Case& c) {
+  std::vector<geometry::Assumption> assumed;
+  const auto left_out = [&](const char* parameter, const char* moment, double pressure) {
+    if (!c.origin.contains(parameter))
+      assumed.push_back(
+          {fmt::format("{} pressure", moment), fmt::format("the default, {:g} mmHg; {} is not set",
+                                                           pressure / units::mmHg, parameter)});
+  };
+  left_out("protocol.ed_pressure", "end-diastolic", c.protocol.ed_pressure);
+  if (c.cuff_systolic > 0.0)
+    assumed.push_back({"end-systolic pressure",
+                       fmt::format("{:.1f} mmHg, {:g} of the cuff's {:g} mmHg (Kelly et al. 1992)",
+                                   c.protocol.es_pressure / units::mmHg, case_file::systolic_share,
+                                   c.cuff_systolic / units::mmHg)});
+  else
+    left_out("protocol.es_pressure", "end-systolic", c.protocol.es_pressure);
+  return assumed;
+}
+
+/// Volumes of Klotz's curve beside the model's, and what the end-diastolic pressure costs.
+void add_klotz(const Json& calibration, FitRecord& record) {
+  for (const Json& v : calibration.at("volumes"))
+    if (v.at("name").get<std::string>().starts_with("Klotz"))
+      record.klotz.push_back({v.at("name"), v.at("pressure_mmHg").get<double>() * units::mmHg,
+                              1e3 * v.at("target_ml").get<double>(),
+                              1e3 * v.at("model_ml").get<double>()});
+  std::string text = fmt::format("{:g} mmHg is taken for this person's",
+                                 calibration.at("klotz").at("pressure_mmHg").get<double>());
+  for (const Json& other : calibration.at("other_pressures")) {
+    text += fmt::format("; with {:g} mmHg", other.at("pressure_mmHg").get<double>());
+    if (other.contains("no_fit")) {
+      text += " there is no fit";
+      continue;
+    }
+    for (const Json& u : calibration.at("uncertainty")) {
+      const std::string name = u.at("parameter");
+      text += fmt::format(" {} {:.3g}", name, other.at(name).get<double>());
+    }
+    text += fmt::format(", unloaded {:.1f} ml", other.at("unloaded_volume_ml").get<double>());
+  }
+  record.assumed.push_back({"filling pressure and Klotz's curve", text});
+}
+
+}  // namespace
+
+std::vector<std::string> fitted_names(const case_file::Calibration& k) {
+  std::vector<std::string> names;
+  if (k.passive == FittedPassive::C_a)
+    names.emplace_back("passive.C_a");
+  const bool exponent =
+      k.passive == FittedPassive::scale_and_exponent || k.passive == FittedPassive::klotz;
+  if (k.passive == FittedPassive::scale || exponent)
+    for (const char* a : {"a", "a_f", "a_s", "a_fs"})
+      names.push_back(std::string("passive.holzapfel_ogden.") + a);
+  if (exponent)
+    for (const char* b : {"b", "b_f", "b_s", "b_fs"})
+      names.push_back(std::string("passive.holzapfel_ogden.") + b);
+  if (k.active)
+    names.emplace_back("active.T_scale");
+  return names;
+}
+
+Case for_calibration(Case c) {
+  c.engine = case_file::Engine::quasi_static;
+  return c;
+}
+
+void make_calibration(const Case& c, const anatomy::MeshResult& mesh,
+                      const std::filesystem::path& folder) {
+  const std::vector<cine::StrainTarget> targets = cine::strain_targets(c, mesh.regions);
+  calibrate::Plan task = plan(c, targets);
+  const bool klotz = task.passive == FittedPassive::klotz;
+  if (klotz)
+    task.edv = {solid::EndocardialSurface(mesh.mesh).volume(mesh.mesh.nodes),
+                case_file::place_of(c, "unloaded.pressure")};
+  auto [fit, unloaded] =
+      fit_wall(c, mesh, targets, task, {.C_a = c.passive.C_a, .T_scale = c.active.T_scale},
+               folder / answers_name);
+  std::vector<std::filesystem::path> records{folder / answers_name};
+  const double error = c.calibration.pressure_error;
+  if (klotz && error > 0.0)
+    for (const double pressure : {task.ed_pressure - error, task.ed_pressure + error}) {
+      records.push_back(folder / fmt::format("answers_{}.bin", records.size()));
+      fit.other_pressures.push_back(
+          fit_at(pressure, c, mesh, task, fit.parameters, records.back()));
+    }
   if (!parallel::is_root())
     return;
   if (unloaded)
     write_unloaded(*unloaded, folder / unloaded_shape_name);
-  std::filesystem::remove(folder / answers_name);
+  for (const std::filesystem::path& record : records)
+    std::filesystem::remove(record);
   calibrate::history_table(fit).write_csv(folder / "calibration.csv");
   write_file(folder / "calibration.txt", calibrate::text(task, fit));
   write_file(folder / "calibrated.toml", fragment(with(c, fit.parameters)));
@@ -220,11 +316,14 @@ bool correct(const Case& c, const std::filesystem::path& calibration_folder,
   return again;
 }
 
-std::vector<report::FittedVolume> fitted_volumes(const Case& c, const std::filesystem::path& beat) {
-  std::vector<report::FittedVolume> volumes;
+FitRecord fit_record(const Case& c, const std::filesystem::path& calibration,
+                     const std::filesystem::path& beat) {
+  FitRecord all;
+  all.assumed = assumed_pressures(c);
   if (!c.calibration.asked())
-    return volumes;
-  return from_json_file(beat / confirmation_name, [&](const Json& record) {
+    return all;
+  all.volumes = from_json_file(beat / confirmation_name, [&](const Json& record) {
+    std::vector<report::FittedVolume> volumes;
     for (const Json& row : record.at("beats").back().at("volumes"))
       volumes.push_back({row.at("name"), 1e3 * row.at("measured_ml").get<double>(),
                          1e3 * row.at("quasi_static_ml").get<double>(),
@@ -232,6 +331,10 @@ std::vector<report::FittedVolume> fitted_volumes(const Case& c, const std::files
                          std::abs(row.at("off").get<double>()) <= c.calibration.tolerance});
     return volumes;
   });
+  if (c.calibration.passive == FittedPassive::klotz)
+    add_klotz(from_json_file(calibration / calibration_name, [](const Json& json) { return json; }),
+              all);
+  return all;
 }
 
 }  // namespace lv::pipeline

@@ -39,9 +39,12 @@ inline constexpr const char* confirmation_name = "confirmation.json";
 [[nodiscard]] bool correct(const case_file::Case& c, const std::filesystem::path& calibration,
                            const heartbeat::Beat& beat, const std::filesystem::path& folder);
 
-/// Measured volumes beside those of the fit and of the beat, as recorded in the beat's folder; none
-/// for a case without calibration.
-[[nodiscard]] std::vector<report::FittedVolume> fitted_volumes(const case_file::Case& c,
-                                                               const std::filesystem::path& beat);
+/// Measured volumes beside those of the fit and of the beat, as recorded in the beat's folder, and
+/// what the calibration's says of Klotz's curve; no volumes for a case without calibration. The
+/// pressures that the case does not bring are assumptions, with the interval that an end-diastolic
+/// one leaves where the fit was repeated.
+[[nodiscard]] FitRecord fit_record(const case_file::Case& c,
+                                   const std::filesystem::path& calibration,
+                                   const std::filesystem::path& beat);
 
 }  // namespace lv::pipeline

@@ -83,7 +83,10 @@ Estimate tried(const Trial& trial) {
 std::string preparation(const Case& c, double step) {
   const case_file::Calibration& k = c.calibration;
   const int fitted = (k.passive == calibrate::FittedPassive::none ? 0 : 1) +
-                     (k.passive == calibrate::FittedPassive::scale_and_exponent ? 1 : 0) +
+                     (k.passive == calibrate::FittedPassive::scale_and_exponent ||
+                              k.passive == calibrate::FittedPassive::klotz
+                          ? 1
+                          : 0) +
                      (k.active ? 1 : 0);
   const double unloading = case_file::is_loaded(c) ? steps_of_unloading * step : 0.0;
   const double fit = fitted * (steps_of_fit * step + unloading);

@@ -224,7 +224,7 @@ class Pipeline {
         const auto wall = wall_of(beat);
         const anatomy::MeshResult mesh = anatomy::read_mesh_result(wall);
         text_ = make_results(fitted(c, beat), mesh, read_beat(beat, mesh.mesh),
-                             fitted_volumes(c, beat), unloaded_shape(wall), part);
+                             fit_record(case_, calibration(), beat), unloaded_shape(wall), part);
         on_root([&] { write_file(part / "summary.txt", text_); });
         break;
       }

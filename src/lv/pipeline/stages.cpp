@@ -1,6 +1,7 @@
 #include "lv/pipeline/stages.hpp"
 
 #include "lv/anatomy/drawn.hpp"
+#include "lv/anatomy/shape_distance.hpp"
 #include "lv/base/bounds.hpp"
 #include "lv/base/check.hpp"
 #include "lv/base/interrupt.hpp"
@@ -117,9 +118,10 @@ class BeatWriter {
 /// Whether the program knows that a parameter's value was measured: borders, images and volumes
 /// that a case names.
 bool is_measurement(const std::string& parameter) {
-  return parameter == "calibrate.edv" || parameter == "calibrate.esv" ||
-         parameter == "calibrate.strains" || parameter.starts_with("strain.") ||
-         parameter == "segment.cine" || parameter == "segment.series" ||
+  return parameter == "protocol.cuff_systolic" || parameter == "calibrate.edv" ||
+         parameter == "calibrate.esv" || parameter == "calibrate.strains" ||
+         parameter.starts_with("strain.") || parameter == "segment.cine" ||
+         parameter == "segment.series" ||
          (parameter.starts_with("anatomy.") && parameter != "anatomy.source" &&
           !parameter.starts_with("anatomy.ellipsoid."));
 }
@@ -248,6 +250,19 @@ std::string beside_measured(const Case& c, const anatomy::MeshResult& mesh, cons
                     folder);
 }
 
+/// How far the model's end-systolic surfaces are from drawn ones, if there are any.
+std::string beside_drawn(const mesh::Mesh& mesh, const heartbeat::Beat& beat,
+                         const std::filesystem::path& folder) {
+  const anatomy::AnatomyRecord anatomy = anatomy_beside(folder);
+  const heartbeat::NamedMoment* end = beat.find(heartbeat::end_systole);
+  if (anatomy.end_systole.empty() || end == nullptr)
+    return "";
+  const anatomy::ShapeDistance distance =
+      anatomy::shape_distance(mesh, end->wall.positions, anatomy.frame, anatomy.end_systole);
+  anatomy::shape_distance_table(distance).write_csv(folder / "es_distance.csv");
+  return anatomy::shape_distance_text(distance);
+}
+
 /// The case's passive muscle and what it is compared with.
 std::vector<material::StressStretch> muscles(const Case& c) {
   auto curves = material::published_muscles();
@@ -276,6 +291,7 @@ std::string write_results(const Case& c, const anatomy::MeshResult& mesh, const 
   drawing::write(report::segments_figure(report::regions_table(results), orientation),
                  folder / "segments.png");
   return report::summary_text(facts, beat.beat, results) +
+         beside_drawn(mesh.mesh, beat.beat, folder) +
          beside_measured(c, mesh, beat, fields, orientation, folder);
 }
 
@@ -351,7 +367,7 @@ heartbeat::Beat make_beat(const Case& c, const anatomy::MeshResult& mesh,
 }
 
 std::string make_results(const Case& c, const anatomy::MeshResult& mesh, const BeatResult& beat,
-                         const std::vector<report::FittedVolume>& fitted,
+                         const FitRecord& fitted,
                          const std::optional<report::UnloadedShape>& unloaded,
                          const std::filesystem::path& folder) {
   const analysis::FieldAnalysis analysis = field_analysis(c, mesh.mesh);
@@ -364,7 +380,9 @@ std::string make_results(const Case& c, const anatomy::MeshResult& mesh, const B
     anatomy::AnatomyRecord anatomy = anatomy_beside(folder);
     facts.warnings.insert(facts.warnings.begin(), anatomy.warnings.begin(), anatomy.warnings.end());
     facts.assumed = std::move(anatomy.assumed);
-    facts.fitted = fitted;
+    facts.assumed.insert(facts.assumed.end(), fitted.assumed.begin(), fitted.assumed.end());
+    facts.fitted = fitted.volumes;
+    facts.klotz = fitted.klotz;
     facts.unloaded = unloaded;
     facts.scar = scar_facts(c, mesh);
     text = write_results(c, mesh, beat, facts, fields, folder);

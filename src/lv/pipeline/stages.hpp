@@ -26,12 +26,17 @@ void show_mesh(const anatomy::MeshResult& result, const case_file::Case& c,
 [[nodiscard]] heartbeat::Beat make_beat(const case_file::Case& c, const anatomy::MeshResult& mesh,
                                         const std::filesystem::path& folder);
 
-/// Computes and writes the results; collective. `fitted` is empty unless the case is calibrated,
-/// `unloaded` unless the wall was seen under load.
-/// Returns the text for the terminal on the root.
+/// What results say of a fit, and of pressures that nobody measured.
+struct FitRecord {
+  std::vector<report::FittedVolume> volumes;  ///< empty unless the case is calibrated
+  std::vector<report::KlotzVolume> klotz;     ///< empty unless it is fitted to that curve
+  std::vector<geometry::Assumption> assumed;
+};
+
+/// Computes and writes the results; collective. `unloaded` is empty unless the wall was seen under
+/// load. Returns the text for the terminal on the root.
 [[nodiscard]] std::string make_results(const case_file::Case& c, const anatomy::MeshResult& mesh,
-                                       const BeatResult& beat,
-                                       const std::vector<report::FittedVolume>& fitted,
+                                       const BeatResult& beat, const FitRecord& fitted,
                                        const std::optional<report::UnloadedShape>& unloaded,
                                        const std::filesystem::path& folder);
 

@@ -17,6 +17,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 namespace lv::pipeline {
@@ -49,6 +50,12 @@ std::vector<Warning> warnings_of(const Case& c, const anatomy::Shape& shape, dou
          fmt::format("calibrate.edv is {:.1f} ml and the shape that is taken as free of stress "
                      "has {:.1f} ml: if it is that of end-diastole, set unloaded.pressure",
                      1e-3 * edv, 1e-3 * cavity)});
+  if (case_file::is_loaded(c) && c.calibration.passive == calibrate::FittedPassive::none &&
+      std::abs(c.unloaded.pressure / c.protocol.ed_pressure - 1.0) < 0.05)
+    warnings.push_back(
+        {"stiffness not fitted",
+         "the stiffness is the case's, not fitted to this heart: with calibrate.passive = "
+         "\"klotz\" it follows from the end-diastolic shape, its pressure and Klotz's curve"});
   return warnings;
 }
 
@@ -115,9 +122,10 @@ void check_measured_volumes(const Case& c, const anatomy::Shape& shape) {
                   1e-3 * k.edv, 1e-3 * cavity, c.protocol.ed_pressure / mmHg),
       fmt::format(
           "If the shape is that of end-diastole, it bears the pressure: set unloaded.pressure = "
-          "\"{0:g} mmHg\", and leave calibrate.passive and calibrate.edv out, since a wall that "
+          "\"{0:g} mmHg\", and calibrate.passive = \"klotz\" without calibrate.edv, since a wall "
+          "that "
           "was unloaded from {0:g} mmHg fills to its own volume whatever its stiffness. To fit "
-          "the stiffness, give the shape of early diastole",
+          "the stiffness to a volume, give the shape of early diastole",
           c.protocol.ed_pressure / mmHg));
 }
 

@@ -58,13 +58,19 @@ std::vector<CaseLine> pressure_lines() {
     return CaseLine{parameter, case_file::quoted(fmt::format("{:g} mmHg", pressure / units::mmHg)),
                     "the default; better the person's own"};
   };
-  return {line("protocol.ed_pressure", p.ed_pressure), line("protocol.es_pressure", p.es_pressure)};
+  return {line("protocol.ed_pressure", p.ed_pressure),
+          line("protocol.es_pressure", p.es_pressure),
+          {"protocol.cuff_systolic", case_file::quoted("120 mmHg"),
+           "of a cuff on the arm, in place of es_pressure", false}};
 }
 
 /// A fit to the volumes that the source shows, to be uncommented.
 std::vector<CaseLine> calibration_lines(const anatomy::Moments& m) {
+  const CaseLine klotz{"calibrate.passive", case_file::quoted("klotz"),
+                       "fit the stiffness to Klotz's curve through this shape and its pressure",
+                       false};
   if (m.numbers.size() < 2)
-    return {};
+    return {klotz};
   const auto ml = [&](int number) {
     return case_file::quoted(fmt::format("{:.1f} ml", 1e-3 * m.volume(number)));
   };
@@ -73,6 +79,8 @@ std::vector<CaseLine> calibration_lines(const anatomy::Moments& m) {
     lines.push_back({"calibrate.passive", case_file::quoted("C_a"),
                      "fit the stiffness to these volumes", false});
     lines.push_back({"calibrate.edv", ml(m.end_diastole), "", false});
+  } else {
+    lines.push_back(klotz);
   }
   lines.push_back({"calibrate.active", "true", "fit the contractility", false});
   lines.push_back({"calibrate.esv", ml(m.end_systole), "", false});

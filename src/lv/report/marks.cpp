@@ -68,6 +68,8 @@ Marks marks(const RunFacts& facts, const std::vector<std::string>& moments) {
   all.insert(all.end(),
              {{"calibration.measured_ml", Mark::measured},
               {"calibration.quasi_static_ml", Mark::fitted},
+              {"klotz", Mark::assumed},
+              {"klotz.model_ml", Mark::fitted},
               {"infarct", facts.scar_is_measured ? Mark::measured : Mark::assumed},
               {"infarct_segments", facts.scar_is_measured ? Mark::measured : Mark::assumed},
               {"unloaded", Mark::computed},

@@ -130,6 +130,18 @@ std::string unloaded_text(const UnloadedShape& u) {
           : ";\n  the wall that loads to the very shape would be folded, so this is a smooth one");
 }
 
+/// The curve is a mean over hearts: assumed of this one.
+std::string klotz_text(const std::vector<KlotzVolume>& volumes) {
+  if (volumes.empty())
+    return "";
+  std::string text = fmt::format("  {:<34}{:>14}{:>14}{:>14}\n", "Klotz's curve, assumed (ml)",
+                                 "at mmHg", "curve", "fitted model");
+  for (const KlotzVolume& v : volumes)
+    text += fmt::format("  {:<34}{:>14.2f}{:>14.2f}{:>14.2f}\n", v.name, v.pressure / mmHg,
+                        1e-3 * v.target, 1e-3 * v.model);
+  return text + "\n";
+}
+
 std::vector<Judgement> judge(const RunFacts& facts, const heartbeat::Beat& beat, const Results& r) {
   const heartbeat::NamedMoment* end = beat.find(heartbeat::end_systole);
   return judge(
@@ -193,6 +205,21 @@ Json infarct_json(const RunFacts& facts, const Results& r) {
   return {{"volume_ml", number(1e-3 * volume)},
           {"mass_g", number(1e3 * facts.muscle_density * volume)},
           {"percent_of_wall", number(100.0 * volume / r.early_diastole.wall_volume)}};
+}
+
+/// Volumes that parameters were fitted to.
+void add_fits(const RunFacts& facts, Json& json) {
+  for (const FittedVolume& v : facts.fitted)
+    json["calibration"].push_back({{"volume", v.name},
+                                   {"measured_ml", number(1e-3 * v.measured)},
+                                   {"quasi_static_ml", number(1e-3 * v.quasi_static)},
+                                   {"beat_ml", number(1e-3 * v.beat)},
+                                   {"within_tolerance", v.within_tolerance}});
+  for (const KlotzVolume& v : facts.klotz)
+    json["klotz"].push_back({{"volume", v.name},
+                             {"pressure_mmHg", number(v.pressure / mmHg)},
+                             {"target_ml", number(1e-3 * v.target)},
+                             {"model_ml", number(1e-3 * v.model)}});
 }
 
 /// What is to be thought of the numbers.
@@ -259,12 +286,7 @@ std::string summary_json(const RunFacts& facts, const heartbeat::Beat& beat, con
         {{"slice", slice.slice},
          {"end_diastole_to_end_systole_deg", number(slice.from_end_diastole / degree)},
          {"early_diastole_to_end_systole_deg", number(slice.from_early_diastole / degree)}});
-  for (const FittedVolume& v : facts.fitted)
-    json["calibration"].push_back({{"volume", v.name},
-                                   {"measured_ml", number(1e-3 * v.measured)},
-                                   {"quasi_static_ml", number(1e-3 * v.quasi_static)},
-                                   {"beat_ml", number(1e-3 * v.beat)},
-                                   {"within_tolerance", v.within_tolerance}});
+  add_fits(facts, json);
   if (!facts.scar.empty())
     json["infarct"] = infarct_json(facts, r);
   for (const SegmentScar& s : facts.scar)
@@ -311,6 +333,7 @@ std::string summary_text(const RunFacts& facts, const heartbeat::Beat& beat, con
                         v.within_tolerance ? "within tolerance" : "OUTSIDE TOLERANCE");
   if (!facts.fitted.empty())
     text += "\n";
+  text += klotz_text(facts.klotz);
   text += fmt::format("  {:<34}{:>18}\n", "at end-systole, whole wall", "mean +- sd");
   for (const auto& v : r.regional)
     if (v.state == heartbeat::end_systole && v.scheme == "whole")

@@ -21,6 +21,14 @@ struct FittedVolume {
   bool within_tolerance = false;
 };
 
+/// A volume that Klotz's curve gives a shape of end-diastole, and that of the model fitted to it.
+struct KlotzVolume {
+  std::string name;
+  double pressure = 0.0;  ///< [kPa]
+  double target = 0.0;    ///< [mm^3]
+  double model = 0.0;     ///< [mm^3]
+};
+
 /// The wall without load that was found from a loaded one, and how well.
 struct UnloadedShape {
   double pressure = 0.0;         ///< under which the wall was seen [kPa]
@@ -64,6 +72,7 @@ struct RunFacts {
   bool scar_is_measured = false;
   std::vector<std::string> fitted_parameters, measured_parameters;  ///< names
   std::vector<FittedVolume> fitted;                                 ///< of a calibrated case
+  std::vector<KlotzVolume> klotz;                                   ///< of a fit to that curve
   std::optional<UnloadedShape> unloaded;
   std::vector<SegmentScar> scar;  ///< empty without infarct
 };

@@ -216,3 +216,74 @@ TEST_CASE("what is no lack of an equilibrium ends a fit", "[calibrate]") {
     CHECK_THROWS_WITH(fit({disk_full_after(count), unloaded_volume, {}}, {}, p),
                       Catch::Matchers::Contains("the disk is full"));
 }
+
+namespace {
+
+constexpr double V_seen = 144e3;
+
+/// A wall seen under 8 mmHg whose unloaded volume and filling curve are Klotz's for scale 3 and
+/// exponent 1.2; below a stiffness it has no shape without load.
+Model seen_wall(double softest) {
+  const auto unloaded = [=](const FitParameters& p) -> lv::Outcome<double> {
+    if (p.scale < softest)
+      return lv::Unsolved{"the wall folds", ""};
+    const double taken_up = V_seen - klotz(V_seen, 8.0 * mmHg).V0;
+    return V_seen - taken_up * std::pow(3.0 / p.scale, 0.5) * std::pow(1.2 / p.exponent, 0.2);
+  };
+  const auto loaded = [=](const FitParameters& p, const Loads& loads) -> lv::Outcome<double> {
+    const auto V = unloaded(p);
+    if (!V)
+      return V;
+    const double share = std::pow(loads.pressure / (8.0 * mmHg), p.exponent / 1.2 / 2.76);
+    return (*V + (V_seen - *V) * share) / (1.0 + 0.8 * loads.activation * p.T_scale);
+  };
+  return {loaded, unloaded, {}};
+}
+
+Plan klotz_plan() {
+  Plan p = plan();
+  p.passive = FittedPassive::klotz;
+  p.edv.volume = V_seen;
+  return p;
+}
+
+}  // namespace
+
+TEST_CASE("scale and exponent of an end-diastolic shape are found from the Klotz curve alone",
+          "[calibrate]") {
+  for (const double softest : {0.01, 2.5}) {
+    const Plan p = klotz_plan();
+    const Fit found = fit(seen_wall(softest), {}, p);
+    CHECK(found.parameters.scale == Approx(3.0).epsilon(0.01));
+    CHECK(found.parameters.exponent == Approx(1.2).epsilon(0.01));
+    CHECK(found.unloaded_volume == Approx(klotz(V_seen, p.ed_pressure).V0).epsilon(1e-3));
+    CHECK(found.edv == Approx(V_seen));
+    CHECK(found.history.size() < 60);
+  }
+}
+
+TEST_CASE("contractility is fitted beside the Klotz curve", "[calibrate]") {
+  Plan p = klotz_plan();
+  p.active = true;
+  const Model wall = seen_wall(0.01);
+  p.esv.volume =
+      *wall.volume({.scale = 3.0, .exponent = 1.2, .T_scale = 2.5}, {p.es_pressure, 1.0});
+  const Fit found = fit(wall, {}, p);
+  CHECK(found.parameters.T_scale == Approx(2.5).epsilon(0.02));
+  CHECK(found.esv == Approx(p.esv.volume).epsilon(p.tolerance));
+}
+
+TEST_CASE("a V0 below what any wall without load holds is refused with what there is",
+          "[calibrate]") {
+  using Catch::Matchers::Contains;
+  CHECK_THROWS_AS(fit(seen_wall(4.0), {}, klotz_plan()), lv::InputError);
+  CHECK_THROWS_WITH(fit(seen_wall(4.0), {}, klotz_plan()),
+                    Contains("cannot hold 79.49 ml without load") &&
+                        Contains("the softest for which there is a shape without load") &&
+                        Contains("the wall folds"));
+  CHECK_THROWS_WITH(fit(seen_wall(100.0), {}, klotz_plan()),
+                    Contains("no stiffness up to scale = 50"));
+  Plan stiff = klotz_plan();
+  stiff.stiffness = {5.0, 50.0};
+  CHECK_THROWS_WITH(fit(seen_wall(0.01), {}, stiff), Contains("the end of its range"));
+}
