@@ -7,7 +7,7 @@ packages="g++ cmake ninja-build pkg-config openmpi-bin libopenmpi-dev libfftw3-d
   libfmt-dev libdeal.ii-dev libpetsc-real-dev libopenblas0-pthread libvtk9-dev libgmsh-dev libinsighttoolkit5-dev libgdcm-dev zlib1g-dev libcairo2-dev fonts-dejavu-core"
 case "$1" in
   --tests)
-    packages="$packages catch2 libsundials-dev python3 python3-pandas python3-meshio clang-format clang-tidy chromium man-db"
+    packages="$packages catch2 libsundials-dev python3 python3-pandas python3-meshio python3-pydicom clang-format clang-tidy chromium man-db"
     command -v npm >/dev/null || packages="$packages nodejs npm"  # a Node.js from elsewhere brings its own
     ;;
   --package) packages="$packages dpkg-dev file" ;;
