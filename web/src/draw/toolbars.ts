@@ -51,7 +51,7 @@ export function editBar(editor: Editor, saving: Saving): Bar {
   const observer = el("input", { type: "text", id: "observer", maxlength: 40, autocomplete: "off", input: () => { editor.observer = observer.value; } });
   const element = el("div", { class: "toolbar" }, undo, redo, button("Delete", () => editor.remove(), "delete"), button("Delete both", () => editor.removeBoth(), "delete-both"),
     button("New border", () => editor.add(), "add"), button("Copy to next slice", () => editor.copy(1, 0), "copy"), button("to slice before", () => editor.copy(-1, 0)),
-    button("to next phase", () => editor.copy(0, 1)), button("Smaller", () => editor.grow(-0.5)), button("Larger", () => editor.grow(0.5)),
+    button("to next phase", () => editor.copy(0, 1)), button("Smaller", () => editor.grow(-0.5), "smaller"), button("Larger", () => editor.grow(0.5), "larger"),
     button("All slices smaller", () => editor.growAll(-0.5), "all-smaller"), button("All slices larger", () => editor.growAll(0.5), "all-larger"),
     button("Back to the proposal", () => editor.backToProposal(), "back"), el("label", {}, "drawn by (initials)", observer));
   return { element, show: () => { [undo.disabled, redo.disabled] = [!editor.drawing.canUndo, !editor.drawing.canRedo]; } };
