@@ -20,7 +20,7 @@ Exit codes:
     3  a defect of the program
   130  stopped by Ctrl-C or kill; the same command goes on)";
 
-inline constexpr std::array<std::pair<const char*, const char*>, 14> commands{{
+inline constexpr std::array<std::pair<const char*, const char*>, 15> commands{{
     {"new",
      R"(With --from the case holds what the source shows: labels, frame, phases, septum,
 unit, the pressure that a filled shape bears. What it cannot show stands there as
@@ -52,6 +52,12 @@ and .csv. `ventricle run` does it too.)"},
 anatomy.source = "contours" reads them), quality.csv (confidence of each contour),
 volumes.csv, pictures/ to look at and segmentation.txt: phases, and what is doubtful.
 `ventricle run` does it too.)"},
+    {"draw",
+     R"(Set anatomy.source = "cine" and segment.cine. Prints the address of a page, on this machine
+alone, that shows the borders of ventricle segment on the playing cine and lets you correct,
+draw and delete them. Saves CASE.draw/contours/phase_NN.csv, as anatomy.source = "contours"
+reads them. Ctrl-C ends it. With --export the page is one file, for another machine; what it
+lets download comes back with --import.)"},
     {"strain",
      R"(Set strain.cine and strain.contours. Writes 00_strain/: strain and rotation per
 slice, sector and segment at every phase; strain.txt says what was found.)"},

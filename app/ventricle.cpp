@@ -8,6 +8,7 @@
 #include "lv/base/table.hpp"
 #include "lv/base/units.hpp"
 #include "lv/case_file/read_case.hpp"
+#include "lv/draw/draw.hpp"
 #include "lv/phantom/person.hpp"
 #include "lv/phantom/study.hpp"
 #include "lv/pipeline/run.hpp"
@@ -66,6 +67,8 @@ struct Command {
   lv::phantom::StudyFiles study;
   std::uint32_t person = 0;  ///< 0: the study of the other options
   std::string folder;
+  lv::draw::Options draw;
+  bool no_browser = false;
   std::string solve_in;  ///< folder for the findings of one problem, see verify::solve_option
 };
 
@@ -167,6 +170,14 @@ int segment(const Command& command) {
     folder = c.file.parent_path() / (c.file.stem().string() + ".segment");
   lv::interrupt::install();
   return until_stopped([&] { lv::print(lv::anatomy::segment_case(c, folder)); });
+}
+
+int draw(Command& command) {
+  command.draw.browser = !command.no_browser;
+  command.draw.folder = command.folder;
+  const lv::case_file::Case c = lv::case_file::read_case(command.case_file);
+  lv::interrupt::install();
+  return until_stopped([&] { lv::draw::run(c, command.draw); });
 }
 
 int verify(const Command& command, int argc, char** argv) {
@@ -342,6 +353,20 @@ int refuse_ranks(const std::string& command) {
   return wrong_input;
 }
 
+void add_draw(CLI::App& app, Command& command) {
+  auto* draw = app.add_subcommand(
+      "draw", "look at the borders of a case's cine in a browser and correct them");
+  draw->add_option("CASE", command.case_file, "the case file")->required();
+  draw->add_option("--to", command.folder,
+                   "folder of the drawing (default: the case file's name with .draw)");
+  draw->add_flag("--no-browser", command.no_browser, "print the address only");
+  auto* page = draw->add_option("--export", command.draw.page,
+                                "write one page with the images inside instead of serving it");
+  draw->add_option("--import", command.draw.drawing,
+                   "keep the drawing that such a page let download")
+      ->excludes(page);
+}
+
 /// Commands that take a case file.
 void add_cases(CLI::App& app, Command& command) {
   auto* start =
@@ -373,6 +398,7 @@ void add_cases(CLI::App& app, Command& command) {
   segment->add_option("CASE", command.case_file, "the case file")->required();
   segment->add_option("--to", command.folder,
                       "a new folder (default: the case file's name with .segment)");
+  add_draw(app, command);
   add_run_options(*app.add_subcommand(
                       "circulation", "run the circulation of a case by itself, to its limit cycle"),
                   command);
@@ -451,6 +477,8 @@ int perform(const CLI::App& app, Command& command, int argc, char** argv) {
     return phantom(command);
   if (name == "segment")
     return segment(command);
+  if (name == "draw")
+    return draw(command);
   if (name == "bench")
     return bench(command, argc, argv);
   if (name == "report" || name == "compare")

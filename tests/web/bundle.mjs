@@ -1,4 +1,4 @@
-// Whether web/dist/page.html is what web/src makes.   exit code 77: skipped
+// Whether web/dist is what web/src makes.   exit code 77: skipped
 import { execFileSync } from "node:child_process";
 import { existsSync, mkdtempSync, readFileSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -10,9 +10,9 @@ if (!existsSync(join(web, "node_modules/esbuild"))) {
   console.log("skipped: the tools are not there (cd web && npm ci)");
   process.exit(77);
 }
-const made = join(mkdtempSync(join(tmpdir(), "ventricle_bundle_")), "page.html");
+const made = mkdtempSync(join(tmpdir(), "ventricle_bundle_"));
 execFileSync(process.execPath, [join(web, "node_modules/typescript/bin/tsc"), "--noEmit", "-p", web], { stdio: "inherit" });
 execFileSync(process.execPath, [join(web, "build.mjs"), made], { stdio: "inherit" });
-const same = readFileSync(made).equals(readFileSync(join(web, "dist/page.html")));
-console.log(same ? "the committed page is what its sources make" : "web/dist/page.html is stale: cd web && npm run build");
-process.exit(same ? 0 : 1);
+const stale = ["page.html", "draw.html"].filter((page) => !readFileSync(join(made, page)).equals(readFileSync(join(web, "dist", page))));
+console.log(stale.length === 0 ? "the committed pages are what their sources make" : `web/dist is stale (${stale.join(", ")}): cd web && npm run build`);
+process.exit(stale.length === 0 ? 0 : 1);

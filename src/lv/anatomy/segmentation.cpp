@@ -44,28 +44,6 @@ void require_said_of_borders(const Case& c, const std::optional<image::DicomStud
                 found);
 }
 
-image::Cine read_cine(const Case& c) {
-  const case_file::CineAnatomy& a = c.anatomy.cine;
-  require_said_of_borders(c, {});
-  const fs::path file = case_file::beside(c, a.images);
-  if (image::is_nifti_name(a.images)) {
-    if (!a.series.empty())
-      throw InputError(case_file::place_of(c, "segment.series"),
-                       fmt::format("a NIfTI file has no series \"{}\"", a.series),
-                       "Leave segment.series out, or name a folder of DICOM files");
-    return image::read_nifti_cine(file);
-  }
-  const image::DicomStudy study = image::read_dicom_study(std::array{file});
-  image::require_images(study, file.string());
-  require_said_of_borders(c, study);
-  std::vector<std::string> names;
-  if (!a.series.empty())
-    names.push_back(a.series);
-  const image::DicomStack stack =
-      image::choose_stack(study, names, file.string(), "segment.series");
-  return image::read_pixels(stack);
-}
-
 double cavity_area(const Segmentation& found, std::size_t s, std::size_t t) {
   return segment::area(found.borders[s].frames[t].endo);
 }
@@ -128,6 +106,28 @@ void draw(const CineSegmentation& s, std::size_t t, const std::vector<Contour>& 
 }
 
 }  // namespace
+
+image::Cine read_cine(const Case& c) {
+  const case_file::CineAnatomy& a = c.anatomy.cine;
+  require_said_of_borders(c, {});
+  const fs::path file = case_file::beside(c, a.images);
+  if (image::is_nifti_name(a.images)) {
+    if (!a.series.empty())
+      throw InputError(case_file::place_of(c, "segment.series"),
+                       fmt::format("a NIfTI file has no series \"{}\"", a.series),
+                       "Leave segment.series out, or name a folder of DICOM files");
+    return image::read_nifti_cine(file);
+  }
+  const image::DicomStudy study = image::read_dicom_study(std::array{file});
+  image::require_images(study, file.string());
+  require_said_of_borders(c, study);
+  std::vector<std::string> names;
+  if (!a.series.empty())
+    names.push_back(a.series);
+  const image::DicomStack stack =
+      image::choose_stack(study, names, file.string(), "segment.series");
+  return image::read_pixels(stack);
+}
 
 CineSegmentation segment_cine(const Case& c) {
   CineSegmentation result{read_cine(c), {}};

@@ -13,6 +13,10 @@ struct CineSegmentation {
   segment::Segmentation found;
 };
 
+/// The cine of segment.cine. Throws InputError where the case does not name it, or a series of
+/// several.
+[[nodiscard]] image::Cine read_cine(const case_file::Case& c);
+
 /// Segments the cine of segment.cine. Throws InputError where the case does not name it, or a
 /// series of several, and where no ventricle is found.
 [[nodiscard]] CineSegmentation segment_cine(const case_file::Case& c);

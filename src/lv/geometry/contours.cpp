@@ -17,19 +17,20 @@ namespace lv::geometry {
 namespace {
 
 /// The columns of a contour file; the first six are needed.
-enum Column { slice, contour, point, x_mm, y_mm, z_mm, px_x, px_y, column_count };
+enum Column { slice, contour, point, x_mm, y_mm, z_mm, px_x, px_y, how, by, when, column_count };
 constexpr std::array<std::string_view, column_count> column_names{
-    "slice", "contour", "point", "x_mm", "y_mm", "z_mm", "px_x", "px_y"};
+    "slice", "contour", "point", "x_mm", "y_mm", "z_mm", "px_x", "px_y", "how", "by", "when"};
 constexpr int columns_needed = px_x;
 constexpr const char* column_rule =
-    "The first line names the columns slice,contour,point,x_mm,y_mm,z_mm (px_x and px_y may be "
-    "there), separated by commas";
+    "The first line names the columns slice,contour,point,x_mm,y_mm,z_mm (px_x, px_y, how, by "
+    "and when may be there), separated by commas";
 
 struct Row {
   int slice, point;
   Side side;
   Vec3 x;
   int line;
+  Provenance drawn;
 };
 
 /// One contour file, read line by line.
@@ -88,7 +89,18 @@ class Table {
             side(field(contour)),
             {coordinate(field(x_mm), "x_mm"), coordinate(field(y_mm), "y_mm"),
              coordinate(field(z_mm), "z_mm")},
-            lines_.number()};
+            lines_.number(),
+            provenance(fields)};
+  }
+
+  [[nodiscard]] Provenance provenance(const std::vector<std::string>& fields) const {
+    const auto said = [&](Column c) { return at_[c] == width_ ? std::string() : fields[at_[c]]; };
+    Provenance drawn{said(how), said(by), said(when)};
+    if (!drawn.how.empty() && drawn.how != "proposed" && drawn.how != "corrected" &&
+        drawn.how != "drawn")
+      throw InputError(lines_.where(), fmt::format("unknown way to draw \"{}\"", drawn.how),
+                       "A contour is proposed, corrected or drawn; the column may be left out");
+    return drawn;
   }
 
   [[nodiscard]] int whole_number(std::string_view text, const char* column) const {
@@ -127,7 +139,7 @@ class Table {
 Contour in_order(std::vector<Row> rows, const std::string& file) {
   std::stable_sort(rows.begin(), rows.end(),
                    [](const Row& p, const Row& q) { return p.point < q.point; });
-  Contour c{rows.front().slice, rows.front().side, {}, file, {}};
+  Contour c{rows.front().slice, rows.front().side, {}, file, {}, rows.front().drawn};
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (i > 0 && rows[i].point == rows[i - 1].point)
       throw InputError(fmt::format("{}:{}", file, rows[i].line),

@@ -20,25 +20,6 @@ constexpr std::size_t fewest_frames = 5;
 constexpr std::size_t fewest_slices = 3;
 constexpr double surrounded = 0.5;  // part of the circumference with muscle
 
-void check_cine(const Cine& cine, const std::string& where) {
-  const auto& slices = cine.slices;
-  if (slices.size() < fewest_slices)
-    throw InputError(where, fmt::format("{} short-axis slices", slices.size()),
-                     fmt::format("Give a stack of {} or more", fewest_slices));
-  const std::size_t frames = slices.front().frames.size();
-  const std::string remedy = fmt::format(
-      "Give a cine: images over the heart's cycle, equally many of every slice and at least {}",
-      fewest_frames);
-  if (frames < fewest_frames)
-    throw InputError(where, fmt::format("{} images of {}", frames, slices.front().name), remedy);
-  for (const image::CineSlice& slice : slices)
-    if (slice.frames.size() != frames)
-      throw InputError(where,
-                       fmt::format("{} has {} images and {} has {}", slices.front().name, frames,
-                                   slice.name, slice.frames.size()),
-                       remedy);
-}
-
 /// First and last slice of the ventricle, both included.
 struct Run {
   std::size_t first, last;
@@ -252,9 +233,28 @@ Contour loop_of(const Cine& cine, const Segmentation& found, std::size_t s, std:
 
 }  // namespace
 
+void require_cine(const Cine& cine, const std::string& where) {
+  const auto& slices = cine.slices;
+  if (slices.size() < fewest_slices)
+    throw InputError(where, fmt::format("{} short-axis slices", slices.size()),
+                     fmt::format("Give a stack of {} or more", fewest_slices));
+  const std::size_t frames = slices.front().frames.size();
+  const std::string remedy = fmt::format(
+      "Give a cine: images over the heart's cycle, equally many of every slice and at least {}",
+      fewest_frames);
+  if (frames < fewest_frames)
+    throw InputError(where, fmt::format("{} images of {}", frames, slices.front().name), remedy);
+  for (const image::CineSlice& slice : slices)
+    if (slice.frames.size() != frames)
+      throw InputError(where,
+                       fmt::format("{} has {} images and {} has {}", slices.front().name, frames,
+                                   slice.name, slice.frames.size()),
+                       remedy);
+}
+
 Segmentation segment(const Cine& cine, const SegmentParameters& parameters,
                      const std::string& where) {
-  check_cine(cine, where);
+  require_cine(cine, where);
   std::optional<Vec3> given;
   if (parameters.centre)
     given = Vec3(parameters.centre->data());

@@ -31,6 +31,10 @@ struct Segmentation {
 /// A contour whose border agrees with the image along a smaller part (FrameBorders) is doubtful.
 inline constexpr double doubtful = 0.6;
 
+/// Throws InputError, with `where` naming the images, unless there are three slices or more with
+/// equally many images, at least five.
+void require_cine(const image::Cine& cine, const std::string& where);
+
 /// Draws both borders on every slice and frame and decides which slices show the ventricle.
 ///
 /// - Slices belong to it, from the one that looks most like it outwards, while muscle surrounds

@@ -167,6 +167,23 @@ TEST_CASE("a bad table is refused by line, value, rule and remedy", "[unit][geom
              Contains("file:3: slice 1, endo, point 1 is given a second time (first in line 2)"));
 }
 
+TEST_CASE("contours may say how they were drawn, in known words", "[unit][geometry]") {
+  const std::string good = csv(draw(in_scanner()));
+  const auto with = [&](const char* how) {
+    std::string text;
+    std::istringstream lines(good);
+    for (std::string line; std::getline(lines, line);)
+      text += line + (text.empty() ? ",how,by" : fmt::format(",{},KL", how)) + "\n";
+    return text;
+  };
+  const TemporaryFile file(with("corrected"));
+  const Contours read = read_contours({file.path(), std::nullopt, {}});
+  CHECK(read.short_axis.at(0).drawn.how == "corrected");
+  CHECK(read.short_axis.at(0).drawn.by == "KL");
+  CHECK(read.short_axis.at(0).drawn.when.empty());
+  CHECK_THAT(complaint(with("guessed")), Contains("unknown way to draw \"guessed\""));
+}
+
 TEST_CASE("too few points or slices are refused", "[unit][geometry]") {
   CHECK_THAT(complaint_after([](Contours& c) { loop(c, 2, Side::endo).points.resize(7); }),
              Contains("file:82: slice 2, endo: 7 points in a short-axis loop; at least 8"));

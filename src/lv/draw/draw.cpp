@@ -1,0 +1,142 @@
+#include "lv/draw/draw.hpp"
+
+#include "lv/base/check.hpp"
+#include "lv/base/files.hpp"
+#include "lv/base/interrupt.hpp"
+#include "lv/base/lines.hpp"
+#include "lv/base/names_alone.hpp"
+#include "lv/base/printable.hpp"
+#include "lv/base/table.hpp"
+#include "lv/draw/browser.hpp"
+#include "lv/draw/bundle.hpp"
+#include "lv/draw/server.hpp"
+#include "lv/draw/study.hpp"
+#include "lv/draw/study_json.hpp"
+#include "lv/page/packing.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <zlib.h>
+
+#include <string_view>
+
+namespace lv::draw {
+namespace {
+
+namespace fs = std::filesystem;
+
+Answer refused(unsigned status, const std::string& why) {
+  return {status, "application/json", nlohmann::json{{"error", why}}.dump()};
+}
+
+Answer keep(Study& study, const std::string& body, bool whatever_stands) {
+  Kept kept = read_kept(body, study);
+  if (kept.revision != study.revision && !whatever_stands)
+    return refused(409, "another tab has saved since this one was opened");
+  save(study, std::move(kept.drawing));
+  return {200, "application/json", nlohmann::json{{"revision", study.revision}}.dump()};
+}
+
+Answer slice_of(const Study& study, std::string_view number) {
+  const auto slice = number_of<int>(number);
+  if (!slice || *slice < 1 || *slice > static_cast<int>(study.cine.slices.size()))
+    return refused(404, "there is no such slice");
+  return {200, "application/octet-stream",
+          slice_bytes(study, static_cast<std::size_t>(*slice - 1))};
+}
+
+/// All that the page asks for.
+Answer answer(Study& study, const Request& request) {
+  constexpr std::string_view slices = "slice/";
+  const std::string& place = request.place;
+  if (request.method == "GET") {
+    if (place.empty())
+      return {200, "text/html; charset=utf-8", std::string(page_bundle())};
+    if (place == "study")
+      return {200, "application/json", study_json(study)};
+    if (place == "alive")
+      return {200, "application/json", nlohmann::json{{"revision", study.revision}}.dump()};
+    if (place.starts_with(slices))
+      return slice_of(study, std::string_view(place).substr(slices.size()));
+    return refused(404, "there is nothing of this name");
+  }
+  if (place == "save" || place == "overwrite")
+    return keep(study, request.body, place == "overwrite");
+  if (place == "segment")
+    return {200, "application/json", proposal_json(propose(study, read_centre(request.body)))};
+  return refused(404, "there is nothing of this name");
+}
+
+/// zlib's format (RFC 1950), as browsers unpack it.
+std::string packed(const std::string& bytes) {
+  uLongf size = compressBound(bytes.size());
+  std::string out(size, '\0');
+  LV_CHECK(compress(reinterpret_cast<Bytef*>(out.data()), &size,
+                    reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()) == Z_OK);
+  out.resize(size);
+  return page::base64(out);
+}
+
+/// Text that may stand between the tags of a script.
+std::string inside_script(std::string text) {
+  for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos; at += 6)
+    text.replace(at, 1, "\\u003c");
+  return text;
+}
+
+std::string page_with(const Study& study) {
+  constexpr std::string_view mark = "<!-- study -->";
+  const std::string_view bundle = page_bundle();
+  const std::size_t at = bundle.find(mark);
+  LV_CHECK(at != std::string_view::npos);
+  std::string page(bundle.substr(0, at));
+  page += "<script type=\"application/json\" id=\"study\">" + inside_script(study_json(study)) +
+          "</script>\n";
+  for (std::size_t s = 0; s < study.cine.slices.size(); ++s)
+    page += fmt::format("<script type=\"text/plain\" id=\"slice-{}\">{}</script>\n", s + 1,
+                        packed(slice_bytes(study, s)));
+  page += bundle.substr(at + mark.size());
+  return page;
+}
+
+void serve(Study& study, bool browser) {
+  const NamesAlone names({fs::absolute(study.folder).parent_path(), study.folder.parent_path()});
+  Server server([&](const Request& request) {
+    try {
+      return answer(study, request);
+    } catch (const InputError& error) {
+      return refused(400, names(error.what()));
+    } catch (const RunError& error) {
+      return refused(500, names(error.what()));
+    }
+  });
+  print(
+      fmt::format("{}\nThis address works on this machine alone, until Ctrl-C ends this program. "
+                  "What is saved goes to {}\n",
+                  server.address(), study.folder.string()));
+  const OpenPage page(browser ? server.address() : "");
+  server.run();
+  print("ended\n");
+}
+
+}  // namespace
+
+void run(const case_file::Case& c, const Options& options) {
+  fs::path folder = options.folder;
+  if (folder.empty())
+    folder = c.file.parent_path() / (c.file.stem().string() + ".draw");
+  Study study = open_study(c, folder);
+  if (!options.drawing.empty()) {
+    require_readable(options.drawing, "Name what the page let you download");
+    save(study, read_kept(read_file(options.drawing), study).drawing);
+    print(fmt::format("wrote {}\n", folder.string()));
+  } else if (!options.page.empty()) {
+    write_file(options.page, page_with(study));
+    print(fmt::format("wrote {}; it shows the images, so treat it as you treat them\n",
+                      options.page.string()));
+  } else {
+    serve(study, options.browser);
+  }
+}
+
+}  // namespace lv::draw

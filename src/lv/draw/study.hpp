@@ -1,0 +1,86 @@
+#pragma once
+
+#include "lv/case_file/case.hpp"
+#include "lv/geometry/contours.hpp"
+#include "lv/segment/segment.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace lv::draw {
+
+/// The closed lines of each phase.
+using Lines = std::vector<std::vector<geometry::Contour>>;
+
+/// How sure the program is of a border that it proposed; see segment::FrameBorders.
+struct Confidence {
+  int slice = 0, phase = 0;  ///< from 1
+  double endo = 0.0, epi = 0.0;
+};
+
+/// A point that an observer named.
+struct Landmark {
+  std::string name;  ///< one of landmark_names
+  int slice = 0;     ///< from 1
+  Vec3 at = Vec3::Zero();
+  std::string by, when;
+};
+
+/// What the program proposes.
+struct Proposal {
+  Lines lines;
+  std::vector<Confidence> confidence;
+  std::vector<std::string> doubts;
+};
+
+/// What observer and program have drawn in a cine.
+struct Drawing {
+  Lines lines;
+  std::vector<Landmark> landmarks;
+  std::vector<Confidence> confidence;
+};
+
+/// The grey values that are shown black and white.
+struct Greys {
+  float low = 0.0F, high = 1.0F;
+};
+
+/// A cine with its borders, and where they are kept.
+struct Study {
+  std::string name;  ///< of the case
+  case_file::Case settings;
+  std::filesystem::path folder;  ///< of the drawing
+  image::Cine cine;
+  Greys greys;           ///< of the darkest and brightest thousandth
+  double spacing = 0.0;  ///< between slices [mm]
+  Proposal proposal;
+  Drawing drawing;
+  bool saved = false;     ///< the drawing comes from its folder
+  std::string hindrance;  ///< why nothing can be saved; empty if it can
+  int revision = 0;       ///< grows with each time it is saved
+
+  [[nodiscard]] std::size_t phases() const { return cine.slices.front().frames.size(); }
+};
+
+/// The cine of segment.cine with the borders that are kept in `folder`, or, if there is no such
+/// folder, those that the program proposes: from CASE.segment beside the case file, which is made
+/// if it is absent and can be. Where no ventricle is found there is a doubt and no border. Throws
+/// InputError where the case does not name the cine, or a folder holds borders of another one.
+[[nodiscard]] Study open_study(const case_file::Case& c, const std::filesystem::path& folder);
+
+/// Segments again, round a point of the ventricle's blood [image space, mm].
+[[nodiscard]] Proposal propose(const Study& study, const Vec3& centre);
+
+/// Writes into the study's folder
+///
+///   contours/phase_NN.csv  the borders of a phase, as anatomy.source = "contours" reads them
+///   landmarks.csv          points that an observer named
+///   apex_endo.csv, apex_epi.csv  those of the tip, as anatomy.contours.apex_endo reads them
+///   quality.csv            confidence of the proposal that the drawing started from
+///   volumes.csv            cavity and muscle per phase, areas times spacing
+///
+/// and takes them for the study's. Throws RunError when a file cannot be written.
+void save(Study& study, Drawing drawing);
+
+}  // namespace lv::draw

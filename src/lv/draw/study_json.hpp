@@ -1,0 +1,33 @@
+#pragma once
+
+#include "lv/draw/study.hpp"
+
+#include <string>
+
+namespace lv::draw {
+
+/// What the page needs of a study besides its pictures, as JSON. No name of a person, file or
+/// folder but the case's and the drawing's: headers of images are not shown.
+[[nodiscard]] std::string study_json(const Study& study);
+
+/// A proposal as the page takes it.
+[[nodiscard]] std::string proposal_json(const Proposal& proposal);
+
+/// What a page wants to be kept.
+struct Kept {
+  int revision = 0;  ///< of the study that the page started from
+  Drawing drawing;
+};
+
+/// Reads and checks it: slices and phases of this study, lines in their planes, of three to 2000
+/// points. Throws InputError.
+[[nodiscard]] Kept read_kept(const std::string& json, const Study& study);
+
+/// The point {"centre": [x, y, z]} [mm]. Throws InputError.
+[[nodiscard]] Vec3 read_centre(const std::string& json);
+
+/// The pictures of a slice, a byte per pixel, phase by phase, row by row: 0 and 255 stand for the
+/// darkest and brightest thousandth of the study.
+[[nodiscard]] std::string slice_bytes(const Study& study, std::size_t slice);
+
+}  // namespace lv::draw

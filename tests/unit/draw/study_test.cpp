@@ -1,0 +1,188 @@
+#include "lv/draw/study.hpp"
+
+#include "lv/base/check.hpp"
+#include "lv/base/table.hpp"
+#include "lv/draw/study_json.hpp"
+#include "lv/geometry/contours.hpp"
+
+#include "support/temporary_folder.hpp"
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+using namespace lv;
+using Catch::Matchers::Contains;
+using geometry::Contour;
+using geometry::Side;
+using nlohmann::json;
+
+namespace {
+
+constexpr double spacing = 8.0;
+
+/// Four slices of six phases, whose pixels hold their phase.
+image::Cine small_cine() {
+  image::Cine cine;
+  for (int s = 0; s < 4; ++s) {
+    image::CineSlice slice;
+    slice.name = "Doe^Jane";  // what a header may bring stays out of the page
+    for (int t = 0; t < 6; ++t) {
+      image::Picture picture;
+      picture.plane.origin = {-40.0, -40.0, spacing * s};
+      picture.plane.spacing_i = picture.plane.spacing_j = 2.0;
+      picture.plane.columns = picture.plane.rows = 40;
+      picture.values.assign(1600, static_cast<float>(t));
+      slice.frames.push_back(picture);
+    }
+    cine.slices.push_back(slice);
+  }
+  return cine;
+}
+
+Contour circle(int slice, Side side, double radius) {
+  Contour line;
+  line.slice = slice;
+  line.side = side;
+  for (int i = 0; i < 72; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / 72.0;
+    line.points.emplace_back(radius * std::cos(angle), radius * std::sin(angle),
+                             spacing * (slice - 1));
+  }
+  line.drawn = {"proposed", "", ""};
+  return line;
+}
+
+draw::Study small_study(const std::filesystem::path& folder) {
+  draw::Study study;
+  study.name = "heart";
+  study.folder = folder;
+  study.cine = small_cine();
+  study.greys = {0.0F, 5.0F};
+  study.spacing = spacing;
+  study.proposal.lines.resize(6);
+  for (int slice = 1; slice <= 4; ++slice)
+    for (auto& lines : study.proposal.lines)
+      for (const Side side : {Side::endo, Side::epi})
+        lines.push_back(circle(slice, side, side == Side::endo ? 20.0 : 30.0));
+  study.proposal.confidence = {{1, 1, 0.4, 0.9}};
+  study.drawing = {study.proposal.lines, {}, study.proposal.confidence};
+  return study;
+}
+
+/// What a page would send that has changed nothing.
+json sent(const draw::Study& study) {
+  const json all = json::parse(draw::study_json(study));
+  return {{"revision", all["revision"]},
+          {"contours", all["contours"]},
+          {"landmarks", all["landmarks"]},
+          {"confidence", all["confidence"]}};
+}
+
+std::string complaint(const json& text, const draw::Study& study) {
+  try {
+    static_cast<void>(draw::read_kept(text.dump(), study));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+}  // namespace
+
+TEST_CASE("what a page sends back unchanged is the drawing", "[draw]") {
+  const test::TemporaryFolder folder;
+  const draw::Study study = small_study(folder / "heart.draw");
+  const draw::Kept kept = draw::read_kept(sent(study).dump(), study);
+  REQUIRE(kept.drawing.lines.size() == 6);
+  for (std::size_t t = 0; t < 6; ++t) {
+    REQUIRE(kept.drawing.lines[t].size() == study.drawing.lines[t].size());
+    for (std::size_t n = 0; n < kept.drawing.lines[t].size(); ++n)
+      for (std::size_t i = 0; i < 72; ++i)
+        CHECK((kept.drawing.lines[t][n].points[i] - study.drawing.lines[t][n].points[i]).norm() <
+              1e-3);
+  }
+}
+
+TEST_CASE("a drawing is kept as contours that the program reads", "[draw]") {
+  const test::TemporaryFolder folder;
+  draw::Study study = small_study(folder / "heart.draw");
+  draw::Drawing drawing = study.drawing;
+  drawing.lines[1][2].drawn = {"corrected", "KL, \"the\" reader", "2026-01-31T12:00:00Z"};
+  drawing.lines[5].clear();
+  drawing.landmarks.push_back({"apex_endo", 4, {1.0, 2.0, 24.0}, "KL", "2026-01-31T12:00:00Z"});
+  draw::save(study, drawing);
+  CHECK(study.revision == 1);
+  const auto contours = folder / "heart.draw" / "contours";
+  const auto read = geometry::read_contours(
+      {contours / "phase_02.csv", {}, {folder / "heart.draw/apex_endo.csv"}});
+  const Contour* changed = geometry::find(read.short_axis, 2, Side::endo);
+  REQUIRE(changed != nullptr);
+  CHECK(changed->drawn.how == "corrected");
+  CHECK(changed->drawn.by == "KL, \"the\" reader");
+  CHECK(changed->drawn.when == "2026-01-31T12:00:00Z");
+  CHECK(read.apex.size() == 1);
+  CHECK_FALSE(std::filesystem::exists(contours / "phase_06.csv"));
+  const Table volumes = Table::read_csv(folder / "heart.draw/volumes.csv");
+  const double polygon =
+      72.0 / 2.0 * std::sin(2.0 * std::numbers::pi / 72.0) * 400.0;  // within 72 corners
+  CHECK(volumes.numbers("cavity_volume_ml")[0] ==
+        Approx(1e-3 * 4.0 * spacing * polygon).epsilon(1e-4));
+  CHECK(volumes.numbers("cavity_volume_ml")[5] == 0.0);
+}
+
+TEST_CASE("a phase without borders loses its file", "[draw]") {
+  const test::TemporaryFolder folder;
+  draw::Study study = small_study(folder / "heart.draw");
+  draw::save(study, study.drawing);
+  CHECK(std::filesystem::exists(folder / "heart.draw" / "contours" / "phase_06.csv"));
+  draw::Drawing drawing = study.drawing;
+  drawing.lines[5].clear();
+  draw::save(study, drawing);
+  CHECK_FALSE(std::filesystem::exists(folder / "heart.draw" / "contours" / "phase_06.csv"));
+}
+
+TEST_CASE("what no page of ours would send is refused", "[draw]") {
+  const test::TemporaryFolder folder;
+  const draw::Study study = small_study(folder / "heart.draw");
+  const json good = sent(study);
+  REQUIRE(complaint(good, study).empty());
+  const auto damaged = [&](const char* pointer, const json& value) {
+    json bad = good;
+    bad[json::json_pointer(pointer)] = value;
+    return complaint(bad, study);
+  };
+  CHECK_THAT(damaged("/contours/0/slice", 5), Contains("no slice 5"));
+  CHECK_THAT(damaged("/contours/0/phase", 0), Contains("no phase 0"));
+  CHECK_THAT(damaged("/contours/0/side", "rv"), Contains("neither endo nor epi"));
+  CHECK_THAT(damaged("/contours/0/how", "guessed"), Contains("how it was drawn"));
+  CHECK_THAT(damaged("/contours/0/points", json::array()), Contains("has 0 points"));
+  CHECK_THAT(damaged("/contours/0/points/3", {0.0, 0.0, 4.0}), Contains("off slice 1"));
+  CHECK_THAT(damaged("/contours/0/points/3", {1e9, 0.0, 0.0}), Contains("off slice 1"));
+  CHECK_THAT(damaged("/contours/0/points/3", nullptr), Contains("three coordinates"));
+  CHECK_THAT(damaged("/contours/1", good["contours"][0]), Contains("twice"));
+  CHECK_THAT(damaged("/contours", 7), Contains("no drawing"));
+  CHECK_THAT(
+      damaged("/landmarks",
+              {{{"name", "../x"}, {"slice", 1}, {"at", {0, 0, 0}}, {"by", ""}, {"when", ""}}}),
+      Contains("unknown name"));
+}
+
+TEST_CASE("the page is told no name of a person and no path", "[draw]") {
+  const test::TemporaryFolder folder;
+  const draw::Study study = small_study(folder / "heart.draw");
+  const std::string told = draw::study_json(study);
+  CHECK_THAT(told, !Contains("Doe"));
+  CHECK_THAT(told, !Contains(std::filesystem::temp_directory_path().string()));
+}
+
+TEST_CASE("pictures are bytes between the study's darkest and brightest", "[draw]") {
+  const test::TemporaryFolder folder;
+  const std::string bytes = draw::slice_bytes(small_study(folder / "x"), 0);
+  REQUIRE(bytes.size() == 6 * 1600);
+  for (int t = 0; t < 6; ++t)
+    CHECK(static_cast<unsigned char>(bytes[t * 1600]) == 51 * t);
+}

@@ -1,0 +1,518 @@
+// `ventricle draw` in a real browser, on a phantom's cine.
+// node draw.mjs VENTRICLE [--case CASE.toml] [--screenshots FOLDER]   exit code 77: skipped
+// With --case only pictures are taken, of a case that is there.
+import { execFileSync, spawn } from "node:child_process";
+import { chmodSync, cpSync, existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import http from "node:http";
+import { createRequire } from "node:module";
+import { connect } from "node:net";
+import { tmpdir } from "node:os";
+import { join, resolve } from "node:path";
+import { fileURLToPath, pathToFileURL } from "node:url";
+
+const root = fileURLToPath(new URL("../..", import.meta.url));
+const program = resolve(process.argv[2]);
+const option = (name) => (process.argv.includes(name) ? resolve(process.argv[process.argv.indexOf(name) + 1]) : undefined);
+const screenshots = option("--screenshots");
+const skip = (why) => { console.log(`skipped: ${why}`); process.exit(77); };
+const chromium = process.env.CHROMIUM ?? "/usr/bin/chromium";
+if (!existsSync(chromium)) skip(`${chromium} is not there (apt-get install chromium, or set CHROMIUM)`);
+if (!existsSync(join(root, "web/node_modules/playwright-core"))) skip("playwright-core is not there (cd web && npm ci)");
+const require = createRequire(join(root, "web/"));
+const playwright = require("playwright-core");
+
+let failed = 0;
+function check(claim, holds, detail = "") {
+  console.log(`${holds ? "pass" : "FAIL"}  ${claim}${!holds && detail !== "" ? `: ${detail}` : ""}`);
+  if (!holds) ++failed;
+}
+
+const folder = mkdtempSync(join(tmpdir(), "ventricle_draw_"));
+const study = join(folder, "study");
+const caseFile = join(study, "heart.toml");
+const patient = "Doe^Jane";  // her name is in no file of the phantom: it stands in the name of a folder
+
+function makeStudy() {
+  execFileSync(program, ["phantom", study, "--phases", "10", "--field-of-view", "150", "--dicom", "false", "--nifti", "true"], { stdio: "ignore" });
+  writeFileSync(caseFile, 'name = "heart"\n[anatomy]\nsource = "cine"\n[segment]\ncine = "nifti/cine_short_axis.nii.gz"\n');
+  execFileSync(program, ["segment", caseFile], { stdio: "ignore" });
+  chmodSync(folder, 0o755);
+}
+
+/** Starts `ventricle draw` and waits for the address that it prints. */
+function start(file, { uid, more = [] } = {}) {
+  const child = spawn(program, ["draw", file, "--no-browser", ...more], { uid, gid: uid, cwd: folder });
+  let said = "";
+  child.stderr.on("data", (text) => { said += text; });
+  const ended = new Promise((done) => child.on("exit", (code, signal) => done({ code, signal, said })));
+  const address = new Promise((done, fail) => {
+    child.stdout.on("data", (text) => {
+      said += text;
+      const found = /http:\S+/.exec(said);
+      if (found) done(found[0]);
+    });
+    ended.then(() => fail(new Error(said)));
+  });
+  return address.then((url) => ({ url, stop: (signal = "SIGTERM") => { child.kill(signal); return ended; }, said: () => said, pid: child.pid }));
+}
+
+const browser = await playwright.chromium.launch({ executablePath: chromium, args: ["--no-sandbox", "--disable-background-networking",
+  "--disable-component-update", "--disable-sync", "--disable-quic", "--no-first-run"] });
+
+async function open(url, context) {
+  context ??= await browser.newContext({ viewport: { width: 1400, height: 950 }, acceptDownloads: true });
+  const page = await context.newPage();
+  const said = [];
+  const asked = [];
+  page.on("console", (message) => ["error", "warning"].includes(message.type()) && said.push(message.text()));
+  page.on("pageerror", (error) => said.push(error.stack));
+  page.on("request", (request) => asked.push(request.url()));
+  page.on("dialog", (dialog) => dialog.accept());
+  await page.goto(url);
+  await page.waitForFunction(() => document.body.dataset.ready, null, { timeout: 60_000 });
+  return { page, said, asked, context };
+}
+
+const shot = async (page, name) => {
+  if (!screenshots) return;
+  mkdirSync(screenshots, { recursive: true });
+  await page.screenshot({ path: join(screenshots, `${name}.png`), fullPage: true });
+};
+
+const text = (page, selector) => page.locator(selector).textContent();
+const volumeNow = async (page) => parseFloat(await text(page, "#volumes"));
+const changes = async (page) => parseInt(await text(page, "#state"), 10);
+const waitFor = (page, selector, words) => page.waitForFunction(([where, what]) => document.querySelector(where)?.textContent.includes(what), [selector, words], { timeout: 15_000 });
+
+/** Goes to a slice and phase by the sliders. */
+async function go(page, slice, phase) {
+  for (const [label, value] of [["slice", slice], ["phase", phase]])
+    await page.getByLabel(label, { exact: true }).evaluate((range, to) => { range.value = to; range.dispatchEvent(new Event("input")); }, String(value));
+}
+
+/** Borders of a file by "slice/side". */
+function borders(file) {
+  const [head, ...rows] = readFileSync(file, "utf8").trim().split("\n").map((line) => line.split(","));
+  const at = Object.fromEntries(head.map((name, i) => [name, i]));
+  const found = {};
+  for (const row of rows) {
+    const line = (found[`${row[at.slice]}/${row[at.contour]}`] ??= { points: [], how: row[at.how], by: row[at.by], when: row[at.when] });
+    line.points.push([at.x_mm, at.y_mm, at.z_mm].map((i) => Number(row[i])));
+  }
+  return found;
+}
+
+const phaseFile = (where, phase) => join(where, "contours", `phase_${String(phase).padStart(2, "0")}.csv`);
+
+/** A place on the border of the slice that is shown: where the canvas has its colour, the topmost. */
+const topOf = (page, [red, green, blue]) => page.locator("canvas.slice").evaluate((canvas, [r, g, b]) => {
+  const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+  for (let i = 0; i < data.length; i += 4)
+    if (Math.abs(data[i] - r) + Math.abs(data[i + 1] - g) + Math.abs(data[i + 2] - b) < 12) {
+      const box = canvas.getBoundingClientRect();
+      const pixel = i / 4;
+      return [box.left + (pixel % canvas.width) * box.width / canvas.width, box.top + Math.floor(pixel / canvas.width) * box.height / canvas.height];
+    }
+  return undefined;
+}, [red, green, blue]);
+const endoColour = [0xff, 0xd2, 0x3f];
+
+async function drag(page, [x, y], [dx, dy]) {
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  for (let k = 1; k <= 5; ++k) await page.mouse.move(x + k * dx / 5, y + k * dy / 5);
+  await page.mouse.up();
+}
+
+async function checkLoad(page, said, asked, url) {
+  check("the page shows slice, phase and border", /^slice \d+ of \d+, phase \d+ of 10/.test(await text(page, "#where")), await text(page, "#where"));
+  check("it says nothing on the console", said.length === 0, said.join("\n"));
+  check("it asks nothing of others", asked.every((to) => to.startsWith(url)), asked.find((to) => !to.startsWith(url)));
+  check("doubtful borders come first", /^slice \d+, phase \d+: endocardium, confidence 0\.\d\d/.test(await page.locator("#doubtful li").first().textContent()), await text(page, "#doubtful"));
+  check("slices left out are named", (await text(page, "#doubtful")).includes("slice 1 is left out"));
+  const colours = await page.locator("canvas.slice").evaluate((canvas) => {
+    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    const found = new Set();
+    for (let i = 0; i < data.length; i += 64) found.add(data[i]);
+    return found.size;
+  });
+  check("the picture has many grey values", colours > 50, colours);
+  await page.locator("#play").click();
+  const seen = new Set();
+  for (let k = 0; k < 30; ++k) {
+    seen.add((await text(page, "#where")).match(/phase (\d+)/)[1]);
+    await page.waitForTimeout(60);
+  }
+  await page.locator("#play").click();
+  check("the cine plays through all phases", seen.size === 10, [...seen].join());
+}
+
+async function checkDrag(page) {
+  await go(page, 6, 1);
+  await page.getByRole("button", { name: "Fit" }).click();
+  const before = await volumeNow(page);
+  const top = await topOf(page, endoColour);
+  await page.mouse.move(...top);
+  await page.mouse.down();
+  await page.mouse.move(top[0], top[1] - 20, { steps: 4 });
+  const during = await volumeNow(page);
+  await page.mouse.up();
+  const after = await volumeNow(page);
+  check("the volume grows while a part is pulled outwards", during > before + 0.05 && after === during, `${before} ${during} ${after}`);
+  check("it is one change and not saved", (await text(page, "#state")).startsWith("1 change, not saved"), await text(page, "#state"));
+  check("the border says that it was corrected", (await text(page, "#where")).includes("endocardium: corrected"));
+  await page.locator("#undo").click();
+  check("undo takes it back", (await volumeNow(page)) === before && (await changes(page)) === 0);
+  await page.locator("#redo").click();
+  check("redo brings it again", (await volumeNow(page)) === after);
+  return after;
+}
+
+async function checkRedraw(page) {
+  await go(page, 7, 1);
+  await page.getByLabel("redraw").check();
+  const box = await page.locator("canvas.slice").boundingBox();
+  const [x, y, r] = [box.x + box.width / 2, box.y + box.height / 2, 60];
+  await page.mouse.move(x + r, y);
+  await page.mouse.down();
+  for (let k = 1; k <= 36; ++k) await page.mouse.move(x + r * Math.cos(k * Math.PI / 18), y + r * Math.sin(k * Math.PI / 18));
+  await page.mouse.up();
+  check("a closed stroke is a new border, drawn by hand", (await text(page, "#where")).includes("endocardium: drawn"), await text(page, "#where"));
+  await page.getByLabel("pull a part").check();
+}
+
+async function checkSave(page) {
+  await page.getByLabel("drawn by (initials)").fill("KL");
+  await go(page, 8, 1);
+  await drag(page, await topOf(page, endoColour), [0, -12]);
+  await go(page, 9, 1);
+  await page.locator("#copy").click();
+  await go(page, 13, 1);
+  await page.locator("#delete-both").click();
+  await go(page, 6, 2);
+  await page.locator("#landmark").selectOption("septum_anterior");
+  const box = await page.locator("canvas.slice").boundingBox();
+  await page.mouse.click(box.x + 200, box.y + 150);
+  await page.locator("#landmark").selectOption("apex_endo");
+  await page.mouse.click(box.x + 300, box.y + 250);
+  await page.locator("#landmark").selectOption("");
+  await page.locator("#save").click();
+  await waitFor(page, "#said", "Saved in heart.draw/contours");
+  const drawn = borders(phaseFile(join(study, "heart.draw"), 1));
+  const proposed = borders(phaseFile(join(study, "heart.segment"), 1));
+  check("a pulled border is kept as corrected", drawn["6/endo"].how === "corrected");
+  check("with who and when", drawn["8/endo"].by === "KL" && /^20\d\d-\d\d-\d\dT\d\d:\d\d:\d\dZ$/.test(drawn["8/endo"].when), JSON.stringify([drawn["8/endo"].by, drawn["8/endo"].when]));
+  check("a redrawn one as drawn", drawn["7/endo"].how === "drawn" && drawn["10/endo"].how === "drawn");
+  check("an untouched one as proposed, where it was", drawn["5/endo"].how === "proposed" &&
+    drawn["5/endo"].points.every((p, i) => Math.hypot(...p.map((x, d) => x - proposed["5/endo"].points[i][d])) < 0.003));
+  check("a deleted one is gone", !("13/endo" in drawn) && "13/endo" in proposed);
+  const copied = drawn["10/endo"].points.map((p, i) => Math.hypot(...p.map((x, d) => x - drawn["9/endo"].points[i][d])));
+  check("a copy lies one slice further", copied.every((d) => Math.abs(d - 8) < 0.01), copied[0]);
+  check("landmarks are kept", /septum_anterior,6,.*KL/.test(readFileSync(join(study, "heart.draw/landmarks.csv"), "utf8")));
+  check("the tip in the form of contours", /^\d+,endo,1,/m.test(readFileSync(join(study, "heart.draw/apex_endo.csv"), "utf8")));
+  const volume = parseFloat(readFileSync(join(study, "heart.draw/volumes.csv"), "utf8").split("\n")[2].split(",")[1]);
+  check("the kept volume is the one shown", Math.abs(volume - await volumeNow(page)) < 0.06, `${volume} ${await volumeNow(page)}`);
+}
+
+async function checkReload(page, url) {
+  const before = await text(page, "#volumes");
+  await page.reload();
+  await page.waitForFunction(() => document.body.dataset.ready);
+  await go(page, 6, 2);
+  check("what was saved is there after a reload", (await text(page, "#volumes")) === before, `${before} ${await text(page, "#volumes")}`);
+  check("and said to be", (await text(page, "#state")).includes("as saved in heart.draw"), await text(page, "#state"));
+  await go(page, 8, 1);
+  check("with who drew it", (await text(page, "#where")).includes("corrected by KL"), await text(page, "#where"));
+  await page.locator("#back").click();
+  check("the original proposal is still there", (await text(page, "#where")).includes("endocardium: proposed"), await text(page, "#where"));
+  await page.locator("#undo").click();
+  const html = await page.content();
+  const told = await (await fetch(`${url}study`)).text();
+  check("no path and no name of a folder above stands in the page", ![html, told].some((all) => all.includes(folder) || all.includes("/tmp") || all.includes("nifti")));
+}
+
+async function checkTabs(one, url) {
+  const two = await open(url, one.context);
+  await waitFor(one.page, "#banners", "open in two tabs");
+  check("two tabs know of each other", (await text(two.page, "#banners")).includes("open in two tabs"));
+  await go(two.page, 5, 1);
+  await two.page.locator("#delete").click();
+  await two.page.locator("#save").click();
+  await waitFor(two.page, "#said", "Saved in");
+  await waitFor(one.page, "#banners", "Another tab has saved");
+  await go(one.page, 4, 1);
+  await one.page.locator("#delete").click();
+  await one.page.locator("#save").click();
+  await waitFor(one.page, "#banners", "Not saved: another tab has saved");
+  check("the second tab's save is refused until it is asked", !("5/endo" in borders(phaseFile(join(study, "heart.draw"), 1))) && "4/endo" in borders(phaseFile(join(study, "heart.draw"), 1)));
+  await shot(one.page, "two-tabs");
+  await one.page.getByRole("button", { name: "Save this one over it" }).click();
+  await waitFor(one.page, "#said", "Saved in");
+  check("and done when told to", "5/endo" in borders(phaseFile(join(study, "heart.draw"), 1)) && !("4/endo" in borders(phaseFile(join(study, "heart.draw"), 1))));
+  await two.page.close();
+}
+
+async function checkCentre(page) {
+  await go(page, 7, 1);
+  await page.locator("#landmark").selectOption("centre");
+  const box = await page.locator("canvas.slice").boundingBox();
+  await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
+  await page.locator("#propose").click();
+  await page.waitForFunction(() => /Proposed again on \d+ slices|Not proposed/.test(document.querySelector("#said").textContent), null, { timeout: 60_000 });
+  check("a click sets the centre and the program proposes again", (await text(page, "#said")).startsWith("Proposed again on"), await text(page, "#said"));
+  await page.locator("#landmark").selectOption("");
+  await page.locator("#undo").click();
+}
+
+async function checkStopped(page, server) {
+  await go(page, 6, 3);
+  await page.getByLabel("pull a part").check();
+  await drag(page, await topOf(page, endoColour), [0, -10]);
+  const { code, said } = await server.stop("SIGINT");
+  check("Ctrl-C ends the program cleanly", code === 0 && said.includes("ended"), `${code} ${said}`);
+  await waitFor(page, "#banners", "ventricle draw has stopped");
+  await page.locator("#save").click();
+  await shot(page, "stopped");
+  const [download] = await Promise.all([page.waitForEvent("download"), page.getByRole("button", { name: "Download the drawing" }).first().click()]);
+  const file = join(folder, "rescued.json");
+  await download.saveAs(file);
+  execFileSync(program, ["draw", caseFile, "--import", file, "--to", join(folder, "rescued")]);
+  check("what was drawn is rescued by a download", borders(phaseFile(join(folder, "rescued"), 3))["6/endo"].how === "corrected");
+}
+
+async function checkReadOnly() {
+  const locked = join(folder, patient);
+  cpSync(study, locked, { recursive: true });
+  rmSync(join(locked, "heart.draw"), { recursive: true, force: true });
+  chmodSync(locked, 0o555);
+  const server = await start(join(locked, "heart.toml"), process.getuid() === 0 ? { uid: 65534 } : {});
+  const { page, context } = await open(server.url);
+  check("a folder that may not be written is told at once", (await text(page, "#banners")).includes("Nothing can be saved: heart.draw may not be written"), await text(page, "#banners"));
+  await go(page, 6, 1);
+  await page.locator("#delete").click();
+  await page.locator("#save").click();
+  await waitFor(page, "#banners", "Not saved:");
+  check("and when it is tried", /may not be written/.test(await text(page, "[data-about=refused]")), await text(page, "#banners"));
+  const told = await (await fetch(`${server.url}study`)).text();
+  check("no name of a person in the page", !(await page.content()).includes("Doe") && !told.includes("Doe"));
+  await shot(page, "read-only");
+  await context.close();
+  check("SIGTERM ends it cleanly", (await server.stop()).code === 0);
+  chmodSync(locked, 0o755);
+}
+
+/** A raw request, as no browser would send it. */
+function raw(url, { path, method = "GET", headers = {}, body }) {
+  return new Promise((done) => {
+    const { port } = new URL(url);
+    const request = http.request({ host: "127.0.0.1", port, path, method, headers: { host: `127.0.0.1:${port}`, ...headers } }, (answer) => {
+      let all = "";
+      answer.on("data", (part) => { all += part; });
+      answer.on("end", () => done({ status: answer.statusCode, body: all, headers: answer.headers }));
+    });
+    request.on("error", (error) => done({ status: 0, body: String(error) }));
+    if (body) request.write(body);
+    request.end();
+  });
+}
+
+const listensOn = (host, port) => new Promise((done) => {
+  const socket = connect({ host, port, timeout: 2000 }, () => { socket.destroy(); done(true); });
+  socket.on("error", () => done(false));
+  socket.on("timeout", () => { socket.destroy(); done(false); });
+});
+
+async function checkServer(url) {
+  const { port, host, pathname } = new URL(url);
+  const origin = `http://${host}`;
+  const status = async (what) => (await raw(url, what)).status;
+  check("the token has 128 bits", /^\/[0-9a-f]{32}\/$/.test(pathname), pathname);
+  check("with it the page comes", (await status({ path: pathname })) === 200);
+  check("without it nothing does", (await status({ path: "/" })) === 403 && (await status({ path: "/study" })) === 403 && (await status({ path: `/${"0".repeat(32)}/study` })) === 403);
+  check("another origin is refused", (await status({ path: `${pathname}study`, headers: { origin: "http://evil.example" } })) === 403);
+  check("a page of another site is refused", (await status({ path: `${pathname}study`, headers: { "sec-fetch-site": "cross-site" } })) === 403);
+  check("a name that points here is refused", (await status({ path: `${pathname}study`, headers: { host: `evil.example:${port}` } })) === 403);
+  check("a change must say its origin", (await status({ path: `${pathname}save`, method: "POST", body: "{}" })) === 403);
+  check(".. is refused", (await status({ path: `${pathname}slice/../../etc/passwd` })) === 400 && (await status({ path: `${pathname}%2e%2e/study` })) === 400);
+  check("other methods are refused", (await status({ path: `${pathname}study`, method: "PUT" })) === 405);
+  check("an unknown place is not found", (await status({ path: `${pathname}slice/99` })) === 404 && (await status({ path: `${pathname}nothing` })) === 404);
+  check("what is no drawing is refused", (await status({ path: `${pathname}save`, method: "POST", headers: { origin }, body: "[1, 2" })) === 400 &&
+    (await status({ path: `${pathname}save`, method: "POST", headers: { origin }, body: '{"revision":0,"contours":[{"slice":99}],"landmarks":[],"confidence":[]}' })) === 400);
+  const large = await raw(url, { path: `${pathname}save`, method: "POST", headers: { origin }, body: Buffer.alloc(100 << 20, 32) });
+  check("a body of 100 MB is refused", large.status === 413 || large.status === 0, `${large.status} ${large.body}`);
+  check("and the program goes on", (await status({ path: `${pathname}alive` })) === 200);
+  const { headers } = await raw(url, { path: pathname });
+  check("the page may load nothing from elsewhere and be framed by nobody", /default-src 'none'.*frame-ancestors 'none'/.test(headers["content-security-policy"]));
+  const hosts = Object.values((await import("node:os")).networkInterfaces()).flat().filter(({ internal, family }) => !internal && family === "IPv4").map(({ address }) => address);
+  for (const address of hosts) check(`nothing listens on ${address}`, !(await listensOn(address, port)));
+}
+
+/** Everything by the keyboard: to the picture by Tab, then its keys. */
+async function checkKeyboard() {
+  const own = join(folder, "keyboard");
+  const server = await start(caseFile, { more: ["--to", own] });
+  const { page, said, context } = await open(server.url);
+  let tabs = 0;
+  while (!(await page.evaluate(() => document.activeElement?.matches("canvas.slice")))) {
+    await page.keyboard.press("Tab");
+    if (++tabs > 40) break;
+  }
+  check("Tab leads to the picture", tabs <= 40, tabs);
+  const press = async (...keys) => { for (const key of keys) await page.keyboard.press(key); };
+  await press("d");
+  check("D goes to a doubtful border", (await text(page, "#where")).includes("slice 3"), await text(page, "#where"));
+  await press("PageDown", "PageDown", ".", ",");
+  check("keys go through slices and phases", (await text(page, "#where")).startsWith("slice 5"), await text(page, "#where"));
+  const before = await volumeNow(page);
+  await press("n", "n", "Shift+ArrowLeft", "ArrowLeft", "ArrowUp");
+  check("arrows move the selected point", (await text(page, "#where")).includes("corrected; point") && (await volumeNow(page)) !== before, await text(page, "#where"));
+  check("taps of a key are one change", (await changes(page)) === 1);
+  await press("Control+z");
+  check("Ctrl+Z undoes them", (await volumeNow(page)) === before);
+  await press("Control+y", "p", "]", "e", "Delete");
+  check("a border is deleted", (await text(page, "#where")).includes("endocardium: none here"), await text(page, "#where"));
+  await press("a", "c");
+  check("added and copied", (await text(page, "#where")).startsWith("slice 6") && (await text(page, "#where")).includes("drawn"));
+  await press(" ", " ", "+", "-", "0", "h", "h", "i", "l", "w");
+  await page.locator("#landmark").selectOption("apex_epi");
+  await page.locator("canvas.slice").focus();
+  await press("m", "ArrowRight", "Control+s");
+  await waitFor(page, "#said", "Saved in keyboard/contours");
+  const mark = readFileSync(join(own, "landmarks.csv"), "utf8");
+  check("landmarks are set and saved without a pointer", mark.includes("apex_epi,6,"), mark);
+  check("nothing went wrong on the way", said.length === 0, said.join("\n"));
+  const axe = await page.evaluate(`${readFileSync(require.resolve("axe-core"), "utf8")}; axe.run(document, { runOnly: ["wcag2a", "wcag2aa"] })`);
+  check("axe finds nothing", axe.violations.length === 0, JSON.stringify(axe.violations.map(({ id, nodes }) => [id, nodes[0].html])));
+  await context.close();
+  await server.stop();
+}
+
+async function checkExport() {
+  const file = join(folder, "heart.html");
+  execFileSync(program, ["draw", caseFile, "--to", join(folder, "fresh"), "--export", file]);
+  const context = await browser.newContext({ viewport: { width: 1400, height: 950 }, acceptDownloads: true, offline: true });
+  const { page, said, asked } = await open(pathToFileURL(file).href, context);
+  check("the exported page works from a file without a network", said.length === 0 && asked.every((to) => !to.startsWith("http")), said.join("\n") + asked.join());
+  check("it says where the result goes", (await text(page, "#save")) === "Download the result");
+  await go(page, 6, 1);
+  await page.getByRole("button", { name: "Fit" }).click();
+  await drag(page, await topOf(page, endoColour), [0, -15]);
+  const volume = await volumeNow(page);
+  const [download] = await Promise.all([page.waitForEvent("download"), page.locator("#save").click()]);
+  const result = join(folder, "result.json");
+  await download.saveAs(result);
+  execFileSync(program, ["draw", caseFile, "--to", join(folder, "imported"), "--import", result]);
+  const kept = parseFloat(readFileSync(join(folder, "imported/volumes.csv"), "utf8").split("\n")[1].split(",")[1]);
+  check("what it lets download comes back as the same files", Math.abs(kept - volume) < 0.06 && borders(phaseFile(join(folder, "imported"), 1))["6/endo"].how === "corrected", `${kept} ${volume}`);
+  check("it names no folder", !readFileSync(file, "utf8").includes(folder));
+  await context.close();
+}
+
+const radius = (points) => {
+  const middle = [0, 1, 2].map((d) => points.reduce((sum, p) => sum + p[d], 0) / points.length);
+  return points.reduce((sum, p) => sum + Math.hypot(...p.map((x, d) => x - middle[d])), 0) / points.length;
+};
+
+const step = 0.5;  // mm, of the buttons that resize
+const stepsTo = (line, wanted) => Math.round((radius(wanted.points) - radius(line.points)) / step);
+const press = async (page, smaller, larger, steps) => {
+  for (let k = 0; k < Math.abs(steps); ++k) await page.locator(steps < 0 ? smaller : larger).click();
+};
+const endo = (lines, truth) => Object.keys(lines).filter((key) => key.endsWith("endo") && key in truth);
+
+/** A whole phase by the steps that its middle slice, in order of what is wrong, needs. */
+async function correctPhase(page, phase, lines, truth) {
+  await go(page, 7, phase);
+  const steps = endo(lines, truth).map((key) => stepsTo(lines[key], truth[key])).sort((a, b) => a - b);
+  await press(page, "#all-smaller", "#all-larger", steps[Math.floor(steps.length / 2)]);
+}
+
+/** An observer who sees where the endocardium is (the phantom's own lines): first whole phases, then the slices whose area is most wrong, five
+    corrections in all. */
+async function observe(page, own, moments) {
+  for (const { phase, truth } of moments) await correctPhase(page, phase, borders(phaseFile(join(study, "heart.segment"), phase)), truth);
+  await page.locator("#save").click();
+  await waitFor(page, "#said", "Saved in");
+  const wrong = moments.flatMap(({ phase, truth }) => {
+    const lines = borders(phaseFile(own, phase));
+    return endo(lines, truth).map((key) => ({ phase, slice: parseInt(key, 10), steps: stepsTo(lines[key], truth[key]),
+      area: Math.abs(radius(lines[key].points) ** 2 - radius(truth[key].points) ** 2) }));
+  }).sort((a, b) => b.area - a.area);
+  for (const { phase, slice, steps } of wrong.slice(0, 5 - await changes(page))) {
+    await go(page, slice, phase);
+    await press(page, "#smaller", "#larger", steps);
+  }
+}
+
+async function checkFiveCorrections() {
+  const own = join(folder, "five");
+  const server = await start(caseFile, { more: ["--to", own] });
+  const { page, context } = await open(server.url);
+  const truth = JSON.parse(readFileSync(join(study, "truth.json"), "utf8"));
+  const moments = [["end_diastole", "ed"], ["end_systole", "es"]].map(([moment, file]) =>
+    ({ phase: truth[moment].phase, volume: truth[moment].cavity_volume_ml, truth: borders(join(study, `contours/${file}_short_axis.csv`)) }));
+  const off = async () => {
+    const parts = [];
+    for (const { phase, volume } of moments) {
+      await go(page, 7, phase);
+      parts.push((await volumeNow(page)) / volume - 1);
+    }
+    return parts;
+  };
+  const percent = (parts) => parts.map((part) => `${(100 * part).toFixed(1)}%`).join(" and ");
+  const before = await off();
+  await observe(page, own, moments);
+  const after = await off();
+  const made = await changes(page);
+  console.log(`volumes at end-diastole and end-systole off by ${percent(before)} as proposed, by ${percent(after)} after ${made} corrections`);
+  check("at most five corrections bring the volumes within 3%", made <= 5 && after.every((part) => Math.abs(part) < 0.03), `${made} corrections, ${percent(after)}`);
+  await context.close();
+  await server.stop();
+}
+
+async function takePictures(file) {
+  const server = await start(file, { more: ["--to", join(folder, "pictures")] });
+  const { page, said } = await open(server.url);
+  console.log(said.join("\n"));
+  await shot(page, "first");
+  await page.locator("#play").focus();
+  for (const slice of [4, 7]) {
+    await go(page, slice, 1);
+    await page.getByRole("button", { name: "Fit" }).click();
+    await shot(page, `slice-${slice}`);
+  }
+  await server.stop();
+}
+
+async function checkAll() {
+  makeStudy();
+  const server = await start(caseFile);
+  await checkServer(server.url);
+  const one = await open(server.url);
+  await checkLoad(one.page, one.said, one.asked, server.url);
+  await shot(one.page, "loaded");
+  await checkDrag(one.page);
+  await checkRedraw(one.page);
+  await shot(one.page, "redrawn");
+  await checkSave(one.page);
+  await checkReload(one.page, server.url);
+  await checkTabs(one, server.url);
+  await checkCentre(one.page);
+  check("nothing went wrong on the way", one.said.filter((line) => !line.includes("409")).length === 0, one.said.join("\n"));
+  await checkStopped(one.page, server);
+  await one.context.close();
+  await checkReadOnly();
+  await checkKeyboard();
+  await checkExport();
+  await checkFiveCorrections();
+}
+
+try {
+  const given = option("--case");
+  await (given ? takePictures(given) : checkAll());
+} finally {
+  await browser.close();
+  rmSync(folder, { recursive: true, force: true });
+}
+console.log(failed === 0 ? "all claims hold" : `${failed} claims fail`);
+process.exit(failed === 0 ? 0 : 1);

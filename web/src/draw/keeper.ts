@@ -1,0 +1,60 @@
+// Where the study comes from and where the drawing goes: the program that serves the page, or the page itself.
+import { save as download } from "../dom.ts";
+import type { Place, SaidProposal, SaidStudy } from "./study.ts";
+
+export class Refused extends Error {
+  status: number;
+  constructor(status: number, words: string) { super(words); this.status = status; }
+}
+
+/** The program does not answer. */
+export class Stopped extends Error {}
+
+export interface Keeper {
+  study(): Promise<SaidStudy>;
+  /** Grey values of a slice, phase by phase. */
+  slice(number: number): Promise<Uint8Array<ArrayBuffer>>;
+  /** Keeps a drawing and says the new revision; none where it was downloaded. */
+  save?(drawing: string, whateverStands: boolean): Promise<number>;
+  propose?(centre: [number, number, number]): Promise<SaidProposal>;
+  /** The revision that stands. */
+  alive?(): Promise<number>;
+}
+
+async function ask(place: string, body?: string): Promise<Response> {
+  let response: Response;
+  try {
+    response = await fetch(place, body === undefined ? {} : { method: "POST", body });
+  } catch {
+    throw new Stopped();
+  }
+  if (response.ok) return response;
+  const { error } = await response.json().catch(() => ({ error: `answer ${response.status}` }));
+  throw new Refused(response.status, error);
+}
+
+const served: Keeper = {
+  study: async () => (await ask("study")).json(),
+  slice: async (number) => new Uint8Array(await (await ask(`slice/${number}`)).arrayBuffer()),
+  save: async (drawing, whateverStands) => (await (await ask(whateverStands ? "overwrite" : "save", drawing)).json()).revision,
+  propose: async (centre) => (await ask("segment", JSON.stringify({ centre }))).json(),
+  alive: async () => (await (await ask("alive")).json()).revision,
+};
+
+const inside = (id: string) => document.getElementById(id)?.textContent ?? "";
+
+const alone: Keeper = {
+  study: async () => JSON.parse(inside("study")),
+  slice: async (number) => {
+    const bytes = Uint8Array.from(atob(inside(`slice-${number}`)), (letter) => letter.charCodeAt(0));
+    const unpacked = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
+    return new Uint8Array(await new Response(unpacked).arrayBuffer());
+  },
+};
+
+export const keeper = (): Keeper => (document.getElementById("study") ? alone : served);
+
+export const downloadDrawing = (name: string, drawing: string) =>
+  download(`${name.replace(/[^\w.+-]+/g, "_")}.drawing.json`, new Blob([drawing], { type: "application/json" }));
+
+export type { Place };

@@ -1,0 +1,84 @@
+// The page of `ventricle draw`.
+import "../style.css";
+import "./draw.css";
+import { el, titled } from "../dom.ts";
+import { Drawing } from "./drawing.ts";
+import { Editor } from "./editor.ts";
+import { keyMeanings, listenToKeys } from "./keys.ts";
+import { keeper } from "./keeper.ts";
+import { FirstList, StudyMap, VolumeCurve, doubtfulKeys, fullest } from "./overview.ts";
+import { Player } from "./player.ts";
+import { Saving } from "./saving.ts";
+import { landmarksOf, linesOf, sideNames, type SaidStudy } from "./study.ts";
+import { contrastBar, editBar, placeBar, toolBar } from "./toolbars.ts";
+
+const page = document.getElementById("page")!;
+const source = keeper();
+
+function statusWords(editor: Editor): string {
+  const { slice, phase, side, line, study } = editor;
+  const time = study.times[phase - 1];
+  const sure = editor.drawing.confidence.find((c) => c.slice === slice && c.phase === phase)?.[side];
+  const how = !line ? "none here" : line.how === "proposed" ? `proposed${sure === undefined ? "" : `, confidence ${sure.toFixed(2)}`}` : `${line.how}${line.by ? ` by ${line.by}` : ""}`;
+  const point = editor.selected === undefined ? "" : `; point ${editor.selected + 1} of ${line?.points.length ?? 0}`;
+  return `slice ${slice} of ${study.slices.length}, phase ${phase} of ${study.phases}${time === undefined ? "" : ` (${Math.round(1e3 * time)} ms)`}; ${sideNames[side]}: ${how}${point}`;
+}
+
+function build(study: SaidStudy): Editor {
+  const drawing = new Drawing(linesOf(study.contours, study.slices), landmarksOf(study.landmarks, study.slices), study.confidence);
+  const said = el("p", { class: "status", role: "status", id: "said" });
+  const say = (words: string) => { said.textContent = words; };
+  const editor = new Editor(study, drawing, linesOf(study.proposal, study.slices), say);
+  const curve = new VolumeCurve(study, editor.proposal);
+  const map = new StudyMap(study, (slice, phase) => editor.go(slice, phase));
+  const first = new FirstList(study, (slice, phase, side) => { editor.go(slice, phase, side); editor.picture.canvas.focus(); });
+  const saving = new Saving(source, study, editor, say);
+  const player = new Player(editor);
+  const bars = [placeBar(editor, player), toolBar(editor, saving), editBar(editor, saving), contrastBar(editor)];
+  const where = el("p", { class: "status", id: "where" });
+  const { canvas } = editor.picture;
+  canvas.setAttribute("role", "application");
+  canvas.setAttribute("aria-label", "The slice with its borders. Keys: see the list below the picture");
+  canvas.setAttribute("aria-describedby", "where");
+  const look = () => {
+    where.textContent = statusWords(editor);
+    curve.show(drawing.lines, editor.phase);
+    map.point(editor.slice, editor.phase);
+    for (const bar of bars) bar.show();
+  };
+  const changed = () => {
+    editor.show();
+    first.show(drawing, saving.doubts, fullest(curve.now.length > 0 ? curve.now : [1]));
+    map.show(drawing);
+    saving.show();
+    look();
+  };
+  editor.onMove(look);
+  drawing.onChange(changed);
+  listenToKeys(editor, player, saving);
+  page.append(el("header", {}, el("h1", {}, `Borders of ${study.name}`), saving.bar), saving.banners,
+    el("div", { class: "columns" },
+      el("div", { class: "stage" }, bars[0].element, canvas, where, said, ...bars.slice(1).map((bar) => bar.element)),
+      el("div", { class: "side" }, first.section, curve.section, map.section)),
+    titled("keys", "Keys", {}, el("p", { class: "help" }, "They count while the picture has the focus (Tab leads to it); every one has its button."),
+      el("ul", { class: "keys" }, ...keyMeanings.map(([keys, meaning]) => el("li", {}, ...keys.map((key) => el("kbd", {}, key)), ` ${meaning}`)))));
+  look();
+  const [worst] = doubtfulKeys(drawing, study.doubtful);
+  const [slice, phase] = worst ? worst.key.split("/").map(Number) : [Math.ceil(study.slices.length / 2), fullest(curve.now)];
+  editor.go(slice, phase, worst?.key.endsWith("epi") ? "epi" : "endo");
+  editor.fit();
+  changed();
+  return editor;
+}
+
+async function start(): Promise<void> {
+  const study = await source.study();
+  document.title = `${study.name}: ventricle draw`;
+  const editor = build(study);
+  const order = study.slices.map((_, i) => i + 1).sort((a, b) => Math.abs(a - editor.slice) - Math.abs(b - editor.slice));
+  for (const slice of order) editor.hold(slice, await source.slice(slice));
+  document.body.dataset.ready = "true";
+}
+
+start().catch((error: Error) => page.replaceChildren(el("p", { class: "banner", role: "alert" },
+  `The study cannot be shown: ${error.message || "ventricle draw does not answer. Start it again and open the address that it prints."}`)));

@@ -1,0 +1,159 @@
+// One slice at one phase with its borders, on a canvas that can be moved and magnified.
+import { el } from "../dom.ts";
+import { sides, type Landmark, type Line, type Place, type Plane, type Side } from "./study.ts";
+
+export const colours: Record<Side, string> = { endo: "#ffd23f", epi: "#5ad1ff" };
+const doubtColour = "#ff7b1a";
+
+/** What is shown. */
+export interface Scene {
+  plane: Plane;
+  greys: Uint8Array | undefined;  ///< of this phase
+  lines: Partial<Record<Side, Line>>;
+  doubtful: Partial<Record<Side, boolean>>;
+  original: Partial<Record<Side, Line>>;  ///< dashed
+  marks: Landmark[];
+  side: Side;
+  point: number | undefined;  ///< of that side that is selected
+  stroke: Place[];
+}
+
+export class Picture {
+  readonly canvas = el("canvas", { class: "slice", tabindex: 0, width: 800, height: 800 });
+  level = 0.5;
+  width = 1;
+  private middle: Place = [0, 0];
+  private scale = 3;  // CSS pixels per mm
+  private scene: Scene | undefined;
+  private readonly pixels = el("canvas");
+
+  get size(): [number, number] { return [this.canvas.clientWidth || 1, this.canvas.clientHeight || 1]; }
+
+  /** Shows the box between two places as large as it fits. */
+  fit([a, b]: Place, [c, d]: Place): void {
+    const [w, h] = this.size;
+    this.middle = [(a + c) / 2, (b + d) / 2];
+    this.scale = Math.min(w / (c - a), h / (d - b));
+    this.draw();
+  }
+
+  zoom(factor: number, at: [number, number] = [this.size[0] / 2, this.size[1] / 2]): void {
+    const before = this.placeAt(at);
+    this.scale = Math.min(60, Math.max(0.5, this.scale * factor));
+    const after = this.placeAt(at);
+    this.middle = [this.middle[0] + before[0] - after[0], this.middle[1] + before[1] - after[1]];
+    this.draw();
+  }
+
+  pan(dx: number, dy: number): void {
+    this.middle = [this.middle[0] - dx / this.scale, this.middle[1] - dy / this.scale];
+    this.draw();
+  }
+
+  get centre(): Place { return this.middle; }
+  mm(pixels: number): number { return pixels / this.scale; }
+
+  placeAt([x, y]: [number, number]): Place {
+    const [w, h] = this.size;
+    return [this.middle[0] + (x - w / 2) / this.scale, this.middle[1] + (y - h / 2) / this.scale];
+  }
+
+  /** Where a place is on the canvas, in CSS pixels from its corner. */
+  at([u, v]: Place): [number, number] {
+    const [w, h] = this.size;
+    return [w / 2 + (u - this.middle[0]) * this.scale, h / 2 + (v - this.middle[1]) * this.scale];
+  }
+
+  show(scene: Scene): void {
+    this.scene = scene;
+    this.draw();
+  }
+
+  draw(): void {
+    if (!this.scene) return;
+    const [w, h] = this.size;
+    const fine = window.devicePixelRatio || 1;
+    if (this.canvas.width !== Math.round(w * fine) || this.canvas.height !== Math.round(h * fine))
+      [this.canvas.width, this.canvas.height] = [Math.round(w * fine), Math.round(h * fine)];
+    const context = this.canvas.getContext("2d")!;
+    context.setTransform(fine, 0, 0, fine, 0, 0);
+    context.fillStyle = "#000";
+    context.fillRect(0, 0, w, h);
+    this.drawGreys(context);
+    for (const side of sides) {
+      const original = this.scene.original[side];
+      if (original) this.drawLine(context, original.points, colours[side], 1, [4, 5]);
+      const line = this.scene.lines[side];
+      if (line) this.drawLine(context, line.points, colours[side], side === this.scene.side ? 2.5 : 1.5, []);
+      if (line && this.scene.doubtful[side]) this.drawLine(context, line.points, doubtColour, 2.5, [7, 7]);
+    }
+    this.drawPoints(context);
+    if (this.scene.stroke.length > 1) this.drawLine(context, this.scene.stroke, "#fff", 2, [], false);
+    for (const mark of this.scene.marks) this.drawMark(context, mark);
+  }
+
+  private drawGreys(context: CanvasRenderingContext2D): void {
+    const { plane, greys } = this.scene!;
+    if (!greys) return;
+    if (this.pixels.width !== plane.columns || this.pixels.height !== plane.rows)
+      [this.pixels.width, this.pixels.height] = [plane.columns, plane.rows];
+    const shades = Uint8ClampedArray.from({ length: 256 }, (_, v) => 255 * ((v / 255 - this.level) / this.width + 0.5));
+    const image = new ImageData(plane.columns, plane.rows);
+    for (let i = 0; i < greys.length; ++i) {
+      image.data[4 * i] = image.data[4 * i + 1] = image.data[4 * i + 2] = shades[greys[i]];
+      image.data[4 * i + 3] = 255;
+    }
+    this.pixels.getContext("2d")!.putImageData(image, 0, 0);
+    const [si, sj] = plane.spacing;
+    const [x, y] = this.at([-si / 2, -sj / 2]);
+    context.imageSmoothingEnabled = true;
+    context.drawImage(this.pixels, x, y, plane.columns * si * this.scale, plane.rows * sj * this.scale);
+  }
+
+  private drawLine(context: CanvasRenderingContext2D, points: Place[], colour: string, width: number, dash: number[], closed = true): void {
+    context.beginPath();
+    points.forEach((p, i) => {
+      const [x, y] = this.at(p);
+      i === 0 ? context.moveTo(x, y) : context.lineTo(x, y);
+    });
+    if (closed) context.closePath();
+    context.setLineDash(dash);
+    context.lineWidth = width;
+    context.strokeStyle = colour;
+    context.stroke();
+    context.setLineDash([]);
+  }
+
+  private drawPoints(context: CanvasRenderingContext2D): void {
+    const { lines, side, point } = this.scene!;
+    lines[side]?.points.forEach((p, i) => {
+      if (i !== point && i % handleStep !== 0) return;
+      const [x, y] = this.at(p);
+      context.beginPath();
+      context.arc(x, y, i === point ? 6 : 3, 0, 2 * Math.PI);
+      context.fillStyle = i === point ? "#fff" : colours[side];
+      context.fill();
+      context.lineWidth = i === point ? 2.5 : 1;
+      context.strokeStyle = i === point ? "#d00080" : "#000";
+      context.stroke();
+    });
+  }
+
+  private drawMark(context: CanvasRenderingContext2D, mark: Landmark): void {
+    const [x, y] = this.at(mark.at);
+    context.lineWidth = 2;
+    context.strokeStyle = "#ff5ad1";
+    context.beginPath();
+    context.moveTo(x - 8, y);
+    context.lineTo(x + 8, y);
+    context.moveTo(x, y - 8);
+    context.lineTo(x, y + 8);
+    context.stroke();
+    context.font = "12px system-ui, sans-serif";
+    context.fillStyle = "#ffb3ec";
+    context.fillText(mark.name.replace("_", " "), x + 10, y - 4);
+  }
+}
+
+/** Every so many points of a line are marked, and stepped through by the keys. */
+export const handleStep = 3;

@@ -1,0 +1,94 @@
+// A cine with its borders, as the program hands it over, and what can be measured on it.
+
+export type Side = "endo" | "epi";
+export type How = "proposed" | "corrected" | "drawn";
+/** A place in a slice: millimetres along its rows and its columns from the middle of the first pixel. */
+export type Place = readonly [number, number];
+type Point = [number, number, number];
+
+export interface Line { points: Place[]; how: How; by: string; when: string }
+export interface Landmark { name: string; slice: number; at: Place; by: string; when: string }
+export interface Confidence { slice: number; phase: number; endo: number; epi: number }
+export interface Plane { columns: number; rows: number; origin: Point; along_row: Point; along_column: Point; spacing: [number, number] }
+
+interface SaidLine { slice: number; phase: number; side: Side; points: Point[]; how: How; by: string; when: string }
+interface SaidLandmark { name: string; slice: number; at: Point; by: string; when: string }
+export interface SaidProposal { contours: SaidLine[]; confidence: Confidence[]; doubts: string[] }
+
+/** What the program hands over; slices and phases count from 1. */
+export interface SaidStudy extends SaidProposal {
+  name: string; folder: string; phases: number; times: number[]; spacing: number; slices: Plane[]; doubtful: number;
+  landmarks: SaidLandmark[]; proposal: SaidLine[]; saved: boolean; hindrance: string; revision: number;
+}
+
+export const sides: Side[] = ["endo", "epi"];
+export const sideNames: Record<Side, string> = { endo: "endocardium", epi: "epicardium" };
+export const landmarkNames: Record<string, string> = { centre: "centre of the blood", septum_anterior: "anterior insertion of the septum",
+  septum_inferior: "inferior insertion of the septum", apex_endo: "tip of the endocardium", apex_epi: "tip of the epicardium" };
+
+/** The name of a border among all: slice, phase and side. */
+export const keyOf = (slice: number, phase: number, side: Side) => `${slice}/${phase}/${side}`;
+export function ofKey(key: string): { slice: number; phase: number; side: Side } {
+  const [slice, phase, side] = key.split("/");
+  return { slice: Number(slice), phase: Number(phase), side: side as Side };
+}
+
+const dot = (a: Point, b: Point) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+
+export function placeOn(plane: Plane, x: Point): Place {
+  const d: Point = [x[0] - plane.origin[0], x[1] - plane.origin[1], x[2] - plane.origin[2]];
+  return [dot(d, plane.along_row), dot(d, plane.along_column)];
+}
+
+export const inSpace = (plane: Plane, [u, v]: Place): Point =>
+  [0, 1, 2].map((i) => plane.origin[i] + u * plane.along_row[i] + v * plane.along_column[i]) as Point;
+
+const rounded = (x: Point): Point => x.map((c) => Math.round(1e3 * c) / 1e3) as Point;
+
+export function linesOf(said: SaidLine[], slices: Plane[]): Map<string, Line> {
+  return new Map(said.map(({ slice, phase, side, points, how, by, when }) =>
+    [keyOf(slice, phase, side), { points: points.map((x) => placeOn(slices[slice - 1], x)), how, by, when }]));
+}
+
+export const landmarksOf = (said: SaidLandmark[], slices: Plane[]): Map<string, Landmark> =>
+  new Map(said.map((mark) => [mark.name, { ...mark, at: placeOn(slices[mark.slice - 1], mark.at) }]));
+
+/** The drawing as the program takes it. */
+export function said(lines: Map<string, Line>, landmarks: Map<string, Landmark>, confidence: Confidence[], slices: Plane[], revision: number): string {
+  const contours = [...lines].map(([key, line]) =>
+    ({ ...ofKey(key), ...line, points: line.points.map((p) => rounded(inSpace(slices[ofKey(key).slice - 1], p))) }));
+  const marks = [...landmarks.values()].map((mark) => ({ ...mark, at: rounded(inSpace(slices[mark.slice - 1], mark.at)) }));
+  return JSON.stringify({ revision, contours, landmarks: marks, confidence });
+}
+
+/** The area that a closed line encloses [mm²]. */
+export function area(points: Place[]): number {
+  let sum = 0;
+  points.forEach(([u, v], i) => {
+    const [s, t] = points[(i + 1) % points.length];
+    sum += u * t - s * v;
+  });
+  return Math.abs(sum) / 2;
+}
+
+export function centroid(points: Place[]): Place {
+  let [a, x, y] = [0, 0, 0];
+  points.forEach(([u, v], i) => {
+    const [s, t] = points[(i + 1) % points.length];
+    const cross = u * t - s * v;
+    a += cross;
+    x += (u + s) * cross;
+    y += (v + t) * cross;
+  });
+  return [x / (3 * a), y / (3 * a)];
+}
+
+/** The cavity's volume at each phase, areas times the spacing of slices [ml]. */
+export function volumes(lines: Map<string, Line>, phases: number, spacing: number): number[] {
+  const sums = Array<number>(phases).fill(0);
+  for (const [key, line] of lines) {
+    const { phase, side } = ofKey(key);
+    if (side === "endo") sums[phase - 1] += 1e-3 * spacing * area(line.points);
+  }
+  return sums;
+}
