@@ -9,7 +9,7 @@ namespace {
 
 using namespace lv;
 
-std::vector<Vec3> places() {
+std::vector<Vec3> cloud() {
   std::vector<Vec3> all;
   for (int i = 0; i < 5; ++i)
     for (int j = 0; j < 5; ++j)
@@ -20,7 +20,7 @@ std::vector<Vec3> places() {
 
 template <class Map>
 Eigen::VectorXd field(const Map& map) {
-  const std::vector<Vec3> X = places();
+  const std::vector<Vec3> X = cloud();
   Eigen::VectorXd u(static_cast<Eigen::Index>(3 * X.size()));
   for (std::size_t a = 0; a < X.size(); ++a)
     u.segment<3>(static_cast<Eigen::Index>(3 * a)) = map(X[a]);
@@ -35,8 +35,8 @@ TEST_CASE("smooth fields hold polynomials of their degree that keep the base pla
   });
   const auto quadratic =
       field([](const Vec3& X) { return Vec3(0.01 * X.x() * X.z(), 0.0, 0.02 * X.z() * X.y()); });
-  const implicit::SmoothFields first(places(), 1);
-  const implicit::SmoothFields second(places(), 2);
+  const implicit::SmoothFields first(cloud(), 1);
+  const implicit::SmoothFields second(cloud(), 2);
   CHECK((first.nearest(affine) - affine).norm() < 1e-10 * affine.norm());
   CHECK((second.nearest(affine) - affine).norm() < 1e-10 * affine.norm());
   CHECK((second.nearest(quadratic) - quadratic).norm() < 1e-10 * quadratic.norm());
@@ -46,13 +46,13 @@ TEST_CASE("smooth fields hold polynomials of their degree that keep the base pla
 TEST_CASE("the nearest smooth field leaves what is across to all of them", "[implicit]") {
   const auto rough =
       field([](const Vec3& X) { return Vec3(std::sin(X.x()), std::cos(X.y() * X.z()), X.z()); });
-  const implicit::SmoothFields fields(places(), 3);
+  const implicit::SmoothFields fields(cloud(), 3);
   const Eigen::VectorXd near = fields.nearest(rough);
   CHECK((fields.nearest(near) - near).norm() < 1e-10 * near.norm());
   CHECK(std::abs((rough - near).dot(near)) < 1e-10 * rough.squaredNorm());
   const auto base = field([](const Vec3&) { return Vec3(0.0, 0.0, 1.0); });
   const Eigen::VectorXd moved = fields.nearest(base);
-  for (std::size_t a = 0; a < places().size(); ++a)
-    if (places()[a].z() == 0.0)
+  for (std::size_t a = 0; a < cloud().size(); ++a)
+    if (cloud()[a].z() == 0.0)
       CHECK(moved[static_cast<Eigen::Index>(3 * a + 2)] == 0.0);
 }
