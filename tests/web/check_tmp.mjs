@@ -85,7 +85,7 @@ async function makeHalf() {
 
 /** On two processors at most: the phantom beside all that follows from the small run. */
 async function makePages() {
-  const ofPhantom = undefined;
+  const ofPhantom = existsSync(images) ? undefined : runImages();
   if (!existsSync(work)) await ventricle("run", join(root, "tests/regress/small.toml"), "--work", work, "--ranks", "1");
   await ventricle("report", work, "--output", "page.html");
   await ventricle("compare", work, work, "--output", "compare.html");
@@ -97,6 +97,8 @@ async function makePages() {
   rmSync(join(folder, "thick.work/03_beat/wall.pvd"));
   await ventricle("report", "thick.work", "--output", "blood.html");
   await ofPhantom;
+  await ventricle("report", images, "--output", "images.html");
+  await ventricle("compare", images, work, "--output", "mixed.html");
 }
 
 const browser = await launch();
@@ -305,6 +307,18 @@ function firstPoints(state, slice) {
   });
 }
 
+/** Where septum and anterior wall lie in a short-axis image, to its right and down, from the model's frame and the recorded angle. */
+function wallDirections(slice) {
+  const frame = JSON.parse(readFileSync(join(images, "01_anatomy/frame.json"), "utf8"));
+  const place = csv(join(images, "04_results/pictures/pictures.csv")).find((r) => r.slice === String(slice));
+  const septum = parseFloat(JSON.parse(readFileSync(join(images, "02_mesh/stage.json"), "utf8")).ingredients["regions.septum_angle"].replaceAll('"', "")) * Math.PI / 180;
+  const at = (angle) => {
+    const inSpace = frame.x_axis_in_image_space.map((x, d) => x * Math.cos(angle) + frame.y_axis_in_image_space[d] * Math.sin(angle));
+    return ["along_row", "along_column"].map((name) => dot(inSpace, vector(place, name, "")));
+  };
+  return { septal: at(septum), anterior: at(septum + Math.PI / 2) };
+}
+
 async function checkOutlines(page) {
   await page.waitForSelector("#outlines svg.outlined");
   const listed = csv(join(images, "04_results/pictures/pictures.csv"));
@@ -336,6 +350,12 @@ async function checkOutlines(page) {
       expected.every((e, i) => e.source === now.starts[i].source && e.at.every((x, d) => Math.abs(x - now.starts[i].at[d]) < 0.03)),
       JSON.stringify({ expected, starts: now.starts }));
   }
+  const placed = await page.locator("#outlines figure text.letter").evaluateAll((all) => Object.fromEntries(all.map((one) => [one.textContent[0], [Number(one.getAttribute("x")), Number(one.getAttribute("y"))]])));
+  const expected = wallDirections(seen[1].slice);
+  const away = (a, b) => placed[a].map((x, d) => x - placed[b][d]);
+  const along = (v, w) => dot(v, w) / Math.hypot(...v) / Math.hypot(...w);
+  check("letters over an image lie where the frame has the walls", Object.keys(placed).sort().join() === "A,I,L,S" && along(away("A", "I"), expected.anterior) > 0.95 &&
+    along(away("S", "L"), expected.septal) > 0.95, JSON.stringify({ placed, expected }));
   check("the two moments have different images", seen[0].png !== seen[1].png || JSON.stringify(seen[0].starts) !== JSON.stringify(seen[1].starts));
   await setSlider(page, "#outlines input[type=range]", 1);
   check("the slider goes to another slice", (await look()).slice !== seen[1].slice);
@@ -519,7 +539,7 @@ async function checkFlowPlane() {
   check("its letters are S on the left and L on the right", Object.keys(letters).sort().join() === "L,S" && letters.S < letters.L, JSON.stringify(letters));
   const seen = await page.locator("canvas.flow").evaluate((canvas) => {
     const { width, height } = canvas;
-    const row = canvas.getContext("2d").getImageData(0, Math.round(0.55 * height), width, 1).data;
+    const row = canvas.getContext("2d").getImageData(0, Math.round(0.5 * height), width, 1).data;
     const kinds = Array.from({ length: width }, (_, x) => {
       const [r, g, b, a] = row.subarray(4 * x, 4 * x + 4);
       return a === 0 ? " " : Math.abs(r - 222) + Math.abs(g - 205) + Math.abs(b - 200) < 12 ? "w" : "b";
@@ -685,14 +705,14 @@ await checkFirstScreen();
 await checkOrientation();
 await checkFlowPlane();
 await checkAccessible("page.html", "light");
-await checkAccessible("page.html", "dark");
+await checkAccessible("images.html", "dark");
 await checkPhone();
 await checkHalf();
 await checkCompare();
-
+await checkImages();
 await checkFitted();
 
-
+checkFigures();
 await browser.close();
 rmSync(folder, { recursive: true, force: true });
 console.log(`${failed} failed`);

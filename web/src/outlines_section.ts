@@ -50,8 +50,8 @@ function drawPicture(c: Case, picture: Outlined, scale: number): SVGSVGElement {
   for (const line of picture.lines)
     lines.append(svg("path", { d: pathOf(line.points), fill: "none", stroke: line.source === "model" ? modelColour : contourColour,
       "stroke-width": 1.6 / scale, "stroke-dasharray": line.source === "model" ? "none" : `${4.5 / scale} ${3 / scale}`, "data-source": line.source }));
-  root.append(lines, svg("text", { x: 2, y: height - 2.5, "font-size": 4 + 6 / scale, ...white }, scale < 2 ? titleOf(picture.slice) : title),
-    ...(scale < 2 ? [] : [...letters(c, picture, width, height), ...scaleBar(width, height)]));
+  root.append(lines, ...(scale < 2 ? [svg("text", { x: 2, y: height - 2.5, "font-size": 4 + 6 / scale, ...white }, titleOf(picture.slice))]
+    : [...letters(c, picture, width, height), ...scaleBar(width, height)]));
   return root;
 }
 
@@ -90,7 +90,7 @@ class Sheet {
     const now = this.pictures.filter((p) => p.state === this.state);
     const chosen = now.find((p) => p.slice === this.slice);
     this.large.replaceChildren(chosen
-      ? figure([`${this.c.name}: ${titleOf(this.slice)} at ${stateTitle(this.state)}, model (solid, orange) and contours (dashed, blue)`, starNote(heartOf(this.c))]
+      ? figure([`${this.c.name}: ${titleOf(this.slice)}, image ${chosen.phase}, at ${stateTitle(this.state)}, model (solid, orange) and contours (dashed, blue)`, starNote(heartOf(this.c))]
         .filter(Boolean).join("; "),
         fileName(this.c.name, "outlines", this.state, titleOf(this.slice)), drawPicture(this.c, chosen, 4))
       : missing(`No image of ${titleOf(this.slice)} at ${stateTitle(this.state)}.`));

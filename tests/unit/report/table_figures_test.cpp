@@ -134,7 +134,8 @@ TEST_CASE("the paper's subjects stand beside no case that did not ask for them",
   for (const auto& curve : material::published_muscles())
     table.add_row({curve.muscle, "yes", "1.1", "2"});
   table.add_row({"this case", "no", "1", "0"});
-  const auto& series = chart(report::muscle_figure(table)).series;
+  const Figure figure = report::muscle_figure(table);
+  const auto& series = chart(figure).series;
   REQUIRE(series.size() == 2);  // of four
   CHECK_THAT(series[0].label, Catch::Contains("excised"));
   CHECK(series[1].label == "this case");
