@@ -97,7 +97,7 @@ TEST_CASE("the tangent of a moving wall is the derivative of its residual", "[un
     Rates rates;
     for (std::size_t a = 0; a < mesh.nodes.size(); ++a) {
       rates.velocity.push_back(random.vector());
-      rates.acceleration.push_back(10.0 * random.vector());
+      rates.acceleration.emplace_back(10.0 * random.vector());
     }
     const Motion motion = motion_in_step(GeneralisedAlpha::of_radius(0.4), 0.02, mesh.nodes, rates);
     std::vector<double> direction(equations.size());
