@@ -20,6 +20,7 @@ patience = 600  # seconds, that one start may take
 slow_to_stop = 25  # seconds
 mark = "VENTRICLE_KILL_TEST"
 failures = []
+stages = ("00_strain", "01_anatomy", "02_mesh", "02b_calibrate", "02c_unload", "03_beat", "04_results", "05_report")
 
 # As small as every stage allows, so that a kill costs seconds: coarse, for tests only, with steps that are too long, so that
 # some are taken back.
@@ -141,13 +142,24 @@ def end(process, work):
     return said_in(work).read_text(errors="replace")[-3000:]
 
 
+def wait_for_moment(process, work, dice, mean_wait):
+    """Waits for a random moment of a run, or of one of its stages that are left, for most stages are short."""
+    left = [stage for stage in stages if not (work / stage).exists()]
+    until = time.time() + dice.expovariate(1 / mean_wait)
+    if left and dice.random() < 0.5:
+        stage = dice.choice(left)
+        while process.poll() is None and not (work / f"{stage}.part").exists() and not (work / stage).exists():
+            time.sleep(0.002)
+        until = time.time() + dice.uniform(0, 0.1 * mean_wait)
+    while process.poll() is None and time.time() < until:
+        time.sleep(0.002)
+
+
 def disturb(process, work, dice, counts):
     """Kills or stops a run at a random moment; whether there was still something to disturb."""
-    try:
-        process.wait(timeout=dice.expovariate(1 / counts["mean_wait"]))
+    wait_for_moment(process, work, dice, counts["mean_wait"])
+    if process.poll() is not None:
         return False
-    except subprocess.TimeoutExpired:
-        pass
     how = dice.choice([signal.SIGKILL] * 4 + [signal.SIGTERM, signal.SIGINT])
     who, name = target(process, work, dice.choice(["parent", "rank", "mpirun"]))
     if how != signal.SIGKILL:

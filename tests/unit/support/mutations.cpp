@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 #include <sys/resource.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -19,7 +20,31 @@
 namespace lv::test {
 namespace {
 
+/// What takes longer is taken to hang: of processor time where it computes, of time where it waits,
+/// for other programs may have the processors.
 constexpr unsigned longest = 60;  // [s]
+constexpr unsigned longest_wait = 10 * longest;
+
+/// A signal ends the tests when its object lives too long.
+class Watch {
+ public:
+  Watch() {
+    alarm(longest_wait);
+    set(longest);
+  }
+  ~Watch() {
+    alarm(0);
+    set(0);
+  }
+  Watch(const Watch&) = delete;
+  Watch& operator=(const Watch&) = delete;
+
+ private:
+  static void set(unsigned seconds) {
+    const itimerval timer{{0, 0}, {static_cast<time_t>(seconds), 0}};
+    setitimer(ITIMER_PROF, &timer, nullptr);
+  }
+};
 
 /// Not more than 4 GB besides what is in use, as long as the object lives.
 class MemoryLimit {
@@ -160,9 +185,10 @@ void try_damaged(const std::string& name, const std::string& bytes, const Read& 
     std::string copy = mutated(bytes, random, damage.within);
     finish(copy);
     write_bytes(folder / name, copy);
-    alarm(longest);
-    const std::string wrong = mistake(read, folder / name);
-    alarm(0);
+    const std::string wrong = [&] {
+      const Watch watch;
+      return mistake(read, folder / name);
+    }();
     INFO("damaged copy " << n << " of " << name);
     CHECK(wrong == "");
   }
