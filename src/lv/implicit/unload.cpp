@@ -82,7 +82,10 @@ class Unloader {
   Outcome<Unloaded> run(const Unloaded* start) {
     if (start != nullptr && start->smoothing > 0.0) {
       now_ = {as_vector(start->nodes), {}, start->loaded, {}};
-      return smooth(now_.X, std::array{start->smoothing});
+      if (auto as_smooth = smooth(now_.X, std::array{start->smoothing}))
+        return as_smooth;
+      forget();
+      start = nullptr;
     }
     if (start == nullptr || !try_from(as_vector(start->nodes), &start->loaded))
       approach();
@@ -98,6 +101,13 @@ class Unloader {
  private:
   Unloaded result() {
     return {as_nodes(now_.X), std::move(now_.loaded), std::move(steps_), smoothing_};
+  }
+
+  void forget() {
+    now_ = {};
+    steps_.clear();
+    smooth_.reset();
+    smoothing_ = 0.0;
   }
 
   /// Whether any wall had an equilibrium.
@@ -122,15 +132,19 @@ class Unloader {
             "unloaded.tolerance or unloaded.iterations"};
   }
 
-  [[nodiscard]] Unsolved folded(const UnloadStep& last) const {
-    return {
-        fmt::format("The wall that becomes the given shape at {:.2f} mmHg is folded: {}; the "
-                    "nearest smooth one is off by {:.3g} mm rms ({:.3g} mm at most), loaded again",
-                    parameters_.pressure / units::mmHg, words(last.folds), smooth_rms_,
-                    smooth_largest_),
-        "Check unloaded.pressure and the stiffness (a softer wall under more pressure unloads "
-        "farther), look at the drawn borders for flat or thin places, or raise "
-        "unloaded.smooth_within"};
+  /// Of a search that met a fold, with the nearest smooth wall, if there is one.
+  [[nodiscard]] Unsolved folded(const UnloadStep& exact, const std::optional<Trial>& best) const {
+    const std::string smooth =
+        best ? fmt::format(
+                   "the nearest smooth one is off by {:.3g} mm rms ({:.3g} mm at most), "
+                   "loaded again",
+                   best->step.rms, best->step.largest)
+             : "no smooth one near it was found";
+    return {fmt::format("The wall that becomes the given shape at {:.2f} mmHg is folded: {}; {}",
+                        parameters_.pressure / units::mmHg, words(exact.folds), smooth),
+            "Check unloaded.pressure and the stiffness (a softer wall under more pressure unloads "
+            "farther), look at the drawn borders for flat or thin places, or raise "
+            "unloaded.smooth_within"};
   }
 
   [[nodiscard]] static std::string words(const mesh::Folds& folds) {
@@ -159,10 +173,8 @@ class Unloader {
   }
 
   Outcome<Unloaded> near_enough(std::optional<Trial>& best, const UnloadStep& exact) {
-    smooth_rms_ = best ? best->step.rms : now_.step.rms;
-    smooth_largest_ = best ? best->step.largest : now_.step.largest;
-    if (!best || smooth_rms_ > parameters_.smooth_within)
-      return folded(exact);
+    if (!best || best->step.rms > parameters_.smooth_within)
+      return folded(exact, best);
     smoothing_ = best->step.smoothing;
     now_ = std::move(*best);
     steps_.push_back(now_.step);
@@ -367,8 +379,7 @@ class Unloader {
   Eigen::VectorXd target_;
   std::optional<SmoothFields> smooth_;  ///< once a fold was met
   double smoothing_ = 0.0;              ///< alpha
-  double smooth_rms_ = 0.0, smooth_largest_ = 0.0;
-  double pressure_ = 0.0;  ///< in force [kPa]
+  double pressure_ = 0.0;               ///< in force [kPa]
   int equilibria_ = 0;
   TimeLeft left_;
   Trial now_;

@@ -9,6 +9,8 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 namespace {
 
@@ -23,15 +25,16 @@ mesh::Mesh coarse_ventricle() {
                          {.edge_length = 8.0, .layers = 2, .order = 2});
 }
 
-/// Dilated and thin, and bent, so that one side is nearly flat.
+/// Dilated and thin, flat on one side, and bent to that side.
 mesh::Mesh bent_ventricle() {
   const geometry::Ellipsoid e{33.0, 70.0, 38.0, 75.0, 24.0};
   return mesh::wall_mesh(
       [e](double u, double theta, double t) {
         Vec3 X = e.point(u, theta, t);
+        const double across = std::remainder(theta, 2.0 * std::numbers::pi) / 0.7;
         const double along = X.z() / 90.0;
-        X.x() += 16.0 * along * along;
-        return X;
+        const double flattened = 1.0 - 0.12 * std::exp(-across * across);
+        return Vec3(flattened * X.x() + 20.0 * along * along, flattened * X.y(), X.z());
       },
       {.edge_length = 14.0, .layers = 1, .order = 2});
 }

@@ -137,7 +137,8 @@ TEST_CASE("damaged records of earlier stages are read or refused",
   try_damaged("unloaded.json",
               "{\"pressure_mmHg\": 2, \"seen_volume_ml\": 100.5, \"unloaded_volume_ml\": 90,\n"
               "\"loaded_again_volume_ml\": 100.4, \"largest_distance_mm\": 0.1,\n"
-              "\"rms_distance_mm\": 0.02}\n",
+              "\"rms_distance_mm\": 0.02, \"klotz_volume_ml\": 79.0, \"smoothing\": 0.0,\n"
+              "\"dent_deg\": 3.0, \"nearest_to_itself\": 0.7, \"largest_stretch\": 1.3}\n",
               unloading);
 }
 
