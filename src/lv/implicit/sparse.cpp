@@ -110,6 +110,11 @@ class SparseMatrix::Implementation {
     return blocks_ ? count : 0;
   }
 
+  void begin_anew() {
+    if (!blocks_)
+      forget_factors();
+  }
+
   Outcome<std::vector<double>> solve(std::span<const double> b) {
     set_right_hand_side(b);
     check(KSPSolve(ksp_, b_, x_));
@@ -239,6 +244,10 @@ void SparseMatrix::add_pressure_mass(std::span<const int> pressures, const Eigen
 
 void SparseMatrix::finish() {
   implementation_->finish();
+}
+
+void SparseMatrix::forget_factors() {
+  implementation_->begin_anew();
 }
 
 int SparseMatrix::iterations() const {

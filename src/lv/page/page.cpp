@@ -297,7 +297,9 @@ Json files_json(const fs::path& work) {
 void add_mesh_facts(Json& json, const fs::path& work) {
   if (const auto angle = report::recorded(work, "mesh", "regions.septum_angle"))
     json["septum_deg"] = std::stod(*angle);
-  if (const auto engine = report::recorded(work, "mesh", "engine"))
+  // equilibria have shares of loads where heartbeats have times
+  const bool has_time = report::recorded(work, "beat", "protocol.kind") == "cycle";
+  if (const auto engine = report::recorded(work, "mesh", "engine"); engine && !has_time)
     json["engine"] = *engine;
 }
 

@@ -221,9 +221,10 @@ drawing::LineChart bland_altman(const drawing::Series& points, const strain::Agr
 // ---- files ----
 
 CurveFacts curve_facts(const fs::path& work) {
-  return {recorded(work, "mesh", "engine") == "quasi_static",
+  const bool is_cycle = recorded(work, "beat", "protocol.kind") == "cycle";
+  return {recorded(work, "mesh", "engine") == "quasi_static" && !is_cycle,
           time_of(work, heartbeat::end_diastole).value_or(missing),
-          time_of(work, heartbeat::end_systole).value_or(missing)};
+          time_of(work, heartbeat::end_systole).value_or(missing), is_cycle};
 }
 
 /// Writes the figures of what is there.
@@ -255,7 +256,7 @@ class FigureFolder {
       for (const std::string& moment : moments)
         if (!means(*table, quantity, moment, "aha17").values.empty())
           write(bulls_eyes_figure(*table, quantity, moment, orientation),
-                         fmt::format("bulls_eyes_{}_{}", quantity, moment));
+                fmt::format("bulls_eyes_{}_{}", quantity, moment));
   }
 
   void rotation() const {
@@ -275,7 +276,7 @@ class FigureFolder {
       for (const char* scheme : {"sector", "aha17"})
         if (table && pairs_of(*table, scheme).size() > 1)
           write(agreement_figure(*table, component, scheme),
-                         fmt::format("strain_agreement_{}_{}", component, scheme));
+                fmt::format("strain_agreement_{}_{}", component, scheme));
     }
   }
 
@@ -298,11 +299,13 @@ drawing::Figure curves_figure(const Table& curves, const CurveFacts& facts) {
                           .series = {{.x = volume, .y = pressure}}};
   mark(curves, facts.end_diastole, "end-diastole", drawing::Marker::circle, path);
   mark(curves, facts.end_systole, "end-systole", drawing::Marker::square, path);
-  return {.panels = {curve_panel(a, "pressure [mmHg]", pressure),
-                     curve_panel(a, "cavity volume [ml]", volume),
-                     curve_panel(a, "mean active tension [kPa]",
-                                 curves.numbers("mean_active_tension_kPa")),
-                     {.title = "pressure-volume path (no valves)", .content = path}}};
+  return {
+      .panels = {
+          curve_panel(a, "pressure [mmHg]", pressure),
+          curve_panel(a, "cavity volume [ml]", volume),
+          curve_panel(a, "mean active tension [kPa]", curves.numbers("mean_active_tension_kPa")),
+          {.title = facts.has_valves ? "pressure-volume loop" : "pressure-volume path (no valves)",
+           .content = path}}};
 }
 
 std::optional<drawing::Figure> calcium_figure(const Table& curves, const CurveFacts& facts) {
