@@ -18,6 +18,13 @@ inline bool may_have_infarct(const Case& c) {
   return c.scar.source == Scar::mesh ? c.anatomy.source == Source::mesh
                                      : c.scar.source != Scar::none;
 }
+inline bool is_cycle(const Case& c) {
+  return c.protocol.kind == heartbeat::ProtocolKind::cycle;
+}
+/// By itself it always may run; with the wall it does in a cycle.
+inline bool has_circuit(const Case& c, Stage s) {
+  return c.circulation.asked() && (s != Stage::beat || is_cycle(c));
+}
 inline bool has_passive_fit(const Case& c) {
   return c.calibration.passive != calibrate::FittedPassive::none;
 }
@@ -47,6 +54,11 @@ LV_CONDITION(iterative,
              "with quasi_static.linear_solver = \"iterative\"")
 LV_CONDITION(quadrature, c.coupling.kind == immersed::CouplingKind::quadrature,
              "with coupling.kind = \"quadrature\"")
+LV_CONDITION(heartbeats, is_cycle(c), "with protocol.kind = \"cycle\"")
+LV_CONDITION(paper_protocol, s == Stage::calibrate || !is_cycle(c),
+             "with protocol.kind = \"paper\"")
+LV_CONDITION(calcium_in_time, c.engine == Engine::immersed || is_cycle(c),
+             "with engine = \"immersed\" or protocol.kind = \"cycle\"")
 LV_CONDITION(held_calcium, c.protocol.calcium.mode == material::Calcium::Mode::hold,
              "with calcium.mode = \"hold\"")
 
@@ -135,8 +147,8 @@ LV_CONDITION(niederer, c.active_law == ActiveLaw::niederer, "with active.law = \
 LV_CONDITION(land2017, c.active_law == ActiveLaw::land2017, "with active.law = \"land2017\"")
 LV_CONDITION(prescribed_tension, !has_kinetics(c),
              "with active.law = \"second_piola\" or \"cauchy\"")
-LV_CONDITION(moving_fibres, c.engine == Engine::immersed && s == Stage::beat,
-             "with engine = \"immersed\"")
+LV_CONDITION(moving_fibres, (c.engine == Engine::immersed || is_cycle(c)) && s == Stage::beat,
+             "with engine = \"immersed\" or protocol.kind = \"cycle\"")
 LV_CONDITION(calcium_counts, has_kinetics(c) || moving_fibres.holds(c, s),
              "with active.law = \"niederer\" or \"land2017\", or with engine = \"immersed\"")
 LV_CONDITION(alpha_function, has_alpha_function(c), "with calcium.shape = \"alpha_function\"")
@@ -146,12 +158,16 @@ LV_CONDITION(mass_counts, s == Stage::results || may_have_infarct(c),
              "for the masses of wall and infarct")
 
 // circulation
-LV_CONDITION(circuit, c.circulation.asked(),
+LV_CONDITION(circuit, has_circuit(c, s),
              "with circulation.kind = \"windkessel\" or \"closed_loop\"")
-LV_CONDITION(windkessel, c.circulation.kind == circulation::Kind::windkessel,
+LV_CONDITION(windkessel, has_circuit(c, s) && c.circulation.kind == circulation::Kind::windkessel,
              "with circulation.kind = \"windkessel\"")
-LV_CONDITION(closed_loop, c.circulation.kind == circulation::Kind::closed_loop,
+LV_CONDITION(closed_loop, has_circuit(c, s) && c.circulation.kind == circulation::Kind::closed_loop,
              "with circulation.kind = \"closed_loop\"")
+LV_CONDITION(onset_counts,
+             s == Stage::circulation ||
+                 (has_circuit(c, s) && c.circulation.kind == circulation::Kind::closed_loop),
+             "with circulation.kind = \"windkessel\" or \"closed_loop\"")
 LV_CONDITION(quadratic_valves, c.circulation.valves.law == circulation::ValveLaw::quadratic,
              "with circulation.valves.law = \"quadratic\"")
 

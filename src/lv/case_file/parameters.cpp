@@ -15,6 +15,7 @@ using namespace conditions;
 
 constexpr Stages meshing(Stage::mesh, Stage::calibrate, Stage::unload);
 constexpr Stages mechanics(Stage::calibrate, Stage::unload, Stage::beat);
+constexpr Stages joined(Stage::circulation, Stage::beat);
 
 constexpr Group of_anatomy[]{
     {Stages(Stage::results),
@@ -685,6 +686,10 @@ constexpr Group of_muscle[]{
                 "calcium stays at its peak until the ventricle is steady, or decays as its shape "
                 "says",
                 "A.1"),
+     }},
+    {Stages(Stage::beat),
+     {&calcium_in_time},
+     {
          choice(
              "calcium.shape", LV_AT(protocol.calcium.shape), "alpha_function double_exponential",
              "Ca_0 + (Ca_max - Ca_0) times t/tau exp(1 - t/tau), or a difference of exponentials "
@@ -700,13 +705,13 @@ constexpr Group of_muscle[]{
                 "A.1"),
      }},
     {Stages(Stage::beat),
-     {&immersed_engine, &alpha_function},
+     {&calcium_in_time, &alpha_function},
      {
          number("calcium.tau", LV_AT(protocol.calcium.tau), "s", positive, "time to the peak",
                 "A.1"),
      }},
     {Stages(Stage::beat),
-     {&immersed_engine, &double_exponential},
+     {&calcium_in_time, &double_exponential},
      {
          number("calcium.t_1", LV_AT(protocol.calcium.t_1), "s", positive,
                 "time constant of the rise"),
@@ -949,8 +954,26 @@ constexpr Group of_measurements[]{
 };
 
 constexpr Group of_protocol[]{
-    {Stages(Stage::calibrate, Stage::beat),
+    {Stages(Stage::beat),
      {},
+     {
+         choice("protocol.kind", LV_AT(protocol.kind), "paper cycle",
+                "filling and contraction as in the paper; or heartbeats of the wall joined to the "
+                "circulation, with engine = \"quasi_static\"",
+                "2.4"),
+     }},
+    {Stages(Stage::beat),
+     {&heartbeats},
+     {
+         number("cycle.beats", LV_AT(protocol.cycle.beats), "", between(1, 1000), "beats at most"),
+         number("cycle.tolerance", LV_AT(protocol.cycle.tolerance), "", not_negative,
+                "beats end when the last has changed no state of the circuit, nor end-diastolic or "
+                "end-systolic volume, by more than this part of itself; 0: never"),
+         number("cycle.step", LV_AT(protocol.cycle.step), "s", above_up_to(0.0, 0.02),
+                "of time, at most; a step that fails is repeated shorter"),
+     }},
+    {Stages(Stage::calibrate, Stage::beat),
+     {&paper_protocol},
      {
          number("protocol.ed_pressure", LV_AT(protocol.ed_pressure), "mmHg", between(-50.0, 500.0),
                 "end-diastolic pressure", "2.4"),
@@ -961,7 +984,7 @@ constexpr Group of_protocol[]{
                 "taken to be 0.9 of it (Kelly et al., Circulation 86:513, 1992); 0: none"),
      }},
     {Stages(Stage::beat),
-     {},
+     {&paper_protocol},
      {
          number("protocol.filling_ramp", LV_AT(protocol.filling_ramp), "s", above_up_to(0.0, 100.0),
                 "time in which the pressure rises to ed_pressure"),
@@ -983,7 +1006,7 @@ constexpr Group of_protocol[]{
                 "the ringing, moves no equilibrium"),
      }},
     {Stages(Stage::beat),
-     {},
+     {&paper_protocol},
      {
          number("protocol.contraction_ramp", LV_AT(protocol.contraction_ramp), "s",
                 above_up_to(0.0, 100.0),
@@ -1073,19 +1096,23 @@ constexpr Range of_elastance = between(0.0, 100.0);
       LV_LOOP(place, V_0, "ml", between(0.0, 1000.0), "volume without pressure")
 
 constexpr Group of_circulation[]{
-    {Stages(Stage::circulation),
+    {joined,
      {},
      {
          choice("circulation.kind", LV_AT(circulation.kind), "none windkessel closed_loop",
                 "three elements with a venous source, or the closed loop of Regazzoni et al. "
                 "(J. Comput. Phys. 457:111083, 2022); run by itself, with an elastance for the "
-                "left ventricle"),
+                "left ventricle, and with protocol.kind = \"cycle\" joined to the wall"),
      }},
-    {Stages(Stage::circulation),
+    {joined,
      {&circuit},
      {
          number("circulation.period", LV_AT(circulation.period), "s", between(0.2, 3.0),
                 "length of a beat, RR"),
+     }},
+    {Stages(Stage::circulation),
+     {&circuit},
+     {
          number("circulation.step", LV_AT(circulation.step), "s", above_up_to(0.0, 0.02),
                 "of time"),
          number("circulation.beats", LV_AT(circulation.beats), "", between(1, 10000),
@@ -1093,6 +1120,10 @@ constexpr Group of_circulation[]{
          number("circulation.tolerance", LV_AT(circulation.tolerance), "", not_negative,
                 "beats end when the last has changed no state by more than this part of itself; 0: "
                 "never"),
+     }},
+    {joined,
+     {&circuit},
+     {
          choice(
              "circulation.valves.law", LV_AT(circulation.valves.law), "quadratic arctangent",
              "a parabola between closed and open, which is monotone and smooth, or the published "
@@ -1100,7 +1131,7 @@ constexpr Group of_circulation[]{
          number("circulation.valves.closed_resistance", LV_AT(circulation.valves.closed_resistance),
                 "mmHg s/ml", of_resistance, "of a closed valve"),
      }},
-    {Stages(Stage::circulation),
+    {joined,
      {&circuit, &quadratic_valves},
      {
          number("circulation.valves.smoothing", LV_AT(circulation.valves.smoothing), "mmHg",
@@ -1118,16 +1149,25 @@ constexpr Group of_circulation[]{
                 above_up_to(0.0, 3.0), "duration of contraction"),
          number("circulation.left_ventricle.T_R", LV_AT(circulation.left_ventricle.T_R), "s",
                 above_up_to(0.0, 3.0), "duration of relaxation"),
-         number("circulation.left_ventricle.t_C", LV_AT(circulation.left_ventricle.t_C), "s",
-                between(0.0, 3.0), "when contraction begins"),
          number("circulation.left_ventricle.V_0", LV_AT(circulation.left_ventricle.V_0), "ml",
                 between(0.0, 1000.0), "volume without pressure"),
          number("circulation.start.V_lv", LV_AT(circulation.start.V_lv), "ml", between(0.0, 2000.0),
-                "left ventricular volume"),
+                "left ventricular volume; a wall's is that of its filling"),
+     }},
+    {joined,
+     {&circuit},
+     {
          number("circulation.start.p_ar_sys", LV_AT(circulation.start.p_ar_sys), "mmHg",
                 between(0.0, 500.0), "pressure of the arterial compliance"),
      }},
-    {Stages(Stage::circulation),
+    {joined,
+     {&onset_counts},
+     {
+         number("circulation.left_ventricle.t_C", LV_AT(circulation.left_ventricle.t_C), "s",
+                between(0.0, 3.0),
+                "when contraction begins; of a wall in a closed loop, when calcium rises"),
+     }},
+    {joined,
      {&windkessel},
      {
          number("circulation.windkessel.R_mv", LV_AT(circulation.windkessel.R_mv), "mmHg s/ml",
@@ -1143,7 +1183,7 @@ constexpr Group of_circulation[]{
          number("circulation.windkessel.p_ven", LV_AT(circulation.windkessel.p_ven), "mmHg",
                 between(0.0, 100.0), "pressure of the venous source"),
      }},
-    {Stages(Stage::circulation),
+    {joined,
      {&closed_loop},
      {
          number("circulation.closed_loop.valve_resistance",
@@ -1314,7 +1354,10 @@ const std::vector<Section>& sections() {
        "Fitting of passive and active parameters to measured volumes and strains, with the "
        "quasi-static engine"},
       {"strain", "Strain measured from cine images, and what the model's is compared with"},
-      {"circulation", "The circulation by itself (`ventricle circulation`)"},
+      {"circulation",
+       "The circulation, by itself (`ventricle circulation`) or joined to the wall (protocol.kind "
+       "= "
+       "\"cycle\")"},
       {"circulation.valves", "What all valves have in common"},
       {"circulation.left_ventricle",
        "The elastance that stands for the left ventricle; contraction follows half a cosine, and "
@@ -1330,6 +1373,7 @@ const std::vector<Section>& sections() {
       {"circulation.closed_loop.right_atrium", "An elastance"},
       {"circulation.closed_loop.right_ventricle", "An elastance"},
       {"protocol", "Pressures, timings and the ends of the phases"},
+      {"cycle", "Heartbeats of the wall joined to the circulation (protocol.kind = \"cycle\")"},
       {"time", "Time steps"},
       {"output", "What is kept, and how often"}};
   return all;

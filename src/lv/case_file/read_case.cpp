@@ -126,6 +126,7 @@ class CaseReader {
     check_land2017();
     check_calibration();
     check_circulation();
+    check_cycle();
     const StrainStudy& study = case_.strain;
     rule(study.measured.empty() || !study.measured_column.empty(), "strain.measured",
          "needs strain.measured_column, the name of the column that holds end-systole");
@@ -220,6 +221,37 @@ class CaseReader {
     fits(p.closed_loop.left_atrium, "closed_loop.left_atrium");
     fits(p.closed_loop.right_atrium, "closed_loop.right_atrium");
     fits(p.closed_loop.right_ventricle, "closed_loop.right_ventricle");
+  }
+
+  void check_cycle() {
+    const heartbeat::Protocol& p = case_.protocol;
+    if (p.kind != heartbeat::ProtocolKind::cycle)
+      return;
+    rule(case_.circulation.asked(), "protocol.kind",
+         "is \"cycle\", which needs a circulation: set circulation.kind to \"windkessel\" or "
+         "\"closed_loop\"");
+    rule(case_.engine == Engine::quasi_static, "protocol.kind",
+         "is \"cycle\", which is not there yet for engine = \"immersed\": set engine = "
+         "\"quasi_static\"");
+    rule(case_.active_law == ActiveLaw::land2017 || case_.active_law == ActiveLaw::niederer,
+         "active.law",
+         "prescribes a tension, which knows no time: a cycle takes \"land2017\" (or \"niederer\")");
+    rule(p.cycle.step <= 0.05 * case_.circulation.period, "cycle.step",
+         "must be at most a twentieth of circulation.period");
+    rule(case_.circulation.kind != circulation::Kind::closed_loop ||
+             case_.circulation.left_ventricle.t_C < case_.circulation.period,
+         "circulation.left_ventricle.t_C", "must lie within a beat (circulation.period)");
+    material::Calcium calcium = p.calcium;
+    calcium.mode = material::Calcium::Mode::transient;
+    constexpr double most = 0.25;  // of its rise, when the next beat begins it anew
+    const double period = case_.circulation.period;
+    const double left = (calcium.at(period) - calcium.Ca_0) / (calcium.Ca_max - calcium.Ca_0);
+    rule(period > calcium.peak_time() && left <= most, "circulation.period",
+         fmt::format(
+             "is shorter than the calcium of a beat: after {:g} s it still stands at {:.0f}% "
+             "of its rise (at most {:.0f}%); make the beat longer, or calcium.tau or t_2 "
+             "shorter",
+             period, 100.0 * left, 100.0 * most));
   }
 
   /// A rule of a parameter that does not count says nothing.

@@ -32,7 +32,7 @@ Crossing crossing(Beat beat, Value value, bool upwards, std::size_t from = 0) {
   for (std::size_t i = from; i + 1 < beat.size(); ++i) {
     const double a = beat[i].signals.*value;
     const double b = beat[i + 1].signals.*value;
-    if ((a > 0.0) != (b > 0.0) && (b > 0.0) == upwards)
+    if (upwards ? a <= 0.0 && b > 0.0 : a >= 0.0 && b < 0.0)
       return {i, a / (a - b), true};
   }
   return {};

@@ -25,6 +25,7 @@ class Alone {
 
   Cycle run() {
     cycle_.columns = Circuit::columns();
+    cycle_.period = p_.period;
     observe();
     while (static_cast<int>(cycle_.beats.size()) < p_.beats && !cycle_.is_limit) {
       interrupt::check();

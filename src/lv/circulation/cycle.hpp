@@ -13,8 +13,11 @@ struct Cycle {
   std::vector<Sample> samples;  ///< of every step, the start included
   std::vector<BeatMeasures> beats;
   std::vector<Column> columns;  ///< of Signals::others
+  double period = 0.0;          ///< of a beat [s]
   bool is_limit = false;        ///< the last beat changed no state by more than the tolerance
   double change = 0.0;          ///< largest relative change of a state over the last beat
+  bool cut_short = false;       ///< the beat after the last found no solution
+  double volume_gap = 0.0;      ///< largest |V/V_lv - 1| of a wall's cavity V that is joined to it
   double blood_lost = 0.0;      ///< |blood at the end/blood at the start - 1| of a closed loop
 };
 

@@ -17,6 +17,7 @@
 #include <iterator>
 #include <limits>
 #include <system_error>
+#include <utility>
 
 namespace lv::heartbeat {
 namespace {
@@ -123,6 +124,28 @@ int Archive::whole_number(double stored, Range range) const {
 
 void Archive::set(const std::string& name, std::vector<double> values) {
   arrays_[name] = std::move(values);
+}
+
+/// Each word is ended by a zero.
+void Archive::set_words(const std::string& name, const std::vector<std::string>& words) {
+  std::vector<double> numbers;
+  for (const std::string& word : words) {
+    numbers.insert(numbers.end(), word.begin(), word.end());
+    numbers.push_back(0.0);
+  }
+  set(name, std::move(numbers));
+}
+
+std::vector<std::string> Archive::get_words(const std::string& name) const {
+  std::vector<std::string> words;
+  std::string word;
+  for (const int letter : get_whole(name, {}, {0.0, 127.0})) {
+    if (letter != 0)
+      word += static_cast<char>(letter);
+    else
+      words.push_back(std::exchange(word, {}));
+  }
+  return words;
 }
 
 void Archive::add(const std::string& part, Archive other) {

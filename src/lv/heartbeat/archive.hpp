@@ -36,6 +36,10 @@ class Archive {
   void add(const std::string& part, Archive other);
   [[nodiscard]] Archive take(const std::string& part);
 
+  /// Words of ASCII, as the numbers of their letters.
+  void set_words(const std::string& name, const std::vector<std::string>& words);
+  [[nodiscard]] std::vector<std::string> get_words(const std::string& name) const;
+
   /// Whatever the array holds. Throws RunError naming the array when it is absent.
   [[nodiscard]] const std::vector<double>& get(const std::string& name) const;
   [[nodiscard]] double number(const std::string& name) const;

@@ -1,8 +1,11 @@
 #pragma once
 
 #include "lv/base/tensor.hpp"
+#include "lv/circulation/cycle.hpp"
 #include "lv/solid/cell_stress.hpp"
 
+#include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +40,9 @@ struct Snapshot {
 /// The names of the moments that every beat has.
 inline constexpr const char* end_diastole = "end_diastole";
 inline constexpr const char* end_systole = "end_systole";
+/// And those that beats of a circulation have besides.
+inline constexpr const char* aortic_opening = "aortic_opening";
+inline constexpr const char* mitral_opening = "mitral_opening";
 
 /// A moment's name for readers: "end-diastole".
 [[nodiscard]] std::string title(const std::string& moment);
@@ -49,10 +55,25 @@ struct NamedMoment {
   Snapshot wall{};
 };
 
+/// Work on the wall over a heartbeat, without inertia and viscosity: what the cavity's pressure and
+/// the muscle do is stored.
+struct EnergyBalance {
+  double pressure = 0.0;  ///< int p dV, negative of the stroke work [mN mm]
+  double muscle = 0.0;    ///< -int int P_active : dF dX [mN mm]
+  double stored = 0.0;    ///< change of int W dX [mN mm]
+
+  /// What is missing, as a part of what the muscle does.
+  [[nodiscard]] double error() const { return std::abs((pressure + muscle - stored) / muscle); }
+};
+
 /// What a beat comes to, whichever engine ran it.
 struct Beat {
   std::vector<CurveRow> curves;
   std::vector<NamedMoment> moments;  ///< in their order
+  /// All heartbeats of a wall joined to a circulation, of which `curves` and `moments` are the
+  /// last.
+  std::optional<circulation::Cycle> cycle;
+  EnergyBalance energy;  ///< of the last heartbeat of a circulation
   int steps = 0;
   int retries = 0;          ///< steps taken back and repeated smaller
   double wall_clock = 0.0;  ///< of the computation, interruptions left out [s]

@@ -5,10 +5,22 @@
 
 namespace lv::heartbeat {
 
+/// What a run takes the ventricle through: the paper's filling and contraction, or heartbeats of a
+/// circulation.
+enum class ProtocolKind { paper, cycle };
+
+/// Heartbeats of a wall joined to a circulation.
+struct CycleParameters {
+  int beats = 10;           ///< at most
+  double tolerance = 1e-3;  ///< of the limit cycle: largest relative change from beat to beat
+  double step = 2e-3;       ///< of time, at most [s]
+};
+
 /// Pressures, calcium and the ends of the phases (section 2.4): the endocardial pressure rises from
 /// zero to its end-diastolic value and stays until filling ends; then it rises to its end-systolic
 /// value while calcium rises to its peak, until the ventricle is steady.
 struct Protocol {
+  ProtocolKind kind = ProtocolKind::paper;
   double ed_pressure = 8.0 * units::mmHg;    ///< [kPa]
   double es_pressure = 150.0 * units::mmHg;  ///< [kPa]
   double filling_ramp = 0.3;                 ///< duration of the rise to ed_pressure [s]
@@ -27,6 +39,8 @@ struct Protocol {
   double contraction_window = 0.3;   ///< [s]
   double contraction_longest = 1.5;  ///< [s]
   double contraction_drag = 0.0;     ///< [1/s]
+
+  CycleParameters cycle;
 };
 
 /// How often a case may ask for the step to be halved.

@@ -3,32 +3,9 @@
 #include <fmt/format.h>
 
 #include <cstring>
-#include <utility>
 
 namespace lv::heartbeat {
 namespace {
-
-/// Words as the numbers of their letters, each word ended by a zero, and back.
-std::vector<double> as_numbers(const std::vector<std::string>& words) {
-  std::vector<double> numbers;
-  for (const std::string& word : words) {
-    numbers.insert(numbers.end(), word.begin(), word.end());
-    numbers.push_back(0.0);
-  }
-  return numbers;
-}
-
-std::vector<std::string> words_of(const Archive& archive, const std::string& name) {
-  std::vector<std::string> words;
-  std::string word;
-  for (const int letter : archive.get_whole(name, {}, {0.0, 127.0})) {
-    if (letter != 0)
-      word += static_cast<char>(letter);
-    else
-      words.push_back(std::exchange(word, {}));
-  }
-  return words;
-}
 
 /// A number of an archive that counts things from zero of which there are so many.
 std::size_t index_of(const Archive& archive, double number, std::size_t count) {
@@ -80,14 +57,14 @@ void store(const std::vector<NamedMoment>& moments, Archive& archive) {
     by_criterion.push_back(m.by_criterion ? 1.0 : 0.0);
     store(m.wall, m.name, archive);
   }
-  archive.set("moments.names", as_numbers(names));
-  archive.set("moments.phases", as_numbers(phases));
+  archive.set_words("moments.names", names);
+  archive.set_words("moments.phases", phases);
   archive.set("moments.by_criterion", std::move(by_criterion));
 }
 
 std::vector<NamedMoment> load_moments(const Archive& archive, std::optional<std::size_t> nodes) {
-  const auto names = words_of(archive, "moments.names");
-  const auto phases = words_of(archive, "moments.phases");
+  const auto names = archive.get_words("moments.names");
+  const auto phases = archive.get_words("moments.phases");
   const auto by_criterion = archive.get_whole("moments.by_criterion", names.size(), {0.0, 1.0});
   if (phases.size() != names.size())
     archive.refuse("it has more moments than phases, or fewer");
@@ -110,13 +87,13 @@ void store(const std::vector<CurveRow>& curves, Archive& archive) {
       numbers.push_back(value);
   }
   archive.set("curves", std::move(numbers));
-  archive.set("curves.phases", as_numbers(phases));
+  archive.set_words("curves.phases", phases);
 }
 
 std::vector<CurveRow> load_curves(const Archive& archive) {
   constexpr std::size_t width = 11;
   const auto& numbers = archive.get_rows("curves", width, {}, {.missing = true});
-  const auto phases = words_of(archive, "curves.phases");
+  const auto phases = archive.get_words("curves.phases");
   std::vector<CurveRow> curves(numbers.size() / width);
   for (std::size_t i = 0; i < curves.size(); ++i) {
     const double* n = numbers.data() + width * i;

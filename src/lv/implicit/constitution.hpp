@@ -30,6 +30,12 @@ struct Constitution {
     return with_law([&](const auto& law) { return law.stress(F, J, T, M); });
   }
 
+  /// The first column of the active stress, the only one that is not zero.
+  [[nodiscard]] Vec3 active(const Mat3& F, double M) const {
+    const double T = tension(F, M).value;
+    return with_law([&](const auto& law) -> Vec3 { return law.active(F, determinant(F), T); });
+  }
+
   [[nodiscard]] material::Tangent<double> tangent(const Mat3& F, double M) const {
     const Tension T = tension(F, M);
     return with_law([&](const auto& law) { return law.tangent(F, T.value, T.derivative, M); });

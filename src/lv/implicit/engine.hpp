@@ -53,6 +53,9 @@ class Engine {
   /// present one if it finds none. The loads are then its pressure alone.
   NewtonReport find(State guess, const Equilibrium& equilibrium);
 
+  /// Forgets what was learned of the tangent on the way here, up to the order of its unknowns.
+  void begin_anew() { newton_.begin_anew(); }
+
   /// Back to the undeformed wall without loads.
   void relax();
 

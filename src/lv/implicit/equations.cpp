@@ -372,4 +372,39 @@ double Equations::mean_tension(const State& state, const TensionAt& tension) con
   return sums[0] / sums[1];
 }
 
+double Equations::stored_energy(const State& state) const {
+  double energy = 0.0;
+  for (std::size_t i = 0; i < wall_.points.size(); ++i) {
+    const ElementState s = element_state(wall_, wall_.own[i], state);
+    for (const Point& point : wall_.points[i]) {
+      const Mat3 F = s.x * point.gradient.transpose();
+      energy +=
+          point.volume * material::with_point_law(
+                             model_.heart.myocardium, model_.stabilisation, [&](const auto& law) {
+                               return model_.heart.myocardium.infarct.passive(point.infarct) *
+                                          law.law.energy(F) +
+                                      law.volumetric.energy(F);
+                             });
+    }
+  }
+  return parallel::sum(energy);
+}
+
+double Equations::muscle_work(const Working& from, const Working& to) const {
+  double work = 0.0;
+  for (std::size_t i = 0; i < wall_.points.size(); ++i) {
+    const ElementState a = element_state(wall_, wall_.own[i], from.state);
+    const ElementState b = element_state(wall_, wall_.own[i], to.state);
+    for (std::size_t q = 0; q < wall_.points[i].size(); ++q) {
+      const Point& point = wall_.points[i][q];
+      const Mat3 F_a = a.x * point.gradient.transpose();
+      const Mat3 F_b = b.x * point.gradient.transpose();
+      const Vec3 stress = Constitution{model_, from.tension, i, q}.active(F_a, point.infarct) +
+                          Constitution{model_, to.tension, i, q}.active(F_b, point.infarct);
+      work -= 0.5 * point.volume * stress.dot(F_b.col(0) - F_a.col(0));
+    }
+  }
+  return parallel::sum(work);
+}
+
 }  // namespace lv::implicit

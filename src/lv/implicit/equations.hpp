@@ -136,6 +136,8 @@ class Equations {
 
   /// This rank's elements, and the quadrature points of each.
   [[nodiscard]] std::size_t own_elements() const { return wall_.points.size(); }
+  [[nodiscard]] std::span<const int> own() const { return wall_.own; }
+  [[nodiscard]] std::size_t elements() const { return wall_.owners.size(); }  ///< of all ranks
   [[nodiscard]] std::size_t points_per_element() const {
     return static_cast<std::size_t>(wall_.pressure_shapes.value.rows());
   }
@@ -145,6 +147,17 @@ class Equations {
 
   /// Volume-weighted mean over the wall of T with the infarct's factor [kPa].
   [[nodiscard]] double mean_tension(const State& state, const TensionAt& tension) const;
+
+  /// int W dX of the passive law and the stabilisation [mN mm].
+  [[nodiscard]] double stored_energy(const State& state) const;
+
+  /// What muscle does while the wall goes from one state to another, -int P_active : dF dX, by the
+  /// mean of both stresses; positive where it shortens under tension [mN mm].
+  struct Working {
+    const State& state;
+    const TensionAt& tension;
+  };
+  [[nodiscard]] double muscle_work(const Working& from, const Working& to) const;
 
   /// Stress in every linear cell of the mesh, complete on every rank: means over the cell of what
   /// the elements' own displacement and pressure give, with the tension of the nearest quadrature

@@ -67,6 +67,12 @@ class Newton {
   /// The muscle has changed: the tangent is of no use any more.
   void forget_tangent() { has_tangent_ = false; }
 
+  /// The same, and what the linear solver chose for earlier tangents.
+  void begin_anew() {
+    has_tangent_ = false;
+    tangent_.forget_factors();
+  }
+
  private:
   class Attempt;
 

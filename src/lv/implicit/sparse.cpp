@@ -115,6 +115,11 @@ class SparseMatrix::Implementation {
     return count;
   }
 
+  void begin_anew() {
+    if (!blocks_)
+      forget_factors();
+  }
+
   Outcome<std::vector<double>> solve(std::span<const double> b) {
     std::vector<double> numbered(b.size());
     for (std::size_t u = 0; u < b.size(); ++u)
@@ -205,6 +210,10 @@ void SparseMatrix::add_pressure_mass(std::span<const int> pressures, const Eigen
 
 void SparseMatrix::finish() {
   implementation_->finish();
+}
+
+void SparseMatrix::forget_factors() {
+  implementation_->begin_anew();
 }
 
 int SparseMatrix::iterations() const {

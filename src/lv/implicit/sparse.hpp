@@ -51,6 +51,10 @@ class SparseMatrix {
   /// out. Collective.
   Outcome<std::vector<double>> solve(std::span<const double> b);
 
+  /// Forgets the factorisation and the order of unknowns, which the direct method chose by the
+  /// first matrix that it was given: the next one is solved as in a new program. Collective.
+  void forget_factors();
+
   /// Of the iterative method, in the last solve; 0 of the direct one.
   [[nodiscard]] int iterations() const;
 

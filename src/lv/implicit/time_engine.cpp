@@ -1,6 +1,9 @@
 #include "lv/implicit/time_engine.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/parallel.hpp"
+
+#include <algorithm>
 
 namespace lv::implicit {
 
@@ -128,6 +131,60 @@ State TimeEngine::predicted(const State& now, double dt) const {
     guess.positions[a] = now.positions[a] + balance() * step;
   }
   return guess;
+}
+
+TensionAt TimeEngine::tension_of(const Muscle& muscle) const {
+  return [this, &muscle](std::size_t element, std::size_t point, double) {
+    return muscle.now(point_number(element, point));
+  };
+}
+
+std::vector<solid::CellStress> TimeEngine::cell_stress(const Passed& at) const {
+  return engine_.equations().cell_stress(at.state, tension_of(at.muscle));
+}
+
+double TimeEngine::mean_tension() const {
+  return engine_.equations().mean_tension(engine_.state(), tension_of(muscle_));
+}
+
+double TimeEngine::muscle_work_since(const Passed& before) const {
+  const TensionAt then = tension_of(before.muscle);
+  const TensionAt now = tension_of(muscle_);
+  return engine_.equations().muscle_work({before.state, then}, {engine_.state(), now});
+}
+
+std::size_t TimeEngine::muscle_numbers() const {
+  return muscle_.numbers_per_point() * engine_.equations().points_per_element() *
+         engine_.equations().elements();
+}
+
+TimeEngine::Moment TimeEngine::moment() {
+  LV_CHECK(!has_rates_);  // which a moment does not hold
+  const std::span<const int> own = engine_.equations().own();
+  const std::size_t width = muscle_.numbers_per_point() * engine_.equations().points_per_element();
+  const std::vector<double> mine = muscle_.numbers();
+  Moment moment{engine_.state(), before_, dt_before_, std::vector<double>(muscle_numbers(), 0.0)};
+  for (std::size_t i = 0; i < own.size(); ++i)
+    std::copy_n(mine.begin() + static_cast<std::ptrdiff_t>(i * width), width,
+                moment.muscle.begin() + static_cast<std::ptrdiff_t>(own[i] * width));
+  parallel::sum(moment.muscle);
+  engine_.begin_anew();
+  return moment;
+}
+
+void TimeEngine::restore(const Moment& moment) {
+  const std::span<const int> own = engine_.equations().own();
+  const std::size_t width = muscle_.numbers_per_point() * engine_.equations().points_per_element();
+  std::vector<double> mine;
+  for (const int e : own) {
+    const auto from = moment.muscle.begin() + static_cast<std::ptrdiff_t>(e * width);
+    mine.insert(mine.end(), from, from + static_cast<std::ptrdiff_t>(width));
+  }
+  muscle_.set_numbers(mine);
+  engine_.restore(moment.now, {moment.now.cavity_pressure});
+  engine_.begin_anew();
+  before_ = moment.before;
+  dt_before_ = moment.dt_before;
 }
 
 }  // namespace lv::implicit

@@ -318,7 +318,9 @@ bool is_quadratic(const fs::path& work) {
 void add_mesh_facts(Json& json, const fs::path& work) {
   if (const auto angle = septum_degrees(work))
     json["septum_deg"] = *angle;
-  if (const auto engine = report::recorded(work, "mesh", "engine"))
+  // equilibria have shares of loads where heartbeats have times
+  const bool has_time = report::recorded(work, "beat", "protocol.kind") == "cycle";
+  if (const auto engine = report::recorded(work, "mesh", "engine"); engine && !has_time)
     json["engine"] = *engine;
 }
 

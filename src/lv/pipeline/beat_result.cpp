@@ -1,6 +1,7 @@
 #include "lv/pipeline/beat_result.hpp"
 
 #include "lv/base/parallel.hpp"
+#include "lv/heartbeat/cycle.hpp"
 #include "lv/heartbeat/run_state.hpp"
 
 #include <fmt/format.h>
@@ -38,6 +39,10 @@ void write_beat(const heartbeat::Beat& beat, const std::filesystem::path& folder
   heartbeat::store(beat.moments, archive);
   archive.set("facts", {static_cast<double>(beat.steps), static_cast<double>(beat.retries),
                         beat.wall_clock, static_cast<double>(parallel::size())});
+  if (beat.cycle) {
+    heartbeat::store(*beat.cycle, archive);
+    heartbeat::store(beat.energy, archive);
+  }
   archive.write(folder / beat_name);
 }
 
@@ -47,6 +52,10 @@ BeatResult read_beat(const std::filesystem::path& folder, const mesh::Mesh& mesh
   BeatResult result;
   result.beat.curves = heartbeat::load_curves(archive);
   result.beat.moments = load_whole_moments(archive, mesh);
+  if (archive.has("cycle.facts")) {
+    result.beat.cycle = heartbeat::load_cycle(archive);
+    result.beat.energy = heartbeat::load_energy(archive);
+  }
   result.beat.steps = archive.whole_number(facts[0]);
   result.beat.retries = archive.whole_number(facts[1]);
   result.beat.wall_clock = facts[2];

@@ -2,28 +2,78 @@
 
 #include "lv/base/log.hpp"
 #include "lv/circulation/cycle.hpp"
+#include "lv/heartbeat/cycle.hpp"
 #include "lv/report/cycle_tables.hpp"
 
 #include <fmt/format.h>
 
 namespace lv::pipeline {
 
-void make_circulation(const case_file::Case& c, const std::filesystem::path& folder) {
+using case_file::Case;
+
+void make_circulation(const Case& c, const std::filesystem::path& folder) {
   const circulation::Cycle cycle = circulation::run_alone(c.circulation);
-  const std::string end = fmt::format(
-      "{} after {} beats of {:.3g} s: the last changed the states by {:.2g} of themselves at most",
-      cycle.is_limit ? "limit cycle" : "no limit cycle", cycle.beats.size(), c.circulation.period,
-      cycle.change);
+  const std::string end = cycle_end(cycle);
   if (!cycle.is_limit)
     log::warn("circulation: {}", end);
-  const Table table = report::cycle_table(cycle.samples, cycle.columns, c.circulation.period);
-  table.write_csv(folder / "cycle.csv");
-  report::beats_table(cycle.beats).write_csv(folder / "beats.csv");
-  drawing::write(report::pressure_volume_figure(table), folder / "pressure_volume.svg");
-  drawing::write(report::wiggers_figure(table), folder / "wiggers.svg");
+  write_cycle_tables(cycle, folder);
+  write_cycle(cycle, folder);
   write_file(folder / "circulation.txt",
              fmt::format("circulation with an elastance for the left ventricle\n{}\n\n{}", end,
                          report::beat_text(cycle.beats.back())));
+}
+
+heartbeat::Beat make_cycle(const Case& c, const mesh::Mesh& mesh,
+                           const std::filesystem::path& folder,
+                           const heartbeat::Observers& observers) {
+  if (const std::string slow = slow_relaxation(c); !slow.empty())
+    log::warn("{}", slow);
+  return heartbeat::run_cycle(
+      {mesh, case_file::static_model(c), c.quasi_static.solver, c.protocol.calcium, c.circulation,
+       c.protocol.cycle, c.output.frame_interval},
+      folder, observers);
+}
+
+void write_cycle_tables(const circulation::Cycle& cycle, const std::filesystem::path& folder) {
+  report::cycle_table(cycle.samples, cycle.columns, cycle.period).write_csv(folder / "cycle.csv");
+  report::beats_table(cycle.beats).write_csv(folder / "beats.csv");
+}
+
+void write_cycle(const circulation::Cycle& cycle, const std::filesystem::path& folder) {
+  const Table table = report::cycle_table(cycle.samples, cycle.columns, cycle.period);
+  drawing::write(report::pressure_volume_figure(table), folder / "pressure_volume.svg");
+  drawing::write(report::wiggers_figure(table), folder / "wiggers.svg");
+}
+
+std::string cycle_end(const circulation::Cycle& cycle) {
+  return fmt::format(
+      "{} after {} beat{} of {:.3g} s: the last changed the states by {:.2g} of themselves at most",
+      cycle.is_limit ? "limit cycle" : "no limit cycle", cycle.beats.size(),
+      cycle.beats.size() == 1 ? "" : "s", cycle.period, cycle.change);
+}
+
+std::vector<std::string> cycle_warnings(const Case& c, const circulation::Cycle& cycle) {
+  std::vector<std::string> warnings;
+  if (cycle.cut_short)
+    warnings.push_back(
+        fmt::format("the heartbeats end after {} of them: in the next one no equilibrium of wall "
+                    "and circulation was found",
+                    cycle.beats.size()));
+  if (!cycle.is_limit)
+    warnings.push_back(cycle_end(cycle));
+  if (std::string slow = slow_relaxation(c); !slow.empty())
+    warnings.push_back(std::move(slow));
+  return warnings;
+}
+
+std::string slow_relaxation(const Case& c) {
+  if (c.protocol.kind != heartbeat::ProtocolKind::cycle ||
+      c.active_law != case_file::ActiveLaw::niederer)
+    return "";
+  return "active.law = \"niederer\" has the rates of a rat at room temperature: its relaxation "
+         "does "
+         "not end within a human beat, so the mitral valve opens late or not at all; "
+         "active.law = \"land2017\" is human";
 }
 
 }  // namespace lv::pipeline

@@ -1,8 +1,11 @@
 #pragma once
 
 #include "lv/case_file/case.hpp"
+#include "lv/heartbeat/observers.hpp"
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 namespace lv::pipeline {
 
@@ -13,5 +16,24 @@ namespace lv::pipeline {
 ///   pressure_volume.svg, wiggers.svg
 ///   circulation.txt      the last beat, in words
 void make_circulation(const case_file::Case& c, const std::filesystem::path& folder);
+
+/// Runs heartbeats of the case's wall joined to its circulation in `folder`; collective.
+[[nodiscard]] heartbeat::Beat make_cycle(const case_file::Case& c, const mesh::Mesh& mesh,
+                                         const std::filesystem::path& folder,
+                                         const heartbeat::Observers& observers);
+
+/// cycle.csv and beats.csv of heartbeats, and their figures pressure_volume.svg and wiggers.svg.
+void write_cycle_tables(const circulation::Cycle& cycle, const std::filesystem::path& folder);
+void write_cycle(const circulation::Cycle& cycle, const std::filesystem::path& folder);
+
+/// How the heartbeats of a case ended, in words.
+[[nodiscard]] std::string cycle_end(const circulation::Cycle& cycle);
+
+/// What is to be known of heartbeats before their numbers are taken for a person's.
+[[nodiscard]] std::vector<std::string> cycle_warnings(const case_file::Case& c,
+                                                      const circulation::Cycle& cycle);
+
+/// Of Niederer's law in a cycle; empty of other laws and protocols.
+[[nodiscard]] std::string slow_relaxation(const case_file::Case& c);
 
 }  // namespace lv::pipeline

@@ -15,6 +15,7 @@
 #include "lv/mesh/quality.hpp"
 #include "lv/mesh/refine.hpp"
 #include "lv/pipeline/calibration.hpp"
+#include "lv/pipeline/circulation.hpp"
 #include "lv/report/fields_vtk.hpp"
 #include "lv/report/heart_figures.hpp"
 #include "lv/report/summary.hpp"
@@ -66,11 +67,16 @@ class BeatWriter {
       std::filesystem::create_directories(folder_ / "fields");
   }
 
+  /// The first frame of a beat takes the place of those of the beat before it.
   void frame(const heartbeat::Frame& f) {
+    if (f.number == 0 && parallel::is_root())
+      clear();
     const auto cells = analysis_.fields(f.wall);
     const auto* ed = f.run.beat.find(heartbeat::end_diastole);
-    if (ed != nullptr && !end_diastole_)
+    if (ed != nullptr && (!end_diastole_ || end_diastole_time_ != ed->wall.time)) {
       end_diastole_ = analysis_.fields(ed->wall);
+      end_diastole_time_ = ed->wall.time;
+    }
     if (parallel::is_root())
       report::write_wall(folder_ / wall_file(f.number), mesh_.mesh, mesh_.regions, f.wall, cells,
                          end_diastole_.value_or(std::vector<analysis::CellFields>{}));
@@ -86,11 +92,18 @@ class BeatWriter {
   void curves(const heartbeat::RunState& run) const {
     if (!parallel::is_root())
       return;
+    if (run.beat.cycle)
+      write_cycle_tables(*run.beat.cycle, folder_);
     report::curves_table(run.beat.curves).write_csv(folder_ / "curves.csv");
     report::moments_table(run.beat.moments).write_csv(folder_ / "moments.csv");
   }
 
  private:
+  void clear() const {
+    for (const auto& entry : std::filesystem::directory_iterator(folder_ / "fields"))
+      std::filesystem::remove(entry.path());
+  }
+
   static std::string wall_file(int number) { return fmt::format("fields/wall_{:04d}.vtu", number); }
   static std::string blood_file(int number) {
     return fmt::format("fields/blood_{:04d}.vti", number);
@@ -113,6 +126,7 @@ class BeatWriter {
   std::filesystem::path folder_;
   analysis::FieldAnalysis analysis_;
   std::optional<std::vector<analysis::CellFields>> end_diastole_;  ///< once it is reached
+  double end_diastole_time_ = 0.0;                                 ///< of it [s]
 };
 
 /// Whether the program knows that a parameter's value was measured: borders, images and volumes
@@ -155,13 +169,17 @@ report::RunFacts run_facts(const Case& c, const anatomy::MeshResult& mesh, const
     facts.mesh_width = case_file::model_parameters(c, mesh.mesh).grid.spacing.minCoeff();
   }
   facts.wall_clock = beat.beat.wall_clock;
+  if (beat.beat.cycle) {
+    facts.warnings = cycle_warnings(c, *beat.beat.cycle);
+    facts.pressure = report::Mark::computed;
+  }
   for (const case_file::Parameter& p : case_file::parameters())
     facts.parameters.emplace_back(p.name, p.shown(c));
   for (const auto& [name, place] : c.origin)
     facts.origins.emplace_back(name, std::filesystem::path(place).filename().string());
   add_marks(c, facts);
   for (const heartbeat::NamedMoment& m : beat.beat.moments)
-    if (!m.by_criterion)
+    if (!m.by_criterion && !beat.beat.cycle)
       facts.warnings.push_back(
           fmt::format("{0} ended at protocol.{0}_longest before its criterion was met", m.phase));
   if (beat.beat.retries > 0)
@@ -219,15 +237,17 @@ void check_spacing(const Case& c, const mesh::Mesh& m) {
 void draw(const Case& c, const mesh::Mesh& mesh, const heartbeat::Beat& beat,
           const analysis::BeatFields& fields, const drawing::Orientation& orientation,
           const std::filesystem::path& folder) {
-  const report::CurveFacts facts{c.engine == case_file::Engine::quasi_static,
+  const report::CurveFacts facts{c.engine == case_file::Engine::quasi_static && !beat.cycle,
                                  beat.at(heartbeat::end_diastole).time,
-                                 beat.at(heartbeat::end_systole).time};
+                                 beat.at(heartbeat::end_systole).time, beat.cycle.has_value()};
   interrupt::check();
   drawing::write(report::states_figure(mesh, beat, fields, orientation), folder / "states.png");
   interrupt::check();
   drawing::write(report::stress_figure(mesh, beat, fields, orientation), folder / "stress.png");
   drawing::write(report::curves_figure(report::curves_table(beat.curves), facts),
                  folder / "curves.png");
+  if (beat.cycle)
+    write_cycle(*beat.cycle, folder);
 }
 
 /// What the anatomy's stage left beside the folder of another stage.
@@ -347,11 +367,14 @@ void show_mesh(const anatomy::MeshResult& result, const Case& c,
 
 heartbeat::Beat make_beat(const Case& c, const anatomy::MeshResult& mesh,
                           const std::filesystem::path& folder) {
-  if (c.engine == case_file::Engine::quasi_static && parallel::is_root())
+  const bool is_cycle = c.protocol.kind == heartbeat::ProtocolKind::cycle;
+  if (c.engine == case_file::Engine::quasi_static && !is_cycle && parallel::is_root())
     std::filesystem::remove_all(folder / "fields");  // of a beat that was stopped: it starts anew
   BeatWriter writer(c, mesh, folder);
   const heartbeat::Observers observers{[&](const heartbeat::Frame& f) { writer.frame(f); },
                                        [&](const heartbeat::RunState& run) { writer.curves(run); }};
+  if (is_cycle)
+    return make_cycle(c, mesh.mesh, folder, observers);
   if (c.engine == case_file::Engine::quasi_static)
     return heartbeat::run_quasi_static_beat(
         {mesh.mesh, case_file::static_model(c), c.quasi_static.solver, c.protocol,

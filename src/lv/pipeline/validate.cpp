@@ -8,6 +8,7 @@
 #include "lv/cine/strain_targets.hpp"
 #include "lv/mesh/quality.hpp"
 #include "lv/pipeline/calibration.hpp"
+#include "lv/pipeline/circulation.hpp"
 #include "lv/pipeline/cost.hpp"
 #include "lv/pipeline/stages.hpp"
 #include "lv/scar/infarct.hpp"
@@ -40,6 +41,8 @@ std::vector<Warning> warnings_of(const Case& c, const anatomy::Shape& shape, dou
     warnings.push_back({"default case", no_parameters});
   for (const std::string& text : c.without_effect)
     warnings.push_back({"no effect", text});
+  if (std::string slow = slow_relaxation(c); !slow.empty())
+    warnings.push_back({"slow relaxation", std::move(slow)});
   for (const geometry::Assumption& a : shape.warnings)
     warnings.push_back({a.part == "septum" ? "septum assumed" : "end-diastolic shape", a.text});
   const double edv = c.calibration.edv;

@@ -163,6 +163,14 @@ Table beats_table(std::span<const BeatMeasures> beats) {
   return table;
 }
 
+std::vector<std::pair<std::string, double>> beat_numbers(const BeatMeasures& beat) {
+  std::vector<std::pair<std::string, double>> numbers;
+  for (const Measure& m : measures)
+    numbers.emplace_back(column_name(m.name, m.unit),
+                         beat.*m.value / units::parse_unit(m.unit).factor);
+  return numbers;
+}
+
 std::string beat_text(const BeatMeasures& beat) {
   std::string text;
   for (const Measure& m : measures) {

@@ -6,6 +6,7 @@
 
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 /// Tables and figures of whole heartbeats.
@@ -17,6 +18,10 @@ namespace lv::report {
 
 /// beats.csv: the measures of every beat.
 [[nodiscard]] Table beats_table(std::span<const circulation::BeatMeasures> beats);
+
+/// The measures of one beat as the columns of beats.csv name them.
+[[nodiscard]] std::vector<std::pair<std::string, double>> beat_numbers(
+    const circulation::BeatMeasures& beat);
 
 /// The measures of one beat with their units, a line each.
 [[nodiscard]] std::string beat_text(const circulation::BeatMeasures& beat);

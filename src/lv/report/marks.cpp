@@ -60,10 +60,10 @@ Marks marks(const RunFacts& facts, const std::vector<std::string>& moments) {
   Marks all{{"early_diastole", facts.unloaded ? Mark::computed : facts.shape},
             {"early_diastole.pressure_mmHg", Mark::assumed}};
   for (const std::string& moment : moments)
-    all.insert(all.end(), {{moment, Mark::computed}, {moment + ".pressure_mmHg", Mark::assumed}});
+    all.insert(all.end(), {{moment, Mark::computed}, {moment + ".pressure_mmHg", facts.pressure}});
   mark_volumes(facts, all);
   for (const char* figure : {"mass_g", "whole_wall", "zones", "fibre_shortening_percent",
-                             "rotation", "plausibility", "calibration.beat_ml"})
+                             "rotation", "plausibility", "calibration.beat_ml", "cycle"})
     all.emplace_back(figure, Mark::computed);
   all.insert(all.end(),
              {{"calibration.measured_ml", Mark::measured},

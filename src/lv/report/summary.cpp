@@ -2,6 +2,7 @@
 
 #include "lv/base/json_file.hpp"
 #include "lv/base/units.hpp"
+#include "lv/report/cycle_tables.hpp"
 #include "lv/report/plausibility.hpp"
 
 #include <fmt/format.h>
@@ -20,6 +21,8 @@ using analysis::VentricleShape;
 using Json = nlohmann::ordered_json;
 using units::degree;
 using units::mmHg;
+
+constexpr double millijoule = 1e-3;  ///< of a mN mm
 
 /// A number rounded to seven digits; null when it is missing.
 Json number(double value) {
@@ -238,6 +241,43 @@ void add_remarks(const RunFacts& facts, const Results& r, const std::vector<Judg
     json["marks"][path] = name(mark);
 }
 
+Json cycle_json(const heartbeat::Beat& beat) {
+  const circulation::Cycle& cycle = *beat.cycle;
+  Json last = Json::object();
+  for (const auto& [name, value] : beat_numbers(cycle.beats.back()))
+    last[name] = number(value);
+  return {{"beats", cycle.beats.size()},
+          {"is_limit_cycle", cycle.is_limit},
+          {"was_cut_short", cycle.cut_short},
+          {"largest_change_of_last_beat", number(cycle.change)},
+          {"last_beat", std::move(last)},
+          {"energy_of_last_beat",
+           {{"work_of_pressure_mJ", number(millijoule * beat.energy.pressure)},
+            {"work_of_muscle_mJ", number(millijoule * beat.energy.muscle)},
+            {"stored_mJ", number(millijoule * beat.energy.stored)},
+            {"missing_percent", number(100.0 * beat.energy.error())}}}};
+}
+
+/// How the phases, or the heartbeats, ended.
+void add_ends(const heartbeat::Beat& beat, Json& json) {
+  if (beat.cycle)
+    json["cycle"] = cycle_json(beat);
+  else
+    for (const heartbeat::NamedMoment& m : beat.moments)
+      json[m.phase + "_was_steady"] = m.by_criterion;
+}
+
+/// The last of several heartbeats.
+std::string cycle_text(const heartbeat::Beat& beat) {
+  const heartbeat::EnergyBalance& e = beat.energy;
+  return fmt::format(
+      "  beat {}\n{}  {:<26} {:.4g} mJ, of the cavity's pressure {:.4g} mJ, stored {:.2g} mJ: "
+      "{:.2g}% "
+      "is missing\n\n",
+      beat.cycle->beats.size(), beat_text(beat.cycle->beats.back()), "work of the muscle",
+      millijoule * e.muscle, millijoule * e.pressure, millijoule * e.stored, 100.0 * e.error());
+}
+
 Json pairs(const std::vector<std::pair<std::string, std::string>>& list) {
   Json json = Json::object();
   for (const auto& [name, value] : list)
@@ -268,8 +308,7 @@ std::string summary_json(const RunFacts& facts, const heartbeat::Beat& beat, con
   json["stroke_volume_ml"] = number(1e-3 * (r.at(heartbeat::end_diastole).cavity_volume -
                                             r.at(heartbeat::end_systole).cavity_volume));
   json["mass_g"] = number(1e3 * facts.muscle_density * r.early_diastole.wall_volume);
-  for (const heartbeat::NamedMoment& m : beat.moments)
-    json[m.phase + "_was_steady"] = m.by_criterion;
+  add_ends(beat, json);
   json["strain"] =
       std::string(
           "Green-Lagrange; at end-systole relative to end-diastole, at end-diastole "
@@ -322,6 +361,8 @@ std::string summary_text(const RunFacts& facts, const heartbeat::Beat& beat, con
   text += fmt::format(
       "\n  ejection fraction {:.1f}%, mass {:.1f} g ({:g} g/ml)\n\n", 100.0 * r.ejection_fraction(),
       1e3 * facts.muscle_density * r.early_diastole.wall_volume, 1e6 * facts.muscle_density);
+  if (beat.cycle)
+    text += cycle_text(beat);
   if (facts.unloaded)
     text += unloaded_text(*facts.unloaded);
   if (!facts.fitted.empty())

@@ -69,6 +69,7 @@ struct RunFacts {
   std::vector<geometry::Assumption> assumed;  ///< about the anatomy
   double muscle_density = 1.05e-6;            ///< [kg/mm^3]
   Mark shape = Mark::assumed;                 ///< of the wall that was seen
+  Mark pressure = Mark::assumed;              ///< in the cavity at the moments of the beat
   bool scar_is_measured = false;
   std::vector<std::string> fitted_parameters, measured_parameters;  ///< names
   std::vector<FittedVolume> fitted;                                 ///< of a calibrated case

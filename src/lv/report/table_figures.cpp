@@ -220,9 +220,10 @@ drawing::LineChart bland_altman(const drawing::Series& points, const strain::Agr
 // ---- files ----
 
 CurveFacts curve_facts(const fs::path& work) {
-  return {recorded(work, "mesh", "engine") == "quasi_static",
+  const bool is_cycle = recorded(work, "beat", "protocol.kind") == "cycle";
+  return {recorded(work, "mesh", "engine") == "quasi_static" && !is_cycle,
           time_of(work, heartbeat::end_diastole).value_or(missing),
-          time_of(work, heartbeat::end_systole).value_or(missing)};
+          time_of(work, heartbeat::end_systole).value_or(missing), is_cycle};
 }
 
 /// Writes the figures of what is there.
@@ -295,11 +296,13 @@ drawing::Figure curves_figure(const Table& curves, const CurveFacts& facts) {
                           .series = {{.x = volume, .y = pressure}}};
   mark(curves, facts.end_diastole, "end-diastole", drawing::Marker::circle, path);
   mark(curves, facts.end_systole, "end-systole", drawing::Marker::square, path);
-  return {.panels = {curve_panel(a, "pressure [mmHg]", pressure),
-                     curve_panel(a, "cavity volume [ml]", volume),
-                     curve_panel(a, "mean active tension [kPa]",
-                                 curves.numbers("mean_active_tension_kPa")),
-                     {.title = "pressure-volume path (no valves)", .content = path}}};
+  return {
+      .panels = {
+          curve_panel(a, "pressure [mmHg]", pressure),
+          curve_panel(a, "cavity volume [ml]", volume),
+          curve_panel(a, "mean active tension [kPa]", curves.numbers("mean_active_tension_kPa")),
+          {.title = facts.has_valves ? "pressure-volume loop" : "pressure-volume path (no valves)",
+           .content = path}}};
 }
 
 std::optional<drawing::Figure> calcium_figure(const Table& curves, const CurveFacts& facts) {

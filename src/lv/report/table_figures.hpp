@@ -15,6 +15,7 @@ struct CurveFacts {
   bool is_static = false;  ///< equilibria: the times are no times but shares of the loads
   double end_diastole = std::numeric_limits<double>::quiet_NaN();  ///< its time; NaN: not known [s]
   double end_systole = std::numeric_limits<double>::quiet_NaN();
+  bool has_valves = false;  ///< it is a heartbeat of a circulation
 };
 
 /// Pressure, volume and mean active tension against time (against the load where there is no time),

@@ -16,9 +16,11 @@ void land2017_twitch(Findings& found);
 void land2017_ramp(Findings& found);
 void tangent_is_derivative(Findings& found);
 
-// circulation alone
+// circulation, alone and joined to the wall
 void circulation_windkessel(Findings& found);
 void circulation_closed_loop(Findings& found);
+void cycle_default(Findings& found);
+void cycle_closed_loop(Findings& found);
 
 // blood alone
 void stokes_modes(Findings& found);

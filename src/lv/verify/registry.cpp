@@ -73,6 +73,11 @@ std::span<const Problem> problems() {
             "volume"),
       brief("generalised_alpha", generalised_alpha,
             "a sphere of rubber that swings, exact solution, and second order in time"),
+      brief("cycle_default", cycle_default,
+            "a heartbeat of the default ventricle with human muscle on a windkessel, against an "
+            "independent solver"),
+      brief("cycle_closed_loop", cycle_closed_loop,
+            "a heartbeat of the default ventricle in a closed circulation, whose blood stays"),
       brief("no_locking", no_locking,
             "incompressible elements of every kind are not too stiff on coarse meshes", {2}),
       brief("land2015_problem1", land2015_problem1,

@@ -1,0 +1,97 @@
+#include "lv/circulation/circuit.hpp"
+
+namespace lv::circulation {
+namespace {
+
+/// The states after a step, and how they follow the pressure at its end.
+template <class Part>
+auto stepped(const Part& part, double t, double dt, double p) {
+  constexpr int size = std::decay_t<decltype(part.circuit)>::size;
+  const auto rates = [&]<class T>(const std::array<T, size>& y, const T& pressure) {
+    return part.circuit.rates(t, y, pressure);
+  };
+  return implicit_step<size>(rates, backward_difference(part.history, dt), p, part.history.now);
+}
+
+}  // namespace
+
+Circuit::Kinds Circuit::kind_of(const Parameters& p) {
+  if (p.kind == Kind::closed_loop)
+    return Part<ClosedLoop>{{p.closed_loop, p.valves, p.period}, {ClosedLoop::start(p.start)}};
+  if (p.kind == Kind::windkessel)
+    return Part<Windkessel>{{p.windkessel, p.valves}, {Windkessel::start(p.start)}};
+  throw InputError("circulation.kind", "is \"none\": there is no circuit to join a ventricle to",
+                   "Set it to \"windkessel\" or \"closed_loop\"");
+}
+
+Circuit::Circuit(const Parameters& parameters) : kind_(kind_of(parameters)) {}
+
+void Circuit::start_around(double volume) {
+  std::visit(
+      [&](auto& part) {
+        part.history.now[0] = volume;
+        part.history.step = 0.0;
+      },
+      kind_);
+}
+
+VolumeAfter Circuit::after(double t, double dt, double p) const {
+  return std::visit(
+      [&](const auto& part) {
+        const auto next = stepped(part, t, dt, p);
+        return VolumeAfter{next.y[0], next.dy_dp[0]};
+      },
+      kind_);
+}
+
+void Circuit::advance(double t, double dt, double p) {
+  std::visit([&](auto& part) { part.history.push(stepped(part, t, dt, p).y, dt); }, kind_);
+}
+
+Signals Circuit::signals(double t, double p) const {
+  return std::visit([&](const auto& part) { return part.circuit.signals(t, part.history.now, p); },
+                    kind_);
+}
+
+std::span<const double> Circuit::states() const {
+  return std::visit([](const auto& part) { return std::span<const double>(part.history.now); },
+                    kind_);
+}
+
+double Circuit::blood() const {
+  const auto* loop = std::get_if<Part<ClosedLoop>>(&kind_);
+  return loop == nullptr ? 0.0 : loop->circuit.blood(loop->history.now);
+}
+
+std::vector<Column> Circuit::columns() const {
+  return std::visit([](const auto& part) { return part.circuit.columns(); }, kind_);
+}
+
+std::vector<double> Circuit::numbers() const {
+  return std::visit(
+      [](const auto& part) {
+        std::vector<double> numbers{part.history.step};
+        numbers.insert(numbers.end(), part.history.now.begin(), part.history.now.end());
+        numbers.insert(numbers.end(), part.history.before.begin(), part.history.before.end());
+        return numbers;
+      },
+      kind_);
+}
+
+bool Circuit::takes(std::size_t numbers) const {
+  return numbers == 1 + 2 * states().size();
+}
+
+void Circuit::set_numbers(std::span<const double> numbers) {
+  LV_CHECK(takes(numbers.size()));
+  std::visit(
+      [&](auto& part) {
+        const std::size_t n = part.history.now.size();
+        part.history.step = numbers[0];
+        std::copy_n(numbers.begin() + 1, n, part.history.now.begin());
+        std::copy_n(numbers.begin() + 1 + n, n, part.history.before.begin());
+      },
+      kind_);
+}
+
+}  // namespace lv::circulation

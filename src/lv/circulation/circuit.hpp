@@ -1,0 +1,67 @@
+#pragma once
+
+#include "lv/circulation/closed_loop.hpp"
+#include "lv/circulation/implicit_step.hpp"
+#include "lv/circulation/parameters.hpp"
+#include "lv/circulation/windkessel.hpp"
+
+#include <span>
+#include <variant>
+#include <vector>
+
+namespace lv::circulation {
+
+/// The volume that a step leaves in the left ventricle, and how it follows the pressure there.
+struct VolumeAfter {
+  double volume = 0.0;        ///< [mm^3]
+  double per_pressure = 0.0;  ///< [mm^3/kPa]
+};
+
+/// A circuit around a left ventricle that is somebody else's: told the pressure at the end of an
+/// implicit step of second order, it says which volume the valves leave there.
+class Circuit {
+ public:
+  /// At the start that the parameters say. Throws InputError where they ask for no circulation.
+  explicit Circuit(const Parameters& parameters);
+
+  /// Starts again around a ventricle of this volume [mm^3] instead of start.V_lv.
+  void start_around(double volume);
+
+  /// A step of dt [s] to the time t [s] with the pressure p [kPa] at its end. Throws RunError when
+  /// the step has no solution that is found.
+  [[nodiscard]] VolumeAfter after(double t, double dt, double p) const;
+
+  /// Takes that step.
+  void advance(double t, double dt, double p);
+
+  /// At the present states and time t, for the pressure p.
+  [[nodiscard]] Signals signals(double t, double p) const;
+
+  /// The present states, the left ventricle's volume first.
+  [[nodiscard]] std::span<const double> states() const;
+
+  /// All blood of a closed loop [mm^3]; 0 of one that has sources.
+  [[nodiscard]] double blood() const;
+
+  /// What Signals::others holds.
+  [[nodiscard]] std::vector<Column> columns() const;
+
+  /// The history that further steps depend on, and back: for checkpoints.
+  [[nodiscard]] std::vector<double> numbers() const;
+  /// Whether so many numbers can be those of this circuit.
+  [[nodiscard]] bool takes(std::size_t numbers) const;
+  void set_numbers(std::span<const double> numbers);
+
+ private:
+  template <class C>
+  struct Part {
+    C circuit;
+    History<C::size> history;
+  };
+  using Kinds = std::variant<Part<Windkessel>, Part<ClosedLoop>>;
+  static Kinds kind_of(const Parameters& parameters);
+
+  Kinds kind_;
+};
+
+}  // namespace lv::circulation

@@ -1,0 +1,44 @@
+#pragma once
+
+#include "lv/circulation/parameters.hpp"
+#include "lv/heartbeat/observers.hpp"
+#include "lv/implicit/engine.hpp"
+
+#include <filesystem>
+
+namespace lv::heartbeat {
+
+struct CycleSetup {
+  const mesh::Mesh& mesh;
+  implicit::StaticModel model;
+  implicit::SolverParameters solver;
+  material::Calcium calcium;  ///< its transient begins anew in every beat, whatever its mode
+  circulation::Parameters circuit;
+  CycleParameters cycle;
+  double frame_interval = 0.1;  ///< between frames of a beat [s]; the valves' events have one each
+};
+
+/// Heartbeats of the wall, without inertia, joined to a circulation: the pressure in the cavity is
+/// the multiplier of V_wall = V_circuit in every step. The wall starts filled to the pressure
+/// before the mitral valve. Beats end when the last has changed no state of the circuit, nor
+/// end-diastolic or end-systolic volume, by more than the tolerance, or with their largest number.
+///
+/// Calcium rises at the beginning of a beat, in a closed loop at left_ventricle.t_C, since its
+/// other chambers have their own times. Curves, frames and moments are those of the last beat:
+/// end-diastole is the closing of the mitral valve, end-systole that of the aortic valve.
+///
+/// Resumes from `folder`/checkpoint when there is one. Throws Interrupted after SIGINT or SIGTERM;
+/// RunError when a step of the first beat has no solution at the smallest step, or when the aortic
+/// valve does not open and close in the last. Collective.
+[[nodiscard]] Beat run_cycle(const CycleSetup& setup, const std::filesystem::path& folder,
+                             const Observers& observers);
+
+/// Adds what a heartbeat's work was to an archive, and takes it out again.
+void store(const EnergyBalance& energy, Archive& archive);
+[[nodiscard]] EnergyBalance load_energy(const Archive& archive);
+
+/// Adds heartbeats to an archive, and takes them out again.
+void store(const circulation::Cycle& cycle, Archive& archive);
+[[nodiscard]] circulation::Cycle load_cycle(const Archive& archive);
+
+}  // namespace lv::heartbeat
