@@ -59,6 +59,14 @@ void DirectSolver::configure() {
   check(MatMumpsSetIcntl(factor, 14, 60));  // room for pivots that move, in per cent
 }
 
+void DirectSolver::forget_factors() {
+  if (ksp_ == nullptr)
+    return;
+  check(KSPReset(ksp_));
+  check(KSPSetOperators(ksp_, here(), here()));
+  configure();
+}
+
 Outcome<std::vector<double>> DirectSolver::solve(std::span<const double> b) {
   std::vector<double> x(b.size());
   std::vector<double> reason(1);
@@ -91,10 +99,7 @@ KSPConvergedReason DirectSolver::solve_here(std::span<const double> b, std::span
       throw RunError("Memory does not suffice to factorise the linear equations",
                      "Take a coarser mesh, a machine with more memory, or "
                      "quasi_static.linear_solver = \"iterative\"");
-    // MUMPS cannot go on with the factors of a singular matrix: the next one begins anew
-    check(KSPReset(ksp_));
-    check(KSPSetOperators(ksp_, here(), here()));
-    configure();
+    forget_factors();  // MUMPS cannot go on with those of a singular matrix
     return reason;
   }
   const PetscScalar* found = nullptr;

@@ -25,6 +25,10 @@ class DirectSolver {
   /// The matrix has other entries. Collective.
   void update();
 
+  /// Forgets the factorisation and the order of unknowns, which was chosen by the first matrix: the
+  /// next one is solved as in a new program.
+  void forget_factors();
+
   /// Solves K x = b, in the matrix's order, b and x complete on every rank, unless the matrix is
   /// singular. It is factorised by the first solution after an update(). Throws RunError when
   /// memory runs out. Collective.

@@ -116,8 +116,8 @@ class SparseMatrix::Implementation {
   }
 
   void begin_anew() {
-    if (!blocks_)
-      forget_factors();
+    if (direct_)
+      direct_->forget_factors();
   }
 
   Outcome<std::vector<double>> solve(std::span<const double> b) {
