@@ -2,13 +2,14 @@
 
 #include "lv/base/check.hpp"
 #include "lv/base/log.hpp"
-#include "lv/base/time_left.hpp"
 #include "lv/base/units.hpp"
+#include "lv/implicit/unload_forecast.hpp"
 
 #include <Eigen/QR>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <deque>
 
@@ -68,7 +69,8 @@ class Unloader {
         solver_(solver),
         record_(std::move(record)),
         endocardium_(given),
-        target_(as_vector(given.nodes)) {}
+        target_(as_vector(given.nodes)),
+        forecast_(far_below * parameters.tolerance) {}
 
   Outcome<Unloaded> run(const Unloaded* start) {
     if (start == nullptr || !try_from(as_vector(start->nodes), &start->loaded))
@@ -119,6 +121,7 @@ class Unloader {
   bool begin(const Eigen::VectorXd& X, const State* loaded) {
     steps_.clear();
     history_.clear();
+    forecast_.begin();
     auto trial = load(X, loaded);
     if (!trial)
       return false;
@@ -198,7 +201,10 @@ class Unloader {
   std::optional<State> next_equilibrium(const mesh::Mesh& wall, const State* near) {
     const auto n = static_cast<std::size_t>(equilibria_++);
     if (n >= record_.known.size()) {
+      const auto began = std::chrono::steady_clock::now();
       record_.known.push_back(equilibrium(wall, near));
+      const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - began;
+      forecast_.sought(elapsed.count(), near != nullptr);
       if (record_.keep)
         record_.keep(record_.known);
     }
@@ -219,26 +225,15 @@ class Unloader {
   void accept(Trial&& trial) {
     now_ = std::move(trial);
     steps_.push_back(now_.step);
-    left_.record(equilibria_);
-    const std::string left = left_.words(equilibria_left());
+    forecast_.accepted(now_.step.largest);
+    // on the way to the whole pressure it is not known how many steps of it there will be
+    const std::string left = pressure_ < parameters_.pressure ? "" : forecast_.words();
     log::info(
         "unloading {:2d}: off by {:.4f} mm (rms {:.4f}), {:.2f} ml fill to {:.2f} ml at {:.2f} "
         "mmHg{}",
         equilibria_, now_.step.largest, now_.step.rms, 1e-3 * now_.step.unloaded_volume,
         1e-3 * now_.step.volume, pressure_ / units::mmHg,
         left.empty() ? "" : left + " of unloading");
-  }
-
-  /// At the rate at which the distance has fallen in the last steps; before that is known, at a
-  /// usual one.
-  [[nodiscard]] double equilibria_left() const {
-    constexpr double usual = 0.3;  // of the distance that a step leaves
-    constexpr std::size_t last = 3;
-    const std::size_t n = std::min(last, steps_.size() - 1);
-    const double fall = steps_[steps_.size() - 1 - n].largest / now_.step.largest;
-    const double rate =
-        n == 0 ? -std::log(usual) : std::max(0.1, std::log(fall) / static_cast<double>(n));
-    return std::log(now_.step.largest / (far_below * parameters_.tolerance)) / rate;
   }
 
   struct Difference {
@@ -254,7 +249,7 @@ class Unloader {
   Eigen::VectorXd target_;
   double pressure_ = 0.0;  ///< in force [kPa]
   int equilibria_ = 0;
-  TimeLeft left_;
+  UnloadForecast forecast_;
   Trial now_;
   std::deque<Difference> history_;
   std::vector<UnloadStep> steps_;
