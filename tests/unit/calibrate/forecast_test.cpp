@@ -11,7 +11,7 @@ namespace {
 
 constexpr auto rests = MuscleState::rests;
 constexpr auto contracts = MuscleState::contracts;
-constexpr double accuracy = 1e-4;
+constexpr double root_found = 1e-4;
 
 /// An equilibrium of a recorded fit: its part, muscle, processor time [s] and, in brackets, misfit.
 struct Found {
@@ -72,7 +72,7 @@ void follow(const Say& say) {
     part = found.part;
     forecast.record(found.muscle, found.seconds);
     if (found.misfit != 0.0)
-      forecast.misfit(found.misfit, accuracy);
+      forecast.misfit(found.misfit, root_found);
     left -= found.seconds;
     equilibria -= 1.0;
     say(forecast, left, equilibria);
