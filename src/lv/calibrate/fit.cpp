@@ -52,30 +52,29 @@ constexpr int most_corrections = 20;
 std::vector<FitPart> parts_of(const Plan& plan) {
   const bool passive = plan.passive != FittedPassive::none;
   const bool curve = plan.fits_exponent();
-  const bool klotz = plan.passive == FittedPassive::klotz;
   std::vector<FitPart> parts;
-  const auto fit_passive = [&](double trials) {
+  const auto fit_passive = [&](bool is_near) {
+    const double trials = is_near ? 2.0 : 5.0;
     if (passive)
-      parts.push_back({"bracket", {trials, 0.0}});
+      parts.push_back({FitEnd::by_misfit, is_near, {trials, 0.0}});
     if (curve)
-      parts.push_back({"curve", {(klotz ? 3.0 : 5.0) * trials, 0.0}});
+      parts.push_back({FitEnd::open, true, {15.0, 0.0}});  // those of one correction
   };
-  fit_passive(6.0);
+  fit_passive(false);
   if (plan.active) {
-    parts.push_back({"bracket", {0.0, 6.0}});
-    fit_passive(3.0);
-    parts.push_back({"bracket", {0.0, 3.0}});
+    parts.push_back({FitEnd::by_misfit, false, {0.0, 5.0}});
+    fit_passive(true);
+    parts.push_back({FitEnd::by_misfit, true, {0.0, 2.0}});
   }
   const double fitted = (passive ? 1.0 : 0.0) + (curve ? 1.0 : 0.0) + (plan.active ? 1.0 : 0.0);
   const double at_rest = (passive ? 1.0 : 0.0) + (curve ? 3.0 : 0.0);
   const double at_work = plan.active ? 1.0 : 0.0;
   if (!plan.strains.empty())
     parts.push_back(
-        {"least squares",
-         {8.0 * (fitted + 1.0) * (at_rest + 1.0), 8.0 * (fitted + 1.0) * (at_work + 1.0)}});
-  parts.push_back({"result", {std::max(1.0, at_rest), at_work}});
+        {FitEnd::open, true, {(fitted + 1.0) * (at_rest + 1.0), (fitted + 1.0) * (at_work + 1.0)}});
+  parts.push_back({FitEnd::counted, true, {std::max(1.0, at_rest), at_work}});
   parts.push_back(
-      {"sensitivity", {2.0 * (fitted + 1.0) * at_rest, 2.0 * (fitted + 1.0) * at_work}});
+      {FitEnd::counted, true, {2.0 * (fitted + 1.0) * at_rest, 2.0 * (fitted + 1.0) * at_work}});
   return parts;
 }
 
@@ -94,6 +93,8 @@ class Fitter {
                        elapsed.count());
       if (!volume)
         return volume;
+      if (sought_ > 0.0)
+        forecast_.misfit(std::log(*volume / sought_), accuracy());
       fit_.history.push_back({purpose_, p, loads, *volume});
       log::info(
           "{:<22} C_a {:.4g}  scale {:.4g}  exponent {:.4g}  T_scale {:.4g}  {:.2f} mmHg  "
@@ -133,6 +134,8 @@ class Fitter {
   }
 
  private:
+  /// Of ln(V/V_target), where a bracket ends.
+  [[nodiscard]] double accuracy() const { return margin * plan_.tolerance; }
   [[nodiscard]] Loads ed_loads() const { return {plan_.ed_pressure, 0.0}; }
   [[nodiscard]] Loads es_loads() const { return {plan_.es_pressure, 1.0}; }
 
@@ -170,10 +173,13 @@ class Fitter {
     FitParameters& p = fit_.parameters;
     const auto volume = [&](double x) {
       p.*which.member = x;
-      return model_.volume(p, loads);
+      sought_ = target.volume;
+      const auto found = model_.volume(p, loads);
+      sought_ = 0.0;
+      return found;
     };
-    const auto root = find_root(volume, {which.name, p.*which.member, range, first_factor}, target,
-                                margin * plan_.tolerance);
+    const auto root =
+        find_root(volume, {which.name, p.*which.member, range, first_factor}, target, accuracy());
     if (root)
       p.*which.member = *root;
     return root;
@@ -460,6 +466,7 @@ class Fitter {
   Model model_;
   FitForecast forecast_;
   std::string purpose_;
+  double sought_ = 0.0;  ///< by the root that is sought, otherwise 0 [mm^3]
   Fit fit_;
 };
 

@@ -3,6 +3,7 @@
 #include "lv/base/log.hpp"
 #include "lv/base/time_left.hpp"
 #include "lv/base/units.hpp"
+#include "lv/heartbeat/step_forecast.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -32,14 +33,16 @@ class QuasiStaticRun {
       : setup_(setup),
         observers_(observers),
         phases_(phases(setup.protocol)),
-        engine_(setup.mesh, setup.model, smooth(setup.parameters)) {
+        engine_(setup.mesh, setup.model, smooth(setup.parameters)),
+        forecast_(phases_.size()) {
     record({phase().loads(0.0), 0.0, 0.0, engine_.cavity_volume(), {}});
   }
 
   Beat run() {
     const auto start = std::chrono::steady_clock::now();
+    last_step_ = start;
     for (run_.phase = 0; run_.phase < phases_.size(); ++run_.phase) {
-      steps_before_ = run_.beat.steps;
+      forecast_.begin();
       go_to(final_loads());
       run_.beat.moments.push_back({phase().marks, phase().name, true, state()});
       run_.phase_start += phase().ramp;
@@ -63,7 +66,10 @@ class QuasiStaticRun {
 
   void report_progress(const Step& step) {
     const implicit::NewtonReport& n = step.newton;
-    left_.record(run_.beat.steps);
+    const auto now = std::chrono::steady_clock::now();
+    forecast_.record(std::chrono::duration<double>(now - last_step_).count(), step.progress,
+                     step.length);
+    last_step_ = now;
     log::info("{} {:3.0f}%  {:.2f} mmHg  {:.2f} ml  tension {:.1f} kPa  {} corrections, {} {}{}{}",
               phase().name, 100.0 * step.progress, step.loads.pressure / mmHg, 1e-3 * step.volume,
               run_.beat.curves.back().mean_tension, n.iterations, n.factorisations,
@@ -71,18 +77,7 @@ class QuasiStaticRun {
               n.linear_iterations == 0
                   ? ""
                   : fmt::format(", {} iterations of GMRES", n.linear_iterations),
-              left_.words(steps_left(step)));
-  }
-
-  /// Load steps that the beat will probably still take: of this phase what is left of the usual
-  /// number, or steps that grow from the last one if those are more; and those of later phases.
-  [[nodiscard]] double steps_left(const Step& step) const {
-    const double later = usual_steps * static_cast<double>(phases_.size() - run_.phase - 1);
-    if (is_end(step) && step.progress > 0.0)
-      return later;
-    const double in_lengths = (1.0 - step.progress) / step.length;
-    const double growing = std::log(1.0 + (growth - 1.0) * in_lengths) / std::log(growth);
-    return std::max(growing, usual_steps - (run_.beat.steps - steps_before_)) + later;
+              time_left(forecast_.seconds_left()));
   }
 
   void record(const Step& step) {
@@ -138,8 +133,6 @@ class QuasiStaticRun {
     return s;
   }
 
-  static constexpr double usual_steps = 25.0;  ///< load steps of a phase
-  static constexpr double growth = 1.5;        ///< of a step from the one before it
   static constexpr double frame_change = 0.1;  ///< of the volume since the last frame
 
   const QuasiStaticSetup& setup_;
@@ -147,8 +140,8 @@ class QuasiStaticRun {
   std::vector<Phase> phases_;
   Engine engine_;
   RunState run_;
-  TimeLeft left_;
-  int steps_before_ = 0;            ///< of the phases before this one
+  StepForecast forecast_;
+  std::chrono::steady_clock::time_point last_step_;
   double last_frame_volume_ = 0.0;  ///< [mm^3]
 };
 

@@ -2,15 +2,16 @@
 
 #include "lv/base/check.hpp"
 #include "lv/base/log.hpp"
-#include "lv/base/time_left.hpp"
 #include "lv/base/units.hpp"
 #include "lv/implicit/smooth_fields.hpp"
+#include "lv/implicit/unload_forecast.hpp"
 
 #include <Eigen/QR>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <deque>
 #include <span>
@@ -77,7 +78,8 @@ class Unloader {
         record_(std::move(record)),
         endocardium_(given),
         find_folds_(given),
-        target_(as_vector(given.nodes)) {}
+        target_(as_vector(given.nodes)),
+        forecast_(far_below * parameters.tolerance) {}
 
   Outcome<Unloaded> run(const Unloaded* start) {
     if (start != nullptr && start->smoothing > 0.0) {
@@ -217,8 +219,8 @@ class Unloader {
   bool begin(const Eigen::VectorXd& X, const State* loaded) {
     if (!smooth_)
       steps_.clear();
-    lefts_.clear();
     history_.clear();
+    forecast_.begin();
     auto trial = load(X, loaded);
     if (!trial)
       return false;
@@ -313,7 +315,10 @@ class Unloader {
   std::optional<State> next_equilibrium(const mesh::Mesh& wall, const State* near) {
     const auto n = static_cast<std::size_t>(equilibria_++);
     if (n >= record_.known.size()) {
+      const auto began = std::chrono::steady_clock::now();
       record_.known.push_back(equilibrium(wall, near));
+      const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - began;
+      forecast_.sought(elapsed.count(), near != nullptr);
       if (record_.keep)
         record_.keep(record_.known);
     }
@@ -342,27 +347,15 @@ class Unloader {
   void accept(Trial&& trial) {
     now_ = std::move(trial);
     steps_.push_back(now_.step);
-    lefts_.push_back(now_.left);
-    left_.record(equilibria_);
-    const std::string left = left_.words(equilibria_left());
+    forecast_.accepted(now_.left);
+    // on the way to the whole pressure it is not known how many steps of it there will be
+    const std::string left = pressure_ < parameters_.pressure ? "" : forecast_.words();
     log::info(
         "unloading {:2d}: off by {:.4f} mm (rms {:.4f}), {:.2f} ml fill to {:.2f} ml at {:.2f} "
         "mmHg, dent {:.0f} degrees{}",
         equilibria_, now_.step.largest, now_.step.rms, 1e-3 * now_.step.unloaded_volume,
         1e-3 * now_.step.volume, pressure_ / units::mmHg, now_.step.folds.dent / units::degree,
         left.empty() ? "" : left + " of unloading");
-  }
-
-  /// At the rate at which the distance has fallen in the last steps; before that is known, at a
-  /// usual one.
-  [[nodiscard]] double equilibria_left() const {
-    constexpr double usual = 0.3;  // of the distance that a step leaves
-    constexpr std::size_t last = 3;
-    const std::size_t n = std::min(last, lefts_.size() - 1);
-    const double fall = lefts_[lefts_.size() - 1 - n] / now_.left;
-    const double rate =
-        n == 0 ? -std::log(usual) : std::max(0.1, std::log(fall) / static_cast<double>(n));
-    return std::log(now_.left / (far_below * parameters_.tolerance)) / rate;
   }
 
   struct Difference {
@@ -381,11 +374,10 @@ class Unloader {
   double smoothing_ = 0.0;              ///< alpha
   double pressure_ = 0.0;               ///< in force [kPa]
   int equilibria_ = 0;
-  TimeLeft left_;
+  UnloadForecast forecast_;
   Trial now_;
   std::deque<Difference> history_;
   std::vector<UnloadStep> steps_;
-  std::vector<double> lefts_;  ///< of the steps since the search began anew
 };
 
 }  // namespace
