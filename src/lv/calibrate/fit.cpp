@@ -32,11 +32,11 @@ constexpr double weight_of_edv = 1e3;
 
 /// The same, below it, for a shape of end-diastole; and how V0 weighs against them.
 constexpr std::array<double, 2> ratios_below{0.25, 0.5};
-constexpr double weight_of_unloaded = 10.0;
-constexpr double rough = 0.03;           // a first V0, as a fraction
-constexpr double first_stiffness = 2.0;  // stiff walls are unloaded more easily
-constexpr double shortest_step = 2e-3;   // of the logarithms of scale and exponent
-constexpr double unloaded_difference = 0.03;
+constexpr double weight_of_unloaded = 3.0;
+constexpr double rough = 0.03;                // a first V0, as a fraction
+constexpr double first_stiffness = 2.0;       // stiff walls are unloaded more easily
+constexpr double shortest_step = 5e-3;        // of the logarithms of scale and exponent
+constexpr double unloaded_difference = 0.05;  // unloading leaves volumes scattered
 
 /// First steps of a bracket.
 constexpr double far = 1.5;
@@ -190,13 +190,7 @@ class Fitter {
     begin("unloaded volume");
     FitParameters& p = fit_.parameters;
     if (first)
-      p.scale = find_unloaded_root(
-          [&](double x) {
-            p.scale = x;
-            return model_.volume(p, {});
-          },
-          {"scale", first_stiffness * p.scale, plan_.stiffness, far},
-          {fit_.observations.front().target, plan_.edv.origin}, plan_.edv.volume, rough);
+      reach_unloaded_volume(first_stiffness * p.scale, rough);
     begin("fit to the Klotz curve");
     const Logarithms logs = logarithms(fitted);
     const auto residuals = [&](const Eigen::VectorXd& x) -> Outcome<Eigen::VectorXd> {
@@ -210,6 +204,21 @@ class Fitter {
     const auto minimum = broyden_least_squares(residuals, logs.start, logs.low, logs.high,
                                                {unloaded_difference, longest_step, shortest_step});
     p = moved_to(fitted, minimum.value().x);
+    // where no exponent brings the curve near, V0 must not pay for it
+    if (std::abs(minimum->r[0]) > 0.5 * plan_.tolerance * weight_of_unloaded)
+      reach_unloaded_volume(p.scale, 0.25 * plan_.tolerance);
+  }
+
+  /// By the scale alone.
+  void reach_unloaded_volume(double start, double accuracy) {
+    FitParameters& p = fit_.parameters;
+    p.scale = find_unloaded_root(
+        [&](double x) {
+          p.scale = x;
+          return model_.volume(p, {});
+        },
+        {"scale", start, plan_.stiffness, far},
+        {fit_.observations.front().target, plan_.edv.origin}, plan_.edv.volume, accuracy);
   }
 
   /// Of the passive parameters, or of all.

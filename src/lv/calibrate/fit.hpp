@@ -95,9 +95,10 @@ struct Fit {
 /// For a shape of end-diastole (FittedPassive::klotz), whose volume under p_ED is EDV whatever its
 /// stiffness, scale and exponent minimise
 ///
-///   [10 (V(0)/V_0 - 1)]^2 + sum_k [V(p_k)/V_k - 1]^2,   V_0 = EDV (0.6 - 0.006 p_ED/mmHg),
+///   [3 (V(0)/V_0 - 1)]^2 + sum_k [V(p_k)/V_k - 1]^2,   V_0 = EDV (0.6 - 0.006 p_ED/mmHg),
 ///
-/// at p_k/p_ED = 1/4 and 1/2, V_k as above: V(0) of the wall that is unloaded with these values.
+/// at p_k/p_ED = 1/4 and 1/2, V_k as above with this V_0; the scale alone then brings V(0) within
+/// the tolerance, if need be. V(0) is V(0) of the wall that is unloaded with these values.
 ///
 /// With measured strains those values are the start of a least-squares fit of all fitted
 /// parameters,

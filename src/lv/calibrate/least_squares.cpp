@@ -137,30 +137,31 @@ Outcome<Minimum> broyden_least_squares(const Residuals& residuals, const Eigen::
   best.r = *first;
   std::optional<Eigen::MatrixXd> J = differences(counted, best, high, lengths.difference);
   bool fresh = true;
+  double longest = lengths.longest;
   while (J && best.evaluations < most_evaluations) {
     const Eigen::VectorXd full = -dense::least_squares(*J, best.r);
-    const double shortening = std::min(1.0, lengths.longest / full.cwiseAbs().maxCoeff());
-    Eigen::VectorXd step = (best.x + shortening * full).cwiseMax(low).cwiseMin(high) - best.x;
-    bool nearer = false;
-    while (!nearer && step.cwiseAbs().maxCoeff() >= lengths.shortest) {
-      const auto r = counted(best.x + step);
-      if (r)  // what was learnt counts wherever it leads
-        *J += (*r - best.r - *J * step) * step.transpose() / step.squaredNorm();
-      nearer = r && r->squaredNorm() < best.r.squaredNorm();
-      if (nearer) {
-        best.x += step;
-        best.r = *r;
-        fresh = false;
-      } else {
-        step *= 0.3;
-      }
-    }
-    if (nearer)
+    const double shortening = std::min(1.0, longest / full.cwiseAbs().maxCoeff());
+    const Eigen::VectorXd step = (best.x + shortening * full).cwiseMax(low).cwiseMin(high) - best.x;
+    const double length = step.cwiseAbs().maxCoeff();
+    if (length < lengths.shortest) {
+      if (fresh || longest == lengths.longest)
+        break;
+      J = differences(counted, best, high, lengths.difference);
+      fresh = true;
+      longest = lengths.longest;
       continue;
-    if (fresh || full.cwiseAbs().maxCoeff() < lengths.shortest)
-      break;
-    J = differences(counted, best, high, lengths.difference);
-    fresh = true;
+    }
+    const auto r = counted(best.x + step);
+    if (r)  // what was learnt counts wherever it leads
+      *J += (*r - best.r - *J * step) * step.transpose() / step.squaredNorm();
+    if (r && r->squaredNorm() < best.r.squaredNorm()) {
+      best.x += step;
+      best.r = *r;
+      fresh = false;
+      longest = std::min(lengths.longest, 2.0 * longest);
+    } else {
+      longest = 0.4 * length;
+    }
   }
   return best;
 }
