@@ -514,8 +514,8 @@ std::vector<Lines> cases_without_files() {
   return all;
 }
 
-/// Parameters of files and images, fits and tables, whose readers have tests of their own; one that
-/// is a choice in effect; and two of an infarct, which change by less than a coarse element.
+/// Parameters of files and images, fits, tables and heartbeats, which have tests of their own; one
+/// that is a choice in effect; and two of an infarct, which change by less than a coarse element.
 bool is_tried_elsewhere(const std::string& name) {
   static const std::vector<std::string> tables{"anatomy.contours.",
                                                "anatomy.labels.",
@@ -531,6 +531,7 @@ bool is_tried_elsewhere(const std::string& name) {
                                                "infarct.length_unit",
                                                "calibrate.",
                                                "circulation.",
+                                               "cycle.",
                                                "strain.",
                                                "unloaded.",
                                                "quasi_static.order",

@@ -51,7 +51,7 @@ Mat3 derivative(const Energy& energy, const Mat3& F) {
 template <class Law>
 void check_no_stress_at_rest(const Law& law) {
   RandomValues random(3);
-  CHECK(law.stress(Mat3::Identity().eval()).norm() == 0.0);
+  CHECK(law.stress(Mat3::Identity().eval()).norm() < 1e-14);  // exact but for rounding
   for (int i = 0; i < 5; ++i)
     CHECK(law.stress(random.rotation()).norm() < 1e-12);  // rounding of |F - F^-T|, moduli of 100
 }
