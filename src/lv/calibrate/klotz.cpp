@@ -8,7 +8,7 @@ namespace lv::calibrate {
 namespace {
 
 using units::mmHg;
-constexpr double ml = 1e3;     // [mm^3]
+using units::ml;
 constexpr double A_n = 27.78;  // [mmHg]
 constexpr double B_n = 2.76;
 

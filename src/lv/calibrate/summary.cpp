@@ -1,9 +1,9 @@
 #include "lv/calibrate/summary.hpp"
 
 #include "lv/base/dense.hpp"
-#include "lv/base/json_file.hpp"
 #include "lv/base/units.hpp"
 #include "lv/calibrate/klotz.hpp"
+#include "lv/calibrate/record.hpp"
 
 #include <fmt/format.h>
 
@@ -229,10 +229,6 @@ std::vector<std::string> ambiguities(const Plan& plan, const Fit& fit) {
   return words;
 }
 
-Json parameters_json(const FitParameters& p) {
-  return {{"C_a", p.C_a}, {"scale", p.scale}, {"exponent", p.exponent}, {"T_scale", p.T_scale}};
-}
-
 Json observation_json(const Fit& fit, std::size_t k) {
   const ObservedVolume& o = fit.observations[k];
   const auto row = static_cast<Eigen::Index>(k);
@@ -312,7 +308,7 @@ std::string text(const Plan& plan, const Fit& fit) {
 std::string json(const Plan& plan, const Fit& fit) {
   Json json;
   json["engine"] = "quasi-static";
-  json["parameters"] = parameters_json(fit.parameters);
+  json["parameters"] = json_of(fit.parameters);
   json["tolerance"] = plan.tolerance;
   for (std::size_t k = 0; k < fit.observations.size(); ++k)
     json["volumes"].push_back(observation_json(fit, k));
@@ -341,13 +337,6 @@ Table history_table(const Fit& fit) {
                    number(e.parameters.T_scale), number(e.loads.pressure / mmHg),
                    number(e.loads.activation), number(1e-3 * e.volume)});
   return table;
-}
-
-FitParameters parameters_of(const std::filesystem::path& file) {
-  return from_json_file(file, [](const Json& json) -> FitParameters {
-    const Json& p = json.at("parameters");
-    return {p.at("C_a"), p.at("scale"), p.at("exponent"), p.at("T_scale")};
-  });
 }
 
 }  // namespace lv::calibrate

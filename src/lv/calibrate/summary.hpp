@@ -14,7 +14,4 @@ namespace lv::calibrate {
 /// Every equilibrium of the search in its order: the history of the brackets.
 [[nodiscard]] Table history_table(const Fit& fit);
 
-/// The fitted parameters from a file of `json`'s text. Throws RunError when it is damaged.
-[[nodiscard]] FitParameters parameters_of(const std::filesystem::path& file);
-
 }  // namespace lv::calibrate

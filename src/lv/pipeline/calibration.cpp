@@ -1,17 +1,18 @@
 #include "lv/pipeline/calibration.hpp"
 
 #include "lv/base/dense.hpp"
-#include "lv/base/json_file.hpp"
 #include "lv/base/log.hpp"
 #include "lv/base/parallel.hpp"
 #include "lv/base/table.hpp"
 #include "lv/base/units.hpp"
+#include "lv/calibrate/record.hpp"
 #include "lv/calibrate/summary.hpp"
 #include "lv/case_file/case_lines.hpp"
 #include "lv/case_file/parameters.hpp"
 #include "lv/cine/strain_targets.hpp"
 #include "lv/heartbeat/immersed_beat.hpp"
 #include "lv/pipeline/answer_record.hpp"
+#include "lv/pipeline/confirmation.hpp"
 #include "lv/pipeline/unloading.hpp"
 #include "lv/solid/endocardial_surface.hpp"
 
@@ -26,7 +27,6 @@ namespace {
 using calibrate::FitParameters;
 using calibrate::FittedPassive;
 using case_file::Case;
-using Json = nlohmann::ordered_json;
 
 constexpr const char* answers_name = "answers.bin";
 constexpr std::size_t most_beats = 3;  // one, and two with corrected parameters
@@ -69,49 +69,42 @@ std::string fragment(const Case& fitted) {
          case_file::case_lines(lines);
 }
 
-Json volumes_json(const Json& calibration, const heartbeat::Beat& beat) {
-  Json rows = Json::array();
-  for (const Json& v : calibration.at("volumes")) {
-    const std::string name = v.at("name");
-    if (name != "EDV" && name != "ESV")
-      continue;
-    const double volume = 1e-3 * (name == "EDV" ? beat.at(heartbeat::end_diastole).volume
-                                                : beat.at(heartbeat::end_systole).volume);
-    rows.push_back({{"name", name},
-                    {"measured_ml", v.at("target_ml")},
-                    {"quasi_static_ml", v.at("model_ml")},
-                    {"beat_ml", volume},
-                    {"off", volume / v.at("target_ml").get<double>() - 1.0}});
-  }
-  return rows;
+std::vector<ConfirmedVolume> volumes_of(const calibrate::RecordedFit& fit,
+                                        const heartbeat::Beat& beat) {
+  std::vector<ConfirmedVolume> volumes;
+  for (const calibrate::RecordedVolume& v : fit.volumes)
+    if (v.name == "EDV" || v.name == "ESV")
+      volumes.push_back(
+          {v.name, v.target, v.model,
+           beat.at(v.name == "EDV" ? heartbeat::end_diastole : heartbeat::end_systole).volume});
+  return volumes;
 }
 
 /// Parameters by which a beat's volumes should come to the measured ones. The exponent follows the
 /// Klotz curve; so does the scale of a shape of end-diastole, which fills to its own volume.
-Json corrected(const Json& calibration, Json parameters, const Json& rows) {
-  std::vector<std::string> names;
-  for (const Json& u : calibration.at("uncertainty"))
-    if (u.at("parameter") != "exponent" &&
-        !(calibration.contains("klotz") && u.at("parameter") == "scale"))
-      names.push_back(u.at("parameter"));
-  const auto n = static_cast<Eigen::Index>(names.size());
+FitParameters corrected(const calibrate::RecordedFit& fit, FitParameters parameters,
+                        const std::vector<ConfirmedVolume>& found) {
+  std::vector<calibrate::Fitted> free;
+  for (const calibrate::Fitted& p : fit.fitted)
+    if (p.name != "exponent" && !(fit.klotz_pressure && p.name == "scale"))
+      free.push_back(p);
+  const auto n = static_cast<Eigen::Index>(free.size());
   Eigen::MatrixXd J(n, n);
   Eigen::VectorXd missing(n);
   Eigen::Index k = 0;
-  for (const Json& v : calibration.at("volumes")) {
-    const auto row = std::find_if(rows.begin(), rows.end(),
-                                  [&](const Json& r) { return r.at("name") == v.at("name"); });
-    if (row == rows.end())
+  for (const calibrate::RecordedVolume& v : fit.volumes) {
+    const auto row = std::find_if(found.begin(), found.end(),
+                                  [&](const ConfirmedVolume& r) { return r.name == v.name; });
+    if (row == found.end())
       continue;
-    missing[k] = row->at("measured_ml").get<double>() - row->at("beat_ml").get<double>();
+    missing[k] = row->measured - row->beat;
     for (Eigen::Index j = 0; j < n; ++j)
-      J(k, j) = v.at("dV_dparameter_ml").at(names[j]).get<double>() *
-                calibration.at("parameters").at(names[j]).get<double>();
+      J(k, j) = v.by_parameter.at(free[j].name) * fit.parameters.*free[j].member;
     ++k;
   }
   const Eigen::VectorXd change = dense::solve(J, missing);
   for (Eigen::Index j = 0; j < n; ++j)
-    parameters[names[j]] = parameters.at(names[j]).get<double>() * std::exp(change[j]);
+    parameters.*free[j].member *= std::exp(change[j]);
   return parameters;
 }
 
@@ -201,25 +194,21 @@ std::vector<geometry::Assumption> assumed_pressures(const Case& c) {
 }
 
 /// Volumes of Klotz's curve beside the model's, and what the end-diastolic pressure costs.
-void add_klotz(const Json& calibration, FitRecord& record) {
-  for (const Json& v : calibration.at("volumes"))
-    if (v.at("name").get<std::string>().starts_with("Klotz"))
-      record.klotz.push_back({v.at("name"), v.at("pressure_mmHg").get<double>() * units::mmHg,
-                              1e3 * v.at("target_ml").get<double>(),
-                              1e3 * v.at("model_ml").get<double>()});
-  std::string text = fmt::format("{:g} mmHg is taken for this person's",
-                                 calibration.at("klotz").at("pressure_mmHg").get<double>());
-  for (const Json& other : calibration.at("other_pressures")) {
-    text += fmt::format("; with {:g} mmHg", other.at("pressure_mmHg").get<double>());
-    if (other.contains("no_fit")) {
+void add_klotz(const calibrate::RecordedFit& fit, FitRecord& record) {
+  for (const calibrate::RecordedVolume& v : fit.volumes)
+    if (v.name.starts_with("Klotz"))
+      record.klotz.push_back({v.name, v.pressure, v.target, v.model});
+  std::string text =
+      fmt::format("{:g} mmHg is taken for this person's", *fit.klotz_pressure / units::mmHg);
+  for (const calibrate::OtherPressure& other : fit.other_pressures) {
+    text += fmt::format("; with {:g} mmHg", other.pressure / units::mmHg);
+    if (!other.parameters) {
       text += " there is no fit";
       continue;
     }
-    for (const Json& u : calibration.at("uncertainty")) {
-      const std::string name = u.at("parameter");
-      text += fmt::format(" {} {:.3g}", name, other.at(name).get<double>());
-    }
-    text += fmt::format(", unloaded {:.1f} ml", other.at("unloaded_volume_ml").get<double>());
+    for (const calibrate::Fitted& p : fit.fitted)
+      text += fmt::format(" {} {:.3g}", p.name, (*other.parameters).*p.member);
+    text += fmt::format(", unloaded {:.1f} ml", other.unloaded_volume / units::ml);
   }
   record.assumed.push_back({"filling pressure and Klotz's curve", text});
 }
@@ -282,35 +271,32 @@ void make_calibration(const Case& c, const anatomy::MeshResult& mesh,
 Case calibrated(Case c, const std::filesystem::path& file) {
   for (const std::string& name : fitted_names(c.calibration))
     c.origin[name] = file.string();
-  return with(std::move(c), calibrate::parameters_of(file));
+  return with(std::move(c), calibrate::read_parameters(file));
 }
 
 bool correct(const Case& c, const std::filesystem::path& calibration_folder,
              const heartbeat::Beat& beat, const std::filesystem::path& folder) {
-  const auto whole = [](const Json& json) { return json; };
-  const Json calibration = from_json_file(calibration_folder / calibration_name, whole);
+  const calibrate::RecordedFit fit = calibrate::read_fit(calibration_folder / calibration_name);
   const auto file = folder / confirmation_name;
-  Json record{{"parameters", calibration.at("parameters")}, {"beats", Json::array()}};
+  Confirmation record{fit.parameters, 0.0, {}};
   if (std::filesystem::exists(file))
-    record = from_json_file(file, whole);
-  Json& beats = record["beats"];
-  if (!beats.empty() && beats.back().at("parameters") == record.at("parameters"))
-    beats.erase(beats.size() - 1);  // this very beat, recorded before the run was stopped
-  const Json rows = volumes_json(calibration, beat);
-  const bool within = std::all_of(rows.begin(), rows.end(), [&](const Json& row) {
-    return std::abs(row.at("off").get<double>()) <= c.calibration.tolerance;
+    record = read_confirmation(file);
+  record.tolerance = c.calibration.tolerance;
+  if (!record.beats.empty() && record.beats.back().parameters == record.parameters)
+    record.beats.pop_back();  // this very beat, recorded before the run was stopped
+  const std::vector<ConfirmedVolume> found = volumes_of(fit, beat);
+  const bool is_within = std::all_of(found.begin(), found.end(), [&](const ConfirmedVolume& v) {
+    return v.within(record.tolerance);
   });
-  beats.push_back(
-      {{"parameters", record.at("parameters")}, {"volumes", rows}, {"within_tolerance", within}});
-  record["tolerance"] = c.calibration.tolerance;
-  const bool again = !within && c.calibration.confirm && beats.size() < most_beats;
+  record.beats.push_back({record.parameters, found, is_within});
+  const bool again = !is_within && c.calibration.confirm && record.beats.size() < most_beats;
   if (again) {
-    record["parameters"] = corrected(calibration, record.at("parameters"), rows);
+    record.parameters = corrected(fit, record.parameters, found);
     log::info("the beat's volumes are off by more than {:g}%; once more with {}",
-              100.0 * c.calibration.tolerance, record["parameters"].dump());
+              100.0 * record.tolerance, calibrate::json_of(record.parameters).dump());
     std::filesystem::remove(folder / heartbeat::checkpoint_name);  // before the new parameters
   }
-  write_file(file, record.dump(2) + "\n");
+  write_confirmation(record, file);
   if (!again)
     write_file(folder / "calibrated.toml", fragment(calibrated(c, file)));
   return again;
@@ -322,18 +308,11 @@ FitRecord fit_record(const Case& c, const std::filesystem::path& calibration,
   all.assumed = assumed_pressures(c);
   if (!c.calibration.asked())
     return all;
-  all.volumes = from_json_file(beat / confirmation_name, [&](const Json& record) {
-    std::vector<report::FittedVolume> volumes;
-    for (const Json& row : record.at("beats").back().at("volumes"))
-      volumes.push_back({row.at("name"), 1e3 * row.at("measured_ml").get<double>(),
-                         1e3 * row.at("quasi_static_ml").get<double>(),
-                         1e3 * row.at("beat_ml").get<double>(),
-                         std::abs(row.at("off").get<double>()) <= c.calibration.tolerance});
-    return volumes;
-  });
+  for (const ConfirmedVolume& v : read_confirmation(beat / confirmation_name).beats.back().volumes)
+    all.volumes.push_back(
+        {v.name, v.measured, v.quasi_static, v.beat, v.within(c.calibration.tolerance)});
   if (c.calibration.passive == FittedPassive::klotz)
-    add_klotz(from_json_file(calibration / calibration_name, [](const Json& json) { return json; }),
-              all);
+    add_klotz(calibrate::read_fit(calibration / calibration_name), all);
   return all;
 }
 

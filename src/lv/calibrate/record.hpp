@@ -1,0 +1,42 @@
+#pragma once
+
+#include "lv/calibrate/fit.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lv::calibrate {
+
+/// A volume that a fit was asked for, and what it came to.
+struct RecordedVolume {
+  std::string name;                            ///< EDV, ESV, or a point of Klotz's curve
+  double pressure;                             ///< [kPa]
+  double target, model;                        ///< [mm^3]
+  std::map<std::string, double> by_parameter;  ///< dV/dx of the fitted ones [mm^3]
+};
+
+/// Of a fit, what later stages need.
+struct RecordedFit {
+  FitParameters parameters;
+  std::vector<Fitted> fitted;  ///< the parameters that were
+  std::vector<RecordedVolume> volumes;
+  std::optional<double> klotz_pressure;        ///< of a fit to Klotz's curve [kPa]
+  std::vector<OtherPressure> other_pressures;  ///< the same fit for them
+};
+
+/// Reads a file of calibrate::json's text. Throws RunError when it is damaged.
+[[nodiscard]] RecordedFit read_fit(const std::filesystem::path& file);
+
+/// The parameters alone, of such a file or another that has them under "parameters".
+[[nodiscard]] FitParameters read_parameters(const std::filesystem::path& file);
+
+/// As JSON: {"C_a": ..., "scale": ..., "exponent": ..., "T_scale": ...}, and back.
+[[nodiscard]] nlohmann::ordered_json json_of(const FitParameters& p);
+[[nodiscard]] FitParameters parameters_in(const nlohmann::ordered_json& json);
+
+}  // namespace lv::calibrate
