@@ -11,7 +11,7 @@ using namespace lv;
 
 TEST_CASE("beats with fitted parameters are read as they were written", "[unit][pipeline]") {
   const test::TemporaryFolder folder;
-  const auto file = folder.path() / "confirmation.json";
+  const auto file = folder / "confirmation.json";
   const pipeline::Confirmation written{
       {1.25, 0.9, 1.1, 3.7},
       0.01,
@@ -31,7 +31,7 @@ TEST_CASE("beats with fitted parameters are read as they were written", "[unit][
 
 TEST_CASE("a fit is read with its derivatives and with other pressures", "[unit][pipeline]") {
   const test::TemporaryFolder folder;
-  const auto file = folder.path() / "calibration.json";
+  const auto file = folder / "calibration.json";
   write_file(file,
              R"({"parameters": {"C_a": 1, "scale": 2, "exponent": 1.5, "T_scale": 3},
  "volumes": [{"name": "ESV", "pressure_mmHg": 100, "target_ml": 60, "model_ml": 61,
