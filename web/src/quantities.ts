@@ -10,24 +10,8 @@ export interface Quantity {
   help: string;
 }
 
-const strainHelp = "Green-Lagrange strain; up to end-diastole from early diastole, after it from end-diastole. " +
-  "Negative: shorter.";
-
-export const quantities: Quantity[] = [
-  { name: "circumferential_strain", title: "circumferential strain", unit: "1", signed: true, middle: 0, floor: 0.005, help: strainHelp },
-  { name: "fibre_stress", title: "fibre stress", unit: "kPa", signed: false, middle: 0, floor: 0.1,
-    help: "Total Cauchy stress along the deformed fibre: passive, active and pressure." },
-  { name: "fibre_strain", title: "fibre strain", unit: "1", signed: true, middle: 0, floor: 0.005, help: strainHelp },
-  { name: "longitudinal_strain", title: "longitudinal strain", unit: "1", signed: true, middle: 0, floor: 0.005, help: strainHelp },
-  { name: "radial_strain", title: "radial strain", unit: "1", signed: true, middle: 0, floor: 0.005,
-    help: strainHelp + " Positive across the wall: thicker." },
-  { name: "active_tension", title: "active tension", unit: "kPa", signed: false, middle: 0, floor: 0.1,
-    help: "Tension T along the fibre that the muscle makes (Niederer-Hunter-Smith law)." },
-  { name: "fibre_stress_passive", title: "passive fibre stress", unit: "kPa", signed: false, middle: 0, floor: 0.1,
-    help: "The passive law's share of the Cauchy stress along the fibre, without the pressure." },
-  { name: "J", title: "volume ratio J", unit: "1", signed: true, middle: 1, floor: 0.0005,
-    help: "Deformed over undeformed volume; muscle is nearly incompressible, so anything but 1 is the model's error." },
-];
+/** The program's list: see src/lv/analysis/quantities.cpp. */
+export const quantities: Quantity[] = JSON.parse(document.getElementById("about")!.textContent!).quantities;
 
 export const infarct: Quantity = {
   name: "infarct", title: "infarct M", unit: "1", signed: false, middle: 0, floor: 0.005,

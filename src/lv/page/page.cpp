@@ -1,5 +1,6 @@
 #include "lv/page/page.hpp"
 
+#include "lv/analysis/quantities.hpp"
 #include "lv/base/check.hpp"
 #include "lv/base/json_file.hpp"
 #include "lv/base/table.hpp"
@@ -377,6 +378,21 @@ Data case_html(const PageCase& shown, int number, std::size_t count) {
   return arrays.data;
 }
 
+/// The quantities that the page shows, in its words.
+Json quantities_json() {
+  Json list = Json::array();
+  for (const analysis::Quantity& q : analysis::quantities())
+    if (q.is_shown)
+      list.push_back({{"name", q.name},
+                      {"title", q.title},
+                      {"unit", q.unit},
+                      {"signed", q.is_signed},
+                      {"middle", q.middle},
+                      {"floor", q.floor},
+                      {"help", q.help}});
+  return list;
+}
+
 }  // namespace
 
 std::string page(const std::vector<PageCase>& cases, const std::string& version) {
@@ -386,9 +402,11 @@ std::string page(const std::vector<PageCase>& cases, const std::string& version)
     LV_CHECK(at != std::string::npos);
     html.replace(at, mark.size(), data);
   };
-  Data data{element("about", "application/json",
-                    Json{{"version", version}, {"cases", cases.size()}}.dump()),
-            "", ""};
+  Data data{
+      element("about", "application/json",
+              Json{{"version", version}, {"cases", cases.size()}, {"quantities", quantities_json()}}
+                  .dump()),
+      "", ""};
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const Data one = case_html(cases[i], static_cast<int>(i), cases.size());
     data.summary += one.summary;
