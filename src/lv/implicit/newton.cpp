@@ -11,19 +11,8 @@
 namespace lv::implicit {
 namespace {
 
-/// Below this ratio of successive corrections a tangent is kept,
+/// Below this ratio of successive corrections a tangent is kept.
 constexpr double good_contraction = 0.3;
-/// and below this one if it needs few more: a factorisation costs as much as some ten corrections.
-constexpr double fair_contraction = 0.5;
-constexpr double few_corrections = 5.0;
-
-/// Whether a tangent that made the last correction this part of the one before it may be kept.
-bool is_worth_keeping(double contraction, double correction, double tolerance) {
-  if (contraction < good_contraction)
-    return true;
-  return contraction < fair_contraction &&
-         std::log(tolerance / correction) / std::log(contraction) < few_corrections;
-}
 
 /// rms displacement of a correction [mm].
 double size(const std::vector<double>& correction, std::size_t nodes) {
@@ -182,8 +171,7 @@ class Newton::Attempt {
     }
     state_ = trial;
     residual_ = std::move(residual);
-    if (damping_ == 1.0 && is_worth_keeping(contraction, size(*next, state_.positions.size()),
-                                            newton_.parameters_.tolerance)) {
+    if (damping_ == 1.0 && contraction < good_contraction) {
       set_correction(*next);
       fresh_ = false;
       return;
