@@ -80,10 +80,12 @@ export function drawChart(chart: Chart): DrawnChart {
   root.append(svg("text", { x: (box.left + box.right) / 2, y: height - 8, "text-anchor": "middle", fill: ink.text }, chart.x));
   root.append(svg("text", { transform: `translate(14 ${(box.top + box.bottom) / 2}) rotate(-90)`, "text-anchor": "middle",
     fill: ink.text }, chart.y));
-  for (const mark of chart.marks ?? []) {
+  let close = false;  // to the mark before, whose label this one must not cover
+  for (const [k, mark] of (chart.marks ?? []).entries()) {
     const late = px(mark.x) > box.right - 70;
+    close = k > 0 && !close && px(mark.x) - px(chart.marks![k - 1].x) < 80;
     root.append(svg("line", { x1: px(mark.x), x2: px(mark.x), y1: box.top, y2: box.bottom, stroke: ink.soft, "stroke-dasharray": "2 3" }),
-      svg("text", { x: px(mark.x) + (late ? -4 : 4), y: box.bottom - 6, "text-anchor": late ? "end" : "start", fill: ink.soft, "font-size": 11 }, mark.label));
+      svg("text", { x: px(mark.x) + (late ? -4 : 4), y: box.bottom - (close ? 19 : 6), "text-anchor": late ? "end" : "start", fill: ink.soft, "font-size": 11 }, mark.label));
   }
   chart.lines.forEach((line, i) => {
     const group = svg("g", line.ofPaper ? { class: "of-paper" } : {});

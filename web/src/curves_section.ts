@@ -25,8 +25,9 @@ export function curvesSection(cases: Case[], shared: Shared, time: Timeline): HT
   if (!shownCases.length) return folded("curves", title, "curves.csv is missing: the beat has not begun.");
   const loads = shownCases.every(({ c }) => c.isLoaded);
   const course = loads ? "load (sequence of equilibria, no time)" : shownCases.some(({ c }) => c.isLoaded) ? "time (s); load where there is no time" : "time (s)";
-  const help = "From curves.csv. There are no valves: pressure and activation are given, and the volume follows, so the path of pressure against volume " +
-    "is no loop of a heart. " + (loads ? "The quasi-static engine goes from equilibrium to equilibrium: the axis counts its load, not time. " : "") +
+  const beats = shownCases.every(({ c }) => c.table("cycle.csv").length);
+  const help = "From curves.csv. " + (beats ? "Valves and a circulation set pressure and volume; the curves are those of one beat. " :
+    "There are no valves: pressure and activation are given, and the volume follows, so the path of pressure against volume is no loop of a heart. ") + (loads ? "The quasi-static engine goes from equilibrium to equilibrium: the axis counts its load, not time. " : "") +
     "Where a file has no value the curve has a gap: calcium between rest and peak of the quasi-static engine. The black line and the dots " +
     "are the moment that the 3-D view shows; point at a chart to read it.";
   const against = [
@@ -46,7 +47,7 @@ export function curvesSection(cases: Case[], shared: Shared, time: Timeline): HT
     drawn.push({ chart: one, x, y });
     return figure(`${shownCases.map(({ c }) => c.name).join(", ")}: ${caption}`, fileName(joined(cases), y, "against", x), one.figure);
   };
-  const figures = [make("pressure-volume path (no valves)", "cavity_volume_ml", "cavity volume (ml)", "pressure_mmHg", "endocardial pressure (mmHg)"),
+  const figures = [make(beats ? "pressure-volume loop" : "pressure-volume path (no valves)", "cavity_volume_ml", "cavity volume (ml)", "pressure_mmHg", "endocardial pressure (mmHg)"),
     ...against.map(({ y, title: words }) => make(`${words} against ${loads ? "load" : "time"}`, "time_s", course, y, words))];
   const mark = () => shownCases.forEach(({ number, rows }, i) => {
     const t = time.time(number, shared.state.step);

@@ -17,6 +17,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace lv::heartbeat {
 namespace {
@@ -137,6 +138,7 @@ class CycleRun {
   [[nodiscard]] double calcium(double since) const;
   [[nodiscard]] double step_size() const;
   [[nodiscard]] double beats_left() const;
+  [[nodiscard]] double seconds_left() const;  ///< negative: not known
   [[nodiscard]] bool done() const {
     return cycle_.is_limit || beat_ >= setup_.cycle.beats || cycle_.cut_short;
   }
@@ -157,8 +159,9 @@ class CycleRun {
       std::numeric_limits<double>::quiet_NaN();  ///< of the beat before the last
   double blood_at_start_ = 0.0;
   double stored_before_ = 0.0;  ///< in the wall when the beat began [mN mm]
-  TimeLeft left_;
-  double done_here_ = 0.0;  ///< simulated time of this process [s]
+  TimeLeft reports_;
+  std::optional<double> begun_;    ///< the beat underway, if in this process [s]
+  double seconds_of_beat_ = -1.0;  ///< the last whole one of this process; negative: none [s]
   std::chrono::steady_clock::time_point counted_ = std::chrono::steady_clock::now();
 };
 
@@ -213,6 +216,8 @@ void CycleRun::beat() {
 
 void CycleRun::begin_beat() {
   since_ = 0.0;
+  count_time();
+  begun_ = run_.beat.wall_clock;
   begins_.push_back(cycle_.samples.size() - 1);
   const auto states = circuit_.states();
   states_before_.assign(states.begin(), states.end());
@@ -251,7 +256,6 @@ void CycleRun::step() {
   circuit_.advance(t, dt, engine_.pressure());
   since_ = since;
   run_.time = t;
-  done_here_ += dt;
   ++run_.beat.steps;
   cycle_.samples.push_back({t, circuit_.signals(t, engine_.pressure())});
   cycle_.volume_gap = std::max(cycle_.volume_gap,
@@ -265,7 +269,7 @@ void CycleRun::step() {
     --run_.halvings;
     run_.good_steps = 0;
   }
-  if (left_.due())
+  if (reports_.due())
     report_progress(newton);
   if (run_.beat.steps % checkpoint_every == 0 && since_ < cycle_.period)
     save();
@@ -328,6 +332,9 @@ void CycleRun::end_beat() {
     return m.wall.time < begin_of_beat();  // what did not happen in this beat
   });
   ++beat_;
+  count_time();
+  if (begun_)
+    seconds_of_beat_ = run_.beat.wall_clock - *begun_;
   run_.beat.energy.stored = engine_.stored_energy() - stored_before_;
   whole_.energy = run_.beat.energy;
   whole_.curves = run_.beat.curves;
@@ -443,12 +450,19 @@ double CycleRun::beats_left() const {
                     most);
 }
 
+/// Steps of different phases take different times, so that only a whole beat tells of others.
+double CycleRun::seconds_left() const {
+  return seconds_of_beat_ * (1.0 - since_ / cycle_.period + beats_left());
+}
+
 void CycleRun::report_progress(const implicit::NewtonReport& newton) {
-  left_.record(done_here_);
   const CurveRow& now = run_.beat.curves.back();
-  log::info("beat {} {:.3f} s  {}  {:.1f} mmHg  {:.1f} ml  tension {:.1f} kPa  {} corrections{}",
-            beat_ + 1, since_, now.phase, now.pressure / mmHg, 1e-3 * now.volume, now.mean_tension,
-            newton.iterations, left_.words(cycle_.period - since_ + beats_left() * cycle_.period));
+  log::info(
+      "beat {} (of {} at most)  {:.3f} of {:.3g} s  {}  {:.1f} mmHg  {:.1f} ml  tension {:.1f} "
+      "kPa  {} corrections, {} {}{}",
+      beat_ + 1, setup_.cycle.beats, since_, cycle_.period, now.phase, now.pressure / mmHg,
+      1e-3 * now.volume, now.mean_tension, newton.iterations, newton.factorisations,
+      newton.factorisations == 1 ? "tangent" : "tangents", time_left(seconds_left()));
   show_progress();
 }
 

@@ -41,12 +41,17 @@ Outcome<double> TimeEngine::fill(double pressure, double Ca_0) {
   auto volume = engine_.go_to({pressure});
   if (!volume)
     return volume;
+  const TensionAt none = [](std::size_t, std::size_t, double) { return Tension{}; };
+  if (const NewtonReport report = engine_.find(engine_.state(), {none, pressure});
+      !report.converged)
+    return Unsolved{"the filled wall finds no equilibrium without tension: " + report.why,
+                    "Take a resting calcium (calcium.Ca_0) with less tension"};
   State filled = engine_.state();
   filled.cavity_pressure = pressure;
   engine_.restore(filled, engine_.loads());
   muscle_.relax(Ca_0, engine_.equations().fibre_stretch(filled));
   rest();
-  return volume;
+  return cavity_volume();
 }
 
 NewtonReport TimeEngine::advance(const TimeStep& step, const VolumeOfPressure& volume) {

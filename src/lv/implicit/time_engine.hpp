@@ -22,8 +22,9 @@ class TimeEngine {
   /// Of the generalised alpha rule, where the model has a density.
   static constexpr double default_spectral_radius = 0.5;
 
-  /// Goes from the undeformed wall to a pressure with muscle at rest, at balance with its calcium
-  /// Ca_0 [uM]; the cavity's volume there [mm^3].
+  /// Goes from the undeformed wall to a pressure without any tension; the muscle's states are then
+  /// at balance with the calcium Ca_0 [uM] and this wall's stretch, so that its resting tension
+  /// acts from the first step on. The cavity's volume [mm^3].
   Outcome<double> fill(double pressure, double Ca_0);
 
   /// One step; the engine stays where it was when it fails.

@@ -267,7 +267,7 @@ struct PageFile {
   const char* name;
 };
 
-constexpr std::array<PageFile, 19> page_files{{
+constexpr std::array<PageFile, 21> page_files{{
     {"results", "summary.json", "summary.json"},
     {"results", "regions.csv", "regions.csv"},
     {"results", "rotation.csv", "rotation.csv"},
@@ -279,6 +279,8 @@ constexpr std::array<PageFile, 19> page_files{{
     {"results", "outline_distances.csv", "outline_distances.csv"},
     {"beat", "curves.csv", "curves.csv"},
     {"beat", "moments.csv", "moments.csv"},
+    {"beat", "cycle.csv", "cycle.csv"},
+    {"beat", "beats.csv", "beats.csv"},
     {"beat", "confirmation.json", "confirmation.json"},
     {"calibrate", "calibration.json", "calibration.json"},
     {"mesh", "quality.csv", "quality.csv"},
