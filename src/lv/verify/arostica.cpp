@@ -2,6 +2,7 @@
 
 #include "lv/base/check.hpp"
 #include "lv/base/log.hpp"
+#include "lv/mesh/fibres.hpp"
 #include "lv/mesh/shapes.hpp"
 #include "lv/mesh/wall_mesh.hpp"
 
@@ -128,7 +129,6 @@ std::vector<double> harmonic_transmural(const mesh::Mesh& mesh) {
 /// energies differ in the third order of J - 1.
 implicit::StaticModel model_of(const ArosticaConstants& c) {
   solid::CardiacModel heart;
-  heart.fibres = {c.helix_endo, c.helix_epi, 0.5 * std::numbers::pi, 0.5 * std::numbers::pi};
   heart.base.stiffness = 0.0;
   heart.myocardium.passive = c.muscle;
   heart.myocardium.active = material::PrescribedTension{0.0};
@@ -142,13 +142,29 @@ implicit::StaticModel model_of(const ArosticaConstants& c) {
   return model;
 }
 
+/// The mesh with the benchmark's fibres, f = sin(alpha) e_u + cos(alpha) e_v, and s = f x n across
+/// them in the wall, at its nodes.
+mesh::Mesh with_fibres(mesh::Mesh mesh, const ArosticaWall& wall, const ArosticaConstants& c) {
+  const mesh::FibreRule rule{c.helix_endo, c.helix_epi, 0.5 * std::numbers::pi,
+                             0.5 * std::numbers::pi};
+  mesh.fibres.at = mesh::GivenFibres::At::nodes;
+  for (std::size_t a = 0; a < mesh.nodes.size(); ++a) {
+    const double t = mesh.transmural[a];
+    const Mat3 frame = mesh::fibre_frame(rule, mesh::wall_axes(wall.normal(mesh.nodes[a], t)), t);
+    mesh.fibres.f0.push_back(frame.col(0));
+    mesh.fibres.s0.push_back(frame.col(1));
+  }
+  return mesh;
+}
+
 /// The wall driven through time.
 class ArosticaRun {
  public:
   ArosticaRun(const ArosticaConstants& c, const ArosticaLoads& loads)
       : constants_(c),
         loads_(loads),
-        mesh_(ArosticaWall{}.mesh(c.edge_length, static_cast<int>(c.layers))),
+        mesh_(with_fibres(ArosticaWall{}.mesh(c.edge_length, static_cast<int>(c.layers)),
+                          ArosticaWall{}, c)),
         engine_(mesh_, model_of(c), {}, c.spectral_radius),
         histories_(c.drive.histories(history_step, c.end)),
         p0_(probe_at(mesh_, {25.0, 30.0, 0.0})),
@@ -211,6 +227,18 @@ Vec3 ArosticaWall::point(double u, double theta, double t) const {
   const double mu = std::numbers::pi - u * (std::numbers::pi - base_angle(*this, t));
   const double r = mix(endo_radius, epi_radius, t) * std::sin(mu);
   return {r * std::cos(theta), r * std::sin(theta), mix(endo_length, epi_length, t) * std::cos(mu)};
+}
+
+/// e_u x e_v of the ellipsoid at depth t, with the angle mu of the place on it.
+Vec3 ArosticaWall::normal(const Vec3& place, double t) const {
+  const double across = mix(endo_radius, epi_radius, t);
+  const double along = mix(endo_length, epi_length, t);
+  const double r = std::hypot(place.x(), place.y());
+  const double mu = std::atan2(r / across, place.z() / along);
+  const double theta = std::atan2(place.y(), place.x());
+  const double outwards = along * std::sin(mu);
+  return Vec3(outwards * std::cos(theta), outwards * std::sin(theta), across * std::cos(mu))
+      .normalized();
 }
 
 /// The mesher's base is plane, so it gets a wall whose shells are moved along the axis until theirs

@@ -24,6 +24,12 @@ struct ArosticaWall {
   /// z of the base's edge at depth t [mm].
   [[nodiscard]] double base_height(double t) const;
 
+  /// The direction across the wall that the benchmark's fibres are turned about, at a place of this
+  /// transmural coordinate: normal to the ellipsoid of revolution whose semi-axes are those at
+  /// depth t, scaled to the place. On the base it differs from the gradient of the coordinate, by
+  /// 17 degrees, since the base is sloped.
+  [[nodiscard]] Vec3 normal(const Vec3& place, double t) const;
+
   /// Quadratic hexahedra with edges of about this length [mm] and so many through the wall, with
   /// the harmonic transmural coordinate of the benchmark's fibres.
   [[nodiscard]] mesh::Mesh mesh(double edge_length, int layers) const;

@@ -3,6 +3,7 @@
 #include "lv/base/check.hpp"
 #include "lv/implicit/time_engine.hpp"
 #include "lv/mesh/refine.hpp"
+#include "lv/verify/half_sphere.hpp"
 
 #include "support/block_mesh.hpp"
 #include "support/random_values.hpp"
@@ -177,22 +178,26 @@ TEST_CASE("a slow step with inertia, or with dashpots alone, ends at the equilib
   }
 }
 
+/// The cavity must be closed: its volume's derivative leaves out the edge's own motion, which the
+/// volume does not feel where the edge stays in the basal plane. The wall meets the volume at
+/// balance, so that at the step's end it is off by about (1 - f)/2 V'' dr^2 = 0.006 mm^3, f = 2/3.
 TEST_CASE("a given volume is met at the end of a step with inertia", "[unit][implicit]") {
-  const mesh::Mesh mesh = mesh::refine(test::block_mesh(CellKind::hexahedron, 2));
-  solid::CardiacModel heart{.base = {solid::BasalSupport::Kind::fixed, 100.0}};
-  heart.myocardium.passive = material::NeoHookean{5.0};
+  const verify::HalfSphere sphere;
+  const mesh::Mesh mesh = sphere.mesh(4.0, 2);
+  solid::CardiacModel heart{.base = {.stiffness = implicit::rigid_base}};
+  heart.myocardium.passive = material::NeoHookean{sphere.mu};
   heart.myocardium.active = material::PrescribedTension{0.0};
   implicit::StaticModel model(heart);
   model.density = 1e-6;
   implicit::TimeEngine time(mesh, model, {}, 0.5);
   const double start = time.fill(0.1, 0.0).value();
   for (int i = 1; i <= 5; ++i) {
-    const double volume = start + 0.02 * i;
-    REQUIRE(time.advance({.dt = 0.01},
-                         [&](double) {
-                           return implicit::GivenVolume{volume, 0.0};
-                         })
-                .converged);
-    CHECK(time.cavity_volume() == Approx(volume).margin(1e-4));
+    const double volume = start + 20.0 * i;
+    const auto report = time.advance({.dt = 0.01}, [&](double) {
+      return implicit::GivenVolume{volume, 0.0};
+    });
+    INFO("step " << i << ": " << report.why);
+    REQUIRE(report.converged);
+    CHECK(time.cavity_volume() == Approx(volume).margin(0.05));
   }
 }
