@@ -1347,12 +1347,15 @@ const std::vector<Section>& sections() {
        "ventricle"},
       {"anatomy.contours",
        "Contours drawn on images (source = \"contours\"), and how B-spline surfaces are fitted to "
-       "them: the latter holds for labels, sunnybrook, guide_points and cine too"},
+       "them: the latter holds for every wall that is drawn"},
       {"anatomy.labels",
        "A label map (source = \"labels\"): its borders on the slices become contours"},
       {"anatomy.sunnybrook",
        "Contours in pixels with their DICOM images (source = \"sunnybrook\")"},
       {"anatomy.guide_points", "A list of points on the borders (source = \"guide_points\")"},
+      {"anatomy.contour_file", "Contours of another program (source = \"contour_file\")"},
+      {"anatomy.surfaces",
+       "Surfaces of endocardium and epicardium made elsewhere (source = \"surfaces\")"},
       {"segment",
        "Borders drawn by the program in a short-axis cine (anatomy.source = \"cine\", and "
        "`ventricle segment`)"},

@@ -15,6 +15,7 @@
 #include <fstream>
 #include <iostream>
 #include <limits>
+#include <sstream>
 #include <string_view>
 
 namespace lv::image {
@@ -22,17 +23,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The file as the library of the format reads it, which speaks on the terminal of what it
-/// dislikes.
+/// The file as the library of the format reads it, which says on the terminal alone that voxels are
+/// missing.
 void read_all(const fs::path& file, MetaImage& meta) {
   std::streambuf* const out = std::cout.rdbuf(nullptr);
-  std::streambuf* const err = std::cerr.rdbuf(nullptr);
+  std::stringbuf complaints;
+  std::streambuf* const err = std::cerr.rdbuf(&complaints);
   const bool read = meta.Read(file.c_str());
   std::cout.rdbuf(out);
   std::cerr.rdbuf(err);
   std::cout.clear();
   std::cerr.clear();
-  if (!read || meta.ElementData() == nullptr)
+  if (!read || meta.ElementData() == nullptr || !complaints.str().empty())
     throw InputError(file.string(), "cannot be read as MetaImage",
                      "The file seems to be truncated or damaged; the voxels of a .mhd must lie "
                      "beside it: save or copy it again");

@@ -65,6 +65,7 @@ bool leads_through_space(const Nrrd& nrrd, unsigned axis) {
 
 Axes axes_of(const Nrrd& nrrd, const std::string& file) {
   Axes axes;
+  int more = 0;
   for (unsigned a = 0; a < nrrd.dim; ++a) {
     const int kind = nrrd.axis[a].kind;
     if (leads_through_space(nrrd, a)) {
@@ -74,9 +75,8 @@ Axes axes_of(const Nrrd& nrrd, const std::string& file) {
     } else if (kind > nrrdKindList && kind != nrrdKindStub && kind != nrrdKindScalar) {
       fail(file, fmt::format("has {} values per voxel, as colours or vectors", nrrd.axis[a].size),
            "Give an image of grey values or labels");
-    } else if (axes.others) {
-      fail(file, "has two axes more than those of space", "Save an image of three or four");
     } else {
+      ++more;
       axes.others = a;
     }
   }
@@ -85,6 +85,9 @@ Axes axes_of(const Nrrd& nrrd, const std::string& file) {
          fmt::format("has {} axes with a direction in space where three are needed",
                      axes.space.size()),
          "Save it as a volume with \"space directions\"");
+  if (more > 1)
+    fail(file, fmt::format("has {} axes more than those of space", more),
+         "Save an image of three or four");
   return axes;
 }
 
