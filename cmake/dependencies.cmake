@@ -35,10 +35,14 @@ pkg_check_modules(PETSC REQUIRED IMPORTED_TARGET PETSc)
 
 # The images alone, without ITK's factories: what is read and written is named where it is used.
 set(ITK_NO_IO_FACTORY_REGISTER_MANAGER ON)
-find_package(ITK 5.2 REQUIRED COMPONENTS ITKCommon ITKIOGDCM ITKIONIFTI ITKImageFunction ITKImageGrid ITKRegistrationMethodsv4 ITKOptimizersv4 ITKMetricsv4 ITKThresholding ITKLabelMap ITKPath)
+find_package(ITK 5.2 REQUIRED COMPONENTS ITKCommon ITKIOGDCM ITKIONIFTI ITKMetaIO ITKNrrdIO ITKImageFunction ITKImageGrid ITKRegistrationMethodsv4 ITKOptimizersv4 ITKMetricsv4 ITKThresholding ITKLabelMap ITKPath)
 add_library(itk INTERFACE)
 target_include_directories(itk SYSTEM INTERFACE ${ITK_INCLUDE_DIRS})
 target_link_libraries(itk INTERFACE ${ITK_LIBRARIES})
+# Files of MATLAB, as Segment writes them. Not by pkg-config, which adds headers of another HDF5 than deal.II's.
+find_path(MATIO_INCLUDE matio.h REQUIRED)
+find_library(MATIO matio REQUIRED)
+find_package(pugixml 1.13 REQUIRED)  # XML, as cvi42 writes it
 find_package(ZLIB REQUIRED)  # NIfTI images are packed with it
 # ITK brings an older Eigen of its own: the sources that include ITK or GDCM are told to use the system's. ITK's headers also
 # step back from the null pointer of an empty neighbourhood, which is no finding of ours. So they cannot share the precompiled header.

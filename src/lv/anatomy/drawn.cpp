@@ -7,10 +7,13 @@
 #include "lv/geometry/fit_report.hpp"
 #include "lv/image/close_walls.hpp"
 #include "lv/image/dicom_study.hpp"
+#include "lv/image/foreign_contours.hpp"
 #include "lv/image/guide_points.hpp"
 #include "lv/image/label_contours.hpp"
 #include "lv/image/label_meaning.hpp"
-#include "lv/image/nifti.hpp"
+#include "lv/image/volume_file.hpp"
+#include "lv/mesh_io/cut_surfaces.hpp"
+#include "lv/mesh_io/triangles.hpp"
 
 #include <fmt/format.h>
 
@@ -81,8 +84,8 @@ void require_choices(const Case& c, const image::Volume& map) {
   for (case_file::CaseLine& line : label_lines(map, a))
     if (line.parameter != "anatomy.labels.right_ventricle")
       missing.add(std::move(line));
-  std::string found =
-      fmt::format("{} has the labels {}", map.file, image::describe(image::label_volumes(map)));
+  std::string found = fmt::format("{} has the labels {}", map.file,
+                                  image::describe(image::label_volumes(map), map.names));
   if (frame_open)
     found +=
         fmt::format(" and {} frames\n{}", map.frames,
@@ -117,8 +120,8 @@ void warn(const std::string& warning, Drawn& drawn) {
 
 Drawn from_labels(const Case& c) {
   const case_file::LabelAnatomy& a = c.anatomy.labels;
-  require_names(c, {{"anatomy.labels.file", a.file, "the NIfTI label map"}});
-  const image::Volume volume = image::read_nifti(case_file::beside(c, a.file));
+  require_names(c, {{"anatomy.labels.file", a.file, "the label map"}});
+  const image::Volume volume = image::read_labels(case_file::beside(c, a.file));
   check_meaning(c);
   require_choices(c, volume);
   const int frame = std::max(a.frame, 1) - 1;
@@ -216,6 +219,99 @@ Drawn from_guide_points(const Case& c) {
   return drawn;
 }
 
+/// The images that contours were drawn on, if the case names them.
+std::optional<image::DicomStack> images_of(const Case& c) {
+  const case_file::ContourFileAnatomy& a = c.anatomy.contour_file;
+  if (a.images.empty())
+    return std::nullopt;
+  const fs::path folder = case_file::beside(c, a.images);
+  const image::DicomStudy study = image::read_dicom_study(std::array{folder});
+  image::require_images(study, folder.string());
+  return image::choose_stack(study, a.series, folder.string(), "anatomy.contour_file.series");
+}
+
+/// Throws InputError unless the case says what the file does not.
+void require_said_of_contours(const Case& c, const image::ForeignContours& drawn) {
+  case_file::Missing missing;
+  for (case_file::CaseLine& line : contour_file_lines(drawn, c.anatomy.contour_file))
+    missing.add(std::move(line));
+  missing.raise(c, case_file::place_of(c, "anatomy.contour_file.file"),
+                fmt::format("{} has\n{}", drawn.file, image::describe(drawn)));
+}
+
+Drawn from_contour_file(const Case& c) {
+  const case_file::ContourFileAnatomy& a = c.anatomy.contour_file;
+  require_names(c, {{"anatomy.contour_file.file", a.file, "the file of contours"}});
+  const image::ForeignContours file = image::read_contours(case_file::beside(c, a.file));
+  require_said_of_contours(c, file);
+  const std::optional<image::DicomStack> images = images_of(c);
+  image::DrawnPhases read =
+      image::arranged(file, a.endo.empty() ? file.endo : a.endo, a.epi.empty() ? file.epi : a.epi,
+                      images ? &*images : nullptr);
+  const Moments moments = moments_of(read.phases);
+  const std::string found = fmt::format(
+      "{} has\n{}{}", file.file, describe_phases(read.phases),
+      read.notes.empty() ? "" : "\n  " + fmt::format("{}", fmt::join(read.notes, "\n  ")));
+  case_file::Missing missing;
+  if (read.phases.size() > 1 && a.phase == 0)
+    missing.add(choice("anatomy.contour_file.phase", moments));
+  missing.raise(c, case_file::place_of(c, "anatomy.contour_file.file"), found);
+  const int phase = a.phase == 0 ? read.phases.begin()->first : a.phase;
+  if (!read.phases.contains(phase))
+    throw InputError(case_file::place_of(c, "anatomy.contour_file.phase"),
+                     fmt::format("there are no contours of phase {}; {}", phase, found),
+                     "Choose a phase, counted from 1 in order of time");
+  Drawn drawn;
+  drawn.source = fmt::format("{}, phase {}", file.format, phase);
+  drawn.usual_base = geometry::BaseAt::slab;
+  if (images)
+    drawn.notes = image::remarks(*images);
+  drawn.notes.insert(drawn.notes.end(), read.notes.begin(), read.notes.end());
+  drawn.moment_is_known = read.phases.size() > 1;
+  warn(end_diastole_note(c, moments, phase), drawn);
+  drawn.contours = std::move(read.phases.at(phase));
+  return drawn;
+}
+
+/// One of the two surfaces; a space that the case gives must not contradict the file's.
+mesh_io::Triangles read_surface(const Case& c, const std::string& name) {
+  const case_file::SurfaceAnatomy& a = c.anatomy.surfaces;
+  const std::string file = case_file::beside(c, name).string();
+  const std::string stated = mesh_io::stated_space(file);
+  const std::string said = a.space == case_file::SurfaceSpace::RAS   ? "RAS"
+                           : a.space == case_file::SurfaceSpace::LPS ? "LPS"
+                                                                     : "";
+  if (!said.empty() && !stated.empty() && said != stated)
+    throw InputError(case_file::place_of(c, "anatomy.surfaces.space"),
+                     fmt::format("is \"{}\", but {} says SPACE={}", said, file, stated),
+                     "Leave anatomy.surfaces.space out: the file's own word is believed");
+  case_file::Missing missing;
+  if (said.empty() && stated.empty())
+    missing.add({"anatomy.surfaces.space", case_file::fill_in,
+                 "\"LPS\" (DICOM, ITK) or \"RAS\" (3D Slicer's scene, NIfTI)"});
+  if (!(a.unit > 0.0))
+    missing.add({"anatomy.surfaces.length_unit", case_file::quoted("1 mm"),
+                 "no such file states its unit: \"1 mm\", \"10 mm\" or \"1000 mm\""});
+  missing.raise(c, case_file::place_of(c, "anatomy.surfaces.endo"),
+                said.empty() && stated.empty()
+                    ? fmt::format("{} does not state the space of its coordinates", file)
+                    : "");
+  return mesh_io::read_triangles(file, a.unit, said);
+}
+
+Drawn from_surfaces(const Case& c) {
+  const case_file::SurfaceAnatomy& a = c.anatomy.surfaces;
+  require_names(c, {{"anatomy.surfaces.endo", a.endo, "the surface of the endocardium"},
+                    {"anatomy.surfaces.epi", a.epi, "the surface of the epicardium"}});
+  mesh_io::CutSurfaces cut = mesh_io::cut_across(read_surface(c, a.endo), read_surface(c, a.epi));
+  Drawn drawn;
+  drawn.contours = std::move(cut.contours);
+  drawn.source = "surfaces of endocardium and epicardium";
+  drawn.usual_base = geometry::BaseAt::slice;
+  drawn.notes = std::move(cut.notes);
+  return drawn;
+}
+
 /// Phases count from 1.
 Moments moments_of(const segment::Segmentation& found) {
   Moments m;
@@ -258,6 +354,10 @@ Drawn read_source(const Case& c) {
       return from_guide_points(c);
     case case_file::AnatomySource::cine:
       return from_cine(c);
+    case case_file::AnatomySource::contour_file:
+      return from_contour_file(c);
+    case case_file::AnatomySource::surfaces:
+      return from_surfaces(c);
     default:
       return from_csv(c);
   }
@@ -274,7 +374,8 @@ double volume_of(const geometry::Contours& contours) {
 Drawn read_drawn(const Case& c) {
   Drawn drawn = read_source(c);
   const double thinnest = c.anatomy.contours.fit.thinnest_wall;
-  const bool mended = c.anatomy.source != case_file::AnatomySource::contours;
+  const bool mended = c.anatomy.source != case_file::AnatomySource::contours &&
+                      c.anatomy.source != case_file::AnatomySource::surfaces;
   if (mended)
     image::drop_strays(drawn.contours, drawn.notes);
   image::drop_open_base(drawn.contours, drawn.notes);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <regex>
 #include <set>
 
 namespace lv::anatomy {
@@ -13,6 +14,15 @@ namespace {
 
 using case_file::CaseLine;
 namespace fs = std::filesystem;
+
+/// What the file calls these labels, before a remark on them.
+std::string named(const image::Volume& map, const std::vector<int>& labels) {
+  std::string text;
+  for (const int label : labels)
+    if (const auto name = map.names.find(label); name != map.names.end())
+      text += fmt::format("{}\"{}\"", text.empty() ? "" : ", ", name->second);
+  return text.empty() ? "" : text + ": ";
+}
 
 std::string value_of(const std::vector<int>& labels) {
   return labels.empty() ? case_file::fill_in : case_file::listed(labels);
@@ -39,20 +49,49 @@ std::vector<CaseLine> label_lines(const image::Volume& map, const case_file::Lab
   std::vector<CaseLine> lines;
   if (said.cavity.empty())
     lines.push_back({"anatomy.labels.cavity", value_of(seen.cavity),
-                     seen.cavity.empty() ? "which labels mean the left ventricle's blood"
-                                         : "seems the left ventricle's blood: it lies inside the "
-                                           "muscle; check it"});
+                     seen.cavity.empty()
+                         ? "which labels mean the left ventricle's blood"
+                         : named(map, seen.cavity) +
+                               "seems the left ventricle's blood: it lies inside the "
+                               "muscle; check it"});
   if (said.muscle.empty())
     lines.push_back({"anatomy.labels.muscle", value_of(seen.muscle),
-                     seen.muscle.empty() ? "which labels mean the left ventricle's muscle"
-                                         : "seems its muscle: it lies round the cavity"});
+                     seen.muscle.empty()
+                         ? "which labels mean the left ventricle's muscle"
+                         : named(map, seen.muscle) + "seems its muscle: it lies round the cavity"});
   if (said.right_ventricle.empty() && !seen.right_ventricle.empty())
     lines.push_back({"anatomy.labels.right_ventricle", value_of(seen.right_ventricle),
-                     "seems the right ventricle, which shows where the septum is"});
+                     named(map, seen.right_ventricle) +
+                         "seems the right ventricle, which shows where the septum is"});
   if (map.frames > 1 && said.frame == 0) {
     const auto& cavity = said.cavity.empty() ? seen.cavity : said.cavity;
     lines.push_back(choice("anatomy.labels.frame", moments_of(map, cavity)));
   }
+  return lines;
+}
+
+std::vector<CaseLine> contour_file_lines(const image::ForeignContours& drawn,
+                                         const case_file::ContourFileAnatomy& said) {
+  std::vector<CaseLine> lines;
+  const auto name_line = [&](const char* parameter, const std::string& fixed,
+                             const std::string& chosen, const char* pattern) {
+    if (!fixed.empty() || !chosen.empty())
+      return;
+    const std::regex seems(pattern, std::regex::icase);
+    std::string value = case_file::fill_in;
+    for (const auto& [name, count] : image::structures(drawn))
+      if (value == case_file::fill_in && std::regex_search(name, seems))
+        value = case_file::quoted(name);
+    lines.push_back({parameter, value,
+                     value == case_file::fill_in ? "the name of its contours in the file"
+                                                 : "seems so by its name; check it"});
+  };
+  name_line("anatomy.contour_file.endo", drawn.endo, said.endo, "endo");
+  name_line("anatomy.contour_file.epi", drawn.epi, said.epi, "epi");
+  if (drawn.in_pixels && said.images.empty())
+    lines.push_back(
+        {"anatomy.contour_file.images", case_file::fill_in,
+         "the folder of the DICOM images they were drawn on: the file has pixels alone"});
   return lines;
 }
 

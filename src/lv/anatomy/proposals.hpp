@@ -3,6 +3,7 @@
 #include "lv/anatomy/moments.hpp"
 #include "lv/case_file/case_lines.hpp"
 #include "lv/image/dicom_study.hpp"
+#include "lv/image/foreign_contours.hpp"
 #include "lv/image/sunnybrook.hpp"
 
 #include <filesystem>
@@ -18,6 +19,11 @@ namespace lv::anatomy {
 /// Labels and, of a map of several times, the frame.
 [[nodiscard]] std::vector<case_file::CaseLine> label_lines(const image::Volume& map,
                                                            const case_file::LabelAnatomy& said);
+
+/// Of a file of contours of another program: which structures are the borders, where its format
+/// does not fix that, and the images it needs.
+[[nodiscard]] std::vector<case_file::CaseLine> contour_file_lines(
+    const image::ForeignContours& drawn, const case_file::ContourFileAnatomy& said);
 
 /// Which series of a study the contours in a folder were drawn on: of several the first, single or
 /// joined by its description, that has all their images. `read` becomes the contours by phase, if

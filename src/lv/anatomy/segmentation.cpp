@@ -9,7 +9,7 @@
 #include "lv/drawing/overlay.hpp"
 #include "lv/geometry/contour_table.hpp"
 #include "lv/image/dicom_study.hpp"
-#include "lv/image/nifti.hpp"
+#include "lv/image/volume_file.hpp"
 
 #include <fmt/format.h>
 
@@ -33,8 +33,8 @@ void require_said_of_borders(const Case& c, const std::optional<image::DicomStud
   case_file::Missing missing;
   std::string found;
   if (a.images.empty())
-    missing.add(
-        {"segment.cine", case_file::fill_in, "the folder of the short-axis cine, or a NIfTI file"});
+    missing.add({"segment.cine", case_file::fill_in,
+                 "the folder of the short-axis cine, or a file (NIfTI, NRRD, MetaImage)"});
   if (dicom && a.series.empty() && dicom->stacks.size() > 1) {
     missing.add(short_axis_line("segment.series", *dicom));
     found =
@@ -111,12 +111,12 @@ image::Cine read_cine(const Case& c) {
   const case_file::CineAnatomy& a = c.anatomy.cine;
   require_said_of_borders(c, {});
   const fs::path file = case_file::beside(c, a.images);
-  if (image::is_nifti_name(a.images)) {
+  if (image::is_volume_name(a.images)) {
     if (!a.series.empty())
       throw InputError(case_file::place_of(c, "segment.series"),
-                       fmt::format("a NIfTI file has no series \"{}\"", a.series),
+                       fmt::format("a single file has no series \"{}\"", a.series),
                        "Leave segment.series out, or name a folder of DICOM files");
-    return image::read_nifti_cine(file);
+    return image::read_volume_cine(file);
   }
   const image::DicomStudy study = image::read_dicom_study(std::array{file});
   image::require_images(study, file.string());

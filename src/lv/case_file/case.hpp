@@ -24,7 +24,17 @@
 namespace lv::case_file {
 
 /// Where the ventricle's shape comes from.
-enum class AnatomySource { ellipsoid, contours, mesh, labels, sunnybrook, guide_points, cine };
+enum class AnatomySource {
+  ellipsoid,
+  contours,
+  mesh,
+  labels,
+  sunnybrook,
+  guide_points,
+  cine,
+  contour_file,
+  surfaces
+};
 
 /// Which passive law the wall follows.
 enum class PassiveLaw { holzapfel_ogden, guccione, neo_hookean };
@@ -50,7 +60,7 @@ struct ContourAnatomy {
 
 /// A map of labels and what they mean.
 struct LabelAnatomy {
-  std::string file;                                  ///< NIfTI
+  std::string file;                                  ///< of voxels, or a DICOM segmentation
   std::vector<int> cavity, muscle, right_ventricle;  ///< empty: not said
   int frame = 0;                                     ///< from 1; 0: the only one
 };
@@ -62,6 +72,25 @@ struct SunnybrookAnatomy {
   int phase = 0;                    ///< from 1 in order of time; 0: not said
   image::PixelOrigin pixel_origin = image::PixelOrigin::corner;
   image::DrawnBy drawn_by = image::DrawnBy::manual;
+};
+
+/// Contours in a file of another program.
+struct ContourFileAnatomy {
+  std::string file;
+  std::string images;               ///< folder of the DICOM images they were drawn on; may be empty
+  std::vector<std::string> series;  ///< of these; empty: the only one
+  std::string endo, epi;            ///< names of structures; empty: as the format fixes them
+  int phase = 0;                    ///< from 1 in order of time; 0: the only one
+};
+
+/// In which space the coordinates of surfaces are; `stated`: as their files say.
+enum class SurfaceSpace { stated, LPS, RAS };
+
+/// Endocardium and epicardium as surfaces of triangles.
+struct SurfaceAnatomy {
+  std::string endo, epi;
+  double unit = 0.0;  ///< length of the files' unit [mm]; 0: not said
+  SurfaceSpace space = SurfaceSpace::stated;
 };
 
 /// A list of points.
@@ -96,6 +125,8 @@ struct Anatomy {
   SunnybrookAnatomy sunnybrook;
   GuidePointAnatomy guide_points;
   CineAnatomy cine;
+  ContourFileAnatomy contour_file;
+  SurfaceAnatomy surfaces;
 };
 
 struct Passive {

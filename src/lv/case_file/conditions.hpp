@@ -1,7 +1,7 @@
 #pragma once
 
 #include "lv/case_file/parameters.hpp"
-#include "lv/image/nifti.hpp"
+#include "lv/image/volume_file.hpp"
 
 /// What a case must be like for parameters to count, for parameters.cpp.
 namespace lv::case_file::conditions {
@@ -37,7 +37,7 @@ inline bool has_alpha_function(const Case& c) {
 
 #define LV_DRAWN                                                                          \
   "for a wall that is drawn (anatomy.source = \"contours\", \"labels\", \"sunnybrook\", " \
-  "\"guide_points\" or \"cine\")"
+  "\"guide_points\", \"cine\", \"contour_file\" or \"surfaces\")"
 
 #define LV_CONDITION(name, holds, words)                                                      \
   inline constexpr Condition name{                                                            \
@@ -73,6 +73,10 @@ LV_CONDITION(from_sunnybrook, c.anatomy.source == Source::sunnybrook,
 LV_CONDITION(from_guide_points, c.anatomy.source == Source::guide_points,
              "with anatomy.source = \"guide_points\"")
 LV_CONDITION(from_cine, c.anatomy.source == Source::cine, "with anatomy.source = \"cine\"")
+LV_CONDITION(from_contour_file, c.anatomy.source == Source::contour_file,
+             "with anatomy.source = \"contour_file\"")
+LV_CONDITION(from_surfaces, c.anatomy.source == Source::surfaces,
+             "with anatomy.source = \"surfaces\"")
 LV_CONDITION(from_mesh, c.anatomy.source == Source::mesh, "with anatomy.source = \"mesh\"")
 LV_CONDITION(tagged, c.anatomy.mesh.import.sides == mesh::SideSource::tags,
              "with anatomy.mesh.sides = \"tags\"")
@@ -117,14 +121,14 @@ LV_CONDITION(infarct_of_images, c.scar.source == Scar::labels || c.scar.source =
              "with infarct.source = \"labels\" or \"lge\"")
 LV_CONDITION(infarct_without_unit,
              c.scar.source == Scar::surface ||
-                 (c.scar.source == Scar::labels && !image::is_nifti_name(c.scar.labels)),
-             "with infarct.source = \"surface\", or \"labels\" whose file is no NIfTI")
-LV_CONDITION(labels_in_nifti, c.scar.labels.empty() || image::is_nifti_name(c.scar.labels),
-             "where infarct.labels.file is NIfTI")
-LV_CONDITION(labels_in_vtk, !image::is_nifti_name(c.scar.labels),
-             "where infarct.labels.file is no NIfTI")
+                 (c.scar.source == Scar::labels && !image::is_volume_name(c.scar.labels)),
+             "with infarct.source = \"surface\", or \"labels\" whose file is of VTK")
+LV_CONDITION(labels_in_image, c.scar.labels.empty() || image::is_volume_name(c.scar.labels),
+             "where infarct.labels.file is NIfTI, NRRD or MetaImage")
+LV_CONDITION(labels_in_vtk, !image::is_volume_name(c.scar.labels),
+             "where infarct.labels.file is of VTK")
 LV_CONDITION(moved_labels, c.scar.in_plane, "with infarct.labels.in_plane = true")
-LV_CONDITION(lge_in_dicom, !image::is_nifti_name(c.scar.lge.image),
+LV_CONDITION(lge_in_dicom, !image::is_volume_name(c.scar.lge.image),
              "where infarct.lge.image is a folder of DICOM files")
 LV_CONDITION(threshold_sd, c.scar.lge.threshold == mesh::ScarThreshold::sd,
              "with infarct.lge.threshold = \"sd\"")

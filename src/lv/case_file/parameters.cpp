@@ -34,7 +34,8 @@ constexpr Group of_anatomy[]{
      {},
      {
          choice("anatomy.source", LV_AT(anatomy.source),
-                "ellipsoid contours mesh labels sunnybrook guide_points cine",
+                "ellipsoid contours mesh labels sunnybrook guide_points cine contour_file "
+                "surfaces",
                 "where the shape of the wall at early diastole comes from", "2.2"),
      }},
     {Stages(Stage::anatomy),
@@ -131,7 +132,9 @@ constexpr Group of_anatomy[]{
      {&from_labels},
      {
          path("anatomy.labels.file", LV_AT(anatomy.labels.file),
-              "NIfTI label map, of one or more times; names are relative to the case file"),
+              "label map (NIfTI, NRRD, MetaImage, DICOM SEG), of one or more times; names are "
+              "relative to the "
+              "case file"),
          value("anatomy.labels.cavity", LV_AT(anatomy.labels.cavity),
                "labels of the left ventricle's blood (with those of papillary muscles, if "
                "labelled)"),
@@ -167,7 +170,7 @@ constexpr Group of_anatomy[]{
      {
          path("segment.cine", LV_AT(anatomy.cine.images),
               "short-axis cine in which the program draws the borders: a folder of DICOM files or "
-              "a NIfTI file over time; names are relative to the case file"),
+              "a NIfTI, NRRD or MetaImage file over time; names are relative to the case file"),
          value("segment.series", LV_AT(anatomy.cine.series),
                "DICOM: number, UID or description of the series; may be left out if there is one"),
          number("segment.centre", LV_AT(anatomy.cine.segmentation.centre), "mm", any,
@@ -178,6 +181,39 @@ constexpr Group of_anatomy[]{
                 "the muscle's is reached: 0.5 in the middle of an edge, more outside trabeculae"),
          choice("segment.moment", LV_AT(anatomy.cine.moment), "early_diastole end_diastole",
                 "the time whose borders give the shape, proposed from the volume curve"),
+     }},
+    {Stages(Stage::anatomy),
+     {&from_contour_file},
+     {
+         path("anatomy.contour_file.file", LV_AT(anatomy.contour_file.file),
+              "contours of another program: Segment (.mat), DICOM RTSTRUCT, cvi42 (.cvi42wsx); "
+              "names are relative to the case file"),
+         path("anatomy.contour_file.images", LV_AT(anatomy.contour_file.images),
+              "folder of the DICOM images they were drawn on, which say slice and time: needed for "
+              "cvi42, and for RTSTRUCT of several times"),
+         value("anatomy.contour_file.series", LV_AT(anatomy.contour_file.series),
+               "series of these images: number, description or SeriesInstanceUID; may be left out "
+               "if there is one"),
+         value("anatomy.contour_file.endo", LV_AT(anatomy.contour_file.endo),
+               "name of the endocardium's contours in the file; empty: as the format fixes it"),
+         value("anatomy.contour_file.epi", LV_AT(anatomy.contour_file.epi),
+               "name of the epicardium's contours in the file; empty: as the format fixes it"),
+         number("anatomy.contour_file.phase", LV_AT(anatomy.contour_file.phase), "",
+                between(0, 10000), "time of several, counted from 1; 0: the only one"),
+     }},
+    {Stages(Stage::anatomy),
+     {&from_surfaces},
+     {
+         path("anatomy.surfaces.endo", LV_AT(anatomy.surfaces.endo),
+              "surface of the endocardium, open at the base or closed there by a flat lid: .stl, "
+              ".ply, .obj, .vtp or .vtk; names are relative to the case file"),
+         path("anatomy.surfaces.epi", LV_AT(anatomy.surfaces.epi),
+              "surface of the epicardium, likewise"),
+         number("anatomy.surfaces.length_unit", LV_AT(anatomy.surfaces.unit), "mm",
+                between(0.0, 1000.0), "length of the files' unit, which they do not state"),
+         choice("anatomy.surfaces.space", LV_AT(anatomy.surfaces.space), "stated LPS RAS",
+                "space of the coordinates: as the files state it (SPACE=RAS, SPACE=LPS), or one "
+                "for files that do not"),
      }},
     {Stages(Stage::anatomy),
      {&from_guide_points},
@@ -394,14 +430,15 @@ constexpr Group of_infarct[]{
      {&infarct_of_surface},
      {
          path("infarct.surface.file", LV_AT(scar.surface),
-              "closed surface in image space (a mesh's own coordinates): .stl, .ply, .vtp or "
+              "closed surface in image space (a mesh's own coordinates): .stl, .ply, .obj, .vtp or "
               ".vtk; names are relative to the case file"),
      }},
     {meshing,
      {&infarct_of_labels},
      {
          path("infarct.labels.file", LV_AT(scar.labels),
-              "labelled volume in image space: NIfTI (.nii, .nii.gz, .hdr with .img), .vti or .vtk "
+              "labelled volume in image space: NIfTI (.nii, .nii.gz, .hdr with .img), NRRD, "
+              "MetaImage, .vti or .vtk "
               "(structured points)"),
      }},
     {meshing,
@@ -417,7 +454,7 @@ constexpr Group of_infarct[]{
          filled_list("infarct.labels.scar", LV_AT(scar.scar), "the labels that mean scar"),
      }},
     {meshing,
-     {&infarct_of_labels, &labels_in_nifti},
+     {&infarct_of_labels, &labels_in_image},
      {
          number("infarct.labels.frame", LV_AT(scar.frame), "", between(0, 10000),
                 "time of a map of several, counted from 1; 0: the only one that shows scar"),
@@ -435,17 +472,18 @@ constexpr Group of_infarct[]{
                "the labels of the other muscle, for in_plane"),
      }},
     {meshing,
-     {&infarct_of_labels, &labels_in_nifti},
+     {&infarct_of_labels, &labels_in_image},
      {
          value("infarct.labels.in_plane", LV_AT(scar.in_plane),
-               "NIfTI: move each slice in its plane until the middle of its muscle and "
+               "move each slice in its plane until the middle of its muscle and "
                "scar lies on that of the wall there (another breath-hold)"),
      }},
     {meshing,
      {&infarct_of_lge},
      {
          path("infarct.lge.image", LV_AT(scar.lge.image),
-              "late-enhancement image: a NIfTI file or a folder of DICOM files; linear between "
+              "late-enhancement image: a NIfTI, NRRD or MetaImage file or a folder of DICOM files; "
+              "linear between "
               "pixels and between slices"),
      }},
     {meshing,
@@ -894,8 +932,9 @@ constexpr Group of_measurements[]{
      {},
      {
          path("strain.cine", LV_AT(strain.cine),
-              "short-axis cine that strain is measured from: a folder of DICOM files or a NIfTI "
-              "file over time; names are relative to the case file"),
+              "short-axis cine that strain is measured from: a folder of DICOM files or a NIfTI, "
+              "NRRD or "
+              "MetaImage file over time; names are relative to the case file"),
      }},
     {Stages(Stage::strain),
      {&cine},
@@ -912,7 +951,7 @@ constexpr Group of_measurements[]{
               "the apex and to follow long_axis_cine; may be left out"),
          perhaps_path("strain.long_axis_cine", LV_AT(strain.long_axis_cine),
                       "long-axis cines that show how far muscle moves through the short-axis "
-                      "planes, with the curves of long_axis: NIfTI files, or series of the "
+                      "planes, with the curves of long_axis: files of images, or series of the "
                       "DICOM folder cine; [] leaves that motion unseen"),
          path("strain.es_contours", LV_AT(strain.es_contours),
               "CSV of loops drawn at end-systole, which the carried contours are "
@@ -1308,12 +1347,15 @@ const std::vector<Section>& sections() {
        "ventricle"},
       {"anatomy.contours",
        "Contours drawn on images (source = \"contours\"), and how B-spline surfaces are fitted to "
-       "them: the latter holds for labels, sunnybrook, guide_points and cine too"},
+       "them: the latter holds for every wall that is drawn"},
       {"anatomy.labels",
        "A label map (source = \"labels\"): its borders on the slices become contours"},
       {"anatomy.sunnybrook",
        "Contours in pixels with their DICOM images (source = \"sunnybrook\")"},
       {"anatomy.guide_points", "A list of points on the borders (source = \"guide_points\")"},
+      {"anatomy.contour_file", "Contours of another program (source = \"contour_file\")"},
+      {"anatomy.surfaces",
+       "Surfaces of endocardium and epicardium made elsewhere (source = \"surfaces\")"},
       {"segment",
        "Borders drawn by the program in a short-axis cine (anatomy.source = \"cine\", and "
        "`ventricle segment`)"},

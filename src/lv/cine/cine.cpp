@@ -10,9 +10,9 @@
 #include "lv/geometry/spline_wall.hpp"
 #include "lv/image/close_walls.hpp"
 #include "lv/image/dicom_study.hpp"
-#include "lv/image/nifti.hpp"
 #include "lv/image/sunnybrook.hpp"
 #include "lv/image/volume.hpp"
+#include "lv/image/volume_file.hpp"
 
 #include <fmt/format.h>
 
@@ -107,14 +107,14 @@ LongAxisView read_view(const Case& c, const std::optional<image::DicomStudy>& di
                        const std::string& name, const std::vector<Contour>& curves) {
   constexpr double farthest = 1.0;  // [mm]
   LongAxisView view;
-  const bool nifti = image::is_nifti_name(name);
-  if (!nifti && !dicom)
+  const bool single_file = image::is_volume_name(name);
+  if (!single_file && !dicom)
     throw InputError(
         case_file::place_of(c, "strain.long_axis_cine"),
-        fmt::format("\"{}\" is no NIfTI file, and strain.cine is no DICOM folder", name),
-        fmt::format("Name files of {}, or series of the folder strain.cine", formats::nifti));
-  view.cine = nifti ? image::read_nifti_cine(case_file::beside(c, name))
-                    : image::read_pixels(choose(c, *dicom, name, "strain.long_axis_cine"));
+        fmt::format("\"{}\" is no file of an image, and strain.cine is no DICOM folder", name),
+        fmt::format("Name files of {}, or series of the folder strain.cine", formats::volumes));
+  view.cine = single_file ? image::read_volume_cine(case_file::beside(c, name))
+                          : image::read_pixels(choose(c, *dicom, name, "strain.long_axis_cine"));
   if (view.cine.slices.size() != 1 || view.cine.slices.front().frames.size() < 2)
     throw InputError(case_file::place_of(c, "strain.long_axis_cine"),
                      fmt::format("\"{}\" has {} planes of {} images", name, view.cine.slices.size(),
@@ -228,19 +228,19 @@ CineStudy read_cine_study(const Case& c) {
   CineStudy study;
   std::optional<image::DicomStudy> dicom;
   std::optional<image::DicomStack> stack;
-  if (!image::is_nifti_name(c.strain.cine)) {
+  if (!image::is_volume_name(c.strain.cine)) {
     const std::array<std::filesystem::path, 1> where{case_file::beside(c, c.strain.cine)};
     dicom = image::read_dicom_study(where);
     require_said_of_strain(c, dicom);
     stack = choose(c, *dicom, c.strain.series, "strain.series");
   } else if (!c.strain.series.empty()) {
     throw InputError(case_file::place_of(c, "strain.series"),
-                     fmt::format("a NIfTI file has no series \"{}\"", c.strain.series),
+                     fmt::format("a single file has no series \"{}\"", c.strain.series),
                      "Leave strain.series out, or name a folder of DICOM files");
   }
   require_said_of_strain(c, {});
   study.cine = stack ? image::read_pixels(*stack)
-                     : image::read_nifti_cine(case_file::beside(c, c.strain.cine));
+                     : image::read_volume_cine(case_file::beside(c, c.strain.cine));
   study.notes = study.cine.notes;
   study.spacing = image::spacing_of(study.cine);
   std::error_code failed;

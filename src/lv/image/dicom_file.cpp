@@ -2,18 +2,14 @@
 
 #include "lv/base/check.hpp"
 #include "lv/base/files.hpp"
-#include "lv/base/lines.hpp"
 #include "lv/base/memory.hpp"
-#include "lv/base/printable.hpp"
 #include "lv/base/trial.hpp"
 #include "lv/image/dicom_stream.hpp"
-#include "lv/image/dicom_text.hpp"
+#include "lv/image/dicom_values.hpp"
 
 #include <fmt/format.h>
 #include <gdcmImageReader.h>
 #include <gdcmReader.h>
-#include <gdcmSequenceOfItems.h>
-#include <gdcmTrace.h>
 
 #include <algorithm>
 #include <array>
@@ -31,120 +27,9 @@ namespace {
 namespace fs = std::filesystem;
 using gdcm::Tag;
 
-constexpr int largest_side = 8192;       // pixels; no scanner makes larger slices
-constexpr int most_frames = 100000;      // of one file
-constexpr double cosine_error = 1e-2;    // of direction cosines
-constexpr double smallest_pixel = 1e-3;  // [mm]
-constexpr double largest_pixel = 1e3;
-constexpr double farthest_image = 1e6;  // of an image from the scanner's centre [mm]
-constexpr double seconds = 1e-3;        // per millisecond
-
-/// GDCM speaks on the terminal unless told not to.
-void silence() {
-  static const bool once = [] {
-    gdcm::Trace::WarningOff();
-    gdcm::Trace::ErrorOff();
-    gdcm::Trace::DebugOff();
-    return true;
-  }();
-  static_cast<void>(once);
-}
-
-std::optional<double> finite_number_of(std::string_view text) {
-  const auto value = number_of<double>(trimmed(text));
-  return value && std::isfinite(*value) ? value : std::nullopt;
-}
-
-/// A data set's values by tag; absent and unreadable values alike are none.
-class Values {
- public:
-  explicit Values(const gdcm::DataSet& set) : set_(&set) {}
-
-  [[nodiscard]] std::string_view bytes(const Tag& tag) const {
-    if (!set_->FindDataElement(tag))
-      return {};
-    const gdcm::ByteValue* value = set_->GetDataElement(tag).GetByteValue();
-    return value == nullptr || value->GetPointer() == nullptr
-               ? std::string_view()
-               : std::string_view(value->GetPointer(), value->GetLength());
-  }
-
-  [[nodiscard]] std::string text(const Tag& tag) const {
-    return printable(dicom_text(trimmed(bytes(tag)), bytes(Tag(0x0008, 0x0005))));
-  }
-
-  /// Numbers written as text (DS, IS).
-  [[nodiscard]] std::vector<double> numbers(const Tag& tag) const {
-    std::vector<double> values;
-    std::string_view rest = bytes(tag);
-    while (!rest.empty()) {
-      const auto end = rest.find('\\');
-      const auto value = finite_number_of(rest.substr(0, end));
-      if (!value)
-        return {};
-      values.push_back(*value);
-      rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + 1);
-    }
-    return values;
-  }
-
-  [[nodiscard]] std::optional<double> number(const Tag& tag) const {
-    const auto values = numbers(tag);
-    return values.empty() ? std::nullopt : std::optional(values.front());
-  }
-
-  [[nodiscard]] std::optional<int> whole(const Tag& tag) const {
-    const auto value = number(tag);
-    if (!value || std::abs(*value) > 2e9)
-      return std::nullopt;
-    return static_cast<int>(std::lround(*value));
-  }
-
-  /// A number stored as it is (US, UL, FD).
-  template <class Number>
-  [[nodiscard]] std::optional<Number> binary(const Tag& tag) const {
-    const std::string_view stored = bytes(tag);
-    if (stored.size() < sizeof(Number))
-      return std::nullopt;
-    Number value;
-    std::memcpy(&value, stored.data(), sizeof(Number));
-    return value;
-  }
-
-  /// The items of a sequence.
-  [[nodiscard]] gdcm::SmartPointer<gdcm::SequenceOfItems> sequence(const Tag& tag) const {
-    return set_->FindDataElement(tag) ? set_->GetDataElement(tag).GetValueAsSQ() : nullptr;
-  }
-
- private:
-  const gdcm::DataSet* set_;
-};
-
-/// The functional groups of one frame: its own, else those that all frames share.
-class FrameGroups {
- public:
-  FrameGroups(const Values& own, const std::optional<Values>& shared)
-      : own_(own), shared_(shared) {}
-
-  /// The first item of a group; none if neither has it.
-  [[nodiscard]] std::optional<Values> group(const Tag& tag) {
-    for (const Values* values : {&own_, shared_ ? &*shared_ : nullptr}) {
-      if (values == nullptr)
-        continue;
-      const auto items = values->sequence(tag);
-      if (items != nullptr && items->GetNumberOfItems() > 0) {
-        kept_.push_back(items);  // it owns the data set
-        return Values(items->GetItem(1).GetNestedDataSet());
-      }
-    }
-    return std::nullopt;
-  }
-
- private:
-  Values own_;
-  std::optional<Values> shared_;
-  std::vector<gdcm::SmartPointer<gdcm::SequenceOfItems>> kept_;
-};
+constexpr int largest_side = 8192;   // pixels; no scanner makes larger slices
+constexpr int most_frames = 100000;  // of one file
+constexpr double seconds = 1e-3;     // per millisecond
 
 /// A file read up to its pixels.
 struct ParsedFile {
@@ -153,34 +38,7 @@ struct ParsedFile {
   bool ends_early = false;
 };
 
-/// Position, orientation and spacing as text values; empty if fine, else what is wrong.
-std::string lay(const std::vector<double>& position, const std::vector<double>& orientation,
-                const std::vector<double>& spacing, Plane& plane) {
-  if (position.size() != 3)
-    return "it has no ImagePositionPatient";
-  if (orientation.size() != 6)
-    return "it has no ImageOrientationPatient";
-  if (spacing.size() != 2 || !(spacing[0] > 0.0) || !(spacing[1] > 0.0))
-    return "it has no PixelSpacing above zero";
-  if (std::min(spacing[0], spacing[1]) < smallest_pixel ||
-      std::max(spacing[0], spacing[1]) > largest_pixel)
-    return fmt::format("its PixelSpacing is {:g} x {:g} mm", spacing[0], spacing[1]);
-  const Vec3 row(orientation[0], orientation[1], orientation[2]);
-  const Vec3 column(orientation[3], orientation[4], orientation[5]);
-  if (std::abs(row.norm() - 1.0) > cosine_error || std::abs(column.norm() - 1.0) > cosine_error ||
-      std::abs(row.dot(column)) > cosine_error)
-    return "its ImageOrientationPatient holds no two unit vectors at right angles";
-  plane.origin = Vec3(position[0], position[1], position[2]);
-  if (plane.origin.cwiseAbs().maxCoeff() > farthest_image)
-    return "its ImagePositionPatient is no place in a scanner";
-  plane.along_row = row.normalized();
-  plane.along_column = (column - column.dot(plane.along_row) * plane.along_row).normalized();
-  plane.spacing_j = spacing[0];  // between rows comes first
-  plane.spacing_i = spacing[1];
-  return "";
-}
-
-double cycle_length(const Values& values) {
+double cycle_length(const DicomValues& values) {
   if (const auto interval = values.number(Tag(0x0018, 0x1062)); interval && *interval > 0.0)
     return *interval * seconds;
   if (const auto rate = values.number(Tag(0x0018, 0x1088)); rate && *rate > 0.0)
@@ -197,7 +55,7 @@ std::string kind_of(const std::string& image_type) {
 }
 
 /// Magnitude, phase and the like, by both attributes that may say so; of a file or a frame.
-std::string kind_of(const Values& values, const Tag& type) {
+std::string kind_of(const DicomValues& values, const Tag& type) {
   std::string kind = kind_of(values.text(type));
   if (const std::string component = values.text(Tag(0x0008, 0x9208)); !component.empty())
     kind += (kind.empty() ? "" : "\\") + component;
@@ -205,7 +63,7 @@ std::string kind_of(const Values& values, const Tag& type) {
 }
 
 /// What all images of a file share.
-DicomImage common(const fs::path& file, const Values& values) {
+DicomImage common(const fs::path& file, const DicomValues& values) {
   DicomImage image;
   image.file = file;
   image.series_uid = values.text(Tag(0x0020, 0x000e));
@@ -223,10 +81,10 @@ DicomImage common(const fs::path& file, const Values& values) {
 }
 
 /// An image of its own, as scanners wrote them before multi-frame files.
-std::string read_single(const Values& values, DicomImage& image) {
+std::string read_single(const DicomValues& values, DicomImage& image) {
   if (std::string wrong =
-          lay(values.numbers(Tag(0x0020, 0x0032)), values.numbers(Tag(0x0020, 0x0037)),
-              values.numbers(Tag(0x0028, 0x0030)), image.plane);
+          lay_plane(values.numbers(Tag(0x0020, 0x0032)), values.numbers(Tag(0x0020, 0x0037)),
+                    values.numbers(Tag(0x0028, 0x0030)), image.plane);
       !wrong.empty())
     return wrong;
   image.thickness = values.number(Tag(0x0018, 0x0050)).value_or(0.0);
@@ -253,14 +111,11 @@ void read_timing(FrameGroups& groups, DicomImage& image) {
 
 /// One frame of an enhanced multi-frame file.
 std::string read_frame(FrameGroups groups, DicomImage& image) {
-  const auto numbers = [&](const Tag& group, const Tag& tag) {
-    const auto values = groups.group(group);
-    return values ? values->numbers(tag) : std::vector<double>();
-  };
+  const auto numbers = [&](const Tag& group, const Tag& tag) { return groups.numbers(group, tag); };
   const Tag measures(0x0028, 0x9110);
-  if (std::string wrong = lay(numbers(Tag(0x0020, 0x9113), Tag(0x0020, 0x0032)),
-                              numbers(Tag(0x0020, 0x9116), Tag(0x0020, 0x0037)),
-                              numbers(measures, Tag(0x0028, 0x0030)), image.plane);
+  if (std::string wrong = lay_plane(numbers(Tag(0x0020, 0x9113), Tag(0x0020, 0x0032)),
+                                    numbers(Tag(0x0020, 0x9116), Tag(0x0020, 0x0037)),
+                                    numbers(measures, Tag(0x0028, 0x0030)), image.plane);
       !wrong.empty())
     return wrong;
   const auto first = [](const std::vector<double>& values, double otherwise) {
@@ -277,12 +132,12 @@ std::string read_frame(FrameGroups groups, DicomImage& image) {
   return "";
 }
 
-DicomFile read_frames(const Values& values, const DicomImage& shared_header, int frames) {
+DicomFile read_frames(const DicomValues& values, const DicomImage& shared_header, int frames) {
   const auto per_frame = values.sequence(Tag(0x5200, 0x9230));
   if (per_frame == nullptr || static_cast<int>(per_frame->GetNumberOfItems()) != frames)
     return {{}, "it has several frames, but not the position of each (no enhanced MR)"};
   const auto shared = values.sequence(Tag(0x5200, 0x9229));
-  std::optional<Values> shared_values;
+  std::optional<DicomValues> shared_values;
   if (shared != nullptr && shared->GetNumberOfItems() > 0)
     shared_values.emplace(shared->GetItem(1).GetNestedDataSet());
   DicomFile found;
@@ -291,7 +146,7 @@ DicomFile read_frames(const Values& values, const DicomImage& shared_header, int
     image.frame = f;
     if (frames > 1)
       image.instance = f + 1;
-    const Values own(per_frame->GetItem(f + 1).GetNestedDataSet());
+    const DicomValues own(per_frame->GetItem(f + 1).GetNestedDataSet());
     if (std::string wrong = read_frame(FrameGroups(own, shared_values), image); !wrong.empty())
       return {{}, fmt::format("frame {}: {}", f + 1, wrong)};
     found.images.push_back(std::move(image));
@@ -300,7 +155,7 @@ DicomFile read_frames(const Values& values, const DicomImage& shared_header, int
 }
 
 /// How many bytes the pixels of all frames are, unpacked.
-std::uintmax_t pixel_bytes(const Values& values, const DicomImage& image, int frames) {
+std::uintmax_t pixel_bytes(const DicomValues& values, const DicomImage& image, int frames) {
   const auto bits = values.binary<std::uint16_t>(Tag(0x0028, 0x0100)).value_or(16);
   return static_cast<std::uintmax_t>(image.plane.rows) *
          static_cast<std::uintmax_t>(image.plane.columns) * static_cast<std::uintmax_t>(frames) *
@@ -309,7 +164,7 @@ std::uintmax_t pixel_bytes(const Values& values, const DicomImage& image, int fr
 
 /// Whether the file ends before its pixels do; compressed ones are tried when they are read. GDCM
 /// takes zeros for what is missing.
-std::string damage_of(const ParsedFile& parsed, const Values& values, const DicomImage& image,
+std::string damage_of(const ParsedFile& parsed, const DicomValues& values, const DicomImage& image,
                       int frames) {
   const gdcm::TransferSyntax syntax =
       parsed.reader.GetFile().GetHeader().GetDataSetTransferSyntax();
@@ -326,18 +181,20 @@ std::string damage_of(const ParsedFile& parsed, const Values& values, const Dico
 
 /// What the file is whose header shows no image.
 std::string without_image(const DicomImage& header) {
+  if (header.modality == "RTSTRUCT")
+    return "it holds contours (DICOM RTSTRUCT): name the file itself as a file of contours";
   return header.modality.empty()
              ? "it is DICOM but no image"
              : fmt::format("it is DICOM of the modality {} but no image", header.modality);
 }
 
 DicomFile read_parsed(const fs::path& file, const ParsedFile& parsed) {
-  const Values values(parsed.reader.GetFile().GetDataSet());
+  const DicomValues values(parsed.reader.GetFile().GetDataSet());
   DicomImage image = common(file, values);
   if (image.plane.rows < 2 || image.plane.columns < 2)
     return {{}, without_image(image)};
   if (image.modality == "SEG")
-    return {{}, "it is a DICOM segmentation, which is not read: export it as a NIfTI label map"};
+    return {{}, "it is a DICOM segmentation: name the file itself as a map of labels"};
   if (image.plane.rows > largest_side || image.plane.columns > largest_side)
     return {{}, fmt::format("it claims {} x {} pixels", image.plane.columns, image.plane.rows)};
   if (values.binary<std::uint16_t>(Tag(0x0028, 0x0002)).value_or(1) != 1)
@@ -441,7 +298,7 @@ std::vector<float> stored_values(const fs::path& file, std::uintmax_t bytes) {
   constexpr std::uintmax_t always = std::uintmax_t{1} << 30U;
   constexpr std::uintmax_t per_byte =
       8;  // the file, GDCM's copies of it, and floats of single bytes
-  silence();
+  silence_gdcm();
   require_memory(file.string(), static_cast<double>(per_byte) * static_cast<double>(bytes));
   const Trial trial =
       tried([&] { static_cast<void>(decoded_values(file)); }, always + per_byte * bytes);
@@ -484,8 +341,26 @@ bool looks_like_dicom(const fs::path& file) {
   return got >= 8 && (head[0] == 2 || head[0] == 8) && head[1] == 0 && head[3] == 0;
 }
 
+std::string dicom_modality(const fs::path& file) {
+  silence_gdcm();
+  if (!unreadable(file).empty() || !looks_like_dicom(file))
+    return {};
+  std::string modality;
+  const auto read = [&] {
+    const DicomStream stream = open_dicom(file);
+    gdcm::Reader reader;
+    reader.SetStream(*stream.bytes);
+    const Tag modality_tag(0x0008, 0x0060);
+    if (reader.ReadUpToTag(modality_tag, {}))
+      modality = DicomValues(reader.GetFile().GetDataSet()).text(modality_tag);
+  };
+  if (tried(read).ending == Trial::Ending::well)
+    read();
+  return modality;
+}
+
 DicomFile read_dicom_headers(const fs::path& file) {
-  silence();
+  silence_gdcm();
   if (std::string reason = unreadable(file); !reason.empty())
     return {{}, std::move(reason)};
   if (!looks_like_dicom(file))

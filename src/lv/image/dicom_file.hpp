@@ -43,6 +43,10 @@ struct DicomFile {
 /// an element of the first groups.
 [[nodiscard]] bool looks_like_dicom(const std::filesystem::path& file);
 
+/// The Modality of a DICOM file, images or not ("MR", "SEG", "RTSTRUCT"); empty for other files and
+/// damaged ones.
+[[nodiscard]] std::string dicom_modality(const std::filesystem::path& file);
+
 /// Reads the headers alone. Never throws for what the file holds: a file that is no DICOM image
 /// says so in `reason`. Multi-frame files must have their frames' positions in functional groups
 /// (enhanced MR).

@@ -3,7 +3,6 @@
 #include "lv/base/check.hpp"
 #include "lv/base/ending.hpp"
 #include "lv/base/files.hpp"
-#include "lv/base/formats.hpp"
 #include "lv/base/memory.hpp"
 #include "lv/image/nifti_header.hpp"
 #include "lv/image/nifti_place.hpp"
@@ -289,9 +288,6 @@ bool holds_nifti(const fs::path& file) {
 
 Volume read_nifti(const fs::path& file) {
   require_readable(file, "Check the name of the NIfTI image");
-  if (!is_nifti_name(file))
-    fail(file, fmt::format("has the unknown ending \"{}\"", file.extension().string()),
-         fmt::format("Label maps are read from {}", formats::nifti));
   const bool voxels_named = ends_as(file, voxel_endings);
   const fs::path header_file = voxels_named ? other_of_pair(file, header_endings) : file;
   const NiftiHeader header = read_header(header_file);
@@ -305,22 +301,6 @@ Volume read_nifti(const fs::path& file) {
   read_values(voxels, header, type, volume);
   scale(file, header, volume.values);
   return volume;
-}
-
-Cine read_nifti_cine(const fs::path& file) {
-  const Volume volume = read_nifti(file);
-  const auto bad = std::find_if(volume.values.begin(), volume.values.end(),
-                                [](float value) { return std::isnan(value); });
-  if (bad != volume.values.end()) {
-    const auto v = static_cast<std::size_t>(bad - volume.values.begin());
-    const std::size_t in_frame = v % volume.voxels();
-    fail(file,
-         fmt::format("voxel ({}, {}, {}) of frame {} is not a finite number",
-                     in_frame % volume.size[0], in_frame / volume.size[0] % volume.size[1],
-                     in_frame / volume.size[0] / volume.size[1], v / volume.voxels() + 1),
-         "Set voxels without a value to 0");
-  }
-  return cine_of(volume);
 }
 
 }  // namespace lv::image

@@ -13,9 +13,6 @@ namespace lv::image {
 /// damaged, or of colours or vectors; RunError if it is larger than memory.
 [[nodiscard]] Volume read_nifti(const std::filesystem::path& file);
 
-/// The slices of a NIfTI image over time; see cine_of.
-[[nodiscard]] Cine read_nifti_cine(const std::filesystem::path& file);
-
 /// Whether a name ends as NIfTI files' do, in small or capital letters.
 [[nodiscard]] bool is_nifti_name(const std::filesystem::path& file);
 

@@ -1,27 +1,21 @@
 #include "lv/image/nifti_place.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/image/place.hpp"
 
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 namespace lv::image {
 namespace {
 
-using Affine = Eigen::Matrix<double, 3, 4>;
-
-constexpr double right_angle_error = 0.1;  // [degrees]
-constexpr double same_length = 1e-2;       // relative
-constexpr double unit_error = 1e-3;        // of the length of a unit vector
-constexpr double same_place = 0.1;         // of a voxel, between sform and qform
-constexpr double farthest_origin = 1e6;    // of an image from the scanner's centre [mm]
-constexpr double to_degrees = 180.0 / std::numbers::pi;
+constexpr double same_length = 1e-2;  // relative
+constexpr double unit_error = 1e-3;   // of the length of a unit vector
+constexpr double same_place = 0.1;    // of a voxel, between sform and qform
 
 [[noreturn]] void fail(const Volume& volume, const std::string& what, const std::string& remedy) {
   throw InputError(volume.file, what, remedy);
@@ -56,35 +50,6 @@ Unit length_unit(const NiftiHeader& header, const Volume& volume) {
 /// RAS to LPS.
 Mat3 to_lps() {
   return Vec3(-1.0, -1.0, 1.0).asDiagonal();
-}
-
-void set_axes(const Affine& map, Volume& volume) {
-  volume.origin = map.col(3);
-  for (int d = 0; d < 3; ++d) {
-    volume.spacing[d] = map.col(d).norm();
-    volume.directions.col(d) = map.col(d).normalized();
-  }
-}
-
-/// Refuses axes that are not at right angles; makes those that nearly are orthonormal.
-void straighten(Volume& volume) {
-  for (int d = 0; d < 3; ++d) {
-    if (!(volume.spacing[d] > 0.0))
-      fail(volume, fmt::format("its axis {} has the length 0", "ijk"[d]),
-           "Correct the sform, or pixdim, in the header");
-    const int e = (d + 1) % 3;
-    const double cosine = volume.directions.col(d).dot(volume.directions.col(e));
-    const double angle = std::acos(std::clamp(cosine, -1.0, 1.0)) * to_degrees;
-    if (!(std::abs(angle - 90.0) < right_angle_error))
-      fail(volume,
-           fmt::format(
-               "its sform is sheared: its axes are not at right angles, {} and {} are {:.2f} "
-               "degrees apart",
-               "ijk"[d], "ijk"[e], angle),
-           "Resample the image to a rectangular grid");
-  }
-  const Eigen::JacobiSVD<Mat3> svd(volume.directions, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  volume.directions = svd.matrixU() * svd.matrixV().transpose();
 }
 
 /// Decides between the lengths of the sform and the sizes of voxels, both in the file's unit.
@@ -159,18 +124,6 @@ void check_finite(const NiftiHeader& header, const Volume& volume) {
     check("the sform", header.rows.reshaped());
 }
 
-/// Refuses voxels that are no part of a person, before anything is resampled to their size.
-void check_sizes(const Volume& volume, const Unit& unit) {
-  if (volume.spacing.minCoeff() < smallest_pixel || volume.spacing.maxCoeff() > largest_pixel)
-    fail(volume,
-         fmt::format("its voxels measure {:g} x {:g} x {:g} mm (unit of the file: {})",
-                     volume.spacing.x(), volume.spacing.y(), volume.spacing.z(), unit.name),
-         "Correct the unit (xyzt_units) or the sizes in the header");
-  if (volume.origin.cwiseAbs().maxCoeff() > farthest_origin)
-    fail(volume, fmt::format("its first voxel lies at {} mm", three(volume.origin)),
-         "Correct the place in the header");
-}
-
 /// Of an affine map that says nothing.
 void note_nothing_said(Volume& volume) {
   if (volume.spacing.isOnes() && volume.origin.isZero() && volume.directions.isApprox(to_lps()))
@@ -192,19 +145,19 @@ void lay_by_header(const NiftiHeader& header, Volume& volume) {
   if (has_sform) {
     Affine map = header.rows;
     map.leftCols<3>() *= mend_lengths(map, sizes, volume).asDiagonal();
-    set_axes(in_space(map), volume);
+    lay(in_space(map), "sform", unit.name, volume);
   } else if (header.qform_code > 0) {
-    set_axes(in_space(qform(header, sizes, volume)), volume);
+    lay(in_space(qform(header, sizes, volume)), "qform", unit.name, volume);
   } else {
-    volume.spacing = (sizes.array() > 0.0).select(unit.mm * sizes, 1.0);
+    Affine map = Affine::Identity();
+    map.diagonal() = (sizes.array() > 0.0).select(unit.mm * sizes, 1.0);
+    lay(map, "pixdim", unit.name, volume);
     volume.notes.push_back(
         fmt::format("{} does not say how it lies in space (neither sform nor qform): its axes are "
                     "taken to point "
                     "to the left, the back and the head; if it is mirrored, so are the regions",
                     volume.file));
   }
-  straighten(volume);
-  check_sizes(volume, unit);
   if (has_sform && header.qform_code > 0)
     check_agrees(volume, in_space(qform(header, sizes, volume)));
   note_nothing_said(volume);

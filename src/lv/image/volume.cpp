@@ -149,14 +149,18 @@ std::map<int, double> label_volumes(const Volume& volume, int frame) {
   return volumes;
 }
 
-std::string describe(const std::map<int, double>& label_volumes) {
+std::string describe(const std::map<int, double>& label_volumes,
+                     const std::map<int, std::string>& names) {
   std::string text;
   constexpr int most = 40;
   int listed = 0;
   for (const auto& [label, volume] : label_volumes) {
     if (++listed > most)
       return text + fmt::format(" and {} more", label_volumes.size() - most);
-    text += fmt::format("{}{} ({:.2f} ml)", text.empty() ? "" : ", ", label, 1e-3 * volume);
+    const auto name = names.find(label);
+    text +=
+        fmt::format("{}{}{} ({:.2f} ml)", text.empty() ? "" : ", ", label,
+                    name == names.end() ? "" : fmt::format(" \"{}\"", name->second), 1e-3 * volume);
   }
   return text;
 }
@@ -171,7 +175,7 @@ void require_labels(const Volume& volume, int frame, const std::vector<int>& lab
           where,
           fmt::format("no voxel of {}{} has the label {} of {}; it has {}", volume.file,
                       volume.frames > 1 ? fmt::format(", frame {},", frame + 1) : "", label,
-                      parameter, describe(present)),
+                      parameter, describe(present, volume.names)),
           "Name the labels as this file has them");
 }
 

@@ -21,6 +21,7 @@ struct Volume {
   Vec3 spacing = Vec3::Ones();         ///< [mm]
   double time_step = 0.0;              ///< between frames; 0 if not known [s]
   std::vector<float> values;           ///< i fastest, then j, k and the frame
+  std::map<int, std::string> names;    ///< of labels, where the file states them
   std::vector<std::string> notes;      ///< what the reader found worth saying
 
   [[nodiscard]] std::size_t voxels() const {
@@ -68,8 +69,9 @@ struct Volume {
 /// whole number.
 [[nodiscard]] std::map<int, double> label_volumes(const Volume& volume, int frame = 0);
 
-/// "0 (8123.4 ml), 1 (191.2 ml)"
-[[nodiscard]] std::string describe(const std::map<int, double>& label_volumes);
+/// "0 (8123.40 ml), 1 \"LV blood\" (191.20 ml)", with the names that a file states.
+[[nodiscard]] std::string describe(const std::map<int, double>& label_volumes,
+                                   const std::map<int, std::string>& names = {});
 
 /// Throws InputError, listing the labels that there are with their volumes, unless the frame exists
 /// and every label occurs in it. `parameter` names the choice in messages; `where` is its place.

@@ -106,7 +106,7 @@ struct InfarctParameters {
   double border = 10.0;  ///< width of the border zone, l^bz of (2.11) [mm]
   DescribedInfarct described;
   std::string set;             ///< of elements; see ImportParameters::infarct_set
-  std::string surface;         ///< .stl, .ply, .vtp or .vtk
+  std::string surface;         ///< .stl, .ply, .obj, .vtp or .vtk
   std::string labels;          ///< .vti or .vtk
   std::string array;           ///< of labels; empty: the file's only array
   std::vector<int> scar{1};    ///< the labels that mean scar

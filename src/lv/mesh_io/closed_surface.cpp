@@ -1,17 +1,10 @@
 #include "lv/mesh_io/closed_surface.hpp"
 
 #include "lv/base/check.hpp"
-#include "lv/base/log.hpp"
-#include "lv/mesh_io/polygons.hpp"
-#include "lv/mesh_io/stated_space.hpp"
+#include "lv/mesh_io/triangles.hpp"
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
-#include <vtkCellArray.h>
-#include <vtkIdList.h>
-#include <vtkNew.h>
-#include <vtkPolyData.h>
-#include <vtkSmartPointer.h>
 
 #include <cmath>
 #include <map>
@@ -53,23 +46,6 @@ void check_closed(const std::vector<Vec3>& nodes, const mesh::Surface& triangles
       "Close the holes, and turn all normals outwards, in the program that made the surface");
 }
 
-/// The number of each point, the same for points in the same place.
-class PointNumbers {
- public:
-  std::vector<Vec3> points;
-
-  int operator()(const Vec3& x) {
-    const auto [entry, added] =
-        number_.emplace(std::array{x.x(), x.y(), x.z()}, static_cast<int>(points.size()));
-    if (added)
-      points.push_back(x);
-    return entry->second;
-  }
-
- private:
-  std::map<std::array<double, 3>, int> number_;
-};
-
 }  // namespace
 
 ClosedSurface::ClosedSurface(std::vector<Vec3> nodes, mesh::Surface triangles,
@@ -93,29 +69,8 @@ bool ClosedSurface::contains(const Vec3& x) const {
 }
 
 ClosedSurface read_closed_surface(const std::string& file, double unit) {
-  const auto polygons = read_polygons(file);
-  const bool in_ras = says_ras(file, *polygons);
-  if (in_ras)
-    log::info("{} says SPACE=RAS: x and y change their signs", file);
-  const Vec3 scale = unit * (in_ras ? ras_to_lps : Vec3(Vec3::Ones()));
-  PointNumbers number;
-  mesh::Surface triangles{.nodes_per_face = 3, .nodes = {}};
-  vtkCellArray& polys = *polygons->GetPolys();
-  vtkNew<vtkIdList> corners;
-  for (vtkIdType p = 0; p < polys.GetNumberOfCells(); ++p) {
-    polys.GetCellAtId(p, corners);
-    std::vector<int> n;
-    for (vtkIdType i = 0; i < corners->GetNumberOfIds(); ++i) {
-      const Vec3 x = scale.cwiseProduct(Vec3(polygons->GetPoint(corners->GetId(i))));
-      if (!x.allFinite())
-        throw InputError(file, fmt::format("point {} is not a place", corners->GetId(i)),
-                         "Repair the coordinates in the file");
-      n.push_back(number(x));
-    }
-    for (std::size_t i = 2; i < n.size(); ++i)
-      triangles.nodes.insert(triangles.nodes.end(), {n[0], n[i - 1], n[i]});
-  }
-  return {std::move(number.points), std::move(triangles), file};
+  Triangles triangles = read_triangles(file, unit, "LPS");
+  return {std::move(triangles.nodes), std::move(triangles.faces), file};
 }
 
 }  // namespace lv::mesh_io

@@ -29,10 +29,10 @@ class ClosedSurface {
   Eigen::AlignedBox3d box_;
 };
 
-/// Reads polygons from .stl, .ply, .vtp or a legacy .vtk file; points in the same place are one.
-/// `unit` is the length of the file's unit [mm]. Points of a file that says SPACE=RAS are turned to
-/// LPS (stated_space.hpp). Throws InputError where the file cannot be read or
-/// the surface is not closed.
+/// Reads polygons from .stl, .ply, .obj, .vtp or a legacy .vtk file; points in the same place are
+/// one. `unit` is the length of the file's unit [mm]. Points of a file that says SPACE=RAS are
+/// turned to LPS (stated_space.hpp). Throws InputError where the file cannot be read or the surface
+/// is not closed.
 [[nodiscard]] ClosedSurface read_closed_surface(const std::string& file, double unit);
 
 }  // namespace lv::mesh_io

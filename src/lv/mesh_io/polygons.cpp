@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <vtkCellArray.h>
 #include <vtkNew.h>
+#include <vtkOBJReader.h>
 #include <vtkPLYReader.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataReader.h>
@@ -36,6 +37,8 @@ vtkSmartPointer<vtkPolyData> read_polygons(const std::string& file) {
       return read_with<vtkSTLReader>(file);
     if (ending == ".ply")
       return read_with<vtkPLYReader>(file);
+    if (ending == ".obj")
+      return read_with<vtkOBJReader>(file);
     if (ending == ".vtp")
       return read_with<vtkXMLPolyDataReader>(file);
     if (ending == ".vtk") {

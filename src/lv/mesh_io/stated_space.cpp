@@ -55,26 +55,30 @@ std::string space_in(std::string_view text) {
   return {};
 }
 
-bool is_ras(const std::string& file, const std::string& space) {
+std::string known(const std::string& file, const std::string& space) {
   if (!space.empty() && space != "RAS" && space != "LPS")
     throw InputError(file, fmt::format("says SPACE={}", space),
                      "Coordinates are read in LPS, the scanner's, and in RAS: export it again");
-  return space == "RAS";
+  return space;
 }
 
 }  // namespace
 
 bool says_ras(const std::string& file) {
-  return is_ras(file, space_in(beginning_of(file)));
+  return known(file, space_in(beginning_of(file))) == "RAS";
 }
 
-bool says_ras(const std::string& file, vtkDataObject& data) {
+std::string space_of(const std::string& file, vtkDataObject& data) {
   vtkStringArray* array = vtkStringArray::SafeDownCast(
       data.GetFieldData() == nullptr ? nullptr : data.GetFieldData()->GetAbstractArray(key.data()));
   if (array == nullptr || array->GetNumberOfValues() == 0)
-    return says_ras(file);
+    return known(file, space_in(beginning_of(file)));
   const std::string said = array->GetValue(0);
-  return is_ras(file, space_in(fmt::format("{}={}", key, said)));
+  return known(file, space_in(fmt::format("{}={}", key, said)));
+}
+
+bool says_ras(const std::string& file, vtkDataObject& data) {
+  return space_of(file, data) == "RAS";
 }
 
 }  // namespace lv::mesh_io

@@ -20,6 +20,10 @@ inline const Vec3 ras_to_lps(-1.0, -1.0, 1.0);
 /// says another space than RAS and LPS.
 [[nodiscard]] bool says_ras(const std::string& file);
 
+/// What a file that VTK has read says, "RAS" or "LPS", in its field array, else in its beginning;
+/// empty if it says nothing. Throws InputError when it says another space.
+[[nodiscard]] std::string space_of(const std::string& file, vtkDataObject& data);
+
 /// The same of what VTK has read from a file: its field array, else the file's beginning.
 [[nodiscard]] bool says_ras(const std::string& file, vtkDataObject& data);
 

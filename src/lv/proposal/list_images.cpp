@@ -6,8 +6,8 @@
 #include "lv/image/dicom_study.hpp"
 #include "lv/image/label_contours.hpp"
 #include "lv/image/label_meaning.hpp"
-#include "lv/image/nifti.hpp"
 #include "lv/image/sunnybrook.hpp"
+#include "lv/image/volume_file.hpp"
 #include "lv/proposal/propose_case.hpp"
 
 #include <fmt/format.h>
@@ -48,15 +48,15 @@ std::string describe_labels(const image::Volume& v) {
     const bool empty = volumes.size() == 1 && volumes.contains(0);
     without += empty ? 1 : 0;
     if (!empty)
-      text += fmt::format("  labels of frame {}: {}\n", f + 1, image::describe(volumes));
+      text += fmt::format("  labels of frame {}: {}\n", f + 1, image::describe(volumes, v.names));
   }
   if (without > 0)
     text += fmt::format("  {} of {} frames hold no label but 0\n", without, v.frames);
   return text;
 }
 
-std::string list_nifti(const fs::path& file, const ListOptions& options) {
-  const image::Volume v = image::read_nifti(file);
+std::string list_volume(const fs::path& file, const ListOptions& options) {
+  const image::Volume v = image::read_labels(file);
   std::string text = fmt::format(
       "{}: {} x {} x {} voxels of {:.3f} x {:.3f} x {:.3f} mm, {} frame{}{}\n"
       "  axes (LPS): i {}, j {}, k {}; slices across {}\n",
@@ -78,8 +78,9 @@ std::string list_nifti(const fs::path& file, const ListOptions& options) {
     return text;
   for (const int label : options.cavity)
     if (std::find(v.values.begin(), v.values.end(), static_cast<float>(label)) == v.values.end())
-      throw InputError("--cavity", fmt::format("no voxel of {} has the label {}", v.file, label),
-                       fmt::format("Frame 1 has {}", image::describe(image::label_volumes(v))));
+      throw InputError(
+          "--cavity", fmt::format("no voxel of {} has the label {}", v.file, label),
+          fmt::format("Frame 1 has {}", image::describe(image::label_volumes(v), v.names)));
   return text + anatomy::describe_volume_curve(image::volume_curve(v, options.cavity)) + "\n";
 }
 
@@ -95,13 +96,13 @@ std::string list_skipped(const image::DicomStudy& study) {
 }
 
 /// The NIfTI files among those of a folder, as many public studies are kept.
-std::string list_nifti_among(const image::DicomStudy& study, const ListOptions& options) {
+std::string list_volume_among(const image::DicomStudy& study, const ListOptions& options) {
   std::string text;
   for (const LeftOut& item : study.skipped) {
-    if (!image::is_nifti_name(item.place) || !unreadable(item.place).empty())
+    if (!image::is_volume_name(item.place) || !unreadable(item.place).empty())
       continue;
     try {
-      text += list_nifti(item.place, options);
+      text += list_volume(item.place, options);
     } catch (const InputError& error) {
       text += fmt::format("{}\n", error.what());
     }
@@ -137,7 +138,7 @@ std::string for_a_case(const ListOptions& options, const Proposal& proposal) {
 std::string list_dicom(const ListOptions& options) {
   const image::DicomStudy study = image::read_dicom_study(std::array{options.where});
   if (study.stacks.empty())
-    if (std::string text = list_nifti_among(study, options); !text.empty())
+    if (std::string text = list_volume_among(study, options); !text.empty())
       return text;
   return list_study(study, options) +
          for_a_case(options, propose(study, options.where.string(), options.contours,
@@ -152,7 +153,7 @@ std::string list_images(const ListOptions& options) {
     return list_dicom(options);
   const Proposal proposal = propose(options.where, options.where.string());
   const std::string text =
-      kind == SourceKind::nifti ? list_nifti(options.where, options) : proposal.what + "\n";
+      kind == SourceKind::volume ? list_volume(options.where, options) : proposal.what + "\n";
   return text + for_a_case(options, proposal);
 }
 

@@ -10,10 +10,13 @@
 #include "lv/base/units.hpp"
 #include "lv/geometry/contours.hpp"
 #include "lv/image/dicom_file.hpp"
+#include "lv/image/dicom_segmentation.hpp"
+#include "lv/image/foreign_contours.hpp"
 #include "lv/image/guide_points.hpp"
 #include "lv/image/label_meaning.hpp"
-#include "lv/image/nifti.hpp"
+#include "lv/image/volume_file.hpp"
 #include "lv/mesh_io/import.hpp"
+#include "lv/mesh_io/triangles.hpp"
 #include "lv/proposal/what_file.hpp"
 
 #include <fmt/format.h>
@@ -126,8 +129,8 @@ Proposal of_grey_image(const image::Volume& image, const std::string& name) {
   return p;
 }
 
-Proposal of_nifti(const fs::path& source, const std::string& name) {
-  const image::Volume map = image::read_nifti(source);
+Proposal of_volume(const fs::path& source, const std::string& name) {
+  const image::Volume map = image::read_labels(source);
   if (!image::seems_labels(map))
     return of_grey_image(map, name);
   Proposal p{fmt::format("{}: a label map of {} frame{}", map.file, map.frames,
@@ -171,6 +174,63 @@ Proposal of_guide_points(const fs::path& source, const std::string& name) {
   if (image::guide_point_frames(source).size() > 1)
     p.lines.push_back(choice("anatomy.guide_points.frame", m));
   append(p.lines, lines_of_moment(m));
+  return p;
+}
+
+Proposal of_contour_file(const fs::path& source, const std::string& name) {
+  const image::ForeignContours drawn = image::read_contours(source);
+  Proposal p{
+      fmt::format("{}: {}\n{}", source.string(), drawn.format, image::describe(drawn)),
+      {source_line("contour_file"), {"anatomy.contour_file.file", case_file::quoted(name), ""}}};
+  for (const std::string& note : drawn.notes)
+    p.what += fmt::format("  note: {}\n", note);
+  append(p.lines, anatomy::contour_file_lines(drawn, {}));
+  anatomy::Moments moments;
+  if (!drawn.endo.empty() && !drawn.in_pixels) {
+    const image::DrawnPhases read = image::arranged(drawn, drawn.endo, drawn.epi, nullptr);
+    p.what += anatomy::describe_phases(read.phases);
+    moments = anatomy::moments_of(read.phases);
+    if (read.phases.size() > 1)
+      p.lines.push_back(choice("anatomy.contour_file.phase", moments));
+  }
+  p.lines.push_back(septum_line());
+  append(p.lines, lines_of_moment(moments));
+  return p;
+}
+
+/// What a surface is: size in its own unit, and the space that it states.
+std::string describe_surface(const fs::path& source, const std::string& space) {
+  const mesh_io::Triangles t = mesh_io::read_triangles(source.string(), 1.0, "LPS");
+  Eigen::AlignedBox3d box;
+  for (const Vec3& x : t.nodes)
+    box.extend(x);
+  const Vec3 size = box.sizes();
+  return fmt::format(
+      "{}: a surface of {} triangles, {:.4g} x {:.4g} x {:.4g} in its unit, which it does not "
+      "state; coordinates in {}",
+      source.string(), t.faces.size(), size.x(), size.y(), size.z(),
+      space.empty() ? "a space that it does not state" : space);
+}
+
+/// A surface may be a side of the wall, or enclose an infarct: the lines are left to uncomment.
+Proposal of_surface(const fs::path& source, const std::string& name) {
+  if (has_ending(source, {".vti"}))
+    return {fmt::format("{}: a labelled volume, which can show an infarct", source.string()),
+            {{"infarct.source", case_file::quoted("labels"), ""},
+             {"infarct.labels.file", case_file::quoted(name), ""}}};
+  const std::string space = mesh_io::stated_space(source.string());
+  Proposal p{describe_surface(source, space), {}};
+  p.lines = {
+      {"anatomy.source", case_file::quoted("surfaces"), "if it is a side of the wall", false},
+      {"anatomy.surfaces.endo", case_file::quoted(name), "if it is the endocardium", false},
+      {"anatomy.surfaces.epi", case_file::quoted(name), "if it is the epicardium", false},
+      {"anatomy.surfaces.length_unit", case_file::fill_in, "\"1 mm\", \"10 mm\" or \"1000 mm\"",
+       false}};
+  if (space.empty())
+    p.lines.push_back({"anatomy.surfaces.space", case_file::fill_in, "\"LPS\" or \"RAS\"", false});
+  append(p.lines,
+         {{"infarct.source", case_file::quoted("surface"), "if it encloses an infarct", false},
+          {"infarct.surface.file", case_file::quoted(name), "", false}});
   return p;
 }
 
@@ -263,14 +323,18 @@ SourceKind kind_of(const fs::path& source) {
   if (fs::is_directory(source, failed))
     return image::has_sunnybrook_names(source) ? SourceKind::sunnybrook : SourceKind::dicom;
   require_readable(source, "Name a folder or a file");
-  if (image::is_nifti_name(source))
-    return SourceKind::nifti;
+  if (image::is_volume_name(source) || image::holds_volume(source))
+    return SourceKind::volume;
   if (has_ending(source, {".inp", ".msh", ".vtk", ".vtu"}))
     return SourceKind::mesh;
-  if (has_ending(source, {".stl", ".ply", ".vtp", ".vti"}))
+  if (has_ending(source, {".stl", ".ply", ".obj", ".vtp", ".vti"}))
     return SourceKind::surface;
   if (has_ending(source, {".toml"}))
     return SourceKind::case_file;
+  if (image::holds_dicom_segmentation(source))
+    return SourceKind::volume;
+  if (image::holds_contours(source))
+    return SourceKind::contour_file;
   if (image::looks_like_dicom(source))
     return SourceKind::dicom;
   const std::string line = begins_as_text(source) ? first_line(source) : "";
@@ -321,8 +385,8 @@ static Proposal propose_contours(const fs::path& source, const std::string& name
 
 Proposal propose(const fs::path& source, const std::string& name) {
   switch (kind_of(source)) {
-    case SourceKind::nifti:
-      return of_nifti(source, name);
+    case SourceKind::volume:
+      return of_volume(source, name);
     case SourceKind::dicom: {
       const image::DicomStudy study = image::read_dicom_study(std::array{source});
       image::require_images(study, source.string());
@@ -336,11 +400,10 @@ Proposal propose(const fs::path& source, const std::string& name) {
       return of_guide_points(source, name);
     case SourceKind::mesh:
       return of_mesh_file(source, name);
+    case SourceKind::contour_file:
+      return of_contour_file(source, name);
     case SourceKind::surface:
-      return {fmt::format("{}: a surface or labelled volume, which can show an infarct",
-                          source.string()),
-              {{"infarct.source", case_file::quoted("surface"), "or labels, for a labelled volume"},
-               {"infarct.surface.file", case_file::quoted(name), ""}}};
+      return of_surface(source, name);
     case SourceKind::case_file:
       return {fmt::format("{}: a case file; see `ventricle validate`", source.string()), {}};
   }
@@ -349,8 +412,12 @@ Proposal propose(const fs::path& source, const std::string& name) {
 
 std::string proposed_case(const fs::path& source, const fs::path& file) {
   const SourceKind kind = kind_of(source);
-  if (kind == SourceKind::case_file || kind == SourceKind::surface)
+  if (kind == SourceKind::case_file)
     throw InputError(source.string(), "shows no wall of a ventricle", formats::sources);
+  if (kind == SourceKind::surface)
+    throw InputError(source.string(), "is one surface, and a wall has two",
+                     "`ventricle images` shows the lines by which a case names both "
+                     "(anatomy.surfaces), or one that encloses an infarct");
   const std::string name =
       fs::proximate(fs::absolute(source).lexically_normal(), fs::absolute(file).parent_path())
           .string();

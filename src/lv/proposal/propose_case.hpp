@@ -11,11 +11,12 @@ namespace lv::proposal {
 
 /// What a file or a folder is to a case.
 enum class SourceKind {
-  nifti,
+  volume,  ///< voxels in a single file
   dicom,
   sunnybrook,
   contours,
   guide_points,
+  contour_file,  ///< contours of another program
   mesh,
   surface,
   case_file

@@ -5,7 +5,7 @@
 #include "lv/case_file/case_lines.hpp"
 #include "lv/image/dicom_study.hpp"
 #include "lv/image/lookup.hpp"
-#include "lv/image/nifti.hpp"
+#include "lv/image/volume_file.hpp"
 #include "lv/mesh/cell.hpp"
 #include "lv/mesh/infarct.hpp"
 #include "lv/mesh/surface.hpp"
@@ -130,7 +130,7 @@ std::vector<int> infarcted_labels(const Case& c) {
 
 /// The one frame of a label map that the case means: a person has one scar.
 image::Volume scar_map(const Case& c, const std::string& file) {
-  image::Volume volume = image::read_nifti(file);
+  image::Volume volume = image::read_volume(file);
   for (const std::string& note : volume.notes)
     log::warn("scar: {}", note);
   if (volume.frames == 1 || c.scar.frame > 0)
@@ -148,7 +148,7 @@ image::Volume scar_map(const Case& c, const std::string& file) {
   return image::frame_of(volume, frames.front(), case_file::place_of(c, "infarct.labels.file"));
 }
 
-Infarct within_nifti(const Case& c, const anatomy::Shape& shape, const Mesh& mesh,
+Infarct within_image(const Case& c, const anatomy::Shape& shape, const Mesh& mesh,
                      const std::string& file) {
   const image::Volume volume = scar_map(c, file);
   image::require_labels(volume, 0, c.scar.scar, case_file::place_of(c, "infarct.labels.scar"),
@@ -179,8 +179,8 @@ std::vector<double> brightness(const Case& c, const anatomy::Shape& shape, const
 image::Cine read_lge(const Case& c) {
   const mesh::LateEnhancement& lge = c.scar.lge;
   const std::string file = case_file::beside(c, lge.image).string();
-  image::Cine image = image::is_nifti_name(file)
-                          ? image::read_nifti_cine(file)
+  image::Cine image = image::is_volume_name(file)
+                          ? image::read_volume_cine(file)
                           : image::read_dicom_cine(std::array{std::filesystem::path(file)},
                                                    lge.series, "infarct.lge.series");
   for (const image::CineSlice& slice : image.slices)
@@ -284,8 +284,8 @@ Infarct by_brightness(const Case& c, const anatomy::Shape& shape, const Mesh& me
 
 Infarct within_labels(const Case& c, const anatomy::Shape& shape, const Mesh& mesh) {
   const std::string file = case_file::beside(c, c.scar.labels).string();
-  if (image::is_nifti_name(file))
-    return within_nifti(c, shape, mesh, file);
+  if (image::is_volume_name(file))
+    return within_image(c, shape, mesh, file);
   const mesh_io::LabelVolume volume(file, c.scar.array, c.scar.length_unit);
   check_labels(c, file, volume.labels());
   const std::vector<int> wanted = infarcted_labels(c);
@@ -331,8 +331,9 @@ case_file::Missing missing_of_lge(const Case& c, std::string& found) {
   const mesh::LateEnhancement& lge = c.scar.lge;
   case_file::Missing missing;
   if (lge.image.empty())
-    missing.add({"infarct.lge.image", case_file::fill_in,
-                 "the late-enhancement image: a NIfTI file or a folder of DICOM files"});
+    missing.add(
+        {"infarct.lge.image", case_file::fill_in,
+         "the late-enhancement image: a file (NIfTI, NRRD, MetaImage) or a folder of DICOM files"});
   std::error_code failed;
   if (!lge.image.empty() && lge.series.empty() &&
       std::filesystem::is_directory(case_file::beside(c, lge.image), failed)) {

@@ -2,6 +2,7 @@
 
 #include "lv/base/ending.hpp"
 #include "lv/base/files.hpp"
+#include "lv/base/lines.hpp"
 #include "lv/mesh_io/abaqus_blocks.hpp"
 #include "lv/work/version.hpp"
 
@@ -28,8 +29,26 @@ fs::path name_of_pair(const fs::path& file) {
   return ending_of(file) == ".gz" ? file.stem().stem() : file.stem();
 }
 
+/// A header of NRRD or MetaImage and the files beside it that a line of it names.
+std::vector<fs::path> named_by_header(const fs::path& header) {
+  std::vector<fs::path> files{header};
+  std::error_code failed;
+  if (!fs::is_regular_file(header, failed))
+    return files;
+  for (LineReader lines(header); lines.next();) {
+    const std::string_view name =
+        trimmed(lines.text().substr(lines.text().find_first_of(":=") + 1));
+    const fs::path file = header.parent_path() / fs::path(name);
+    if (!name.empty() && file != header && fs::is_regular_file(file, failed))
+      files.push_back(file);
+  }
+  return files;
+}
+
 /// A file and those without which it cannot be read.
 std::vector<fs::path> files_of(const fs::path& file) {
+  if (ending_of(file) == ".nhdr" || ending_of(file) == ".mhd")
+    return named_by_header(file);
   if (!is_part_of_pair(file))
     return {file};
   std::vector<fs::path> pair;
@@ -60,7 +79,7 @@ std::string contents(const fs::path& path, const std::vector<fs::path>& own) {
         parts[file.lexically_relative(path).string()] = fingerprint_of_file(file);
   } else {
     for (const fs::path& file : files_of(path))
-      parts[ending_of(file)] = fingerprint_of_file(file);
+      parts[ending_of(file)] += fingerprint_of_file(file);
   }
   return fs::exists(path, failed) ? fingerprint(parts) : "absent";
 }

@@ -4,13 +4,19 @@
 #include "lv/geometry/contour_checks.hpp"
 #include "lv/geometry/contours.hpp"
 #include "lv/image/close_walls.hpp"
+#include "lv/image/dicom_segmentation.hpp"
 #include "lv/image/dicom_study.hpp"
+#include "lv/image/foreign_contours.hpp"
 #include "lv/image/guide_points.hpp"
 #include "lv/image/label_contours.hpp"
 #include "lv/image/nifti.hpp"
+#include "lv/image/rt_structures.hpp"
 #include "lv/image/sunnybrook.hpp"
+#include "lv/image/volume_file.hpp"
 
+#include "image/foreign_files.hpp"
 #include "image/nifti_files.hpp"
+#include "image/segment_files.hpp"
 #include "support/scanner_files.hpp"
 #include "support/temporary_folder.hpp"
 #include <catch2/catch.hpp>
@@ -50,14 +56,14 @@ test::NiftiSpec labels() {
                          });
 }
 
-void read_labels(const std::filesystem::path& file) {
+void trace_map(const std::filesystem::path& file) {
   const Volume volume = read_nifti(file);
   require_labels(volume, 0, {1, 2}, "case", "cavity");
   geometry::check_contours(trace_labels(volume, {{1}, {2}, {}}, 0).contours);
 }
 
 void read_floating(const std::filesystem::path& file) {
-  static_cast<void>(read_nifti_cine(file));
+  static_cast<void>(read_volume_cine(file));
 }
 
 /// The same for real numbers in two frames.
@@ -109,14 +115,14 @@ TEST_CASE("damaged DICOM files of several frames are read or refused", "[unit][i
 }
 
 TEST_CASE("damaged NIfTI files are read or refused", "[unit][image][mutations]") {
-  try_damaged("x.nii", test::nifti_bytes(labels()), read_labels);
+  try_damaged("x.nii", test::nifti_bytes(labels()), trace_map);
   try_damaged("x.nii", floating_bytes(), read_floating);
   try_damaged("x.nii.gz", test::gzipped(floating_bytes()), read_floating);
 }
 
 TEST_CASE("NIfTI headers that say anything are read or refused", "[unit][image][mutations]") {
   const test::Damage in_header{.within = nifti_header};
-  try_damaged("x.nii", test::nifti_bytes(labels()), read_labels, in_header);
+  try_damaged("x.nii", test::nifti_bytes(labels()), trace_map, in_header);
   try_damaged("x.nii", floating_bytes(), read_floating, in_header);
 }
 
@@ -182,4 +188,49 @@ TEST_CASE("damaged CSV files of contours are read or refused", "[unit][image][mu
         geometry::read_contours({.short_axis = short_axis, .long_axis = file, .apex = {file}}));
   };
   try_damaged("curve.csv", csv_curve(), curve);
+}
+
+TEST_CASE("damaged NRRD and MetaImage files are read or refused", "[unit][image][mutations]") {
+  const auto read = [](const std::filesystem::path& file) {
+    static_cast<void>(image::read_labels(file));
+  };
+  const std::string values(24, '\1');
+  const std::string layers =
+      "dimension: 4\nspace: LPS\nsizes: 2 2 3 2\nkinds: list domain domain domain\n"
+      "space directions: none (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\n"
+      "Segment0_ID:=S1\nSegment0_Name:=A\nSegment0_LabelValue:=1\nSegment0_Layer:=0\n"
+      "Segment1_ID:=S2\nSegment1_Name:=B\nSegment1_LabelValue:=1\nSegment1_Layer:=1";
+  try_damaged("x.seg.nrrd", test::nrrd_bytes(layers, values), read, {.few = 10});
+  try_damaged(
+      "x.mha",
+      "ObjectType = Image\nNDims = 3\nBinaryData = True\nTransformMatrix = 1 0 0 0 1 0 0 0 "
+      "1\nOffset = 1 2 3\nElementSpacing = 1 2 3\nDimSize = 2 3 4\nElementType = MET_UCHAR\n"
+      "ElementDataFile = LOCAL\n" +
+          values,
+      read, {.few = 10});
+}
+
+TEST_CASE("damaged DICOM segmentations and contours are read or refused",
+          "[unit][image][mutations]") {
+  const auto segments = [](const std::filesystem::path& file) {
+    static_cast<void>(read_dicom_segmentation(file));
+  };
+  try_damaged("x.dcm", test::segmentation_bytes(), segments, {.few = 10});
+  const auto contours = [](const std::filesystem::path& file) {
+    static_cast<void>(describe(read_rt_structures(file)));
+  };
+  try_damaged("x.dcm", test::rt_structures_bytes({{"endo", 15.0}, {"epi", 24.0}}), contours,
+              {.few = 10});
+}
+
+TEST_CASE("damaged contours of Segment and cvi42 are read or refused", "[unit][image][mutations]") {
+  const auto read = [](const std::filesystem::path& file) {
+    const ForeignContours drawn = read_contours(file);
+    if (!drawn.in_pixels)
+      static_cast<void>(arranged(drawn, "Endo", "Epi", nullptr));
+  };
+  try_damaged("x.mat", test::segment_bytes(Mat3::Identity()), read, {.few = 10});
+  try_damaged("x.cvi42wsx",
+              test::cvi42_text({{"saendocardialContour", 12.0}, {"saepicardialContour", 18.0}}),
+              read);
 }

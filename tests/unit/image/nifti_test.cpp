@@ -2,6 +2,7 @@
 
 #include "lv/base/check.hpp"
 #include "lv/image/lookup.hpp"
+#include "lv/image/volume_file.hpp"
 
 #include "image/nifti_files.hpp"
 #include "support/scanner_files.hpp"
@@ -200,9 +201,9 @@ TEST_CASE("NIfTI-2, capital endings and packed files of any name are read alike"
     CHECK((v.spacing - plain.spacing).norm() < 1e-6);
   }
   CHECK_THAT(read_nifti(folder / "packed.nii").notes.front(), Contains("is packed: name it .gz"));
-  test::write_bytes(folder / "map.nrrd", "NRRD0004");
-  CHECK_THROWS_WITH(read_nifti(folder / "map.nrrd"),
-                    Contains("has the unknown ending \".nrrd\"") &&
+  test::write_bytes(folder / "map.xyz", "words");
+  CHECK_THROWS_WITH(read_volume(folder / "map.xyz"),
+                    Contains("has the unknown ending \".xyz\"") &&
                         Contains("NIfTI (.nii, .nii.gz, or .hdr with .img)"));
 }
 
@@ -301,7 +302,7 @@ TEST_CASE("a voxel that is not a number stays one and is named", "[unit][image]"
     CHECK(std::count_if(v.values.begin(), v.values.end(), [](float x) { return std::isnan(x); }) ==
           1);
     CHECK_THROWS_WITH(label_volumes(v), Contains("voxel (1, 2, 3)"));
-    CHECK_THROWS_WITH(read_nifti_cine(folder / "x.nii"),
+    CHECK_THROWS_WITH(read_volume_cine(folder / "x.nii"),
                       Contains("voxel (1, 2, 3) of frame 1 is not a finite number"));
   }
 }

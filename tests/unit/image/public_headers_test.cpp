@@ -4,6 +4,7 @@
 #include "lv/geometry/fit_report.hpp"
 #include "lv/image/label_contours.hpp"
 #include "lv/image/nifti.hpp"
+#include "lv/image/volume_file.hpp"
 
 #include "image/nifti_files.hpp"
 #include "support/scanner_files.hpp"
@@ -96,7 +97,7 @@ TEST_CASE(
     spec.values.insert(spec.values.end(), frame.begin(), frame.end());
   const test::TemporaryFolder folder;
   test::write_bytes(folder / "cine.nii", test::nifti_bytes(spec));
-  const Cine cine = read_nifti_cine(folder / "cine.nii");
+  const Cine cine = read_volume_cine(folder / "cine.nii");
   REQUIRE(cine.slices.size() == 8);
   CHECK(cine.slices.front().frames.size() == 30);
   CHECK(cine.slices.front().times.empty());

@@ -3,10 +3,12 @@
 
 #include "lv/mesh/split.hpp"
 #include "lv/mesh_io/closed_surface.hpp"
+#include "lv/mesh_io/cut_surfaces.hpp"
 #include "lv/mesh_io/import.hpp"
 #include "lv/mesh_io/label_volume.hpp"
 
 #include "mesh_io/mesh_files.hpp"
+#include "mesh_io/surface_files.hpp"
 #include "support/temporary_folder.hpp"
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
@@ -242,4 +244,17 @@ TEST_CASE("damaged labelled volumes are read or refused", "[unit][mesh_io][mutat
               read_labels, {.few = 10});
   try_damaged("x.vti", written<vtkXMLImageDataWriter>("x.vti", labels.GetPointer(), true),
               read_labels, {.few = 10});
+}
+
+TEST_CASE("damaged surfaces of the wall are cut or refused", "[unit][mesh_io][mutations]") {
+  const test::Bowl outer = test::half_ellipsoid(35.0, 70.0, 0.3, false);
+  const test::TemporaryFolder folder;
+  test::write_bytes(folder / "epi.obj", test::obj_text(outer));
+  const auto epi = mesh_io::read_triangles((folder / "epi.obj").string(), 1.0, "LPS");
+  const auto cut = [&](const std::filesystem::path& file) {
+    static_cast<void>(mesh_io::cut_across(mesh_io::read_triangles(file.string(), 1.0, "LPS"), epi));
+  };
+  const test::Bowl inner = test::half_ellipsoid(25.0, 60.0, 0.3, true);
+  test::try_damaged("x.obj", test::obj_text(inner), cut, {.few = 10});
+  test::try_damaged("x.stl", test::stl_text(inner), cut, {.few = 10});
 }

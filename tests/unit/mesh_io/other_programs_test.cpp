@@ -444,7 +444,7 @@ TEST_CASE("a refusal lists all formats that are read, and endings may be in capi
              Contains("unknown ending \".nrrd\"") && Contains(".nii, .nii.gz") &&
                  Contains(".vti and .vtk"));
   CHECK_THAT(refusal([&] { static_cast<void>(mesh_io::read_closed_surface(nrrd.path(), 1.0)); }),
-             Contains(".stl, .ply, .vtp and .vtk"));
+             Contains(".stl, .ply, .obj, .vtp and .vtk"));
   ImportParameters parameters;
   parameters.file = nrrd.path();
   CHECK_THAT(refusal([&] { static_cast<void>(mesh_io::import_mesh(parameters)); }),

@@ -1,5 +1,6 @@
 #include "lv/image/dicom_study.hpp"
 #include "lv/image/nifti.hpp"
+#include "lv/image/volume_file.hpp"
 #include "lv/phantom/files.hpp"
 #include "lv/phantom/study.hpp"
 
@@ -135,7 +136,7 @@ TEST_CASE("the phantom's DICOM and NIfTI say the same place and values", "[phant
   write_nifti(cine, folder / "cine.nii.gz");
   const std::array<std::filesystem::path, 1> where{folder / "dicom"};
   const image::Cine dicom = image::read_dicom_cine(where);
-  const image::Cine nifti = image::read_nifti_cine(folder / "cine.nii.gz");
+  const image::Cine nifti = image::read_volume_cine(folder / "cine.nii.gz");
   REQUIRE(dicom.slices.size() == cine.slices.size());
   REQUIRE(nifti.slices.size() == cine.slices.size());
   for (const image::CineSlice& slice : cine.slices) {

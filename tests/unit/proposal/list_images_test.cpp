@@ -40,8 +40,13 @@ TEST_CASE("any file is answered with what it is and with what is read", "[unit][
     test::write_bytes(folder / name, bytes);
     return listed(folder / name);
   };
-  CHECK_THAT(answer("a.stl", std::string(84, '\0')), Contains("a surface or labelled volume"));
-  CHECK_THAT(answer("a.seg.nrrd", "NRRD0004\n"), Contains("is NRRD, which is not read"));
+  CHECK_THAT(
+      answer("a.stl",
+             "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 2 0 0\nvertex 0 3 0\n"
+             "endloop\nendfacet\nendsolid\n"),
+      Contains("a surface of 1 triangles, 2 x 3 x 0 in its unit, which it does not state") &&
+          Contains("a space that it does not state") && Contains("anatomy.surfaces"));
+  CHECK_THAT(answer("a.seg.nrrd", "NRRD0004\n"), Contains("cannot be read as NRRD"));
   CHECK_THAT(answer("a.png", "\x89PNG\r\n"), Contains("is a PNG picture"));
   CHECK_THAT(answer("a.toml", "name = \"x\"\n"), Contains("a case file; see `ventricle validate`"));
   CHECK_THAT(answer("a.inp", "*NODE\n"), Contains("holds no volume cells"));

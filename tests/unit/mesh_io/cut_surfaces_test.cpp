@@ -1,0 +1,80 @@
+#include "lv/mesh_io/cut_surfaces.hpp"
+
+#include "lv/base/check.hpp"
+#include "lv/geometry/contour_checks.hpp"
+#include "lv/geometry/spline_wall.hpp"
+
+#include "mesh_io/surface_files.hpp"
+#include "support/temporary_folder.hpp"
+#include <Eigen/Geometry>
+#include <catch2/catch.hpp>
+
+#include <numbers>
+
+namespace {
+
+using namespace lv;
+using Catch::Matchers::Contains;
+using mesh_io::Triangles;
+
+const Vec3 aside(40.0, -30.0, 120.0);
+
+Mat3 turned_axes() {
+  return Eigen::AngleAxisd(1.1, Vec3(0.4, 0.5, -0.6).normalized()).toRotationMatrix();
+}
+
+Triangles written(const test::Bowl& bowl, const std::string& name = "x.obj",
+                  const std::string& space = "LPS") {
+  const test::TemporaryFolder folder;
+  test::write_bytes(folder / name,
+                    name.ends_with("obj") ? test::obj_text(bowl) : test::stl_text(bowl));
+  return mesh_io::read_triangles((folder / name).string(), 1.0, space);
+}
+
+test::Bowl bowl(double radius, double length, bool lid) {
+  test::Bowl made = test::half_ellipsoid(radius, length, 1.0 / 3.0, lid);
+  for (Vec3& x : made.points)
+    x = aside + turned_axes() * x;
+  return made;
+}
+
+/// Volume between the apex and the plane at the height b of an ellipsoid of semi-axes r and l.
+double cut_volume(double r, double l, double b) {
+  return std::numbers::pi * r * r * (2.0 / 3.0 * l + b - b * b * b / (3.0 * l * l));
+}
+
+}  // namespace
+
+TEST_CASE("open and lidded surfaces are cut into the wall that they enclose", "[unit][mesh_io]") {
+  for (const bool lid : {false, true}) {
+    const mesh_io::CutSurfaces cut =
+        mesh_io::cut_across(written(bowl(25.0, 60.0, lid)), written(bowl(35.0, 70.0, lid)));
+    CHECK_THAT(cut.notes.front(), Contains(lid ? "flat lid is taken off" : "is open at the base"));
+    geometry::check_contours(cut.contours);
+    const geometry::FitReport report = geometry::fit_spline_wall(cut.contours, {}).report();
+    // both bowls end at a third of their length: the lower rim is that of the endocardium
+    const double cavity = cut_volume(25.0, 60.0, 20.0);
+    CHECK(report.volume_cavity == Approx(cavity).epsilon(0.02));
+    CHECK(report.volume_wall == Approx(cut_volume(35.0, 70.0, 20.0) - cavity).epsilon(0.03));
+  }
+}
+
+TEST_CASE("coordinates in RAS are turned to LPS", "[unit][mesh_io]") {
+  const test::Bowl made = bowl(25.0, 60.0, false);
+  const Triangles lps = written(made);
+  const Triangles ras = written(made, "x.obj", "RAS");
+  CHECK(ras.nodes.front().isApprox(Vec3(-1, -1, 1).cwiseProduct(lps.nodes.front())));
+  CHECK(written(made, "x.stl").faces.size() == lps.faces.size());
+}
+
+TEST_CASE("surfaces that show no base, or no wall, are refused", "[unit][mesh_io]") {
+  const Triangles endo = written(bowl(25.0, 60.0, false));
+  const Triangles epi = written(bowl(35.0, 70.0, false));
+  CHECK_THROWS_WITH(mesh_io::cut_across(epi, endo), Contains("does not reach below"));
+  Triangles holed = epi;
+  holed.faces.nodes.erase(holed.faces.nodes.begin() + 900, holed.faces.nodes.begin() + 903);
+  CHECK_THROWS_WITH(mesh_io::cut_across(endo, holed), Contains("has 2 openings"));
+  test::Bowl round = test::half_ellipsoid(25.0, 60.0, 0.999, true);
+  CHECK_THROWS_WITH(mesh_io::cut_across(written(round), epi),
+                    Contains("closed without a flat lid"));
+}
