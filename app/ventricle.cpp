@@ -258,11 +258,22 @@ void add_documents(CLI::App& app) {
   app.add_subcommand("completion", "print a script that completes commands and options in bash");
 }
 
+/// As CLI::Range, but NaN lies in no range.
+CLI::Validator within(double low, double high) {
+  const std::string range = fmt::format("in [{:g} - {:g}]", low, high);
+  const auto check = [=](const std::string& text) {
+    double value = 0.0;
+    const bool is_within = CLI::detail::lexical_cast(text, value) && value >= low && value <= high;
+    return is_within ? "" : fmt::format("Value {} not {}", text, range);
+  };
+  return {[check](std::string& text) { return std::string(check(text)); }, "FLOAT " + range};
+}
+
 /// Options that say how the phantom's images are made.
 void add_scan_options(CLI::App& app, lv::phantom::Scan& scan) {
   const auto number = [&](const char* name, double& value, const char* help, double low,
                           double high) {
-    app.add_option(name, value, help)->check(CLI::Range(low, high))->capture_default_str();
+    app.add_option(name, value, help)->check(within(low, high))->capture_default_str();
   };
   number("--snr", scan.snr, "mean signal of muscle / deviation of the Rician noise; 0: no noise",
          0.0, 1e4);
@@ -287,12 +298,12 @@ void add_scan_options(CLI::App& app, lv::phantom::Scan& scan) {
 void add_heart_options(CLI::App& app, lv::phantom::Ventricle& v) {
   const auto number = [&](const char* name, double& value, const char* help, double low,
                           double high) {
-    app.add_option(name, value, help)->check(CLI::Range(low, high))->capture_default_str();
+    app.add_option(name, value, help)->check(within(low, high))->capture_default_str();
   };
   const auto angle = [&](const char* name, double& radians, const char* help) {
     app.add_option_function<double>(
            name, [&radians](double degrees) { radians = degrees * lv::units::degree; }, help)
-        ->check(CLI::Range(-360.0, 360.0))
+        ->check(within(-360.0, 360.0))
         ->default_str(fmt::format("{:g}", radians / lv::units::degree));
   };
   number("--endo-radius", v.shape.endo_radius, "of the ellipsoid at end-diastole [mm]", 5, 60);
@@ -422,7 +433,7 @@ void add_bench(CLI::App& app, Command& command) {
       ->check(CLI::Range(8, 2048))
       ->capture_default_str();
   time->add_option("--edge", command.bench.edge_length, "target length of element edges [mm]")
-      ->check(CLI::Range(0.2, 10.0))
+      ->check(within(0.2, 10.0))
       ->capture_default_str();
   time->add_flag("--quadrature", command.bench.quadrature, "the paper's coupling instead of nodal");
   add_ranks(*time, command);

@@ -18,8 +18,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <numeric>
+#include <utility>
 
 namespace lv::anatomy {
 namespace {
@@ -363,6 +365,32 @@ Drawn read_source(const Case& c) {
   }
 }
 
+/// Slices that lie much farther apart than others: some between them may be missing.
+void note_gaps(const geometry::Contours& contours, std::vector<std::string>& notes) {
+  constexpr double wide = 1.6;  // of the least spacing
+  std::vector<std::pair<Vec3, int>> slices;
+  for (const geometry::Contour& loop : contours.short_axis)
+    if (loop.side == geometry::Side::endo && !loop.points.empty())
+      slices.emplace_back(std::accumulate(loop.points.begin(), loop.points.end(), Vec3(0, 0, 0)) /
+                              static_cast<double>(loop.points.size()),
+                          loop.slice);
+  if (slices.size() < 3)
+    return;
+  const Vec3 axis = (slices.back().first - slices.front().first).normalized();
+  const auto step = [&](std::size_t i) {
+    return std::abs(axis.dot(slices[i].first - slices[i - 1].first));
+  };
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < slices.size(); ++i)
+    least = std::min(least, step(i));
+  for (std::size_t i = 1; i < slices.size(); ++i)
+    if (const double gap = step(i); gap > wide * least)
+      notes.push_back(fmt::format(
+          "slices {} and {} lie {:.1f} mm apart, others {:.1f} mm: the wall between them is "
+          "interpolated; if slices are missing, draw them",
+          slices[i - 1].second, slices[i].second, gap, least));
+}
+
 }  // namespace
 
 double volume_of(const geometry::Contours& contours) {
@@ -382,6 +410,7 @@ Drawn read_drawn(const Case& c) {
   if (mended)
     image::close_walls(drawn.contours, thinnest, drawn.notes);
   geometry::check_contours(drawn.contours);
+  note_gaps(drawn.contours, drawn.notes);
   if (drawn.end_systole) {
     std::vector<std::string> of_comparison;  // says nothing of the wall
     if (mended)

@@ -174,6 +174,9 @@ Unit parse_unit(std::string_view text) {
 
 Quantity parse_quantity(std::string_view text) {
   const std::string whole(trimmed(text));
+  const std::size_t first = std::min(whole.find_first_not_of("+-"), whole.size());
+  if (whole.compare(first, 2, "0x") == 0 || whole.compare(first, 2, "0X") == 0)
+    throw std::invalid_argument(fmt::format("'{}' does not begin with a decimal number", text));
   char* end = nullptr;
   const double number = std::strtod(whole.c_str(), &end);
   if (end == whole.c_str())

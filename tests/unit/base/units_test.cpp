@@ -155,3 +155,9 @@ TEST_CASE("powers and parentheses beyond any unit's are refused", "[unit][base]"
         std::string(100000, '('), std::string(20, '(').append("mm").append(20, ')')})
     CHECK_THROWS_AS(units::parse_unit(text), std::invalid_argument);
 }
+
+TEST_CASE("a quantity is decimal: hexadecimal digits are no number", "[unit][base]") {
+  for (const char* text : {"0x10 mmHg", "-0X1p9 mmHg", "0x", "nan mmHg", "inf"})
+    CHECK_THROWS_AS(lv::units::parse_quantity(text), std::invalid_argument);
+  CHECK(lv::units::parse_quantity("0 mmHg").value == 0.0);
+}
