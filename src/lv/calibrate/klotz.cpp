@@ -7,8 +7,8 @@
 namespace lv::calibrate {
 namespace {
 
-using units::mmHg;
 using units::ml;
+using units::mmHg;
 constexpr double A_n = 27.78;  // [mmHg]
 constexpr double B_n = 2.76;
 
