@@ -2,6 +2,7 @@
 
 #include "lv/anatomy/proposals.hpp"
 #include "lv/base/check.hpp"
+#include "lv/base/units.hpp"
 #include "lv/geometry/contour_checks.hpp"
 #include "lv/geometry/contour_measures.hpp"
 #include "lv/geometry/fit_report.hpp"
@@ -120,6 +121,21 @@ void warn(const std::string& warning, Drawn& drawn) {
     drawn.warnings.push_back(warning);
 }
 
+/// Labels of which the case says nothing: a scar that is drawn by itself is muscle too.
+void note_unnamed(const std::map<int, double>& found, const case_file::LabelAnatomy& a,
+                  std::vector<std::string>& notes) {
+  const auto is_in = [](const std::vector<int>& labels, int label) {
+    return std::find(labels.begin(), labels.end(), label) != labels.end();
+  };
+  for (const auto& [label, volume] : found)
+    if (label != 0 && !is_in(a.cavity, label) && !is_in(a.muscle, label) &&
+        !is_in(a.right_ventricle, label))
+      notes.push_back(fmt::format(
+          "label {} ({:.2f} ml) is neither cavity nor muscle in the case; if it is muscle, as a "
+          "scar is, add it to anatomy.labels.muscle",
+          label, volume / units::ml));
+}
+
 Drawn from_labels(const Case& c) {
   const case_file::LabelAnatomy& a = c.anatomy.labels;
   require_names(c, {{"anatomy.labels.file", a.file, "the label map"}});
@@ -143,6 +159,7 @@ Drawn from_labels(const Case& c) {
   drawn.septum = traced.septum;
   drawn.usual_base = geometry::BaseAt::slab;
   drawn.notes = std::move(traced.notes);
+  note_unnamed(image::label_volumes(volume, frame), a, drawn.notes);
   drawn.moment_is_known = volume.frames > 1;
   const Moments moments = moments_of(volume, a.cavity);
   warn(end_diastole_note(c, moments, frame + 1), drawn);
