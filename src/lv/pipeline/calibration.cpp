@@ -308,7 +308,8 @@ FitRecord fit_record(const Case& c, const std::filesystem::path& calibration,
   all.assumed = assumed_pressures(c);
   if (!c.calibration.asked())
     return all;
-  for (const ConfirmedVolume& v : read_confirmation(beat / confirmation_name).beats.back().volumes)
+  const Confirmation record = read_confirmation(beat / confirmation_name);
+  for (const ConfirmedVolume& v : record.beats.back().volumes)
     all.volumes.push_back(
         {v.name, v.measured, v.quasi_static, v.beat, v.within(c.calibration.tolerance)});
   if (c.calibration.passive == FittedPassive::klotz)
