@@ -17,12 +17,12 @@ using units::mmHg;
 /// which a tenth is wrong where the tangent is kept.
 constexpr double by_newton = 1e-8;
 
-/// Human muscle and calcium in the default ventricle's shape.
 /// Quadratic elements of 14 mm, graded as those of a case.
 mesh::Mesh default_mesh() {
   return ideal_mesh({.edge_length = 7.0, .order = 2, .apex = 0.3, .endocardium = 0.5});
 }
 
+/// Human muscle and calcium in the default ventricle's shape.
 heartbeat::CycleSetup human_cycle(const mesh::Mesh& mesh, circulation::Kind kind) {
   solid::CardiacModel heart{.base = {.stiffness = implicit::rigid_base}};
   heart.myocardium.active = material::Land2017{};
