@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <limits>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -34,24 +35,25 @@ bool contains(const std::string& text, const std::string& part) {
   return std::search(text.begin(), text.end(), part.begin(), part.end(), alike) != text.end();
 }
 
-/// A name within the other counts as one change.
-std::size_t distance_between(const std::string& a, const std::string& b) {
-  const std::size_t distance = edit_distance(a, b);
+/// Changes from one name to the other, where a name within the other counts as one; then all
+/// changes, between names that are equally far so.
+std::pair<std::size_t, std::size_t> distance_between(const std::string& a, const std::string& b) {
+  const std::size_t changes = edit_distance(a, b);
   const bool within = !a.empty() && !b.empty() && (contains(a, b) || contains(b, a));
-  return within ? std::min<std::size_t>(distance, 1) : distance;
+  return {within ? std::min<std::size_t>(changes, 1) : changes, changes};
 }
 
 }  // namespace
 
 std::string nearest_name(const std::string& wanted, std::span<const std::string> names) {
-  const auto distance = [&](const std::string& name) {
-    return std::pair(distance_between(wanted, name), edit_distance(wanted, name));
-  };
-  const auto nearest =
-      std::min_element(names.begin(), names.end(),
-                       [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
-  const bool alike = nearest != names.end() && distance(*nearest).first <= wanted.size() / 2;
-  return alike ? *nearest : "";
+  std::string nearest;
+  std::pair least(wanted.size() / 2, std::numeric_limits<std::size_t>::max());
+  for (const std::string& name : names)
+    if (const auto d = distance_between(wanted, name); d < least) {
+      least = d;
+      nearest = name;
+    }
+  return nearest;
 }
 
 }  // namespace lv

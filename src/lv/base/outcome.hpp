@@ -25,7 +25,7 @@ class [[nodiscard]] Outcome {
   explicit operator bool() const { return std::holds_alternative<T>(content_); }
   const T& operator*() const { return std::get<T>(content_); }
   const T* operator->() const { return &**this; }
-  const Unsolved& why() const { return std::get<Unsolved>(content_); }
+  [[nodiscard]] const Unsolved& why() const { return std::get<Unsolved>(content_); }
 
   /// For whom there is no other way: throws RunError where there is no answer.
   const T& value() const {

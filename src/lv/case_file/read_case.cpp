@@ -12,7 +12,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <cmath>
+#include <limits>
 
 namespace lv::case_file {
 namespace {
@@ -27,8 +29,7 @@ class CaseReader {
     case_.name = printable(case_.name);
     check_together();
     check_that_all_count();
-    if (!mistakes_.empty())
-      throw InputError(mistakes_.front().first, all_mistakes(), "");
+    throw_mistakes();
     return std::move(case_);
   }
 
@@ -37,7 +38,7 @@ class CaseReader {
     for (const auto& [key, node] : table) {
       const std::string name =
           prefix.empty() ? std::string(key.str()) : prefix + "." + std::string(key.str());
-      const auto line = fmt::format("{}:{}", file_.string(), key.source().begin.line);
+      const auto line = place(key.source().begin.line);
       if (const auto* parameter = find_parameter(name))
         set(*parameter, node, line);
       else if (node.is_table() && is_section(name))
@@ -45,6 +46,10 @@ class CaseReader {
       else
         mistakes_.emplace_back(line, unknown(name, node.is_table()));
     }
+  }
+
+  [[nodiscard]] std::string place(toml::source_index line) const {
+    return fmt::format("{}:{}", file_.string(), line);
   }
 
   static bool is_section(const std::string& name) {
@@ -260,11 +265,28 @@ class CaseReader {
       mistakes_.emplace_back(place_of(case_, name), fmt::format("{} {}", name, what));
   }
 
-  [[nodiscard]] std::string all_mistakes() const {
+  /// In the order of the file's lines, which is not that of the parsed table; what has no line is
+  /// told last.
+  void throw_mistakes() {
+    if (mistakes_.empty())
+      return;
+    std::stable_sort(mistakes_.begin(), mistakes_.end(), [](const auto& a, const auto& b) {
+      return line_of(a.first) < line_of(b.first);
+    });
+    constexpr std::size_t most_told = 20;
     std::string text = mistakes_.front().second;
-    for (std::size_t i = 1; i < mistakes_.size(); ++i)
+    for (std::size_t i = 1; i < std::min(mistakes_.size(), most_told); ++i)
       text += fmt::format("\n{}: {}", mistakes_[i].first, mistakes_[i].second);
-    return text;
+    if (mistakes_.size() > most_told)
+      text += fmt::format("\nand {} more mistakes", mistakes_.size() - most_told);
+    throw InputError(mistakes_.front().first, text, "");
+  }
+
+  static int line_of(const std::string& place) {
+    const char* number = place.c_str() + place.rfind(':') + 1;  // of npos: the beginning
+    int line = std::numeric_limits<int>::max();
+    std::from_chars(number, place.c_str() + place.size(), line);
+    return line;
   }
 
   std::filesystem::path file_;

@@ -14,8 +14,9 @@ namespace lv::image {
 ///
 /// - the cavity is the largest label of whose border at least half is that of one other label and
 ///   less than a third is background;
-/// - the muscle is that other label, with what lies on the cavity too and less than half on
-///   background (scar), and what such labels enclose (its core);
+/// - the muscle is that other label, with what lies on both and less than half on background, or
+///   on background less than twice as much as on the cavity (scar), and what such labels enclose
+///   (its core);
 /// - the right ventricle is the largest other label that lies on the muscle.
 ///
 /// A proposal for a user to confirm. Lists are empty where nothing fits.

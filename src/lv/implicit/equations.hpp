@@ -36,9 +36,9 @@ struct StaticModel {
   static constexpr material::Volumetric default_stabilisation{.beta_s = 10.0};
 
   // NOLINTNEXTLINE(google-explicit-constructor): it is the same model
-  StaticModel(solid::CardiacModel model, const material::Calcium& calcium = {},
+  StaticModel(const solid::CardiacModel& model, const material::Calcium& calcium = {},
               const material::Volumetric& at_points = default_stabilisation)
-      : heart(std::move(model)),
+      : heart(model),
         contractility(heart.myocardium.active, calcium),
         stabilisation(at_points) {}
 

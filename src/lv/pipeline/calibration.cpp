@@ -173,8 +173,11 @@ calibrate::OtherPressure fit_at(double pressure, Case c, const anatomy::MeshResu
   }
 }
 
-/// Pressures that a case leaves to the defaults or to a rule of thumb.
+/// Pressures that a case leaves to the defaults or to a rule of thumb. In a heartbeat the
+/// circulation makes them; a fit before it still reads them.
 std::vector<geometry::Assumption> assumed_pressures(const Case& c) {
+  if (c.protocol.kind == heartbeat::ProtocolKind::cycle && !c.calibration.asked())
+    return {};
   std::vector<geometry::Assumption> assumed;
   const auto left_out = [&](const char* parameter, const char* moment, double pressure) {
     if (!c.origin.contains(parameter))

@@ -49,6 +49,7 @@ class Wall {
   /// Adds the nodal forces of this rank's elements, F_a = -int P : grad phi_a dX [mN], to `forces`.
   /// `tension` is the active tension per node [kPa], before the infarct's factor. Returns the range
   /// of J in these elements.
+  // NOLINTNEXTLINE(modernize-use-nodiscard): the forces are what it is called for
   VolumeRange add_elastic_forces(std::span<const Vec3> positions, std::span<const double> tension,
                                  std::span<Vec3> forces) const;
 

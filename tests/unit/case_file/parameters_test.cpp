@@ -280,6 +280,23 @@ TEST_CASE("what does nothing is named with what it counts with", "[unit][case_fi
   }
 }
 
+TEST_CASE("mistakes are told in the order of their lines, and twenty at most", "[unit][case_file]") {
+  std::string text = "zebra = 1\n";
+  for (int i = 0; i < 30; ++i)
+    text += fmt::format("aardvark_{} = 1\n", i);
+  try {
+    (void)case_file::parse_case(text, "case.toml");
+    FAIL("nothing was refused");
+  } catch (const InputError& error) {
+    const std::string what = error.what();
+    CHECK(what.find("zebra is not") < what.find("aardvark_0 is not"));
+    CHECK(what.find("aardvark_2 is not") < what.find("aardvark_10 is not"));
+    CHECK_THAT(what, Catch::Contains("aardvark_18 is not") &&
+                         !Catch::Contains("aardvark_19 is not") &&
+                         Catch::Contains("and 11 more mistakes"));
+  }
+}
+
 TEST_CASE("a mesh that is asked for and not made is warned of", "[unit][case_file]") {
   const auto warned = [](const Lines& base, const std::string& name, const std::string& value) {
     return parsed(with(base, name, value)).without_effect;

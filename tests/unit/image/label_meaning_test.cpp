@@ -19,7 +19,7 @@ struct Numbers {
 
 /// A left ventricle with its right neighbour in slices of 8 mm; the wall is open on the basal
 /// slice, and a transmural scar with a core lies opposite to the septum.
-image::Volume map_of(const Numbers& n) {
+image::Volume map_of(const Numbers& n, double half_scar = 0.5) {
   image::Volume map;
   map.size = {80, 80, 8};
   map.spacing = {1.4, 1.4, 8.0};
@@ -32,7 +32,7 @@ image::Volume map_of(const Numbers& n) {
         const double angle = std::atan2(y, x);
         const bool open = k == 7 && std::abs(angle) < 0.6;
         const bool in_wall = r >= 22.0 && r < 32.0 && !open;
-        const bool scarred = std::abs(angle) < 0.5 && k < 4;
+        const bool scarred = std::abs(angle) < half_scar && k < 4;
         const bool core = scarred && r > 24.0 && r < 27.0 && std::abs(angle) < 0.3;
         const bool right = std::hypot(x + 30.0, y) < 27.0 && r >= 32.0;
         map.values.push_back(static_cast<float>(r < 22.0             ? n.cavity
@@ -69,6 +69,11 @@ TEST_CASE("scar and its core count to the muscle, without a right ventricle too"
   CHECK(meaning.cavity == Labels{1});
   CHECK(sorted(meaning.muscle) == Labels{2, 3, 4});
   CHECK(meaning.right_ventricle.empty());
+}
+
+TEST_CASE("a wide scar across the whole wall counts to the muscle", "[unit][image]") {
+  const auto meaning = image::propose_meaning(map_of({1, 2, 0, 3, 3}, 1.5));
+  CHECK(sorted(meaning.muscle) == Labels{2, 3});
 }
 
 TEST_CASE("nothing is proposed where no label lies inside another", "[unit][image]") {

@@ -3,6 +3,7 @@
 #include "lv/base/check.hpp"
 #include "lv/base/table.hpp"
 #include "lv/calibrate/record.hpp"
+#include "lv/pipeline/calibration.hpp"
 
 #include "support/temporary_folder.hpp"
 #include <catch2/catch.hpp>
@@ -51,4 +52,15 @@ TEST_CASE("a fit is read with its derivatives and with other pressures", "[unit]
   CHECK(fit.other_pressures[1].parameters->exponent == 1.5);  // not fitted
   write_file(file, "{\"parameters\": {\"C_a\": 1}}");
   CHECK_THROWS_AS(calibrate::read_fit(file), RunError);
+}
+
+TEST_CASE("pressures are assumed where a case leaves them out, not in heartbeats",
+          "[unit][pipeline]") {
+  case_file::Case c;
+  CHECK(pipeline::fit_record(c, "", "").assumed.size() == 2);
+  c.origin["protocol.ed_pressure"] = "case.toml:3";
+  CHECK(pipeline::fit_record(c, "", "").assumed.size() == 1);
+  c.origin.clear();
+  c.protocol.kind = heartbeat::ProtocolKind::cycle;
+  CHECK(pipeline::fit_record(c, "", "").assumed.empty());
 }
