@@ -38,9 +38,7 @@ struct StaticModel {
   // NOLINTNEXTLINE(google-explicit-constructor): it is the same model
   StaticModel(const solid::CardiacModel& model, const material::Calcium& calcium = {},
               const material::Volumetric& at_points = default_stabilisation)
-      : heart(model),
-        contractility(heart.myocardium.active, calcium),
-        stabilisation(at_points) {}
+      : heart(model), contractility(heart.myocardium.active, calcium), stabilisation(at_points) {}
 
   solid::CardiacModel heart;  ///< its volumetric penalty is not used: the wall is incompressible
   Contractility contractility;

@@ -280,7 +280,8 @@ TEST_CASE("what does nothing is named with what it counts with", "[unit][case_fi
   }
 }
 
-TEST_CASE("mistakes are told in the order of their lines, and twenty at most", "[unit][case_file]") {
+TEST_CASE("mistakes are told in the order of their lines, and twenty at most",
+          "[unit][case_file]") {
   std::string text = "zebra = 1\n";
   for (int i = 0; i < 30; ++i)
     text += fmt::format("aardvark_{} = 1\n", i);
