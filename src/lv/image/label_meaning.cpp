@@ -9,6 +9,7 @@ namespace lv::image {
 namespace {
 
 constexpr int label_count = 256;
+constexpr double touching = 0.05;  ///< the least share of a border by which labels lie together
 
 /// How long the border of each label with each other one is, in edges of pixels, and how many
 /// pixels it has.
@@ -94,7 +95,7 @@ void add_scar(const Borders& borders, int cavity, std::vector<int>& muscle) {
   for (int label = 1; label < label_count; ++label)
     if (borders.pixels[label] > 0.0 && label != cavity && label != healthy &&
         is_patch(borders, label, cavity) && borders.share(label, {cavity}) > some &&
-        borders.share(label, {healthy}) > some)
+        borders.share(label, {healthy}) > touching)
       muscle.push_back(label);
   const std::vector<int> wall = muscle;
   for (int label = 1; label < label_count; ++label)
@@ -123,7 +124,6 @@ LabelMeaning propose_meaning(const Volume& volume) {
     return {};
   LabelMeaning meaning{{cavity}, {borders.neighbour(cavity)}, {}};
   add_scar(borders, cavity, meaning.muscle);
-  constexpr double touching = 0.05;
   const int right = largest(borders, [&](int label) {
     return label != cavity && !is_in(meaning.muscle, label) &&
            borders.share(label, meaning.muscle) > touching;
