@@ -759,7 +759,7 @@ constexpr Group of_muscle[]{
 };
 
 constexpr Group of_blood_and_base[]{
-    {Stages(Stage::mesh, Stage::results),
+    {Stages(Stage::mesh, Stage::unload, Stage::results),
      {&mass_counts},
      {
          number("muscle.density", LV_AT(muscle_density), "g/ml", positive,

@@ -20,6 +20,7 @@ using case_file::Case;
 constexpr double steps_of_beat = 45.0;
 constexpr double steps_of_unloading = 25.0;
 constexpr double steps_of_fit = 45.0;
+constexpr double steps_of_time_step = 0.04;  // in a heartbeat, which keeps its tangents
 
 template <class Work>
 double seconds(const Work& work) {
@@ -55,6 +56,19 @@ Estimate of_immersed(const Case& c, const mesh::Mesh& mesh) {
       fmt::format("about {}", log::duration(simulated / c.time.longest * step)), step};
 }
 
+bool is_cycle(const Case& c) {
+  return c.protocol.kind == heartbeat::ProtocolKind::cycle;
+}
+
+std::string beat_in_words(const Case& c, double load_step) {
+  if (!is_cycle(c))
+    return fmt::format("about {}", log::duration(steps_of_beat * load_step));
+  const heartbeat::CycleParameters& cycle = c.protocol.cycle;
+  const double time_steps = c.circulation.period / cycle.step;
+  return fmt::format("about {} a beat, of which {} at most",
+                     log::duration(time_steps * steps_of_time_step * load_step), cycle.beats);
+}
+
 Estimate of_quasi_static(const Case& c, const mesh::Mesh& mesh) {
   implicit::SolverParameters solver = c.quasi_static.solver;
   const double share = solver.first_step;
@@ -64,7 +78,7 @@ Estimate of_quasi_static(const Case& c, const mesh::Mesh& mesh) {
   return {fmt::format("  quasi-static: {} finite elements of order {}, {} unknowns; {:.3g} s a "
                       "load step\n",
                       mesh::elements(mesh).size(), mesh.order, engine.equations().size(), step),
-          fmt::format("about {}", log::duration(steps_of_beat * step)), step};
+          beat_in_words(c, step), step};
 }
 
 /// For the engine that the case does not name, what it would say if it did.
@@ -113,7 +127,9 @@ Cost cost_of(const Case& c, const anatomy::Shape& shape, const anatomy::MeshResu
     check_room(other, made.mesh);
     return made;
   };
-  const auto immersed = [&] {
+  const auto immersed = [&]() -> Estimate {
+    if (is_cycle(c))
+      return {"", "cannot run heartbeats", 0.0};
     return of_immersed(with_engine(c, case_file::Engine::immersed),
                        mesh_of(case_file::Engine::immersed).mesh);
   };

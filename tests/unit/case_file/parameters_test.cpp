@@ -520,7 +520,8 @@ std::vector<Lines> cases_without_files() {
       with(with(coarse, "active.law", "\"land2017\""), "calcium.shape", "\"double_exponential\""),
       with(coarse, "calcium.mode", "\"transient\""),
       with(coarse, "infarct.source", "\"described\""),
-      with(coarse, "unloaded.pressure", "\"2 mmHg\"")};
+      with(coarse, "unloaded.pressure", "\"2 mmHg\""),
+      with(with(coarse, "infarct.source", "\"described\""), "unloaded.pressure", "\"2 mmHg\"")};
   for (const char* law : {"guccione", "neo_hookean"})
     all.push_back(with(coarse, "passive.law", fmt::format("\"{}\"", law)));
   Lines quasi_static = with(static_engine, "quasi_static.edge_length", "\"18 mm\"");
