@@ -12,7 +12,9 @@ void check(PetscErrorCode code) {
   const char* text = nullptr;
   PetscErrorMessage(code, &text, nullptr);
   throw RunError(fmt::format("PETSc failed: {}", text == nullptr ? "unknown error" : text),
-                 "Not enough memory is the usual reason: take a coarser mesh or more machines");
+                 code == PETSC_ERR_MEM || code == PETSC_ERR_LIB
+                     ? "Memory did not suffice, as it seems: take a coarser mesh or more machines"
+                     : "This is a defect of the program: please report it with its case file");
 }
 
 void start_petsc() {
