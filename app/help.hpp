@@ -20,7 +20,7 @@ Exit codes:
     3  a defect of the program
   130  stopped by Ctrl-C or kill; the same command goes on)";
 
-inline constexpr std::array<std::pair<const char*, const char*>, 15> commands{{
+inline constexpr std::array<std::pair<const char*, const char*>, 16> commands{{
     {"new",
      R"(With --from the case holds what the source shows: labels, frame, phases, septum,
 unit, the pressure that a filled shape bears. What it cannot show stands there as
@@ -43,6 +43,13 @@ program have not changed is not run again.
   results    04_results     tables, summary, pictures
   report     05_report      the page: report.html
 Ctrl-C stops it with a checkpoint (exit code 130); the same command goes on.)"},
+    {"study",
+     R"(Set protocol.kind = "cycle" and lists of factors under [study], such as
+preload = [0.8, 1.2]. Runs the case as ventricle run does, and each other load,
+contractility and heart rate in study/NAME of its work folder, as if a case of its own
+(ventricle compare CASE.work CASE.work/study/NAME). Writes study/study.csv, study.svg and
+study.txt: loops, end-systolic elastance and volume intercept, preload-recruitable stroke
+work. Ctrl-C stops it; the same command goes on.)"},
     {"calibrate",
      R"(Set calibrate.passive with calibrate.edv, calibrate.active with calibrate.esv, or
 both. Writes 02b_calibrate/: calibrated.toml (the parameters), calibration.txt, .json

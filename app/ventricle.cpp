@@ -12,6 +12,7 @@
 #include "lv/phantom/person.hpp"
 #include "lv/phantom/study.hpp"
 #include "lv/pipeline/run.hpp"
+#include "lv/pipeline/study.hpp"
 #include "lv/pipeline/validate.hpp"
 #include "lv/proposal/list_images.hpp"
 #include "lv/proposal/propose_case.hpp"
@@ -135,7 +136,9 @@ int bench(const Command& command, int argc, char** argv) {
   return 0;
 }
 
-int run_parallel(Command& command, int argc, char** argv) {
+/// Runs a case, or the family that its [study] asks for.
+template <class Run>
+int run_parallel(Command& command, const Run& run, int argc, char** argv) {
   const lv::case_file::Case c = lv::case_file::read_case(command.case_file);
   const int most = c.engine == lv::case_file::Engine::immersed
                        ? lv::pipeline::most_ranks(c.box.cells)
@@ -146,7 +149,7 @@ int run_parallel(Command& command, int argc, char** argv) {
   const lv::parallel::Session session(&argc, &argv);
   if (!command.until.empty())
     command.run.until = command.until;
-  return until_stopped([&] { lv::pipeline::run(c, command.run); });
+  return until_stopped([&] { run(c, command.run); });
 }
 
 int validate(const Command& command, int argc, char** argv) {
@@ -399,6 +402,11 @@ void add_cases(CLI::App& app, Command& command) {
       "--until", command.until,
       "last stage: circulation, strain, anatomy, mesh, calibrate, unload, beat, results or report");
 
+  auto* study = app.add_subcommand(
+      "study", "run a family of heartbeats: other preloads, afterloads, contractility, heart rate");
+  add_run_options(*study, command);
+  add_ranks(*study, command);
+
   auto* fit =
       app.add_subcommand("calibrate", "fit parameters to measured volumes, as the case asks");
   add_run_options(*fit, command);
@@ -472,8 +480,8 @@ std::string printed(const CLI::App& app, const Command& command, const std::stri
 
 int perform(const CLI::App& app, Command& command, int argc, char** argv) {
   const std::string name = app.get_subcommands().front()->get_name();
-  const bool divides = name == "run" || name == "calibrate" || name == "strain" ||
-                       name == "bench" || !command.solve_in.empty();
+  const bool divides = name == "run" || name == "study" || name == "calibrate" ||
+                       name == "strain" || name == "bench" || !command.solve_in.empty();
   if (lv::launch::world_size() > 1 && !divides)
     return refuse_ranks(name);
   if (name == "validate")
@@ -483,7 +491,9 @@ int perform(const CLI::App& app, Command& command, int argc, char** argv) {
   if (name == "calibrate")
     command.until = "calibrate";
   if (name == "run" || name == "calibrate")
-    return run_parallel(command, argc, argv);
+    return run_parallel(command, lv::pipeline::run, argc, argv);
+  if (name == "study")
+    return run_parallel(command, lv::pipeline::run_study, argc, argv);
   if (name == "phantom")
     return phantom(command);
   if (name == "segment")

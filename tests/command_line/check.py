@@ -8,7 +8,7 @@ import tempfile
 
 program = pathlib.Path(sys.argv[1]).resolve()
 failures = []
-commands = ["new", "validate", "run", "calibrate", "circulation", "segment", "draw", "strain", "phantom", "verify", "images", "report", "compare",
+commands = ["new", "validate", "run", "study", "calibrate", "circulation", "segment", "draw", "strain", "phantom", "verify", "images", "report", "compare",
             "parameters", "bench"]
 
 

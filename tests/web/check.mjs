@@ -73,6 +73,25 @@ async function pretendFit() {
   await ventricle("report", to, "--output", "fitted.html");
 }
 
+const ofBeats = (name) => csv(join(folder, name, "03_beat/beats.csv"));
+
+/** The run as if its wall had beaten: with the beats of a circulation alone, for two resistances. */
+async function pretendBeats() {
+  for (const [name, R_p] of [["beats", 1.05], ["stiff", 1.6]]) {
+    writeFileSync(join(folder, `${name}.toml`), ["[circulation]", "kind = 'windkessel'", "step = '2 ms'", "beats = 2", `windkessel.R_p = '${R_p} mmHg s/ml'`].join("\n"));
+    await ventricle("circulation", `${name}.toml`, "--work", `${name}.circuit`);
+    const to = join(folder, `${name}.work`);
+    cpSync(work, to, { recursive: true });
+    for (const table of ["cycle.csv", "beats.csv"]) cpSync(join(folder, `${name}.circuit/00_circulation`, table), join(to, "03_beat", table));
+    const file = join(to, "04_results/summary.json");
+    const last = ofBeats(`${name}.work`).at(-1);
+    const summary = { ...JSON.parse(readFileSync(file, "utf8")), case: name, cycle: { last_beat: { peak_pressure_mmHg: Number(last.peak_pressure_mmHg) } } };
+    writeFileSync(file, JSON.stringify(summary));
+  }
+  await ventricle("report", "beats.work", "--output", "beats.html");
+  await ventricle("compare", "beats.work", "stiff.work", "--output", "loops.html");
+}
+
 async function makeHalf() {
   const half = join(folder, "half.work");
   cpSync(work, half, { recursive: true });
@@ -90,6 +109,7 @@ async function makePages() {
   await ventricle("report", work, "--output", "page.html");
   await ventricle("compare", work, work, "--output", "compare.html");
   await pretendFit();
+  await pretendBeats();
   await makeHalf();
   await meshInfarct();
   thickSeptum(join(folder, "thick.work"), 70);
@@ -684,6 +704,33 @@ async function checkCompare() {
   await done();
 }
 
+/** Rows of the table of the last beat: measure, then its cells. */
+const measured = (page) => page.locator("#heartbeats table").first().locator("tbody tr").evaluateAll((all) => all.map((row) => [...row.children].map((cell) => cell.textContent)));
+const ofMeasure = (rows, words) => rows.find(([name]) => name.startsWith(words)) ?? [];
+
+async function checkBeats() {
+  const { page, said, close: done } = await open("beats.html");
+  const last = ofBeats("beats.work").at(-1);
+  const [loop, wiggers] = await page.locator("#heartbeats svg.chart").evaluateAll((all) => all.map((one) => ({ lines: [...one.querySelectorAll("path")].map((path) => path.getAttribute("d")),
+    words: [...one.querySelectorAll("text")].map((text) => text.textContent), panels: one.querySelectorAll("svg").length, live: one.querySelectorAll("line.live").length })));
+  check("heartbeats: both loops, and the valve events of the last", loop.lines.length === 2 && ["MC", "AO", "AC", "MO"].every((name) => loop.words.includes(name)), loop.words);
+  check("the Wiggers diagram has pressures, volume and flows, and a line in each for the time", wiggers.panels === 3 && wiggers.lines.length === 6 && wiggers.live === 3, JSON.stringify(wiggers.words));
+  const rows = await measured(page);
+  check("all measures of a beat stand there with a definition", rows.length === Object.keys(last).length - 1 && rows.every((row) => row.at(-1).length > 3), rows.length);
+  check("they are beats.csv's", close(number(ofMeasure(rows, "stroke work")[1]), Number(last.stroke_work_mmHg_ml), 1e-3) &&
+    close(number(ofMeasure(rows, "relaxation constant")[1]), Number(last.tau_ms), 1e-3), rows.join("; "));
+  check("the first screen tells the peak pressure", /peak pressure \(mmHg\)/.test(await page.locator("#summary").innerText()));
+  check("no error is reported on heartbeats", said.length === 0, said.join("\n"));
+  await done();
+  const two = await open("loops.html", { width: 1400, height: 900 });
+  const lines = await two.page.locator("#heartbeats svg.chart").first().locator("path").count();
+  const both = ofMeasure(await measured(two.page), "end-systolic volume").slice(1, 4).map(number);
+  const expected = ["beats.work", "stiff.work"].map((name) => Number(ofBeats(name).at(-1).esv_ml));
+  check("two cases: one loop each over the other, and the difference of each measure", lines === 2 && close(both[2], expected[1] - expected[0], 0.01) && close(both[1], expected[1], 1e-3),
+    `${lines} ${both} ${expected}`);
+  await two.close();
+}
+
 await makePages();
 const opened = await open("page.html");
 const megabytes = statSync(join(folder, "page.html")).size / 1e6;
@@ -709,6 +756,7 @@ await checkAccessible("images.html", "dark");
 await checkPhone();
 await checkHalf();
 await checkCompare();
+await checkBeats();
 await checkImages();
 await checkFitted();
 await checkRealVentricle();

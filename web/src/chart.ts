@@ -2,7 +2,7 @@
 import { ink, svg } from "./dom.ts";
 import { shown } from "./quantities.ts";
 
-export interface Line { label: string; colour: string; dashed?: boolean; x: number[]; y: number[]; dots?: boolean; bare?: boolean /* dots alone */; ofPaper?: boolean }
+export interface Line { label: string; colour: string; dashed?: boolean; x: number[]; y: number[]; dots?: boolean; bare?: boolean /* dots alone */; ofPaper?: boolean; behind?: boolean /* drawn before the others */ }
 export interface Mark { x: number; label: string }
 export interface Chart {
   x: string;
@@ -11,6 +11,7 @@ export interface Chart {
   marks?: Mark[];
   points?: { x: number; y: number; label: string }[];
   zero?: boolean;  // the y axis reaches 0
+  reach?: [number, number];  // of the x axis; without: that of the lines
   width?: number;
   height?: number;
 }
@@ -53,8 +54,8 @@ export interface DrawnChart {
 export function drawChart(chart: Chart): DrawnChart {
   const width = chart.width ?? 460;
   const height = chart.height ?? 300;
-  const box = { left: 58, right: width - 14, top: 14 + 16 * Math.ceil(chart.lines.length / 2), bottom: height - 44 };
-  const xs = finite(chart.lines.flatMap((line) => line.x));
+  const box = { left: 58, right: width - 14, top: 14 + 16 * Math.ceil(chart.lines.length / 2), bottom: height - (chart.x ? 44 : 22) };
+  const xs = chart.reach ?? finite(chart.lines.flatMap((line) => line.x));
   const ys = finite(chart.lines.flatMap((line) => line.y)).concat(chart.zero ? [0] : []);
   const reach = (values: number[]) => {
     const min = values.reduce((a, b) => Math.min(a, b), Infinity);
@@ -68,7 +69,7 @@ export function drawChart(chart: Chart): DrawnChart {
   const py = (y: number) => box.bottom - ((y - y0) / (y1 - y0)) * (box.bottom - box.top);
 
   const root = svg("svg", { viewBox: `0 0 ${width} ${height}`, class: "chart", role: "img", "font-family": "sans-serif",
-    "font-size": 12, "aria-label": `${chart.y} against ${chart.x}` });
+    "font-size": 12, "aria-label": chart.x ? `${chart.y} against ${chart.x}` : chart.y });
   for (const x of ticks(x0, x1, 6))
     root.append(svg("line", { x1: px(x), x2: px(x), y1: box.top, y2: box.bottom, stroke: ink.grid }),
       svg("text", { x: px(x), y: box.bottom + 16, "text-anchor": "middle", fill: ink.text }, tickText(x)));
@@ -99,7 +100,8 @@ export function drawChart(chart: Chart): DrawnChart {
     group.append(line.bare ? svg("circle", { class: "key", cx: lx + 10, cy: ly, r: 3.2, fill: line.colour })
       : svg("line", { x1: lx, x2: lx + 20, y1: ly, y2: ly, stroke: line.colour, "stroke-width": 2, "stroke-dasharray": line.dashed ? "6 4" : "none" }),
       svg("text", { x: lx + 25, y: ly + 4, fill: ink.text }, line.label));
-    root.append(group);
+    if (line.behind) root.insertBefore(group, root.querySelector("g"));
+    else root.append(group);
   });
   for (const { x, y, label } of chart.points ?? []) {
     const right = px(x) > (box.left + box.right) / 2;
@@ -131,5 +133,24 @@ export function drawChart(chart: Chart): DrawnChart {
       dots[i].setAttribute("opacity", seen ? "1" : "0");
       if (seen) { dots[i].setAttribute("cx", String(px(x))); dots[i].setAttribute("cy", String(py(y))); }
     },
+  };
+}
+
+/** Charts over one axis, one above the other, as one figure; its cursor moves through all. */
+export function drawStack(charts: Chart[], words: string): DrawnChart {
+  const drawn = charts.map(drawChart);
+  const width = Math.max(...drawn.map(({ figure }) => figure.viewBox.baseVal.width));
+  let top = 0;
+  for (const { figure } of drawn) {
+    const { width: wide, height } = figure.viewBox.baseVal;
+    for (const name of ["class", "role", "aria-label"]) figure.removeAttribute(name);
+    for (const [name, value] of Object.entries({ x: 0, y: top, width: wide, height })) figure.setAttribute(name, String(value));
+    top += height;
+  }
+  return {
+    figure: svg("svg", { viewBox: `0 0 ${width} ${top}`, class: "chart", role: "img", "font-family": "sans-serif", "font-size": 12, "aria-label": words },
+      ...drawn.map(({ figure }) => figure)),
+    cursor: (x) => drawn.forEach((one) => one.cursor(x)),
+    dot: () => {},
   };
 }

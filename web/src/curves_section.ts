@@ -25,7 +25,7 @@ export function curvesSection(cases: Case[], shared: Shared, time: Timeline): HT
   if (!shownCases.length) return folded("curves", title, "curves.csv is missing: the beat has not begun.");
   const loads = shownCases.every(({ c }) => c.isLoaded);
   const course = loads ? "load (sequence of equilibria, no time)" : shownCases.some(({ c }) => c.isLoaded) ? "time (s); load where there is no time" : "time (s)";
-  const beats = shownCases.every(({ c }) => c.table("cycle.csv").length);
+  const beats = shownCases.every(({ c }) => c.isBeating);
   const help = "From curves.csv. " + (beats ? "Valves and a circulation set pressure and volume; the curves are those of one beat. " :
     "There are no valves: pressure and activation are given, and the volume follows, so the path of pressure against volume is no loop of a heart. ") + (loads ? "The quasi-static engine goes from equilibrium to equilibrium: the axis counts its load, not time. " : "") +
     "Where a file has no value the curve has a gap: calcium between rest and peak of the quasi-static engine. The black line and the dots " +

@@ -221,6 +221,9 @@ export class Case {
   /** Steps of the quasi-static engine are loads, not moments. */
   get isLoaded(): boolean { return this.json.engine === "quasi_static"; }
 
+  /** Heartbeats of a circulation: the frames are those of the last. */
+  get isBeating(): boolean { return this.table("cycle.csv").length > 0; }
+
   /** What was taken for granted of the anatomy. */
   get assumptions(): { part: string; text: string }[] {
     const frame = this.json.files["frame.json"];

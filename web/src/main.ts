@@ -54,7 +54,7 @@ async function main(): Promise<void> {
   const shared = new Shared({ quantity, step: time.start, cut: { kind: "long", angle: 0, height: -40 }, fibres: false, fixed: false });
   const wall = wallSection(cases, shared, time);
   first.append(wall.element);
-  const all = [bullsEyeSection(cases, shared, wall.scale), zoneSection(cases, shared), heartbeatSection(cases), curvesSection(cases, shared, time), detailsSection(cases),
+  const all = [bullsEyeSection(cases, shared, wall.scale), zoneSection(cases, shared), heartbeatSection(cases, shared, time), curvesSection(cases, shared, time), detailsSection(cases),
     rotationSection(cases), flowSection(cases), outlinesSection(cases), strainSection(cases), normalSection(cases), muscleSection(cases),
     inputSection(cases), parameterSection(cases)];
   const isFolded = (part: HTMLElement) => part.classList.contains("folded");

@@ -10,8 +10,13 @@ export interface Quantity {
   help: string;
 }
 
+const about = JSON.parse(document.getElementById("about")!.textContent!);
+
 /** The program's list: see src/lv/analysis/quantities.cpp. */
-export const quantities: Quantity[] = JSON.parse(document.getElementById("about")!.textContent!).quantities;
+export const quantities: Quantity[] = about.quantities;
+
+/** What a clinic says of a heartbeat, by columns of beats.csv: see src/lv/report/cycle_tables.cpp. */
+export const beatMeasures: { name: string; title: string; unit: string; help: string }[] = about.beat_measures;
 
 export const infarct: Quantity = {
   name: "infarct", title: "infarct M", unit: "1", signed: false, middle: 0, floor: 0.005,
@@ -22,14 +27,15 @@ export function quantity(name: string): Quantity {
   return [...quantities, infarct].find((q) => q.name === name)!;
 }
 
-export const label = (q: Quantity) => (q.unit === "1" ? q.title : `${q.title} (${q.unit})`);
+export const label = (q: { title: string; unit: string }) => (q.unit === "1" ? q.title : `${q.title} (${q.unit})`);
 
 /** A moment's name for readers: "end-diastole". */
 export const stateTitle = (name: string) => name.replaceAll("_", " ").replace(/^end /, "end-");
 
+const shortNames: Record<string, string> = { end_diastole: "ED", aortic_opening: "AO", end_systole: "ES", mitral_opening: "MO" };
+
 /** A moment's short name for axes and sliders, "ED" for end_diastole, and its name. */
-export const stateMark = (name: string) => ({ title: stateTitle(name),
-  label: name.startsWith("end_") ? name.split("_").map((word) => word[0].toUpperCase()).join("") : stateTitle(name) });
+export const stateMark = (name: string) => ({ title: stateTitle(name), label: shortNames[name] ?? stateTitle(name) });
 
 /** Below this a number is the rounding of zero, in any unit of the page. */
 const rounding = 1e-9;

@@ -55,10 +55,20 @@ function ownTimeline(c: Case, times: number[]): Timeline {
     frame: (_, step) => (times.length ? step : undefined), time: (_, step) => times[step] ?? NaN };
 }
 
-/** One case: its frames. Two: 40 steps up to end-diastole and 40 from there, in each case's own time. */
+/** Two cases of heartbeats: 80 steps through each one's last beat, beginning where the first one's ejection ends. */
+function beatsTimeline(cases: Case[], times: number[][]): Timeline {
+  const count = 81;
+  const at = (n: number, step: number) => times[n][0] + (step / (count - 1)) * (times[n].at(-1)! - times[n][0]);
+  const end = cases[0].timeOf("end_systole") ?? NaN;
+  return { count, marks: [], start: nearest(Array.from({ length: count }, (_, step) => at(0, step)), end),
+    frame: (n, step) => nearest(times[n], at(n, step)), time: (n, step) => times[n][nearest(times[n], at(n, step))] };
+}
+
+/** One case: its frames. Two: 40 steps up to end-diastole and 40 from there, in each case's own time; of heartbeats even steps. */
 export function timeline(cases: Case[]): Timeline {
   const times = cases.map((c) => c.wall?.times ?? []);
   if (cases.length === 1) return ownTimeline(cases[0], times[0]);
+  if (cases.every((c, n) => c.isBeating && times[n].length)) return beatsTimeline(cases, times);
   const half = 40;
   const at = (n: number, step: number) => {
     const end = times[n].at(-1) ?? NaN;

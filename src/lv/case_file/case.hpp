@@ -190,6 +190,16 @@ struct StrainStudy {
   [[nodiscard]] bool asked() const { return !cine.empty(); }
 };
 
+/// A family of heartbeats around those of the case: the factors that each list names, see
+/// circulation::Factors.
+struct Study {
+  std::vector<double> preload, afterload, contractility, heart_rate;
+
+  [[nodiscard]] bool asked() const {
+    return !(preload.empty() && afterload.empty() && contractility.empty() && heart_rate.empty());
+  }
+};
+
 /// All that a case file says, checked once and constant from then on. Member initialisers are the
 /// defaults; names, units, ranges and meanings are in parameters.cpp.
 struct Case {
@@ -222,6 +232,7 @@ struct Case {
   double cuff_systolic = 0.0;  ///< of a cuff on the arm; 0: not measured [kPa]
   heartbeat::StepControl time;
   heartbeat::OutputSchedule output;
+  Study study;
 
   std::filesystem::path file;  ///< the case file
   std::map<std::string, std::string>

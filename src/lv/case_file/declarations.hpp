@@ -40,6 +40,11 @@ constexpr Parameter number(const char* name, Place at, const char* unit, const R
   return {name, at, unit, range, "", help, equation};
 }
 
+/// A list of numbers without a unit, which may be empty.
+constexpr Parameter numbers(const char* name, Place at, const Range& range, const char* help) {
+  return {name, at, "", range, "", help, ""};
+}
+
 /// A flag, text, list of texts or list of whole numbers.
 constexpr Parameter value(const char* name, Place at, const char* help) {
   return {name, at, "", any, "", help, ""};

@@ -192,6 +192,16 @@ struct Setter {
     for (const toml::node& value : list_of<std::int64_t>(node, p))
       x->push_back(whole_of(value, p, "must hold whole numbers"));
   }
+  void operator()(std::vector<double>* x) const {
+    x->clear();
+    const toml::array* array = node.as_array();
+    if (array == nullptr)
+      throw std::invalid_argument("must be " + p.rule());
+    for (const toml::node& value : *array) {
+      x->push_back(number_of(value));
+      check_range(x->back(), p);
+    }
+  }
   void operator()(std::vector<std::string>* x) const {
     x->clear();
     for (const toml::node& value : list_of<std::string>(node, p))
@@ -242,6 +252,9 @@ std::string Parameter::rule() const {
           [&](const Choice&) { return fmt::format("one of {}", fmt::join(words_of(p), ", ")); },
           [](std::optional<Point>*) { return std::string("any; [] for none"); },
           [&](std::vector<int>*) { return list("whole numbers"); },
+          [&](std::vector<double>*) {
+            return fmt::format("a list of numbers, each {}; [] for none", p.range.words(p.unit));
+          },
           [&](std::vector<std::string>*) { return list("texts"); }},
       slot_of(p, Case{}));
 }
@@ -260,6 +273,7 @@ std::string Parameter::get(const Case& c) const {
                  [](std::array<int, 3>* x) { return whole_numbers(*x); },
                  [&](std::optional<Point>* x) { return *x ? written(**x, p) : std::string("[]"); },
                  [](std::vector<int>* x) { return whole_numbers(*x); },
+                 [](std::vector<double>* x) { return fmt::format("[{}]", fmt::join(*x, ", ")); },
                  [](std::vector<std::string>* x) { return written(*x); }},
       slot_of(p, c));
 }
@@ -315,6 +329,13 @@ NamesAlone names_alone(const Case& c, const std::filesystem::path& work) {
 
 void set(const Parameter& p, Case& c, const toml::node& node) {
   std::visit(Setter{p, node}, p.slot(c));
+}
+
+void multiply(const Parameter& p, Case& c, double factor) {
+  double& value = *std::get<double*>(p.slot(c));
+  const double changed = factor * value;
+  check_range(changed / units::parse_unit(p.unit).factor, p);
+  value = changed;
 }
 
 void copy(const Parameter& p, const Case& from, Case& to) {

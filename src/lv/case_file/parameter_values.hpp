@@ -12,4 +12,8 @@ namespace lv::case_file {
 /// broken.
 void set(const Parameter& p, Case& c, const toml::node& node);
 
+/// Multiplies the number that a parameter is. Throws std::invalid_argument with the rule that is
+/// broken.
+void multiply(const Parameter& p, Case& c, double factor);
+
 }  // namespace lv::case_file

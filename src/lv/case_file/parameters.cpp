@@ -992,6 +992,30 @@ constexpr Group of_measurements[]{
      }},
 };
 
+constexpr Range of_factor = between(0.1, 10.0);
+
+/// No stage reads a study; the beats are those that it makes a family of.
+constexpr Group of_study[]{
+    {Stages(Stage::beat),
+     {&heartbeats},
+     {
+         same_results(
+             numbers("study.preload", LV_AT(study.preload), of_factor,
+                     "of the pressure that the ventricle is filled from: "
+                     "circulation.windkessel.p_ven, in a closed loop circulation.start.p_ven_sys, "
+                     "and with it blood")),
+         same_results(numbers("study.afterload", LV_AT(study.afterload), of_factor,
+                              "of the resistance that it ejects against: "
+                              "circulation.windkessel.R_p or "
+                              "circulation.closed_loop.systemic.R_ar")),
+         same_results(numbers("study.contractility", LV_AT(study.contractility), of_factor,
+                              "of the muscle's tension: active.land2017.T_ref or "
+                              "active.T_scale")),
+         same_results(numbers("study.heart_rate", LV_AT(study.heart_rate), of_factor,
+                              "of beats per time, 1/circulation.period; calcium stays")),
+     }},
+};
+
 constexpr Group of_protocol[]{
     {Stages(Stage::beat),
      {},
@@ -1266,7 +1290,8 @@ std::vector<Parameter> rows_of_all() {
        {std::span<const Group>(of_anatomy), std::span<const Group>(of_mesh),
         std::span<const Group>(of_infarct), std::span<const Group>(of_muscle),
         std::span<const Group>(of_blood_and_base), std::span<const Group>(of_measurements),
-        std::span<const Group>(of_circulation), std::span<const Group>(of_protocol)})
+        std::span<const Group>(of_circulation), std::span<const Group>(of_study),
+        std::span<const Group>(of_protocol)})
     for (const Group& group : groups)
       for (const Parameter& row : group.rows)
         rows.push_back(in_group(group, row));
@@ -1414,6 +1439,9 @@ const std::vector<Section>& sections() {
       {"circulation.closed_loop.left_atrium", "An elastance"},
       {"circulation.closed_loop.right_atrium", "An elastance"},
       {"circulation.closed_loop.right_ventricle", "An elastance"},
+      {"study",
+       "A family of heartbeats for `ventricle study`: lists of factors, 1 being the case itself. "
+       "Every contractility and heart rate meets every preload and afterload"},
       {"protocol", "Pressures, timings and the ends of the phases"},
       {"cycle", "Heartbeats of the wall joined to the circulation (protocol.kind = \"cycle\")"},
       {"time", "Time steps"},

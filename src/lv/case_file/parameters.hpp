@@ -65,7 +65,7 @@ struct Choice {
 /// The member of a case that a parameter sets.
 using Slot = std::variant<double*, int*, bool*, std::string*, Choice, std::array<double, 3>*,
                           std::array<int, 3>*, std::optional<std::array<double, 3>>*,
-                          std::vector<int>*, std::vector<std::string>*>;
+                          std::vector<int>*, std::vector<double>*, std::vector<std::string>*>;
 
 /// How the text of a parameter is meant.
 enum class Text {

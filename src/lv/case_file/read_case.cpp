@@ -24,11 +24,28 @@ class CaseReader {
  public:
   explicit CaseReader(const std::filesystem::path& file) : file_(file) { case_.file = file; }
 
+  explicit CaseReader(Case c) : file_(c.file), case_(std::move(c)) {}
+
   Case read(const toml::table& root) {
     walk(root, "");
     case_.name = printable(case_.name);
     check_together();
     check_that_all_count();
+    throw_mistakes();
+    return std::move(case_);
+  }
+
+  Case change(const std::vector<Change>& changes) {
+    for (const Change& change : changes)
+      try {
+        multiply(*find_parameter(change.parameter), case_, change.factor);
+        case_.origin[change.parameter] = change.place;
+      } catch (const std::invalid_argument& mistake) {
+        mistakes_.emplace_back(
+            change.place, fmt::format("{}, multiplied by {:g}, {}", change.parameter, change.factor,
+                                      mistake.what()));
+      }
+    check_together();
     throw_mistakes();
     return std::move(case_);
   }
@@ -132,6 +149,7 @@ class CaseReader {
     check_calibration();
     check_circulation();
     check_cycle();
+    check_study();
     const StrainStudy& study = case_.strain;
     rule(study.measured.empty() || !study.measured_column.empty(), "strain.measured",
          "needs strain.measured_column, the name of the column that holds end-systole");
@@ -259,6 +277,21 @@ class CaseReader {
              period, 100.0 * left, 100.0 * most));
   }
 
+  void check_study() {
+    const Study& s = case_.study;
+    const auto check = [&](const std::string& name, std::vector<double> factors) {
+      rule(std::find(factors.begin(), factors.end(), 1.0) == factors.end(), "study." + name,
+           "has the factor 1, which is the case itself and runs anyway: leave it out");
+      std::sort(factors.begin(), factors.end());
+      const auto twice = std::adjacent_find(factors.begin(), factors.end());
+      rule(twice == factors.end(), "study." + name, "has a factor twice");
+    };
+    check("preload", s.preload);
+    check("afterload", s.afterload);
+    check("contractility", s.contractility);
+    check("heart_rate", s.heart_rate);
+  }
+
   /// A rule of a parameter that does not count says nothing.
   void rule(bool holds, const std::string& name, const std::string& what) {
     if (!holds && counts_only(*find_parameter(name), case_).empty())
@@ -370,6 +403,10 @@ Case read_case(const std::filesystem::path& file) {
   Case c = parse_case(read_text(file), file);
   require_files(c);
   return c;
+}
+
+Case changed(const Case& c, const std::vector<Change>& changes) {
+  return CaseReader(c).change(changes);
 }
 
 std::string starter_case(const std::string& name) {

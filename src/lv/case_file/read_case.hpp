@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace lv::case_file {
 
@@ -14,6 +15,17 @@ namespace lv::case_file {
 
 /// The same from text, as if it were in `file`.
 [[nodiscard]] Case parse_case(const std::string& text, const std::filesystem::path& file);
+
+/// A number of a case that is multiplied, and the place in the case file that asks for it.
+struct Change {
+  std::string parameter;
+  double factor = 1.0;
+  std::string place;
+};
+
+/// The case with these changes, checked as if its file had them. Throws InputError that names each
+/// mistake with the place of its change.
+[[nodiscard]] Case changed(const Case& c, const std::vector<Change>& changes);
 
 /// A commented case file with the parameters a new user is likely to change.
 [[nodiscard]] std::string starter_case(const std::string& name);

@@ -93,6 +93,16 @@ double largest_change(std::span<const double> before, std::span<const double> af
   return largest;
 }
 
+std::span<const Sample> samples_of(const Cycle& cycle, int beat) {
+  constexpr double rounding = 1e-9;  // [s]
+  const auto at = [&](int beats) {
+    return std::find_if(cycle.samples.begin(), cycle.samples.end(),
+                        [&](const Sample& s) { return s.time > beats * cycle.period - rounding; });
+  };
+  const auto end = at(beat + 1);
+  return {at(beat), end == cycle.samples.end() ? end : end + 1};
+}
+
 Cycle run_alone(const Parameters& p) {
   if (p.kind == Kind::closed_loop)
     return run_closed_loop(p);

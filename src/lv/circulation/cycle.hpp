@@ -4,6 +4,7 @@
 #include "lv/circulation/parameters.hpp"
 
 #include <functional>
+#include <span>
 #include <vector>
 
 namespace lv::circulation {
@@ -20,6 +21,9 @@ struct Cycle {
   double volume_gap = 0.0;      ///< largest |V/V_lv - 1| of a wall's cavity V that is joined to it
   double blood_lost = 0.0;      ///< |blood at the end/blood at the start - 1| of a closed loop
 };
+
+/// The samples of a whole beat, counted from 0, those that begin and end it included.
+[[nodiscard]] std::span<const Sample> samples_of(const Cycle& cycle, int beat);
 
 /// Runs a circulation whose left ventricle is an elastance, by implicit steps of second order.
 /// Throws RunError as implicit_step does, and Interrupted between beats.

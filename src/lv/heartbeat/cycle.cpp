@@ -612,20 +612,6 @@ std::vector<Sample> load_samples(const Archive& archive, std::size_t columns) {
   return samples;
 }
 
-/// The measures of whole beats, from their samples.
-void measure_beats(Cycle& cycle, int count) {
-  const auto begin_of = [&](int beat) {
-    constexpr double rounding = 1e-9;  // [s]
-    return std::find_if(cycle.samples.begin(), cycle.samples.end(),
-                        [&](const Sample& s) { return s.time > beat * cycle.period - rounding; });
-  };
-  for (int b = 0; b < count; ++b) {
-    const auto end = begin_of(b + 1);
-    cycle.beats.push_back(
-        circulation::measure_beat({begin_of(b), end == cycle.samples.end() ? end : end + 1}));
-  }
-}
-
 }  // namespace
 
 void store(const EnergyBalance& energy, Archive& archive) {
@@ -656,7 +642,9 @@ circulation::Cycle load_cycle(const Archive& archive) {
   cycle.blood_lost = facts[5];
   cycle.volume_gap = facts[6];
   const double most = cycle.samples.back().time / cycle.period + 1e-9;
-  measure_beats(cycle, archive.whole_number(facts[1], {0.0, most}));
+  const int beats = archive.whole_number(facts[1], {0.0, most});
+  for (int b = 0; b < beats; ++b)
+    cycle.beats.push_back(circulation::measure_beat(circulation::samples_of(cycle, b)));
   return cycle;
 }
 

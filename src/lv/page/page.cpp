@@ -13,6 +13,7 @@
 #include "lv/page/packing.hpp"
 #include "lv/page/page_pictures.hpp"
 #include "lv/page/wall_series.hpp"
+#include "lv/report/cycle_tables.hpp"
 #include "lv/report/work_folder.hpp"
 
 #include <fmt/format.h>
@@ -395,6 +396,17 @@ Json quantities_json() {
   return list;
 }
 
+/// What beats.csv holds, in its words.
+Json beat_measures_json() {
+  Json list = Json::array();
+  for (const report::BeatMeasure& m : report::beat_measures())
+    list.push_back({{"name", m.column},
+                    {"title", m.words},
+                    {"unit", m.unit.empty() ? "1" : m.unit},
+                    {"help", m.meaning}});
+  return list;
+}
+
 }  // namespace
 
 std::string page(const std::vector<PageCase>& cases, const std::string& version) {
@@ -404,11 +416,13 @@ std::string page(const std::vector<PageCase>& cases, const std::string& version)
     LV_CHECK(at != std::string::npos);
     html.replace(at, mark.size(), data);
   };
-  Data data{
-      element("about", "application/json",
-              Json{{"version", version}, {"cases", cases.size()}, {"quantities", quantities_json()}}
-                  .dump()),
-      "", ""};
+  Data data{element("about", "application/json",
+                    Json{{"version", version},
+                         {"cases", cases.size()},
+                         {"quantities", quantities_json()},
+                         {"beat_measures", beat_measures_json()}}
+                        .dump()),
+            "", ""};
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const Data one = case_html(cases[i], static_cast<int>(i), cases.size());
     data.summary += one.summary;

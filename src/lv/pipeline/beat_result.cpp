@@ -63,4 +63,8 @@ BeatResult read_beat(const std::filesystem::path& folder, const mesh::Mesh& mesh
   return result;
 }
 
+circulation::Cycle read_cycle(const std::filesystem::path& folder) {
+  return heartbeat::load_cycle(Archive::read(folder / beat_name));
+}
+
 }  // namespace lv::pipeline

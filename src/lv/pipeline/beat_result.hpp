@@ -18,4 +18,7 @@ struct BeatResult {
 /// Throws RunError when the beat is not one of this wall.
 [[nodiscard]] BeatResult read_beat(const std::filesystem::path& folder, const mesh::Mesh& mesh);
 
+/// The heartbeats of a beat in `folder`. Throws RunError when it holds none.
+[[nodiscard]] circulation::Cycle read_cycle(const std::filesystem::path& folder);
+
 }  // namespace lv::pipeline

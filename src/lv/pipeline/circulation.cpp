@@ -17,7 +17,7 @@ void make_circulation(const Case& c, const std::filesystem::path& folder) {
   if (!cycle.is_limit)
     log::warn("circulation: {}", end);
   write_cycle_tables(cycle, folder);
-  write_cycle(cycle, folder);
+  write_cycle(cycle, {}, folder);
   write_file(folder / "circulation.txt",
              fmt::format("circulation with an elastance for the left ventricle\n{}\n\n{}", end,
                          report::beat_text(cycle.beats.back())));
@@ -39,10 +39,12 @@ void write_cycle_tables(const circulation::Cycle& cycle, const std::filesystem::
   report::beats_table(cycle.beats).write_csv(folder / "beats.csv");
 }
 
-void write_cycle(const circulation::Cycle& cycle, const std::filesystem::path& folder) {
+void write_cycle(const circulation::Cycle& cycle, const std::optional<Table>& curves,
+                 const std::filesystem::path& folder) {
   const Table table = report::cycle_table(cycle.samples, cycle.columns, cycle.period);
-  drawing::write(report::pressure_volume_figure(table), folder / "pressure_volume.svg");
-  drawing::write(report::wiggers_figure(table), folder / "wiggers.svg");
+  drawing::write(report::pressure_volume_figure(table, report::beats_table(cycle.beats)),
+                 folder / "pressure_volume.svg");
+  drawing::write(report::wiggers_figure(table, curves), folder / "wiggers.svg");
 }
 
 std::string cycle_end(const circulation::Cycle& cycle) {

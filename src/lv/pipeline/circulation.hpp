@@ -1,9 +1,11 @@
 #pragma once
 
+#include "lv/base/table.hpp"
 #include "lv/case_file/case.hpp"
 #include "lv/heartbeat/observers.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,9 +24,11 @@ void make_circulation(const case_file::Case& c, const std::filesystem::path& fol
                                          const std::filesystem::path& folder,
                                          const heartbeat::Observers& observers);
 
-/// cycle.csv and beats.csv of heartbeats, and their figures pressure_volume.svg and wiggers.svg.
+/// cycle.csv and beats.csv of heartbeats, and their figures pressure_volume.svg and wiggers.svg,
+/// with calcium and tension from curves.csv where there is a wall.
 void write_cycle_tables(const circulation::Cycle& cycle, const std::filesystem::path& folder);
-void write_cycle(const circulation::Cycle& cycle, const std::filesystem::path& folder);
+void write_cycle(const circulation::Cycle& cycle, const std::optional<Table>& curves,
+                 const std::filesystem::path& folder);
 
 /// How the heartbeats of a case ended, in words.
 [[nodiscard]] std::string cycle_end(const circulation::Cycle& cycle);

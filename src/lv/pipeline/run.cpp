@@ -308,7 +308,7 @@ class Pipeline {
 
   /// What a user looks at first.
   void show(Stage stage) const {
-    if (!parallel::is_root())
+    if (!parallel::is_root() || options_.quiet)
       return;
     if (stage == Stage::anatomy && std::filesystem::exists(folder(stage) / "quality.txt"))
       print(fmt::format("\n{}\n", read_file(folder(stage) / "quality.txt")));

@@ -14,6 +14,7 @@ struct RunOptions {
   std::optional<std::string> until;  ///< last stage to run, by its name
   bool explain = false;              ///< say why each stage runs or does not
   bool dry_run = false;              ///< say what would run, and run nothing
+  bool quiet = false;                ///< print no results
 };
 
 /// Runs all stages of a case, skipping those whose inputs, parameters and program version are

@@ -247,7 +247,7 @@ void draw(const Case& c, const mesh::Mesh& mesh, const heartbeat::Beat& beat,
   drawing::write(report::curves_figure(report::curves_table(beat.curves), facts),
                  folder / "curves.png");
   if (beat.cycle)
-    write_cycle(*beat.cycle, folder);
+    write_cycle(*beat.cycle, report::curves_table(beat.curves), folder);
 }
 
 /// What the anatomy's stage left beside the folder of another stage.

@@ -11,6 +11,7 @@
 #include "lv/pipeline/circulation.hpp"
 #include "lv/pipeline/cost.hpp"
 #include "lv/pipeline/stages.hpp"
+#include "lv/pipeline/study.hpp"
 #include "lv/scar/infarct.hpp"
 #include "lv/solid/endocardial_surface.hpp"
 
@@ -141,6 +142,7 @@ std::string validate(const Case& c) {
   mistakes.attempt([&] { scar::require_infarct(c); });
   mistakes.raise();
   check_measured_volumes(c, *shape);
+  const int members = check_study(c);
   const anatomy::MeshResult result = make_mesh(c, *shape);
   check_room(c, result.mesh);
   const double cavity = solid::EndocardialSurface(result.mesh).volume(result.mesh.nodes);
@@ -150,6 +152,8 @@ std::string validate(const Case& c) {
   text += strain + describe_mesh(result.mesh);
   if (const std::string infarct = scar::describe_infarct(c, result); !infarct.empty())
     text += fmt::format("  {}\n", infarct);
+  if (members > 0)
+    text += fmt::format("  a study of {} cases: ventricle study {}\n", members, c.file.string());
   const std::vector<Warning> warnings = warnings_of(c, *shape, cavity);
   for (const Warning& w : warnings)
     text += fmt::format("  warning: {}\n", w.text);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace lv::report {
@@ -26,39 +27,56 @@ std::string number_in(double value, const std::string& unit) {
   return Table::number(value / units::parse_unit(unit).factor);
 }
 
-/// A measure of a beat: column, what it is in words, unit.
+/// A measure of a beat: column, what it is in words, unit, definition.
 struct Measure {
   double BeatMeasures::*value;
   const char* name;
   const char* words;
   const char* unit;
+  const char* meaning;
 };
 
+constexpr const char* event_meaning =
+    "from the beat's beginning, where the pressure across the "
+    "valve changes its sign";
+
 constexpr Measure measures[]{
-    {&BeatMeasures::end_diastolic_volume, "edv", "end-diastolic volume", "ml"},
-    {&BeatMeasures::end_systolic_volume, "esv", "end-systolic volume", "ml"},
-    {&BeatMeasures::stroke_volume, "stroke_volume", "stroke volume", "ml"},
-    {&BeatMeasures::ejection_fraction, "ejection_fraction", "ejection fraction", ""},
+    {&BeatMeasures::end_diastolic_volume, "edv", "end-diastolic volume", "ml",
+     "EDV, where the mitral valve closes"},
+    {&BeatMeasures::end_systolic_volume, "esv", "end-systolic volume", "ml",
+     "ESV, where the aortic valve closes"},
+    {&BeatMeasures::stroke_volume, "stroke_volume", "stroke volume", "ml", "SV = EDV - ESV"},
+    {&BeatMeasures::ejection_fraction, "ejection_fraction", "ejection fraction", "", "EF = SV/EDV"},
     {&BeatMeasures::end_diastolic_pressure, "end_diastolic_pressure", "end-diastolic pressure",
-     "mmHg"},
-    {&BeatMeasures::end_systolic_pressure, "end_systolic_pressure", "end-systolic pressure",
-     "mmHg"},
-    {&BeatMeasures::peak_pressure, "peak_pressure", "peak pressure", "mmHg"},
-    {&BeatMeasures::aortic_systolic, "aortic_systolic", "aortic systolic pressure", "mmHg"},
-    {&BeatMeasures::aortic_diastolic, "aortic_diastolic", "aortic diastolic pressure", "mmHg"},
-    {&BeatMeasures::aortic_mean, "aortic_mean", "aortic mean pressure", "mmHg"},
-    {&BeatMeasures::stroke_work, "stroke_work", "stroke work", "mmHg ml"},
-    {&BeatMeasures::largest_pressure_rate, "dp_dt_max", "largest dp/dt", "mmHg/s"},
-    {&BeatMeasures::least_pressure_rate, "dp_dt_min", "least dp/dt", "mmHg/s"},
-    {&BeatMeasures::mitral_closes, "mitral_closes", "mitral valve closes at", "ms"},
-    {&BeatMeasures::aortic_opens, "aortic_opens", "aortic valve opens at", "ms"},
-    {&BeatMeasures::aortic_closes, "aortic_closes", "aortic valve closes at", "ms"},
-    {&BeatMeasures::mitral_opens, "mitral_opens", "mitral valve opens at", "ms"},
+     "mmHg", "of the cavity, where the mitral valve closes"},
+    {&BeatMeasures::end_systolic_pressure, "end_systolic_pressure", "end-systolic pressure", "mmHg",
+     "of the cavity, where the aortic valve closes"},
+    {&BeatMeasures::peak_pressure, "peak_pressure", "peak pressure", "mmHg",
+     "the highest in the cavity"},
+    {&BeatMeasures::aortic_systolic, "aortic_systolic", "aortic systolic pressure", "mmHg",
+     "the highest at the root of the aorta"},
+    {&BeatMeasures::aortic_diastolic, "aortic_diastolic", "aortic diastolic pressure", "mmHg",
+     "the lowest there"},
+    {&BeatMeasures::aortic_mean, "aortic_mean", "aortic mean pressure", "mmHg",
+     "the mean there over the beat"},
+    {&BeatMeasures::stroke_work, "stroke_work", "stroke work", "mmHg ml",
+     "area of the loop, the integral of -p dV over the beat"},
+    {&BeatMeasures::largest_pressure_rate, "dp_dt_max", "largest dp/dt", "mmHg/s",
+     "the steepest rise of the cavity's pressure between two steps"},
+    {&BeatMeasures::least_pressure_rate, "dp_dt_min", "least dp/dt", "mmHg/s", "its steepest fall"},
+    {&BeatMeasures::mitral_closes, "mitral_closes", "mitral valve closes at", "ms", event_meaning},
+    {&BeatMeasures::aortic_opens, "aortic_opens", "aortic valve opens at", "ms", event_meaning},
+    {&BeatMeasures::aortic_closes, "aortic_closes", "aortic valve closes at", "ms", event_meaning},
+    {&BeatMeasures::mitral_opens, "mitral_opens", "mitral valve opens at", "ms", event_meaning},
     {&BeatMeasures::isovolumic_contraction, "isovolumic_contraction", "isovolumic contraction",
-     "ms"},
-    {&BeatMeasures::ejection_time, "ejection_time", "ejection time", "ms"},
-    {&BeatMeasures::isovolumic_relaxation, "isovolumic_relaxation", "isovolumic relaxation", "ms"},
-    {&BeatMeasures::relaxation_constant, "tau", "relaxation constant tau", "ms"}};
+     "ms", "from the closing of the mitral valve to the opening of the aortic valve"},
+    {&BeatMeasures::ejection_time, "ejection_time", "ejection time", "ms",
+     "the aortic valve is open"},
+    {&BeatMeasures::isovolumic_relaxation, "isovolumic_relaxation", "isovolumic relaxation", "ms",
+     "from the closing of the aortic valve to the opening of the mitral valve"},
+    {&BeatMeasures::relaxation_constant, "tau", "relaxation constant tau", "ms",
+     "of p = p_0 exp(-t/tau), least squares of log p from the steepest fall to the opening of the "
+     "mitral valve"}};
 
 /// A column of the signals of the ventricle.
 struct SignalColumn {
@@ -103,6 +121,45 @@ class Beats {
   std::vector<int> beat_;
 };
 
+/// A valve's event: the column of beats.csv, and its sign on a loop.
+struct Event {
+  const char* column;
+  const char* words;
+  int colour;
+  drawing::Marker marker;
+};
+
+constexpr std::array<Event, 4> events{
+    {{"mitral_closes_ms", "mitral valve closes", 2, drawing::Marker::circle},
+     {"aortic_opens_ms", "aortic valve opens", 1, drawing::Marker::triangle},
+     {"aortic_closes_ms", "aortic valve closes", 1, drawing::Marker::circle},
+     {"mitral_opens_ms", "mitral valve opens", 2, drawing::Marker::triangle}}};
+
+/// A curve between its samples.
+double value_at(const std::vector<double>& x, const std::vector<double>& y, double at) {
+  const auto next = std::find_if(x.begin() + 1, x.end(), [&](double t) { return t >= at; });
+  const auto i = static_cast<std::size_t>((next == x.end() ? next - 1 : next) - x.begin());
+  return std::lerp(y[i - 1], y[i], (at - x[i - 1]) / (x[i] - x[i - 1]));
+}
+
+/// The events of the last beat on its loop, the last series.
+void mark_events(const Beats& beats, const Table& measured, drawing::LineChart& chart) {
+  const drawing::Series loop = chart.series.back();
+  const auto time = beats.of(beats.count(), "time_s");
+  for (const Event& e : events) {
+    const auto column = measured.numbers(e.column);
+    if (static_cast<int>(column.size()) != beats.count() || std::isnan(column.back()))
+      continue;
+    const double at = time.front() + 1e-3 * column.back();
+    chart.series.push_back({.label = e.words,
+                            .x = {value_at(time, loop.x, at)},
+                            .y = {value_at(time, loop.y, at)},
+                            .colour = drawing::category(e.colour),
+                            .width = 0.0,
+                            .marker = e.marker});
+  }
+}
+
 /// What the valves are doing.
 std::string phase_name(double mitral, double aortic, bool has_ejected) {
   if (mitral > 0.0)
@@ -125,6 +182,24 @@ std::vector<drawing::Phase> valve_phases(const std::vector<double>& time,
     phases.back().end = time[i];
   }
   return phases;
+}
+
+/// Calcium and the tension that it makes, from curves.csv.
+drawing::Panel muscle_panel(const Table& curves, const drawing::Axis& axis,
+                            const std::vector<drawing::Phase>& phases) {
+  const auto series = [&](const char* label, const char* column, bool second) {
+    return drawing::Series{.label = label,
+                           .x = curves.numbers("time_s"),
+                           .y = curves.numbers(column),
+                           .on_second_axis = second};
+  };
+  return {.content = drawing::LineChart{
+              .x = axis,
+              .y = {"calcium [µM]"},
+              .second_y = {"tension [kPa]"},
+              .series = {series("calcium", "calcium_uM", false),
+                         series("mean active tension", "mean_active_tension_kPa", true)},
+              .phases = phases}};
 }
 
 }  // namespace
@@ -182,7 +257,17 @@ std::string beat_text(const BeatMeasures& beat) {
   return text;
 }
 
-drawing::Figure pressure_volume_figure(const Table& cycle) {
+const std::vector<BeatMeasure>& beat_measures() {
+  static const std::vector<BeatMeasure> all = [] {
+    std::vector<BeatMeasure> list;
+    for (const Measure& m : measures)
+      list.push_back({column_name(m.name, m.unit), m.words, m.unit, m.meaning});
+    return list;
+  }();
+  return all;
+}
+
+drawing::Figure pressure_volume_figure(const Table& cycle, const Table& measured) {
   const Beats beats(cycle);
   drawing::LineChart chart{.x = {"volume [ml]"}, .y = {"pressure [mmHg]"}};
   for (int b = 1; b <= beats.count(); ++b) {
@@ -195,37 +280,42 @@ drawing::Figure pressure_volume_figure(const Table& cycle) {
                             .colour = last ? drawing::category(0) : drawing::hex(0xb0b0b0),
                             .width = last ? 2.4 : 0.8});
   }
+  if (beats.count() > 0)
+    mark_events(beats, measured, chart);
   return {.panels = {{.content = chart}}, .columns = 1};
 }
 
-drawing::Figure wiggers_figure(const Table& cycle) {
+drawing::Figure wiggers_figure(const Table& cycle, const std::optional<Table>& curves) {
   const Beats beats(cycle);
   const auto of_last = [&](const char* column) { return beats.of(beats.count(), column); };
   const auto time = of_last("time_s");
-  const auto series = [&](const char* label, const char* column, bool second = false) {
-    return drawing::Series{
-        .label = label, .x = time, .y = of_last(column), .on_second_axis = second};
-  };
   const auto phases =
       valve_phases(time, of_last("mitral_gradient_mmHg"), of_last("aortic_gradient_mmHg"));
-  const drawing::LineChart pressures{
-      .x = {"time [s]"},
-      .y = {"pressure [mmHg]"},
-      .second_y = {"volume [ml]"},
-      .series = {series("ventricle", "pressure_mmHg"), series("aorta", "aortic_pressure_mmHg"),
-                 series("before the mitral valve", "filling_pressure_mmHg"),
-                 series("volume", "volume_ml", true)},
-      .phases = phases};
-  const drawing::LineChart flows{.x = {"time [s]"},
-                                 .y = {"flow [ml/s]"},
-                                 .series = {series("mitral", "mitral_flow_ml_per_s"),
-                                            series("aortic", "aortic_flow_ml_per_s")},
-                                 .phases = phases};
-  return {.panels = {{.title = "pressures and volume", .content = pressures},
-                     {.title = "flows", .content = flows}},
-          .columns = 1,
-          .panel_width = 520.0,
-          .title = fmt::format("beat {}", beats.count())};
+  drawing::Axis axis{"time [s]"};
+  if (!time.empty())
+    axis.range = drawing::Range{time.front(), time.back()};
+  const auto series = [&](const char* label, const char* column) {
+    return drawing::Series{.label = label, .x = time, .y = of_last(column)};
+  };
+  const auto panel = [&](const char* y, std::vector<drawing::Series> lines) {
+    return drawing::Panel{.content = drawing::LineChart{
+                              .x = axis, .y = {y}, .series = std::move(lines), .phases = phases}};
+  };
+  drawing::Figure figure{
+      .panels = {panel(
+                     "pressure [mmHg]",
+                     {series("ventricle", "pressure_mmHg"), series("aorta", "aortic_pressure_mmHg"),
+                      series("before the mitral valve", "filling_pressure_mmHg")}),
+                 panel("volume [ml]", {series("", "volume_ml")}),
+                 panel("flow [ml/s]", {series("mitral valve", "mitral_flow_ml_per_s"),
+                                       series("aortic valve", "aortic_flow_ml_per_s")})},
+      .columns = 1,
+      .panel_width = 520.0,
+      .panel_height = 190.0,
+      .title = fmt::format("beat {}", beats.count())};
+  if (curves)
+    figure.panels.push_back(muscle_panel(*curves, axis, phases));
+  return figure;
 }
 
 }  // namespace lv::report

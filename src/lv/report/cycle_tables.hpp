@@ -4,6 +4,7 @@
 #include "lv/circulation/beat_measures.hpp"
 #include "lv/drawing/figure.hpp"
 
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -26,11 +27,22 @@ namespace lv::report {
 /// The measures of one beat with their units, a line each.
 [[nodiscard]] std::string beat_text(const circulation::BeatMeasures& beat);
 
-/// Pressure against volume of all beats, the last one marked, from cycle.csv.
-[[nodiscard]] drawing::Figure pressure_volume_figure(const Table& cycle);
+/// What beats.csv holds of a beat.
+struct BeatMeasure {
+  std::string column;   ///< of beats.csv
+  std::string words;    ///< "end-diastolic volume"
+  std::string unit;     ///< empty of numbers without one
+  std::string meaning;  ///< its definition
+};
+[[nodiscard]] const std::vector<BeatMeasure>& beat_measures();
 
-/// Wiggers diagram of the last beat, from cycle.csv: pressures and volume, and flows, with the
-/// phases between the valves' events shaded.
-[[nodiscard]] drawing::Figure wiggers_figure(const Table& cycle);
+/// Pressure against volume of all beats from cycle.csv, the last one marked, with the events of its
+/// valves from beats.csv.
+[[nodiscard]] drawing::Figure pressure_volume_figure(const Table& cycle, const Table& measured);
+
+/// Wiggers diagram of the last beat from cycle.csv, with the phases between the valves' events
+/// shaded: pressures, volume, flows, and calcium and tension from curves.csv where there is a wall.
+[[nodiscard]] drawing::Figure wiggers_figure(const Table& cycle,
+                                             const std::optional<Table>& curves = {});
 
 }  // namespace lv::report

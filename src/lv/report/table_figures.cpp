@@ -5,6 +5,7 @@
 #include "lv/base/units.hpp"
 #include "lv/heartbeat/beat.hpp"
 #include "lv/material/stress_stretch.hpp"
+#include "lv/report/cycle_tables.hpp"
 #include "lv/report/work_folder.hpp"
 #include "lv/strain/agreement.hpp"
 
@@ -242,6 +243,15 @@ class FigureFolder {
       write(*calcium, "calcium");
   }
 
+  void heartbeats() const {
+    const auto cycle = table_of(work_, "beat", "cycle.csv");
+    const auto beats = table_of(work_, "beat", "beats.csv");
+    if (!cycle || !beats)
+      return;
+    write(pressure_volume_figure(*cycle, *beats), "pressure_volume");
+    write(wiggers_figure(*cycle, table_of(work_, "beat", "curves.csv")), "wiggers");
+  }
+
   void regions() const {
     const auto table = table_of(work_, "results", "regions.csv");
     if (!table)
@@ -439,6 +449,7 @@ void write_figures(const fs::path& work, const fs::path& folder) {
   fs::create_directories(folder);
   const FigureFolder figures(work, folder);
   figures.curves();
+  figures.heartbeats();
   figures.regions();
   figures.rotation();
   figures.muscle();

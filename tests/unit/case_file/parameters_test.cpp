@@ -150,6 +150,7 @@ struct OtherValue {
     return R"(["1 mm", "2 mm", "3 mm"])";
   }
   std::string operator()(std::vector<int>*) const { return "[1, 7]"; }
+  std::string operator()(std::vector<double>*) const { return "[0.5, 1.5]"; }
   std::string operator()(std::vector<std::string>*) const { return "[\"one\", \"another\"]"; }
 };
 
@@ -556,6 +557,7 @@ bool is_tried_elsewhere(const std::string& name) {
                                                "circulation.",
                                                "cycle.",
                                                "strain.",
+                                               "study.",
                                                "unloaded.",
                                                "quasi_static.order",
                                                "infarct.described.angle",

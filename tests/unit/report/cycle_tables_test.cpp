@@ -46,11 +46,17 @@ TEST_CASE("beats.csv has a row per beat, and nothing for what did not happen", "
 TEST_CASE("the loop marks the last beat, the Wiggers diagram its phases", "[unit][report]") {
   const circulation::Cycle cycle = two_beats();
   const Table table = report::cycle_table(cycle.samples, cycle.columns, 0.8);
-  const auto loop =
-      std::get<drawing::LineChart>(report::pressure_volume_figure(table).panels.at(0).content);
-  REQUIRE(loop.series.size() == 2);
-  CHECK(loop.series.back().label == "beat 2");
-  CHECK(loop.series.back().x.size() == 401);
+  const drawing::Figure loops =
+      report::pressure_volume_figure(table, report::beats_table(cycle.beats));
+  const auto loop = std::get<drawing::LineChart>(loops.panels.at(0).content);
+  REQUIRE(loop.series.size() == 6);  // two beats, four events
+  CHECK(loop.series[1].label == "beat 2");
+  CHECK(loop.series[1].x.size() == 401);
+  CHECK(loop.series[4].label == "aortic valve closes");
+  CHECK(loop.series[4].x.at(0) ==
+        Approx(1e-3 * cycle.beats.back().end_systolic_volume).epsilon(1e-5));
+  CHECK(loop.series[4].y.at(0) ==
+        Approx(cycle.beats.back().end_systolic_pressure / units::mmHg).epsilon(1e-5));
   const drawing::Figure wiggers = report::wiggers_figure(table);
   const auto pressures = std::get<drawing::LineChart>(wiggers.panels.at(0).content);
   std::vector<std::string> names;

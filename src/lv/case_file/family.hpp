@@ -1,0 +1,26 @@
+#pragma once
+
+#include "lv/case_file/case.hpp"
+#include "lv/circulation/family.hpp"
+
+#include <string>
+#include <vector>
+
+namespace lv::case_file {
+
+/// One of the cases that a study asks for.
+struct Member {
+  std::string name;  ///< "case", "preload_0.8", "contractility_1.2_afterload_1.5"
+  circulation::Factors factors;
+};
+
+/// The case itself first, then its preloads and afterloads; the same under every contractility and
+/// every heart rate.
+[[nodiscard]] std::vector<Member> family(const Study& study);
+
+/// The case under other factors, without its study and what it fits: the fitted values are to be
+/// in it. Throws InputError where a factor makes it one that cannot be run, at the line of the
+/// study that asks for it.
+[[nodiscard]] Case under(const circulation::Factors& factors, Case c);
+
+}  // namespace lv::case_file

@@ -1,0 +1,164 @@
+#include "lv/report/study_tables.hpp"
+
+#include "lv/circulation/parameters.hpp"
+#include "lv/report/cycle_tables.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace lv::report {
+namespace {
+
+using circulation::Contractility;
+using circulation::Factors;
+using circulation::Line;
+using circulation::LoadedBeat;
+using circulation::LoopPoint;
+using units::mmHg;
+
+constexpr double in_mmHg_ml = mmHg * units::ml;
+
+/// "contractility 1.2" or "the case", whatever the loads.
+std::string state_words(const Contractility& state) {
+  const Factors& f = state.beats.front().factors;
+  std::vector<std::string> parts;
+  if (f.contractility != 1.0)
+    parts.push_back(fmt::format("contractility {:g}", f.contractility));
+  if (f.heart_rate != 1.0)
+    parts.push_back(fmt::format("heart rate {:g}", f.heart_rate));
+  return parts.empty() ? "the case" : fmt::format("{}", fmt::join(parts, ", "));
+}
+
+std::vector<std::string> study_columns() {
+  std::vector<std::string> names{"name",      "contractility", "heart_rate",    "preload",
+                                 "afterload", "beats",         "is_limit_cycle"};
+  for (const BeatMeasure& m : beat_measures())
+    names.push_back(m.column);
+  names.insert(names.end(), {"greatest_elastance_volume_ml", "greatest_elastance_pressure_mmHg",
+                             "arterial_elastance_mmHg_per_ml", "E_es_mmHg_per_ml", "V_0_ml",
+                             "E_es_deviation_mmHg", "M_w_mmHg", "V_w_ml", "M_w_deviation_mmHg_ml"});
+  return names;
+}
+
+std::vector<std::string> study_row(const Contractility& state, std::size_t b) {
+  const LoadedBeat& beat = state.beats[b];
+  const Factors& f = beat.factors;
+  std::vector<std::string> row{beat.name};
+  for (const double factor : {f.contractility, f.heart_rate, f.preload, f.afterload})
+    row.push_back(Table::number(factor));
+  row.insert(row.end(), {std::to_string(beat.beats), beat.is_limit ? "yes" : "no"});
+  for (const auto& [name, value] : beat_numbers(beat.measures))
+    row.push_back(Table::number(value));
+  const LoopPoint& point = state.end_systole.points[b];
+  const Line& e = state.end_systole.line;
+  const Line& w = state.stroke_work;
+  for (const double value :
+       {point.volume / units::ml, point.pressure / mmHg,
+        circulation::arterial_elastance(beat.measures) / circulation::elastance,
+        e.slope / circulation::elastance, e.intercept / units::ml, e.deviation / mmHg,
+        w.slope / mmHg, w.intercept / units::ml, w.deviation / in_mmHg_ml})
+    row.push_back(Table::number(value));
+  return row;
+}
+
+/// A line from where it is zero to a little beyond the farthest of its points.
+drawing::Series drawn(const Line& line, double farthest, double y_unit, drawing::Colour colour) {
+  const double end = line.intercept + 1.08 * (farthest - line.intercept);
+  return {.x = {line.intercept / units::ml, end / units::ml},
+          .y = {0.0, line.slope * (end - line.intercept) / y_unit},
+          .colour = colour,
+          .width = 1.2,
+          .dashed = true};
+}
+
+void add_loops(const Contractility& state, drawing::Colour colour, drawing::LineChart& chart) {
+  drawing::Series points{.colour = colour, .width = 0.0, .marker = drawing::Marker::circle};
+  double farthest = 0.0;
+  for (std::size_t b = 0; b < state.beats.size(); ++b) {
+    drawing::Series loop{
+        .label = b == 0 ? state_words(state) : "", .colour = colour, .width = b == 0 ? 2.0 : 0.9};
+    for (const LoopPoint& p : state.beats[b].loop) {
+      loop.x.push_back(p.volume / units::ml);
+      loop.y.push_back(p.pressure / mmHg);
+    }
+    chart.series.push_back(std::move(loop));
+    const LoopPoint& point = state.end_systole.points[b];
+    points.x.push_back(point.volume / units::ml);
+    points.y.push_back(point.pressure / mmHg);
+    farthest = std::max(farthest, point.volume);
+  }
+  chart.series.push_back(std::move(points));
+  if (!std::isnan(state.end_systole.line.slope))
+    chart.series.push_back(drawn(state.end_systole.line, farthest, mmHg, colour));
+}
+
+void add_works(const Contractility& state, drawing::Colour colour, drawing::LineChart& chart) {
+  drawing::Series points{.label = state_words(state),
+                         .colour = colour,
+                         .width = 0.0,
+                         .marker = drawing::Marker::circle};
+  double farthest = 0.0;
+  for (const LoadedBeat& beat : state.beats) {
+    points.x.push_back(beat.measures.end_diastolic_volume / units::ml);
+    points.y.push_back(beat.measures.stroke_work / in_mmHg_ml);
+    farthest = std::max(farthest, beat.measures.end_diastolic_volume);
+  }
+  chart.series.push_back(std::move(points));
+  if (!std::isnan(state.stroke_work.slope))
+    chart.series.push_back(drawn(state.stroke_work, farthest, in_mmHg_ml, colour));
+}
+
+std::string line_words(const char* what, const Line& line, const std::string& numbers,
+                       const char* of) {
+  if (std::isnan(line.slope))
+    return fmt::format("    {:<36} not known: it takes at least two {}\n", what, of);
+  return fmt::format("    {:<36} {} ({} {})\n", what, numbers, line.points, of);
+}
+
+}  // namespace
+
+Table study_table(std::span<const Contractility> family) {
+  Table table(study_columns());
+  for (const Contractility& state : family)
+    for (std::size_t b = 0; b < state.beats.size(); ++b)
+      table.add_row(study_row(state, b));
+  return table;
+}
+
+drawing::Figure study_figure(std::span<const Contractility> family) {
+  drawing::LineChart loops{.x = {"volume [ml]"}, .y = {"pressure [mmHg]"}};
+  drawing::LineChart works{.x = {"end-diastolic volume [ml]"}, .y = {"stroke work [mmHg ml]"}};
+  int category = 0;
+  for (const Contractility& state : family) {
+    const drawing::Colour colour = drawing::category(category++);
+    add_loops(state, colour, loops);
+    add_works(state, colour, works);
+  }
+  return {.panels = {{.title = "loops, end-systolic relation", .content = loops},
+                     {.title = "preload-recruitable stroke work", .content = works}},
+          .panel_width = 380.0};
+}
+
+std::string study_text(std::span<const Contractility> family) {
+  std::string text;
+  for (const Contractility& state : family) {
+    const Line& e = state.end_systole.line;
+    const Line& w = state.stroke_work;
+    text += fmt::format("  {}\n", state_words(state));
+    text += line_words(
+        "end-systolic elastance E_es", e,
+        fmt::format("{:.3g} mmHg/ml, V_0 {:.3g} ml, points {:.2g} mmHg off",
+                    e.slope / circulation::elastance, e.intercept / units::ml, e.deviation / mmHg),
+        "loads");
+    text +=
+        line_words("preload-recruitable stroke work M_w", w,
+                   fmt::format("{:.3g} mmHg, V_w {:.3g} ml, points {:.2g} mmHg ml off",
+                               w.slope / mmHg, w.intercept / units::ml, w.deviation / in_mmHg_ml),
+                   "preloads");
+  }
+  return text;
+}
+
+}  // namespace lv::report

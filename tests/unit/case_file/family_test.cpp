@@ -1,0 +1,61 @@
+#include "lv/case_file/family.hpp"
+
+#include "lv/base/check.hpp"
+#include "lv/case_file/read_case.hpp"
+
+#include <catch2/catch.hpp>
+
+namespace {
+
+using namespace lv;
+using Catch::Matchers::Contains;
+
+case_file::Case beating(const std::string& study, const std::string& kind = "windkessel") {
+  return case_file::parse_case(
+      "engine = \"quasi_static\"\nprotocol.kind = \"cycle\"\nactive.law = \"land2017\"\n"
+      "calcium.shape = \"double_exponential\"\ncalcium.t_1 = \"0.04 s\"\n"
+      "calcium.t_2 = \"0.22 s\"\ncirculation.kind = \"" +
+          kind + "\"\n[study]\n" + study,
+      "case.toml");
+}
+
+}  // namespace
+
+TEST_CASE("every contractility and heart rate of a study meets every load", "[unit][case_file]") {
+  const auto c = beating("preload = [0.8, 1.2]\nafterload = [1.5]\ncontractility = [1.2]\n");
+  const auto members = case_file::family(c.study);
+  std::vector<std::string> names;
+  for (const case_file::Member& m : members)
+    names.push_back(m.name);
+  CHECK(names == std::vector<std::string>{"case", "preload_0.8", "preload_1.2", "afterload_1.5",
+                                          "contractility_1.2", "contractility_1.2_preload_0.8",
+                                          "contractility_1.2_preload_1.2",
+                                          "contractility_1.2_afterload_1.5"});
+}
+
+TEST_CASE("a member of a study is the case with what its factors multiply", "[unit][case_file]") {
+  const auto c = beating("preload = [0.8]\n");
+  const circulation::Factors all{0.5, 2.0, 1.25, 1.1};
+  const auto changed = case_file::under(all, c);
+  CHECK(changed.circulation.windkessel.p_ven == Approx(0.5 * c.circulation.windkessel.p_ven));
+  CHECK(changed.circulation.windkessel.R_p == Approx(2.0 * c.circulation.windkessel.R_p));
+  CHECK(changed.land2017.T_ref == Approx(1.25 * c.land2017.T_ref));
+  CHECK(changed.circulation.period == Approx(c.circulation.period / 1.1));
+  CHECK_FALSE(changed.study.asked());
+  CHECK(changed.origin.at("circulation.windkessel.p_ven") == "case.toml:9");
+  const auto loop = beating("preload = [0.8]\n", "closed_loop");
+  const auto bled = case_file::under({.preload = 0.9, .afterload = 1.5}, loop);
+  CHECK(bled.circulation.start.p_ven_sys == Approx(0.9 * loop.circulation.start.p_ven_sys));
+  CHECK(bled.circulation.closed_loop.systemic.R_ar ==
+        Approx(1.5 * loop.circulation.closed_loop.systemic.R_ar));
+}
+
+TEST_CASE("a factor that makes a case which cannot be run is refused at its line",
+          "[unit][case_file]") {
+  const auto c = beating("heart_rate = [2.5]\n");
+  CHECK_THROWS_WITH(case_file::under({.heart_rate = 2.5}, c),
+                    Contains("case.toml:9") && Contains("shorter than the calcium of a beat"));
+  CHECK_THROWS_WITH(
+      case_file::under({.preload = 1000.0}, c),
+      Contains("circulation.windkessel.p_ven, multiplied by 1000") && Contains("at most 100 mmHg"));
+}
