@@ -12,7 +12,6 @@
 #include "lv/mesh_io/import.hpp"
 #include "lv/report/fields_vtk.hpp"
 #include "lv/report/tables_csv.hpp"
-#include "lv/solid/endocardial_surface.hpp"
 
 #include <fmt/format.h>
 
@@ -90,8 +89,10 @@ Shape from_drawn(const Case& c) {
   fit.frame.base_at = base_at(c, drawn);
   if (!fit.frame.septum)
     fit.frame.septum = drawn.septum;
-  const bool base_may_move = c.anatomy.contours.base_at == case_file::BaseChoice::automatic;
-  geometry::DrawnWall found = geometry::fit_drawn_wall(drawn.contours, fit, base_may_move);
+  const geometry::MayMove may_move{
+      .base = c.anatomy.contours.base_at == case_file::BaseChoice::automatic,
+      .slices = !c.origin.contains("anatomy.contours.align_slices")};
+  geometry::DrawnWall found = geometry::fit_drawn_wall(drawn.contours, fit, may_move);
   const auto wall = std::make_shared<const geometry::SplineWall>(std::move(found.wall));
   Shape shape;
   shape.wall = [wall](double u, double theta, double t) { return wall->point(u, theta, t); };
@@ -185,14 +186,6 @@ Shape make_anatomy(const Case& c) {
   if (shape.quality)
     shape.quality->notes = shape.notes;
   return shape;
-}
-
-double cavity_of(const Shape& shape) {
-  constexpr double edge_length = 3.0;  // of quadratic elements: right to a thousandth [mm]
-  const mesh::Mesh wall =
-      shape.given ? *shape.given
-                  : mesh::wall_mesh(shape.wall, {.edge_length = edge_length, .order = 2});
-  return solid::EndocardialSurface(wall).volume(wall.nodes);
 }
 
 void write_anatomy(const Shape& shape, const fs::path& folder) {

@@ -34,9 +34,6 @@ struct Shape {
 /// The shape that a case asks for. Throws InputError naming the file and what is wrong in it.
 [[nodiscard]] Shape make_anatomy(const case_file::Case& c);
 
-/// The volume that the endocardium encloses below the base plane [mm^3].
-[[nodiscard]] double cavity_of(const Shape& shape);
-
 /// Writes surfaces.vtu (in the model frame), frame.json and, for a drawn wall, fit.csv with the
 /// residual distances per image and the quality sheet as quality.csv, .json and .txt; for borders
 /// that the program drew, segmentation/ with what write_segmentation makes. es_contours.csv holds

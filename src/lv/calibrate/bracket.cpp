@@ -7,20 +7,25 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string>
 
 namespace lv::calibrate {
 namespace {
 
-constexpr double shortest = 1e-3;   // step, of the unknown's logarithm
+constexpr double shortest = 1e-2;   // step, of the unknown's logarithm
 constexpr double narrowest = 1e-7;  // bracket, of the unknown's logarithm
 // volumes of walls that are unloaded anew scatter: a bracket that closes this much farther off, in
 // units of the accuracy, counts as a root
 constexpr double scatter = 20.0;
 constexpr std::uintmax_t most_trials = 60;
 constexpr double misfit_nowhere = -10.0;  // misfit where there is no equilibrium
+// times the start, where that has no equilibrium: less first, since muscle that contracts more than
+// its wall can follow is the usual reason
+constexpr std::array<double, 4> other_starts{0.5, 2.0, 0.25, 4.0};
 
 class Search {
  public:
@@ -34,22 +39,24 @@ class Search {
         high_(std::log(unknown.range.high)) {}
 
   Outcome<double> run() {
-    double a = std::clamp(std::log(unknown_.start), low_, high_);
-    const Outcome<double> at_start = misfit(a);
-    if (!at_start)
-      return at_start;
-    double f_a = *at_start;
+    const Outcome<Point> start = first_point();
+    if (!start)
+      return start.why();
+    auto [a, f_a] = *start;
     if (f_a == 0.0)
       return std::exp(a);
     double away = f_a > 0.0 ? 1.0 : -1.0;  // a cavity too large asks for more of the unknown
     double step = std::log(unknown_.first_factor);
     std::optional<Point> before;
     while (true) {
+      if (nowhere_ && away * (nowhere_->log_x - a) > 0.0)
+        step = std::min(step, 0.5 * std::abs(nowhere_->log_x - a));
       const double b = std::clamp(a + away * step, low_, high_);
       if (std::abs(b - a) < shortest)
-        refuse();
+        refuse({a, f_a});
       const Outcome<double> f_b = misfit(b);
       if (!f_b) {
+        nowhere_ = {b, f_b.why().what};
         step *= 0.25;
         continue;
       }
@@ -72,6 +79,27 @@ class Search {
   }
 
  private:
+  struct Point {
+    double log_x, f;
+  };
+
+  /// The start, or another place that has an equilibrium if that has none.
+  Outcome<Point> first_point() {
+    const double start = std::clamp(std::log(unknown_.start), low_, high_);
+    const Outcome<double> f = misfit(start);
+    if (f)
+      return Point{start, *f};
+    nowhere_ = {start, f.why().what};
+    for (const double multiple : other_starts) {
+      const double x = start + std::log(multiple);
+      if (x < low_ || x > high_)
+        continue;
+      if (const Outcome<double> other = misfit(x))
+        return Point{x, *other};
+    }
+    return f.why();
+  }
+
   /// ln(V/V_target), and zero where that is small enough, which ends the search.
   Outcome<double> misfit(double log_x) {
     const Outcome<double> volume = volume_(std::exp(log_x));
@@ -108,10 +136,6 @@ class Search {
     return std::exp(x);
   }
 
-  struct Point {
-    double log_x, f;
-  };
-
   /// The stiffer root when a maximum of the volume lies between two points that have less.
   Outcome<double> beyond_maximum(const Point& a, const Point& b) {
     const Point& stiff = a.log_x > b.log_x ? a : b;
@@ -139,22 +163,22 @@ class Search {
         "fills farther");
   }
 
-  [[noreturn]] void refuse() const {
-    const Range& r = unknown_.range;
+  /// Of the point that is farthest on the way to the target: at the end of the range, or where
+  /// there is no equilibrium any farther, and why.
+  [[noreturn]] void refuse(const Point& farthest) const {
+    const double x = std::exp(farthest.log_x);
+    const bool at_end = farthest.log_x - low_ < shortest || high_ - farthest.log_x < shortest;
     throw InputError(
         target_.origin,
-        fmt::format("{:.2f} ml cannot be reached: the model's volume is {} at {} = {:g} and {} at "
-                    "{:g}, the ends of its range",
-                    1e-3 * target_.volume, volume_at(r.low), unknown_.name, r.low,
-                    volume_at(r.high), r.high),
-        fmt::format("Check this volume and its pressure, and the shape at early diastole; or widen "
-                    "the range of {} in [calibrate]",
-                    unknown_.name));
-  }
-
-  [[nodiscard]] std::string volume_at(double x) const {
-    const Outcome<double> volume = volume_(x);
-    return volume ? fmt::format("{:.2f} ml", 1e-3 * *volume) : "unknown (no equilibrium)";
+        fmt::format("{:.2f} ml cannot be reached: the model's volume is {:.2f} ml at {} = {:.3g}, "
+                    "{}",
+                    1e-3 * target_.volume, 1e-3 * target_.volume * std::exp(farthest.f),
+                    unknown_.name, x,
+                    at_end || !nowhere_ ? "the end of its range"
+                                        : "and no farther (" + nowhere_->why + ")"),
+        fmt::format(
+            "Check this volume and its pressure, and the shape that was seen{}",
+            at_end ? fmt::format("; or widen the range of {} in [calibrate]", unknown_.name) : ""));
   }
 
   const std::function<Outcome<double>(double)>& volume_;
@@ -162,6 +186,12 @@ class Search {
   const Target& target_;
   double accuracy_;
   double low_, high_;
+  /// The last place tried that has no equilibrium.
+  struct Nowhere {
+    double log_x;
+    std::string why;
+  };
+  std::optional<Nowhere> nowhere_;
   Point nearest_{0.0, std::numeric_limits<double>::infinity()};
 };
 

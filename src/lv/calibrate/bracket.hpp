@@ -35,8 +35,10 @@ struct Target {
 /// the start, then found by TOMS 748 (Alefeld, Potra & Shi, ACM Trans. Math. Softw. 21:327, 1995),
 /// both in the unknown's logarithm.
 ///
-/// Away from the start there may be values without an equilibrium, which it keeps clear of. Throws
-/// InputError with the volumes at both ends of the range when the target is beyond them.
+/// There may be values without an equilibrium, which it keeps clear of; if the start is one, it
+/// starts from half, twice, a quarter or four times of it. Throws InputError with the
+/// volume that is nearest to the target, at the end of the range or where there is no equilibrium
+/// any farther, when that does not reach it; Unsolved where there is none to start from.
 Outcome<double> find_root(const std::function<Outcome<double>(double)>& volume,
                           const Unknown& unknown, const Target& target, double accuracy);
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace lv::calibrate {
 namespace {
@@ -17,18 +18,28 @@ FitParameters scaled(FitParameters p, const Fitted& which, double factor) {
   return p;
 }
 
+/// df/ds at 0 by the values at `up` and -`down`; from one side alone where the other has none.
+double slope(const std::function<Outcome<double>(double)>& f, double up, double down) {
+  const Outcome<double> above = f(up);
+  const Outcome<double> below = f(-down);
+  if (above && below)
+    return (*above - *below) / (up + down);
+  const double here = f(0.0).value();
+  return below ? (here - *below) / down : (above.value() - here) / up;
+}
+
 /// d ln V_k minus, where its target moves with the parameters, d ln target_k.
 double by_parameter(const Model& model, const FitParameters& at, const Fitted& which,
                     const ObservedVolume& o) {
-  const FitParameters above = scaled(at, which, std::exp(parameter_step));
-  const FitParameters below = scaled(at, which, std::exp(-parameter_step));
-  double change =
-      std::log(model.volume(above, o.loads).value() / model.volume(below, o.loads).value());
-  if (o.target_by_unloaded != 0.0)
-    change -= o.target_by_unloaded *
-              (model.unloaded_volume(above).value() - model.unloaded_volume(below).value()) /
-              o.target;
-  return change / (2.0 * parameter_step);
+  const auto misfit = [&](double s) -> Outcome<double> {
+    const FitParameters p = scaled(at, which, std::exp(s));
+    const Outcome<double> V = model.volume(p, o.loads);
+    if (!V || o.target_by_unloaded == 0.0)
+      return V ? Outcome<double>(std::log(*V)) : V;
+    const Outcome<double> V_0 = model.unloaded_volume(p);
+    return V_0 ? Outcome<double>(std::log(*V) - o.target_by_unloaded * *V_0 / o.target) : V_0;
+  };
+  return slope(misfit, parameter_step, parameter_step);
 }
 
 /// Derivatives of the strains by the parameters' logarithms and by the two pressures.
@@ -83,10 +94,11 @@ Sensitivity sensitivity(const Model& model, const FitParameters& at,
     const ObservedVolume& o = observations[k];
     for (Eigen::Index j = 0; j < n; ++j)
       s.by_parameter(k, j) = by_parameter(model, at, parameters[j], o);
-    const auto under = [&](double p) { return model.volume(at, {p, o.loads.activation}).value(); };
+    const auto under = [&](double dp) {
+      return model.volume(at, {o.loads.pressure + dp, o.loads.activation});
+    };
     const double below = std::min(pressure_step, o.loads.pressure);  // no suction on a free wall
-    s.by_pressure[k] = (under(o.loads.pressure + pressure_step) - under(o.loads.pressure - below)) /
-                       (pressure_step + below);
+    s.by_pressure[k] = slope(under, pressure_step, below);
     const bool systolic = o.loads.activation > 0.0;
     by_data(k, 0) = o.target_by_edv * edv / o.target;
     by_data(k, 1) = systolic ? 1.0 : 0.0;

@@ -35,7 +35,7 @@ struct Errors {
 
 /// How volumes follow from parameters, and parameters from measurements, near a fit. By central
 /// differences of the model: parameters by +-1%, pressures by +-0.25 mmHg
-/// (from 0 upwards alone).
+/// (from 0 upwards alone); from one side where the other has no equilibrium.
 struct Sensitivity {
   std::vector<Fitted> parameters;
   Eigen::MatrixXd by_parameter;  ///< d ln (V_k/target_k) / d ln x_j

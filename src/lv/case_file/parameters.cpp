@@ -836,10 +836,12 @@ constexpr Group of_measurements[]{
     {Stages(Stage::calibrate),
      {&klotz_fit},
      {
-         number("calibrate.pressure_error", LV_AT(calibration.pressure_error), "mmHg",
-                between(0.0, 20.0),
-                "by which unloaded.pressure, which few have measured, may be off: the fit is made "
-                "again with as much less and more, for the interval that this leaves; 0: not"),
+         number(
+             "calibrate.pressure_error", LV_AT(calibration.pressure_error), "mmHg",
+             between(0.0, 20.0),
+             "by which unloaded.pressure, which few have measured, may be off: the fit is made "
+             "again with as much less and more, for the interval that this leaves; 0: not; where "
+             "it is not set, at most half of unloaded.pressure"),
      }},
     {Stages(Stage::calibrate),
      {&volume_fit},
@@ -1038,9 +1040,9 @@ constexpr Group of_protocol[]{
     {Stages(Stage::calibrate, Stage::beat),
      {&paper_protocol},
      {
-         number("protocol.ed_pressure", LV_AT(protocol.ed_pressure), "mmHg", between(-50.0, 500.0),
+         number("protocol.ed_pressure", LV_AT(protocol.ed_pressure), "mmHg", between(0.0, 500.0),
                 "end-diastolic pressure", "2.4"),
-         number("protocol.es_pressure", LV_AT(protocol.es_pressure), "mmHg", between(-50.0, 500.0),
+         number("protocol.es_pressure", LV_AT(protocol.es_pressure), "mmHg", between(0.0, 500.0),
                 "end-systolic pressure", "2.4"),
          number("protocol.cuff_systolic", LV_AT(cuff_systolic), "mmHg", between(0.0, 400.0),
                 "systolic pressure of a cuff on the arm, in place of es_pressure, which is then "

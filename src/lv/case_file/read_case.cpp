@@ -19,6 +19,9 @@
 namespace lv::case_file {
 namespace {
 
+/// Unloaded volume by Klotz et al.: V (0.6 - 0.006 p/mmHg), which falls to none at 100 mmHg.
+constexpr double most_of_klotz = 50.0 * units::mmHg;
+
 /// Walks a parsed file and sets what it finds, gathering mistakes.
 class CaseReader {
  public:
@@ -112,9 +115,39 @@ class CaseReader {
     case_.protocol.es_pressure = systolic_share * cuff;
   }
 
+  /// Of contraction against less than the muscle was filled with.
+  void check_pressures() {
+    const heartbeat::Protocol& p = case_.protocol;
+    const double ed = p.ed_pressure / units::mmHg;
+    const double es = p.es_pressure / units::mmHg;
+    if (case_.cuff_systolic > 0.0)
+      rule(es >= ed, "protocol.cuff_systolic",
+           fmt::format("of {:g} mmHg makes an end-systolic pressure of {:.1f} mmHg, which is below "
+                       "the end-diastolic one (protocol.ed_pressure, {:g} mmHg): check both",
+                       case_.cuff_systolic / units::mmHg, es, ed));
+    else
+      rule(
+          es >= ed,
+          case_.origin.contains("protocol.es_pressure") ? "protocol.es_pressure"
+                                                        : "protocol.ed_pressure",
+          fmt::format("does not go with the other pressure: {:g} mmHg at end-systole (es_pressure) "
+                      "are less than {:g} mmHg at end-diastole (ed_pressure); check both",
+                      es, ed));
+  }
+
+  /// A pressure that may be off by more than half of itself tells nothing; the default error does
+  /// not say that of a small one.
+  void limit_pressure_error() {
+    if (!case_.origin.contains("calibrate.pressure_error") && is_loaded(case_))
+      case_.calibration.pressure_error =
+          std::min(case_.calibration.pressure_error, 0.5 * case_.unloaded.pressure);
+  }
+
   /// Rules that concern several parameters.
   void check_together() {
     take_cuff();
+    check_pressures();
+    limit_pressure_error();
     const geometry::Ellipsoid& e = case_.anatomy.ellipsoid;
     rule(e.epi_radius > e.endo_radius, "anatomy.ellipsoid.epi_radius",
          "must be larger than endo_radius");
@@ -197,15 +230,26 @@ class CaseReader {
          "protocol.ed_pressure",
          "is not unloaded.pressure: the shape that calibrate.passive = \"klotz\" takes is that of "
          "end-diastole, so set both alike");
-    rule(!klotz || k.pressure_error < case_.unloaded.pressure, "calibrate.pressure_error",
-         "must be less than unloaded.pressure");
+    rule(!klotz || !is_loaded(case_) || k.pressure_error < case_.unloaded.pressure,
+         "calibrate.pressure_error",
+         fmt::format("is {:g} mmHg, and must be less than the pressure that it is the error of, "
+                     "unloaded.pressure ({:g} mmHg): the fit is made again with as much less",
+                     k.pressure_error / units::mmHg, case_.unloaded.pressure / units::mmHg));
+    rule(!klotz || case_.unloaded.pressure <= most_of_klotz, "unloaded.pressure",
+         fmt::format("is {:g} mmHg: the curve that calibrate.passive = \"klotz\" takes is of "
+                     "hearts with up to 30 mmHg, and is not stretched beyond {:g} mmHg; check the "
+                     "pressure and its unit",
+                     case_.unloaded.pressure / units::mmHg, most_of_klotz / units::mmHg));
     rule(!klotz || case_.passive.law == PassiveLaw::holzapfel_ogden, "calibrate.passive",
          "fits the Holzapfel-Ogden law alone; passive.law is another");
     rule(!passive || k.edv > 0.0, "calibrate.passive",
          "needs the measured volume calibrate.edv: add edv = \"... ml\" under [calibrate]");
     rule(!k.active || k.esv > 0.0, "calibrate.active",
          "needs the measured volume calibrate.esv: add esv = \"... ml\" under [calibrate]");
-    rule(k.edv == 0.0 || k.esv < k.edv, "calibrate.esv", "must be less than edv");
+    rule(!passive || k.edv == 0.0 || k.esv < k.edv, "calibrate.esv",
+         fmt::format("is {:g} ml, and must be less than calibrate.edv, {:g} ml: the heart ejects "
+                     "what is between them; check both, and which is which",
+                     k.esv / units::ml, k.edv / units::ml));
     rule(!passive || case_.passive.law == PassiveLaw::holzapfel_ogden, "calibrate.passive",
          "fits the Holzapfel-Ogden law alone; passive.law is another");
     rule(!passive || case_.protocol.ed_pressure > 0.0, "protocol.ed_pressure",

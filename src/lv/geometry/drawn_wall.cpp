@@ -134,10 +134,15 @@ std::string alignment_note(const Contours& contours, const SplineFitParameters& 
       as_drawn.most, as_drawn.rms, align, says(after));
 }
 
-/// Refuses contours, with what would make a wall of them.
+/// The first sentence of why there is no wall.
+std::string reason(const Attempt& failed) {
+  return failed.why.substr(0, failed.why.find(". "));
+}
+
+/// Refuses contours, with what would make a wall of them, if need be of `moved` slices.
 [[noreturn]] void refuse(const Contours& contours, SplineFitParameters parameters,
-                         const Attempt& failed) {
-  if (const Attempt moved = aligned(contours, parameters); moved.wall)
+                         const Attempt& failed, const Attempt& moved) {
+  if (moved.wall)
     throw InputError(failed.where, failed.why,
                      fmt::format("There is a wall with {}, which {}", align,
                                  says(misfit_of(moved.wall->report()))));
@@ -153,12 +158,12 @@ std::string alignment_note(const Contours& contours, const SplineFitParameters& 
 }  // namespace
 
 DrawnWall fit_drawn_wall(const Contours& contours, const SplineFitParameters& parameters,
-                         bool base_may_move) {
+                         const MayMove& may_move) {
   SplineFitParameters used = parameters;
   Contours drawn = contours;
   std::vector<std::string> notes;
   std::string base = words(used.frame.base_at);
-  base_may_move = base_may_move && used.frame.base_at == BaseAt::annulus;
+  const bool base_may_move = may_move.base && used.frame.base_at == BaseAt::annulus;
   if (const auto end = base_may_move ? end_of_muscle(contours) : std::nullopt) {
     drawn.annulus = {*end};
     base = at_end_of_muscle;
@@ -169,12 +174,20 @@ DrawnWall fit_drawn_wall(const Contours& contours, const SplineFitParameters& pa
     notes.push_back(fmt::format(
         "the base plane is laid where the slab of the most basal slice ends: {} there is no wall "
         "({})",
-        base, found.why.substr(0, found.why.find(". "))));
+        base, reason(found)));
     base = words(used.frame.base_at);
     found = attempt(drawn, used);
   }
-  if (!found.wall)
-    refuse(drawn, used, found);
+  if (!found.wall) {
+    Attempt moved = aligned(drawn, used);
+    if (!moved.wall || !may_move.slices)
+      refuse(drawn, used, found, moved);
+    notes.push_back(fmt::format(
+        "the slices are moved to each other: as the scanner put them there is no wall ({}); {} {}",
+        reason(found), align, says(misfit_of(moved.wall->report()))));
+    used.align_slices = true;
+    found = std::move(moved);
+  }
   if (const std::string note = alignment_note(drawn, used, found.wall->report()); !note.empty())
     notes.push_back(note);
   return {std::move(*found.wall), std::move(base), std::move(notes)};

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -231,6 +232,48 @@ void check_wall(const Contours& contours, const Thickness& thinnest, double leas
       "Redraw the borders there, or accept a thinner wall");
 }
 
+/// The middle of the first cell of a fine lattice in (t, theta, u) that is turned inside out:
+/// det[dx/dt dx/dtheta dx/du] <= 0 of its middle lines. None if the wall is sound.
+std::optional<Vec3> inside_out(const SplineWall& wall) {
+  constexpr int along = 24;
+  constexpr int around = 48;
+  constexpr int across = 4;
+  for (int i = 0; i < along; ++i)
+    for (int j = 0; j < around; ++j) {
+      const auto line = [&](int up, int on) -> std::pair<Vec3, Vec3> {
+        const double u = static_cast<double>(i + up) / along;
+        const double theta = 2.0 * pi * (j + on) / around;
+        return {wall.point(u, theta, 0.0), wall.point(u, theta, 1.0)};
+      };
+      const std::array lines{line(0, 0), line(0, 1), line(1, 0), line(1, 1)};
+      for (int k = 0; k < across; ++k) {
+        const double t = (k + 0.5) / across;
+        const auto at = [&](int n) {
+          return Vec3((1.0 - t) * lines[n].first + t * lines[n].second);
+        };
+        Mat3 map;
+        map.col(0) = Vec3::Zero();
+        for (const auto& [inner, outer] : lines)
+          map.col(0) += outer - inner;
+        map.col(1) = at(1) + at(3) - at(0) - at(2);
+        map.col(2) = at(2) + at(3) - at(0) - at(1);
+        if (!(map.determinant() > 0.0))
+          return 0.25 * (at(0) + at(1) + at(2) + at(3));
+      }
+    }
+  return std::nullopt;
+}
+
+void check_inside_out(const Contours& contours, const SplineWall& wall) {
+  if (const auto at = inside_out(wall))
+    throw InputError(
+        contours.short_axis.front().where(),
+        fmt::format("the fitted wall turns inside out at {}: the lines across it meet",
+                    place_on_wall(*at)),
+        "Check the slices next to that place against their neighbours, and the apex: points of it, "
+        "or long-axis contours, show where it is");
+}
+
 void note_missing_epicardium(const Contours& contours, std::vector<std::string>& notes) {
   for (const int slice : slices_from_base(contours))
     if (find(contours.short_axis, slice, Side::epi) == nullptr)
@@ -341,7 +384,9 @@ SplineWall fit_spline_wall(const Contours& contours, const SplineFitParameters& 
   report.notes = std::move(said.notes);
   report.assumed = std::move(said.assumed);
   check_wall(placed, report.thinnest, parameters.thinnest_wall);
-  return {frame, matched_meridians(fit.endo, fit.epi), std::move(report)};
+  SplineWall wall(frame, matched_meridians(fit.endo, fit.epi), std::move(report));
+  check_inside_out(placed, wall);
+  return wall;
 }
 
 }  // namespace lv::geometry

@@ -3,6 +3,7 @@
 #include "lv/base/check.hpp"
 #include "lv/base/log.hpp"
 #include "lv/base/units.hpp"
+#include "lv/implicit/give_way.hpp"
 
 #include <fmt/format.h>
 
@@ -22,8 +23,25 @@ constexpr int easy = 5;  // corrections
 constexpr int hard = 12;
 constexpr double growth = 1.7;
 
+/// By which share of the way a wall goes on that gives way, and how often it may.
+constexpr double leap = 0.02;
+constexpr int most_leaps = 5;
+
 double next_length(double length, int corrections) {
   return corrections <= easy ? length * growth : corrections >= hard ? length / growth : length;
+}
+
+Unsolved no_farther(const Loads& loads, const std::string& why) {
+  return {fmt::format("No equilibrium was found beyond {:.2f} mmHg and {:.0f}% of the active "
+                      "tension: {}",
+                      loads.pressure / units::mmHg, 100.0 * loads.activation, why),
+          loads.activation > 0.0
+              ? "The muscle may contract more than its wall can follow, or less than the pressure "
+                "asks for: look at active.T_scale and at the mesh's worst element; try a finer "
+                "mesh, or a smaller quasi_static.first_step"
+              : "Look at the mesh's worst element and at the stiffness (a wall too soft for its "
+                "pressure has no equilibrium); try a finer mesh, or a smaller "
+                "quasi_static.first_step"};
 }
 
 }  // namespace
@@ -53,13 +71,14 @@ Outcome<double> Engine::go_to(const Loads& target,
   double last_length = 0.0;
   double length = parameters_.first_step;
   double progress = 0.0;
+  int leaps = 0;
   while (progress < 1.0) {
     length = std::min(length, 1.0 - progress);
     if (1.0 - progress - length < 0.1 * length)
       length = 1.0 - progress;  // no crumbs
-    const Loads loads = between(start, target, progress + length);
+    Loads loads = between(start, target, progress + length);
     State next = before ? extrapolate(*before, state_, length / last_length) : state_;
-    const NewtonReport report = newton_.solve(next, loads);
+    NewtonReport report = newton_.solve(next, loads);
     if (!report.converged) {
       log::info("a step of {:.3g} of the way failed: {}", length, report.why);
       if (before) {
@@ -68,14 +87,14 @@ Outcome<double> Engine::go_to(const Loads& target,
       } else {
         length *= 0.25;
       }
-      if (length < parameters_.smallest_step)
-        return Unsolved{
-            fmt::format("No equilibrium was found beyond {:.2f} mmHg and {:.0f}% of the active "
-                        "tension: {}",
-                        loads_.pressure / units::mmHg, 100.0 * loads_.activation, report.why),
-            "Look at the mesh's worst element and at the stiffness (a wall too soft for its "
-            "pressure has no equilibrium); try a finer mesh, or a smaller quasi_static.first_step"};
-      continue;
+      if (length >= parameters_.smallest_step)
+        continue;
+      length = std::min(leap, 1.0 - progress);
+      loads = between(start, target, progress + length);
+      if (leaps++ == most_leaps || !give_way(equations_, newton_, next = state_, loads))
+        return no_farther(loads_, report.why);
+      report.converged = true;
+      state_ = next;  // nothing to extrapolate from
     }
     before = std::move(state_);
     state_ = std::move(next);
@@ -101,6 +120,8 @@ Outcome<double> Engine::set_model(const StaticModel& model) {
     return cavity_volume();
   }
   if (newton_.solve(state_, loads_).converged)
+    return cavity_volume();
+  if (give_way(equations_, newton_, state_, loads_))
     return cavity_volume();
   const Loads loads = loads_;
   relax();

@@ -40,13 +40,15 @@ class Engine {
 
   /// Goes straight from the present loads to others, in steps as long as Newton's method manages,
   /// and returns the cavity's volume there [mm^3]; `observe` (may be empty) is told each
-  /// equilibrium. Where the smallest step fails the engine stays at the last equilibrium.
+  /// equilibrium. Where the smallest step fails contracting muscle gives way (give_way), a few
+  /// times; else the engine stays at the last equilibrium.
   Outcome<double> go_to(const Loads& loads, const std::function<void(const Step&)>& observe = {});
 
   /// Replaces the muscle and finds the equilibrium under the same loads, at once if Newton's method
-  /// manages, else all the way from rest; returns the cavity's volume [mm^3]. Without loads the
-  /// wall is undeformed, as at first: balanced by the tension of resting muscle alone it would lie
-  /// on the switches I4 = 1 of (2.16), where Newton's method finds no way on.
+  /// manages or contracting muscle gives way, else all the way from rest; returns the cavity's
+  /// volume [mm^3]. Without loads the wall is undeformed, as at first: balanced by the tension of
+  /// resting muscle alone it would lie on the switches I4 = 1 of (2.16), where Newton's method
+  /// finds no way on.
   Outcome<double> set_model(const StaticModel& model);
 
   /// The equilibrium near a guess, with any tension, or around a volume of the cavity; stays at the

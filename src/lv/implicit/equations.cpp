@@ -242,7 +242,7 @@ Equations::Inside Equations::inside(const State& state, const TensionAt& tension
   Inside result{std::vector<double>(size(), 0.0)};
   const std::vector<Vec3> v =
       motion != nullptr ? motion->velocities(state.positions) : std::vector<Vec3>{};
-  const std::vector<Vec3> a = motion != nullptr && !masses_.empty()
+  const std::vector<Vec3> a = motion != nullptr && !motion->acceleration.empty()
                                   ? motion->accelerations(state.positions)
                                   : std::vector<Vec3>{};
   for (std::size_t i = 0; i < wall_.points.size(); ++i) {
@@ -332,7 +332,7 @@ void Equations::tangent(const State& state, double pressure, const TensionAt& te
     std::optional<ElementMotion> moving;
     if (motion != nullptr)
       moving = {of_nodes(v, wall_.elements.element(e)), motion->velocity_slope};
-    if (motion != nullptr && !masses_.empty())
+    if (motion != nullptr && !motion->acceleration.empty())
       moving->inertia = motion->acceleration_slope * masses_[i];
     K.add(at, element.compute(wall_.points[i], element_state(wall_, e, state), {model_, tension, i},
                               wall_.pressure_shapes.value, moving));

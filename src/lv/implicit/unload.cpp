@@ -23,7 +23,7 @@ constexpr std::size_t depth = 6;  // of Anderson's method
 constexpr double smallest_damping = 1.0 / 16;
 constexpr double smallest_share = 1.0 / 64;  // of the pressure, before it gives up
 constexpr double far_below = 0.02;
-constexpr double loose = 0.5;  // tolerance on the way to the whole pressure [mm]
+constexpr double loose = 0.5;  // tolerance on the way to the whole pressure, and what is near [mm]
 
 constexpr int smooth_degree = 3;
 constexpr std::array<double, 6> smoothings{0.8, 0.4, 0.2, 0.1, 0.05, 0.025};  // alpha
@@ -95,9 +95,12 @@ class Unloader {
       log::info("the wall that is looked for is folded: {}", words(now_.step.folds));
       return smooth(target_ + smoothed(now_.X), smoothings);
     }
-    if (has_wall() && now_.left <= parameters_.tolerance && now_.pressure == parameters_.pressure)
+    if (is_near() && now_.left <= parameters_.tolerance)
       return result();
-    return not_found();
+    if (!is_near() || equilibria_ >= parameters_.iterations)
+      return not_found();
+    log::info("the search comes no nearer than {:.3g} mm", now_.left);
+    return smooth(now_.X, smoothings);
   }
 
  private:
@@ -114,6 +117,11 @@ class Unloader {
 
   /// Whether any wall had an equilibrium.
   [[nodiscard]] bool has_wall() const { return now_.X.size() > 0; }
+
+  /// Whether the search has come near under the whole pressure.
+  [[nodiscard]] bool is_near() const {
+    return has_wall() && now_.pressure == parameters_.pressure && now_.left <= loose;
+  }
 
   /// P (X - x*)
   [[nodiscard]] Eigen::VectorXd smoothed(const Eigen::VectorXd& X) const {
@@ -160,7 +168,7 @@ class Unloader {
 
   /// From a wall near the last one, ever less smooth; the last without folds.
   Outcome<Unloaded> smooth(Eigen::VectorXd X, std::span<const double> alphas) {
-    const UnloadStep exact = now_.step;
+    const Trial exact = now_;
     pressure_ = parameters_.pressure;
     smooth_.emplace(given_.nodes, smooth_degree);
     std::optional<Trial> best;
@@ -174,9 +182,13 @@ class Unloader {
     return near_enough(best, exact);
   }
 
-  Outcome<Unloaded> near_enough(std::optional<Trial>& best, const UnloadStep& exact) {
-    if (!best || best->step.rms > parameters_.smooth_within)
-      return folded(exact, best);
+  Outcome<Unloaded> near_enough(std::optional<Trial>& best, const Trial& exact) {
+    if (!best || best->step.rms > parameters_.smooth_within) {
+      if (is_folded(exact.step.folds))
+        return folded(exact.step, best);
+      now_ = exact;
+      return not_found();
+    }
     smoothing_ = best->step.smoothing;
     now_ = std::move(*best);
     steps_.push_back(now_.step);
@@ -192,7 +204,7 @@ class Unloader {
 
   /// From the given shape, by a part of the pressure where the whole is too much at once.
   void approach() {
-    if (try_from(target_, nullptr))
+    if (try_from(target_, nullptr) || is_near())
       return;
     if (has_wall() && is_folded(now_.step.folds))
       return;
@@ -210,6 +222,8 @@ class Unloader {
         slope = (now_.X - X) / (next - reached);
         X = now_.X;
         reached = next;
+      } else if (is_near()) {
+        return;
       } else {
         share *= 0.5;
       }

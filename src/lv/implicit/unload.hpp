@@ -62,7 +62,8 @@ struct UnloadRecord {
 /// carried along with the nodes.
 ///
 /// What pressure does not tell apart grows when it is taken away: a flat place of the given shape
-/// may ask for a dent. Where the search meets a fold (mesh::FoldFinder) it goes on with
+/// may ask for a dent. Where the search meets a fold (mesh::FoldFinder), or comes within 0.5 mm but
+/// no nearer, it goes on with
 ///
 ///   R = x* - x(X) - alpha (U - P U),   U = X - x*,
 ///

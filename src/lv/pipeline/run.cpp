@@ -13,6 +13,7 @@
 #include "lv/page/page.hpp"
 #include "lv/pipeline/calibration.hpp"
 #include "lv/pipeline/circulation.hpp"
+#include "lv/pipeline/measured_volumes.hpp"
 #include "lv/pipeline/stages.hpp"
 #include "lv/pipeline/unloading.hpp"
 #include "lv/pipeline/validate.hpp"
@@ -57,6 +58,8 @@ class Pipeline {
       log::warn("{}: {}", case_.file.string(), no_parameters);
     for (const std::string& what : case_.without_effect)
       log::warn("{}", what);
+    if (const std::string outside = fit_outside_heartbeats(case_); !outside.empty())
+      log::warn("{}", outside);
     if (!case_.strain.measured.empty())  // a mistake there must not come up after the beat
       on_root([&] { static_cast<void>(cine::measured_strains(case_)); });
     const std::vector<Planned> stages = plan();

@@ -10,6 +10,7 @@
 #include "lv/pipeline/calibration.hpp"
 #include "lv/pipeline/circulation.hpp"
 #include "lv/pipeline/cost.hpp"
+#include "lv/pipeline/measured_volumes.hpp"
 #include "lv/pipeline/stages.hpp"
 #include "lv/pipeline/study.hpp"
 #include "lv/scar/infarct.hpp"
@@ -44,6 +45,8 @@ std::vector<Warning> warnings_of(const Case& c, const anatomy::Shape& shape, dou
     warnings.push_back({"no effect", text});
   if (std::string slow = slow_relaxation(c); !slow.empty())
     warnings.push_back({"slow relaxation", std::move(slow)});
+  if (std::string outside = fit_outside_heartbeats(c); !outside.empty())
+    warnings.push_back({"fit outside heartbeats", std::move(outside)});
   for (const geometry::Assumption& a : shape.warnings)
     warnings.push_back({a.part == "septum" ? "septum assumed" : "end-diastolic shape", a.text});
   const double edv = c.calibration.edv;
@@ -111,26 +114,14 @@ std::string describe_shape(const Case& c, const anatomy::Shape& shape, double ca
 
 }  // namespace
 
-void check_measured_volumes(const Case& c, const anatomy::Shape& shape) {
-  const case_file::Calibration& k = c.calibration;
-  if (k.passive == calibrate::FittedPassive::none || case_file::is_loaded(c))
-    return;
-  const double cavity = anatomy::cavity_of(shape);
-  if (k.edv > (1.0 + k.tolerance) * cavity)
-    return;
-  throw InputError(
-      case_file::place_of(c, "calibrate.edv"),
-      fmt::format("calibrate.edv is {:.1f} ml, and the shape of the anatomy, which is taken as "
-                  "free of stress, holds {:.1f} ml already: under protocol.ed_pressure "
-                  "({:g} mmHg) no stiffness fills it to that volume",
-                  1e-3 * k.edv, 1e-3 * cavity, c.protocol.ed_pressure / mmHg),
-      fmt::format(
-          "If the shape is that of end-diastole, it bears the pressure: set unloaded.pressure = "
-          "\"{0:g} mmHg\", and calibrate.passive = \"klotz\" without calibrate.edv, since a wall "
-          "that "
-          "was unloaded from {0:g} mmHg fills to its own volume whatever its stiffness. To fit "
-          "the stiffness to a volume, give the shape of early diastole",
-          c.protocol.ed_pressure / mmHg));
+std::string fit_outside_heartbeats(const Case& c) {
+  if (c.protocol.kind != heartbeat::ProtocolKind::cycle || !c.calibration.asked())
+    return "";
+  return fmt::format(
+      "[calibrate] fits outside of the heartbeats, at protocol.ed_pressure ({:g} mmHg) and "
+      "protocol.es_pressure ({:g} mmHg): the volumes of a beat are those of the pressures that the "
+      "circulation makes, and need not be the measured ones",
+      c.protocol.ed_pressure / mmHg, c.protocol.es_pressure / mmHg);
 }
 
 std::string validate(const Case& c) {

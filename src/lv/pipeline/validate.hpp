@@ -16,8 +16,7 @@ namespace lv::pipeline {
 inline constexpr const char* no_parameters =
     "the case file sets no parameter: this is the default case, the idealised healthy ventricle";
 
-/// Throws InputError where no stiffness can fill the wall to calibrate.edv, since the shape that
-/// is taken as free of stress holds as much already.
-void check_measured_volumes(const case_file::Case& c, const anatomy::Shape& shape);
+/// What is to know of a fit in a case with heartbeats, which is made outside of them; empty else.
+[[nodiscard]] std::string fit_outside_heartbeats(const case_file::Case& c);
 
 }  // namespace lv::pipeline

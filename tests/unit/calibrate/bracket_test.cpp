@@ -87,9 +87,40 @@ TEST_CASE("a volume that jumps over the target has no root", "[calibrate]") {
   CHECK_THAT(x.why().what, Contains("The volume jumps between scale = 1.5"));
 }
 
-TEST_CASE("a target beyond the range is refused with the volumes at its ends", "[calibrate]") {
+TEST_CASE("from a start without an equilibrium the search goes to where there is one",
+          "[calibrate]") {
+  const auto none_below_one = [](double x) -> Outcome<double> {
+    if (x < 1.0)
+      return Unsolved{"too soft", "stiffen it"};
+    return falling(x);
+  };
+  check_root(find_root(none_below_one, from(0.3), target, accuracy));
+}
+
+TEST_CASE("a target beyond the last equilibrium is refused with it after few trials",
+          "[calibrate]") {
+  int asked = 0;
+  const auto none_from_root = [&](double x) -> Outcome<double> {
+    ++asked;
+    if (x > 0.95 * root)
+      return Unsolved{"turns inside out", ""};
+    return falling(x);
+  };
+  CHECK_THROWS_WITH(find_root(none_from_root, from(1.0), target, accuracy),
+                    Contains("80.00 ml cannot be reached: the model's volume is 8") &&
+                        Contains("and no farther (turns inside out)"));
+  CHECK(asked < 9);
+}
+
+TEST_CASE("a target beyond the range is refused with the volume at its end", "[calibrate]") {
+  const auto never_at_the_other_end = [](double x) {
+    CHECK(x > 0.9);
+    return falling(x);
+  };
   CHECK_THROWS_AS(find_root(falling, {"scale", 1.0, {0.5, 1.2}}, target, accuracy), InputError);
   CHECK_THROWS_WITH(find_root(falling, {"scale", 1.0, {0.5, 1.2}}, target, accuracy),
                     Contains("case.toml:7: 80.00 ml cannot be reached") &&
-                        Contains("141.42 ml at scale = 0.5") && Contains("91.29 ml at 1.2"));
+                        Contains("91.29 ml at scale = 1.2, the end of its range"));
+  CHECK_THROWS_AS(find_root(never_at_the_other_end, {"scale", 1.0, {0.5, 1.2}}, target, accuracy),
+                  InputError);
 }

@@ -102,17 +102,15 @@ TEST_CASE("scale and exponent are found from the end-diastolic point and the Klo
   CHECK(std::abs(found.sensitivity.correlation(0, 1)) < 1.0);
 }
 
-TEST_CASE("a volume out of reach is refused with the volumes within reach", "[calibrate]") {
+TEST_CASE("a volume out of reach is refused with the nearest within reach", "[calibrate]") {
   Plan p = plan();
   p.passive = FittedPassive::C_a;
   p.edv.volume = 65e3;  // below the unloaded volume
   const double least = 1e-3 * volume({.C_a = 50.0}, {p.ed_pressure, 0.0});
-  const double most = 1e-3 * volume({.C_a = 0.05}, {p.ed_pressure, 0.0});
   using Catch::Matchers::Contains;
   CHECK_THROWS_AS(fit(model, {}, p), lv::InputError);
   CHECK_THROWS_WITH(fit(model, {}, p), Contains("case.toml:3: 65.00 ml cannot be reached") &&
-                                           Contains(fmt::format("{:.2f} ml at C_a = 0.05", most)) &&
-                                           Contains(fmt::format("{:.2f} ml at 50", least)));
+                                           Contains(fmt::format("{:.2f} ml at C_a = 50", least)));
 }
 
 TEST_CASE("the bracket keeps away from where the model has no equilibrium", "[calibrate]") {

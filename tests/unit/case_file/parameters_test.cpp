@@ -341,6 +341,19 @@ TEST_CASE("that a parameter is set is in the record where that counts", "[unit][
   CHECK(record(silent, Stage::anatomy) != record(said, Stage::anatomy));
 }
 
+TEST_CASE("the pressure's error is at most half of a small pressure, unless it is set",
+          "[unit][case_file]") {
+  const Lines small{{"calibrate.passive", "\"klotz\""},
+                    {"unloaded.pressure", "\"5 mmHg\""},
+                    {"protocol.ed_pressure", "\"5 mmHg\""}};
+  const auto error = [](const Lines& lines) {
+    return parsed(lines).calibration.pressure_error / units::mmHg;
+  };
+  CHECK(error(small) == Approx(2.5));
+  CHECK(error(with(small, "calibrate.pressure_error", "\"3 mmHg\"")) == Approx(3.0));
+  CHECK(parsed({}).calibration.pressure_error / units::mmHg == Approx(4.0));
+}
+
 TEST_CASE("the anatomy sees whether its shape bears a pressure, of which it warns",
           "[unit][case_file]") {
   CHECK_FALSE(is_loaded(work::stage_view(parsed({}), Stage::anatomy)));

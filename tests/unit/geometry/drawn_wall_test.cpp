@@ -46,11 +46,11 @@ TEST_CASE("a base plane in an annulus too far above the slices is laid at the en
         drawing.frame.to_image({20.0 * std::cos(angle), 20.0 * std::sin(angle), 70.0}));
   SplineFitParameters fit;
   fit.frame.base_at = BaseAt::annulus;
-  const DrawnWall wall = fit_drawn_wall(contours, fit, true);
+  const DrawnWall wall = fit_drawn_wall(contours, fit, {.base = true});
   CHECK_THAT(wall.base, Contains("where its slab ends"));
   CHECK_THAT(notes(wall), Contains("through the mitral annulus there is no wall"));
   CHECK(wall.wall.report().base_height == Approx(0.5 * drawing.spacing).margin(0.1));
-  CHECK_THROWS_WITH(fit_drawn_wall(contours, fit, false),
+  CHECK_THROWS_WITH(fit_drawn_wall(contours, fit, {}),
                     Contains("There is a wall with anatomy.contours.base_at = \"slab\""));
 }
 
@@ -69,7 +69,7 @@ TEST_CASE("the base of a wall with long-axis curves moves with the muscle, not w
     std::erase_if(contours.short_axis, [&](const Contour& c) { return c.slice == slice; });
     SplineFitParameters fit;
     fit.frame.base_at = BaseAt::annulus;
-    return fit_drawn_wall(contours, fit, true);
+    return fit_drawn_wall(contours, fit, {.base = true});
   };
   const DrawnWall more = wall_without(1);
   CHECK_THAT(more.base, Contains("as high as the long-axis curves show muscle all round"));
@@ -86,14 +86,14 @@ TEST_CASE("slices shifted by the breath bring a proposal to align them, with its
           "[unit][geometry]") {
   const Drawing drawing = short_axis_alone();
   Contours contours = draw(drawing);
-  CHECK(notes(fit_drawn_wall(contours, {}, true)).empty());
+  CHECK(notes(fit_drawn_wall(contours, {}, {.base = true})).empty());
   shift_slices(contours, drawing.frame, 4.0, 7);
-  const DrawnWall wall = fit_drawn_wall(contours, {}, true);
+  const DrawnWall wall = fit_drawn_wall(contours, {}, {.base = true});
   CHECK_THAT(notes(wall), Contains("the slices seem shifted against each other") &&
                               Contains("anatomy.contours.align_slices = true moves them by up to"));
   SplineFitParameters aligned;
   aligned.align_slices = true;
-  const DrawnWall moved = fit_drawn_wall(contours, aligned, true);
+  const DrawnWall moved = fit_drawn_wall(contours, aligned, {.base = true});
   CHECK(notes(moved).empty());
   double most = 0.0;
   for (const auto& image : moved.wall.report().short_axis)
@@ -101,7 +101,7 @@ TEST_CASE("slices shifted by the breath bring a proposal to align them, with its
   CHECK_THAT(notes(wall), Contains(fmt::format("leaves {:.1f} mm", most)));
 }
 
-TEST_CASE("slices that make no wall as they lie are refused with what aligning them brings",
+TEST_CASE("slices that make no wall as they lie are moved, or refused with what moving them brings",
           "[unit][geometry]") {
   const Drawing drawing = short_axis_alone();
   Contours contours = draw(drawing);
@@ -109,9 +109,15 @@ TEST_CASE("slices that make no wall as they lie are refused with what aligning t
     if (c.slice == 8)
       for (Vec3& x : c.points)
         x += 14.0 * drawing.frame.axes.col(0);
-  CHECK_THROWS_WITH(fit_drawn_wall(contours, {}, true),
+  CHECK_THROWS_WITH(fit_drawn_wall(contours, {}, {.base = true}),
                     Contains("slice 8") && Contains("There is a wall with "
                                                     "anatomy.contours.align_slices = true"));
+  const DrawnWall wall = fit_drawn_wall(contours, {}, {.slices = true});
+  CHECK_THAT(notes(wall), Contains("the slices are moved to each other") && Contains("slice 8"));
+  const auto& images = wall.wall.report().short_axis;
+  CHECK(std::any_of(images.begin(), images.end(), [](const ImageReport& image) {
+    return image.slice == 8 && image.shift.norm() > 8.0;
+  }));
 }
 
 TEST_CASE("the long axis of a ventricle with a bent apex passes within every loop",
@@ -129,7 +135,7 @@ TEST_CASE("the long axis of a ventricle with a bent apex passes within every loo
         r += (x - middle).norm() / static_cast<double>(loop->points.size());
       CHECK((middle - axis.point).cross(axis.up).norm() < r);
     }
-    CHECK_NOTHROW(fit_drawn_wall(contours, {}, true));
+    CHECK_NOTHROW(fit_drawn_wall(contours, {}, {.base = true}));
   }
 }
 
@@ -145,7 +151,7 @@ TEST_CASE("a wall thicker than its cavity is wide is not called thin", "[unit][g
   drawing.noise = 0.4;
   Contours contours = draw(drawing);
   shift_slices(contours, drawing.frame, 3.0, 3);
-  const FitReport report = fit_drawn_wall(contours, {}, true).wall.report();
+  const FitReport report = fit_drawn_wall(contours, {}, {.base = true}).wall.report();
   CHECK(report.thinnest.value > 12.0);
   CHECK(report.thickest.value < 25.0);
 }

@@ -28,7 +28,7 @@ geometry::FitReport fitted(const std::string& file) {
   image::drop_open_base(read.contours, read.notes);
   image::close_walls(read.contours, fit.thinnest_wall, read.notes);
   geometry::check_contours(read.contours);
-  return geometry::fit_drawn_wall(read.contours, fit, true).wall.report();
+  return geometry::fit_drawn_wall(read.contours, fit, {.base = true}).wall.report();
 }
 
 }  // namespace

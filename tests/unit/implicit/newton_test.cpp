@@ -1,5 +1,6 @@
 #include "lv/implicit/newton.hpp"
 
+#include "lv/implicit/give_way.hpp"
 #include "lv/mesh/refine.hpp"
 
 #include "support/block_mesh.hpp"
@@ -94,4 +95,23 @@ TEST_CASE("a wall that is turned inside out is no start", "[unit][implicit]") {
   const NewtonReport report = Newton(block.equations, {}).solve(state, solid::Loads{});
   CHECK_FALSE(report.converged);
   CHECK_THAT(report.why, Catch::Matchers::Contains("inside out at the start"));
+}
+
+TEST_CASE("a wall that gives way comes to rest where Newton's method finds it, or stays",
+          "[unit][implicit]") {
+  Block block;
+  Newton newton(block.equations, {});
+  State start = block.equations.rest();
+  REQUIRE(newton.solve(start, {0.45, 1.0}).converged);
+  State expected = start;
+  REQUIRE(newton.solve(expected, {0.5, 1.0}).converged);
+  State state = start;
+  CHECK(implicit::give_way(block.equations, newton, state, {0.5, 1.0}));
+  CHECK(largest_move(state, expected) < 1e-4 * largest_move(start, expected));
+  CHECK(block.equations.model().density == 0.0);
+
+  state = start;
+  CHECK_FALSE(implicit::give_way(block.equations, newton, state, {1e5, 1.0}));
+  CHECK_FALSE(implicit::give_way(block.equations, newton, state, {0.5, 0.0}));  // at rest
+  CHECK(largest_move(state, start) == 0.0);
 }

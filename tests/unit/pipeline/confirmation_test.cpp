@@ -4,6 +4,7 @@
 #include "lv/base/table.hpp"
 #include "lv/calibrate/record.hpp"
 #include "lv/pipeline/calibration.hpp"
+#include "lv/pipeline/validate.hpp"
 
 #include "support/temporary_folder.hpp"
 #include <catch2/catch.hpp>
@@ -63,4 +64,14 @@ TEST_CASE("pressures are assumed where a case leaves them out, not in heartbeats
   c.origin.clear();
   c.protocol.kind = heartbeat::ProtocolKind::cycle;
   CHECK(pipeline::fit_record(c, "", "").assumed.empty());
+}
+
+TEST_CASE("a fit beside heartbeats is said to be made at the pressures of the protocol",
+          "[unit][pipeline]") {
+  case_file::Case c;
+  c.calibration.active = true;
+  CHECK(pipeline::fit_outside_heartbeats(c).empty());
+  c.protocol.kind = heartbeat::ProtocolKind::cycle;
+  CHECK_THAT(pipeline::fit_outside_heartbeats(c),
+             Catch::Contains("protocol.ed_pressure (8 mmHg) and protocol.es_pressure (150 mmHg)"));
 }

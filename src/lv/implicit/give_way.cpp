@@ -1,0 +1,85 @@
+#include "lv/implicit/give_way.hpp"
+
+#include "lv/base/log.hpp"
+#include "lv/base/units.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+namespace lv::implicit {
+namespace {
+
+constexpr double density = 1e-6;        // of the mass [kg/mm^3]
+constexpr double first_pull = 1e6;      // mu: about an element's stiffness by its mass [1/s^2]
+constexpr double strongest_pull = 1e9;  // before it gives up
+constexpr double weakest_pull = 10.0;   // far below the square of the slowest mode
+constexpr double weaker = 0.2;          // after a stride, as a fraction
+constexpr double stronger = 10.0;       // after one that failed
+constexpr int most_strides = 40;
+constexpr double farthest = 0.2;  // change of the cavity, as a fraction
+
+/// A motion whose inertia is mu M (x - x_k).
+Motion pull_to(const std::vector<Vec3>& positions, double strength) {
+  Motion motion;
+  motion.from = positions;
+  motion.velocity.assign(positions.size(), Vec3::Zero());
+  motion.acceleration = motion.velocity;
+  motion.acceleration_slope = strength;
+  return motion;
+}
+
+/// Of equations with a density.
+std::optional<State> descend(const Equations& equations, Newton& newton, State state,
+                             const Loads& loads) {
+  const double volume = equations.endocardium().volume(state.positions);
+  double pull = first_pull;
+  for (int n = 0; n < most_strides && pull <= strongest_pull; ++n) {
+    const Motion motion = pull_to(state.positions, pull);
+    newton.forget_tangent();
+    if (!newton.solve(state, {equations.steady(loads.activation), loads.pressure, {}, &motion})
+             .converged) {
+      pull *= stronger;
+      continue;
+    }
+    if (std::abs(equations.endocardium().volume(state.positions) / volume - 1.0) > farthest)
+      return {};
+    pull = std::max(weaker * pull, weakest_pull);
+    newton.forget_tangent();
+    if (pull == weakest_pull && newton.solve(state, loads).converged)
+      return state;
+  }
+  return {};
+}
+
+double farthest_of(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    most = std::max(most, (a[i] - b[i]).norm());
+  return most;
+}
+
+}  // namespace
+
+bool give_way(Equations& equations, Newton& newton, State& state, const Loads& loads) {
+  if (loads.activation == 0.0)
+    return false;
+  const StaticModel model = equations.model();
+  StaticModel heavy = model;
+  heavy.density = density;
+  equations.set_model(heavy);
+  const std::optional<State> found = descend(equations, newton, state, loads);
+  equations.set_model(model);
+  newton.forget_tangent();
+  if (!found)
+    return false;
+  log::info(
+      "the wall gave way under {:.2f} mmHg and {:.0f}% of the active tension, by up to {:.2f} mm",
+      loads.pressure / units::mmHg, 100.0 * loads.activation,
+      farthest_of(found->positions, state.positions));
+  state = *found;
+  return true;
+}
+
+}  // namespace lv::implicit

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "lv/anatomy/anatomy.hpp"
+#include "lv/case_file/case.hpp"
+
+namespace lv::pipeline {
+
+/// Throws InputError where a fit cannot meet the measured volumes whatever its parameters, as far
+/// as that is known without mechanics:
+///
+/// - calibrate.edv is not above what the shape taken as free of stress holds already;
+/// - calibrate.esv is not below what a shape of end-diastole was seen to hold;
+/// - one of them asks for fibres that are half as long again as without load, or shorter than four
+///   fifths of that, in the mean (calibrate::one_fibre_volume): shorter ones bear no tension,
+///   1 + beta_0 (lambda - 1) = 0 in the law of Niederer, Hunter and Smith. A loaded shape's volume
+///   without load is taken from Klotz's curve, to which it is fitted.
+void check_measured_volumes(const case_file::Case& c, const anatomy::Shape& shape);
+
+}  // namespace lv::pipeline
