@@ -18,8 +18,9 @@ struct Cycle {
   bool is_limit = false;        ///< the last beat changed no state by more than the tolerance
   double change = 0.0;          ///< largest relative change of a state over the last beat
   bool cut_short = false;       ///< the beat after the last found no solution
-  double volume_gap = 0.0;      ///< largest |V/V_lv - 1| of a wall's cavity V that is joined to it
-  double blood_lost = 0.0;      ///< |blood at the end/blood at the start - 1| of a closed loop
+  int gave_way = 0;         ///< times that a wall joined to it snapped to an equilibrium far off
+  double volume_gap = 0.0;  ///< largest |V/V_lv - 1| of a wall's cavity V that is joined to it
+  double blood_lost = 0.0;  ///< |blood at the end/blood at the start - 1| of a closed loop
 };
 
 /// The samples of a whole beat, counted from 0, those that begin and end it included.

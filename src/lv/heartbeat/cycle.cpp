@@ -56,6 +56,7 @@ constexpr std::array<const char*, 5> phase_after{"filling", "contraction", "ejec
                                                  "filling"};
 
 constexpr int most_step_halvings = 8;
+constexpr int halvings_before_giving_way = 3;
 constexpr int good_steps_to_grow = 10;
 constexpr int checkpoint_every =
     25;  ///< steps; not seconds, since the solver begins anew with each
@@ -114,6 +115,8 @@ class CycleRun {
   void begin_beat();
   void step();
   void end_beat();
+  [[nodiscard]] bool gives_way(const implicit::TimeStep& step,
+                               const implicit::VolumeOfPressure& volume);
   void shorten(const std::string& why);
   void stop_early(const std::string& why);
   void show_progress();
@@ -244,12 +247,13 @@ void CycleRun::step() {
   const double since = dt < cycle_.period - since_ ? since_ + dt : cycle_.period;
   const double t = begin_of_beat() + since;
   const Passed before = engine_.present();
-  const auto newton = engine_.advance(
-      {dt, calcium(since_), calcium(since)}, [&](double p) -> implicit::GivenVolume {
-        const auto [volume, per_pressure] = circuit_.after(t, dt, p);
-        return {volume, per_pressure};
-      });
-  if (!newton.converged) {
+  const auto volume = [&](double p) -> implicit::GivenVolume {
+    const auto [after, per_pressure] = circuit_.after(t, dt, p);
+    return {after, per_pressure};
+  };
+  const implicit::TimeStep step{dt, calcium(since_), calcium(since)};
+  const auto newton = engine_.advance(step, volume);
+  if (!newton.converged && !gives_way(step, volume)) {
     shorten(newton.why);
     return;
   }
@@ -280,6 +284,14 @@ void CycleRun::add_work(const Passed& before) {
   const Signals& b = cycle_.samples.back().signals;
   run_.beat.energy.pressure += 0.5 * (a.pressure + b.pressure) * (b.volume - a.volume);
   run_.beat.energy.muscle += engine_.muscle_work_since(before);
+}
+
+/// Where shorter steps did not help.
+bool CycleRun::gives_way(const implicit::TimeStep& step, const implicit::VolumeOfPressure& volume) {
+  if (run_.halvings != halvings_before_giving_way || !engine_.give_way(step, volume))
+    return false;
+  ++cycle_.gave_way;
+  return true;
 }
 
 void CycleRun::shorten(const std::string& why) {
@@ -589,7 +601,8 @@ void store(const circulation::Cycle& cycle, Archive& archive) {
   archive.set_words("cycle.units", units);
   archive.set("cycle.facts",
               {cycle.period, static_cast<double>(cycle.beats.size()), cycle.is_limit ? 1.0 : 0.0,
-               cycle.cut_short ? 1.0 : 0.0, cycle.change, cycle.blood_lost, cycle.volume_gap});
+               cycle.cut_short ? 1.0 : 0.0, cycle.change, cycle.blood_lost, cycle.volume_gap,
+               static_cast<double>(cycle.gave_way)});
 }
 
 namespace {
@@ -624,7 +637,7 @@ EnergyBalance load_energy(const Archive& archive) {
 }
 
 circulation::Cycle load_cycle(const Archive& archive) {
-  const auto& facts = archive.get_rows("cycle.facts", 7, 1, not_negative);
+  const auto& facts = archive.get_rows("cycle.facts", 8, 1, not_negative);
   const auto names = archive.get_words("cycle.columns");
   const auto units = archive.get_words("cycle.units");
   if (names.size() != units.size())
@@ -641,6 +654,7 @@ circulation::Cycle load_cycle(const Archive& archive) {
   cycle.change = facts[4];
   cycle.blood_lost = facts[5];
   cycle.volume_gap = facts[6];
+  cycle.gave_way = archive.whole_number(facts[7], {0.0, 1e6});
   const double most = cycle.samples.back().time / cycle.period + 1e-9;
   const int beats = archive.whole_number(facts[1], {0.0, most});
   for (int b = 0; b < beats; ++b)

@@ -91,7 +91,7 @@ Outcome<double> Engine::go_to(const Loads& target,
         continue;
       length = std::min(leap, 1.0 - progress);
       loads = between(start, target, progress + length);
-      if (leaps++ == most_leaps || !give_way(equations_, newton_, next = state_, loads))
+      if (leaps++ == most_leaps || !contracting_gives_way(next = state_, loads))
         return no_farther(loads_, report.why);
       report.converged = true;
       state_ = next;  // nothing to extrapolate from
@@ -121,7 +121,7 @@ Outcome<double> Engine::set_model(const StaticModel& model) {
   }
   if (newton_.solve(state_, loads_).converged)
     return cavity_volume();
-  if (give_way(equations_, newton_, state_, loads_))
+  if (contracting_gives_way(state_, loads_))
     return cavity_volume();
   const Loads loads = loads_;
   relax();
@@ -135,6 +135,20 @@ NewtonReport Engine::find(State guess, const Equilibrium& equilibrium) {
     loads_ = {equilibrium.volume ? state_.cavity_pressure : equilibrium.pressure};
   }
   return report;
+}
+
+bool Engine::give_way(const Equilibrium& equilibrium) {
+  if (!implicit::give_way(equations_, newton_, state_, equilibrium))
+    return false;
+  loads_ = {equilibrium.volume ? state_.cavity_pressure : equilibrium.pressure};
+  return true;
+}
+
+/// A passive wall without an equilibrium near by has none.
+bool Engine::contracting_gives_way(State& state, const Loads& loads) {
+  return loads.activation > 0.0 &&
+         implicit::give_way(equations_, newton_, state,
+                            {equations_.steady(loads.activation), loads.pressure});
 }
 
 void Engine::relax() {

@@ -55,6 +55,10 @@ class Engine {
   /// present one if it finds none. The loads are then its pressure alone.
   NewtonReport find(State guess, const Equilibrium& equilibrium);
 
+  /// Where find() finds none: the equilibrium to which the wall gives way (give_way), if there is
+  /// one.
+  [[nodiscard]] bool give_way(const Equilibrium& equilibrium);
+
   /// Forgets what was learned of the tangent on the way here, up to the order of its unknowns.
   void begin_anew() { newton_.begin_anew(); }
 
@@ -88,6 +92,8 @@ class Engine {
   void forget_tangent() { newton_.forget_tangent(); }
 
  private:
+  [[nodiscard]] bool contracting_gives_way(State& state, const Loads& loads);
+
   SolverParameters parameters_;
   Equations equations_;
   Newton newton_;

@@ -32,14 +32,14 @@ Motion pull_to(const std::vector<Vec3>& positions, double strength) {
 
 /// Of equations with a density.
 std::optional<State> descend(const Equations& equations, Newton& newton, State state,
-                             const Loads& loads) {
+                             Equilibrium equilibrium) {
   const double volume = equations.endocardium().volume(state.positions);
   double pull = first_pull;
   for (int n = 0; n < most_strides && pull <= strongest_pull; ++n) {
     const Motion motion = pull_to(state.positions, pull);
     newton.forget_tangent();
-    if (!newton.solve(state, {equations.steady(loads.activation), loads.pressure, {}, &motion})
-             .converged) {
+    equilibrium.motion = &motion;
+    if (!newton.solve(state, equilibrium).converged) {
       pull *= stronger;
       continue;
     }
@@ -47,7 +47,8 @@ std::optional<State> descend(const Equations& equations, Newton& newton, State s
       return {};
     pull = std::max(weaker * pull, weakest_pull);
     newton.forget_tangent();
-    if (pull == weakest_pull && newton.solve(state, loads).converged)
+    equilibrium.motion = nullptr;
+    if (pull == weakest_pull && newton.solve(state, equilibrium).converged)
       return state;
   }
   return {};
@@ -62,22 +63,19 @@ double farthest_of(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
 
 }  // namespace
 
-bool give_way(Equations& equations, Newton& newton, State& state, const Loads& loads) {
-  if (loads.activation == 0.0)
-    return false;
+bool give_way(Equations& equations, Newton& newton, State& state, const Equilibrium& equilibrium) {
   const StaticModel model = equations.model();
   StaticModel heavy = model;
   heavy.density = density;
   equations.set_model(heavy);
-  const std::optional<State> found = descend(equations, newton, state, loads);
+  const std::optional<State> found = descend(equations, newton, state, equilibrium);
   equations.set_model(model);
   newton.forget_tangent();
   if (!found)
     return false;
-  log::info(
-      "the wall gave way under {:.2f} mmHg and {:.0f}% of the active tension, by up to {:.2f} mm",
-      loads.pressure / units::mmHg, 100.0 * loads.activation,
-      farthest_of(found->positions, state.positions));
+  const double pressure = equilibrium.volume ? found->cavity_pressure : equilibrium.pressure;
+  log::info("the wall gave way under {:.2f} mmHg, by up to {:.2f} mm", pressure / units::mmHg,
+            farthest_of(found->positions, state.positions));
   state = *found;
   return true;
 }

@@ -12,10 +12,10 @@ namespace lv::implicit {
 ///   R(x_{k+1}) + mu_k M (x_{k+1} - x_k) = 0,   M the mass [kg],
 ///
 /// which descends without inertia, in ever longer strides as mu [1/s^2] falls, and at last by R = 0
-/// itself. False, with the state as it was, where that does not come to rest, where the cavity
-/// changes by more than a fifth on the way (the wall is blown up or closes), and for muscle at
-/// rest: a passive wall without an equilibrium near by has none. The equations' model is as before.
-/// Collective.
-[[nodiscard]] bool give_way(Equations& equations, Newton& newton, State& state, const Loads& loads);
+/// itself. False, with the state as it was, where that does not come to rest, and where the cavity
+/// changes by more than a fifth on the way (the wall is blown up or closes). The equations' model
+/// is as before. Collective.
+[[nodiscard]] bool give_way(Equations& equations, Newton& newton, State& state,
+                            const Equilibrium& equilibrium);
 
 }  // namespace lv::implicit

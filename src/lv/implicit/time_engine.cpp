@@ -59,12 +59,10 @@ NewtonReport TimeEngine::advance(const TimeStep& step, const VolumeOfPressure& v
     return advance_with_rates(step, volume);
   const State now = engine_.state();
   const State guess = dt_before_ > 0.0 ? extrapolate(before_, now, step.dt / dt_before_) : now;
-  const TensionAt tension = [&](std::size_t element, std::size_t point, double stretch) {
-    return muscle_.after(step, point_number(element, point), stretch);
-  };
-  NewtonReport report = engine_.find(guess, {tension, 0.0, volume});
+  const Equilibrium end{tension_after(step), 0.0, volume};
+  NewtonReport report = engine_.find(guess, end);
   if (!report.converged && dt_before_ > 0.0)
-    report = engine_.find(now, {tension, 0.0, volume});
+    report = engine_.find(now, end);
   if (!report.converged) {
     dt_before_ = 0.0;
     return report;
@@ -73,6 +71,20 @@ NewtonReport TimeEngine::advance(const TimeStep& step, const VolumeOfPressure& v
   before_ = now;
   dt_before_ = step.dt;
   return report;
+}
+
+bool TimeEngine::give_way(const TimeStep& step, const VolumeOfPressure& volume) {
+  if (has_rates_ || !engine_.give_way({tension_after(step), 0.0, volume}))
+    return false;
+  muscle_.advance(step, engine_.equations().fibre_stretch(engine_.state()));
+  dt_before_ = 0.0;  // nothing to extrapolate from
+  return true;
+}
+
+TensionAt TimeEngine::tension_after(const TimeStep& step) const {
+  return [this, &step](std::size_t element, std::size_t point, double stretch) {
+    return muscle_.after(step, point_number(element, point), stretch);
+  };
 }
 
 NewtonReport TimeEngine::advance_with_rates(const TimeStep& step, const VolumeOfPressure& volume) {

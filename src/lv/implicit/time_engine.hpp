@@ -30,6 +30,11 @@ class TimeEngine {
   /// One step; the engine stays where it was when it fails.
   NewtonReport advance(const TimeStep& step, const VolumeOfPressure& volume);
 
+  /// A step after which the wall is where it gives way to, where advance() finds no equilibrium
+  /// near by. Of a wall without rates, which no inertia or viscosity holds back. False, with the
+  /// engine where it was, if there is none.
+  [[nodiscard]] bool give_way(const TimeStep& step, const VolumeOfPressure& volume);
+
   /// One step under a tension and a pressure (or around a volume) that are given for the moment of
   /// balance; the muscle's own states are left alone.
   NewtonReport move(double dt, Equilibrium at_balance);
@@ -79,6 +84,8 @@ class TimeEngine {
   }
   /// The tension that muscle has, whatever the stretch.
   [[nodiscard]] TensionAt tension_of(const Muscle& muscle) const;
+
+  [[nodiscard]] TensionAt tension_after(const TimeStep& step) const;
 
   void rest();
   [[nodiscard]] State predicted(const State& now, double dt) const;

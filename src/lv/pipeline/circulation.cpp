@@ -61,6 +61,11 @@ std::vector<std::string> cycle_warnings(const Case& c, const circulation::Cycle&
         fmt::format("the heartbeats end after {} of them: in the next one no equilibrium of wall "
                     "and circulation was found",
                     cycle.beats.size()));
+  if (cycle.gave_way > 0)
+    warnings.push_back(
+        fmt::format("the wall gave way {} time{}: it came at once to an equilibrium farther off, "
+                    "where a beating one is held back by its inertia and viscosity",
+                    cycle.gave_way, cycle.gave_way == 1 ? "" : "s"));
   if (!cycle.is_limit)
     warnings.push_back(cycle_end(cycle));
   if (std::string slow = slow_relaxation(c); !slow.empty())
