@@ -49,8 +49,7 @@ class Search {
     double step = std::log(unknown_.first_factor);
     std::optional<Point> before;
     while (true) {
-      if (nowhere_ && away * (nowhere_->log_x - a) > 0.0)
-        step = std::min(step, 0.5 * std::abs(nowhere_->log_x - a));
+      step = std::min(step, way_from(a, away));
       const double b = std::clamp(a + away * step, low_, high_);
       if (std::abs(b - a) < shortest)
         refuse({a, f_a});
@@ -100,11 +99,18 @@ class Search {
     return f.why();
   }
 
+  /// How far a step from a place may go: half the way to where there is no equilibrium.
+  [[nodiscard]] double way_from(double log_x, double away) const {
+    const bool ahead = nowhere_ && away * (nowhere_->log_x - log_x) > 0.0;
+    return ahead ? 0.5 * std::abs(nowhere_->log_x - log_x)
+                 : std::numeric_limits<double>::infinity();
+  }
+
   /// ln(V/V_target), and zero where that is small enough, which ends the search.
   Outcome<double> misfit(double log_x) {
     const Outcome<double> volume = volume_(std::exp(log_x));
     if (!volume)
-      return volume;
+      return volume.why();
     const double f = std::log(*volume / target_.volume);
     if (std::abs(f) < std::abs(nearest_.f))
       nearest_ = {log_x, f};
