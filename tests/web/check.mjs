@@ -82,6 +82,7 @@ async function pretendBeats() {
     await ventricle("circulation", `${name}.toml`, "--work", `${name}.circuit`);
     const to = join(folder, `${name}.work`);
     cpSync(work, to, { recursive: true });
+    rmSync(join(to, "03_beat/curves.csv"));
     for (const table of ["cycle.csv", "beats.csv"]) cpSync(join(folder, `${name}.circuit/00_circulation`, table), join(to, "03_beat", table));
     const file = join(to, "04_results/summary.json");
     const last = ofBeats(`${name}.work`).at(-1);

@@ -57,9 +57,11 @@ Line line_through(std::span<const double> x, std::span<const double> y) {
     return line;
   line.slope = xy / xx;
   line.intercept = x_mean - y_mean / line.slope;
-  line.deviation = std::sqrt(
-      sum([&](double a, double b) { return std::pow(b - line.slope * (a - line.intercept), 2); }) /
-      n);
+  if (line.points > 2)
+    line.deviation = std::sqrt(sum([&](double a, double b) {
+                                 return std::pow(b - line.slope * (a - line.intercept), 2);
+                               }) /
+                               n);
   return line;
 }
 
@@ -109,7 +111,7 @@ std::vector<Contractility> by_contractility(std::span<const LoadedBeat> family) 
   for (Contractility& c : all) {
     c.end_systole = end_systolic_relation(c.beats);
     std::vector<LoadedBeat> preloads = c.beats;
-    std::erase_if(preloads, [](const LoadedBeat& b) { return b.factors.afterload != 1.0; });
+    std::erase_if(preloads, [](const LoadedBeat& b) { return !b.factors.is_preload(); });
     c.stroke_work = recruitable_stroke_work(preloads);
   }
   return all;

@@ -15,6 +15,9 @@ struct Factors {
   double afterload = 1.0;      ///< of the resistance that it ejects against
   double contractility = 1.0;  ///< of the tension of its muscle
   double heart_rate = 1.0;     ///< of beats per time
+
+  /// Whether the load differs in preload alone, if at all.
+  [[nodiscard]] bool is_preload() const { return afterload == 1.0; }
 };
 
 /// Volume [mm^3] and pressure [kPa] of the cavity.
@@ -40,7 +43,7 @@ struct Line {
 };
 
 /// The line of least squares in y through points; one with an unknown number (NaN) is left out.
-/// Slope, intercept and deviation are NaN where fewer than two differ in x.
+/// Slope and intercept are NaN where fewer than two differ in x, the deviation of fewer than three.
 [[nodiscard]] Line line_through(std::span<const double> x, std::span<const double> y);
 
 /// The end-systolic pressure-volume relation p = E_es (V - V_0) of beats that differ in their loads

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace lv::report {
 namespace {
@@ -184,22 +185,29 @@ std::vector<drawing::Phase> valve_phases(const std::vector<double>& time,
   return phases;
 }
 
-/// Calcium and the tension that it makes, from curves.csv.
-drawing::Panel muscle_panel(const Table& curves, const drawing::Axis& axis,
-                            const std::vector<drawing::Phase>& phases) {
-  const auto series = [&](const char* label, const char* column, bool second) {
-    return drawing::Series{.label = label,
-                           .x = curves.numbers("time_s"),
-                           .y = curves.numbers(column),
-                           .on_second_axis = second};
-  };
-  return {.content = drawing::LineChart{
-              .x = axis,
-              .y = {"calcium [µM]"},
-              .second_y = {"tension [kPa]"},
-              .series = {series("calcium", "calcium_uM", false),
-                         series("mean active tension", "mean_active_tension_kPa", true)},
-              .phases = phases}};
+/// A column of curves.csv, where it has any number.
+void add_curve(const Table& curves, const char* column, const char* label,
+               std::vector<drawing::LineChart>& charts) {
+  const auto values = curves.numbers(column);
+  if (std::any_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); }))
+    charts.push_back({.y = {label}, .series = {{.x = curves.numbers("time_s"), .y = values}}});
+}
+
+/// Charts over one time, one below the other: phases are named above them, the time below.
+drawing::Figure stacked(std::vector<drawing::LineChart> charts, drawing::Axis time,
+                        std::vector<drawing::Phase> phases) {
+  drawing::Figure figure{.columns = 1, .panel_width = 520.0, .panel_height = 170.0};
+  const std::string words = std::exchange(time.label, "");
+  for (std::size_t i = 0; i < charts.size(); ++i) {
+    if (i + 1 == charts.size())
+      time.label = words;
+    charts[i].x = time;
+    charts[i].phases = phases;
+    figure.panels.push_back({.content = std::move(charts[i])});
+    for (drawing::Phase& phase : phases)
+      phase.label.clear();
+  }
+  return figure;
 }
 
 }  // namespace
@@ -289,32 +297,28 @@ drawing::Figure wiggers_figure(const Table& cycle, const std::optional<Table>& c
   const Beats beats(cycle);
   const auto of_last = [&](const char* column) { return beats.of(beats.count(), column); };
   const auto time = of_last("time_s");
-  const auto phases =
-      valve_phases(time, of_last("mitral_gradient_mmHg"), of_last("aortic_gradient_mmHg"));
-  drawing::Axis axis{"time [s]"};
-  if (!time.empty())
-    axis.range = drawing::Range{time.front(), time.back()};
   const auto series = [&](const char* label, const char* column) {
     return drawing::Series{.label = label, .x = time, .y = of_last(column)};
   };
-  const auto panel = [&](const char* y, std::vector<drawing::Series> lines) {
-    return drawing::Panel{.content = drawing::LineChart{
-                              .x = axis, .y = {y}, .series = std::move(lines), .phases = phases}};
-  };
-  drawing::Figure figure{
-      .panels = {panel(
-                     "pressure [mmHg]",
-                     {series("ventricle", "pressure_mmHg"), series("aorta", "aortic_pressure_mmHg"),
-                      series("before the mitral valve", "filling_pressure_mmHg")}),
-                 panel("volume [ml]", {series("", "volume_ml")}),
-                 panel("flow [ml/s]", {series("mitral valve", "mitral_flow_ml_per_s"),
-                                       series("aortic valve", "aortic_flow_ml_per_s")})},
-      .columns = 1,
-      .panel_width = 520.0,
-      .panel_height = 190.0,
-      .title = fmt::format("beat {}", beats.count())};
-  if (curves)
-    figure.panels.push_back(muscle_panel(*curves, axis, phases));
+  std::vector<drawing::LineChart> charts{
+      {.y = {"pressure [mmHg]"},
+       .series = {series("ventricle", "pressure_mmHg"), series("aorta", "aortic_pressure_mmHg"),
+                  series("before the mitral valve", "filling_pressure_mmHg")}},
+      {.y = {"volume [ml]"}, .series = {series("", "volume_ml")}},
+      {.y = {"flow [ml/s]"},
+       .series = {series("mitral valve", "mitral_flow_ml_per_s"),
+                  series("aortic valve", "aortic_flow_ml_per_s")}}};
+  if (curves) {
+    add_curve(*curves, "calcium_uM", "calcium [µM]", charts);
+    add_curve(*curves, "mean_active_tension_kPa", "tension [kPa]", charts);
+  }
+  drawing::Axis axis{"time [s]"};
+  if (!time.empty())
+    axis.range = drawing::Range{time.front(), time.back()};
+  drawing::Figure figure =
+      stacked(std::move(charts), axis,
+              valve_phases(time, of_last("mitral_gradient_mmHg"), of_last("aortic_gradient_mmHg")));
+  figure.title = fmt::format("beat {}", beats.count());
   return figure;
 }
 

@@ -101,6 +101,8 @@ void add_works(const Contractility& state, drawing::Colour colour, drawing::Line
                          .marker = drawing::Marker::circle};
   double farthest = 0.0;
   for (const LoadedBeat& beat : state.beats) {
+    if (!beat.factors.is_preload())
+      continue;
     points.x.push_back(beat.measures.end_diastolic_volume / units::ml);
     points.y.push_back(beat.measures.stroke_work / in_mmHg_ml);
     farthest = std::max(farthest, beat.measures.end_diastolic_volume);
@@ -110,12 +112,32 @@ void add_works(const Contractility& state, drawing::Colour colour, drawing::Line
     chart.series.push_back(drawn(state.stroke_work, farthest, in_mmHg_ml, colour));
 }
 
-std::string line_words(const char* what, const Line& line, const std::string& numbers,
-                       const char* of) {
+/// A line of numbers in these units, and how far its points are off.
+struct LineWords {
+  const char* what;
+  const char* slope_unit;
+  double slope;
+  const char* intercept;
+  const char* unit;  ///< of the deviation
+  double deviation;
+  const char* points;
+};
+
+std::string line_text(const Line& line, const LineWords& w) {
+  std::string text = fmt::format("    {:<36} ", w.what);
   if (std::isnan(line.slope))
-    return fmt::format("    {:<36} not known: it takes at least two {}\n", what, of);
-  return fmt::format("    {:<36} {} ({} {})\n", what, numbers, line.points, of);
+    return text + fmt::format("not known: it takes at least two {}\n", w.points);
+  text += fmt::format("{:.3g} {}, {} {:.3g} ml, of {} {}", line.slope / w.slope, w.slope_unit,
+                      w.intercept, line.intercept / units::ml, line.points, w.points);
+  if (!std::isnan(line.deviation))
+    text += fmt::format(", {:.2g} {} off (root mean square)", line.deviation / w.deviation, w.unit);
+  return text + "\n";
 }
+
+constexpr LineWords elastance_words{
+    "end-systolic elastance E_es", "mmHg/ml", circulation::elastance, "V_0", "mmHg", mmHg, "loads"};
+constexpr LineWords work_words{
+    "preload-recruitable stroke work M_w", "mmHg", mmHg, "V_w", "mmHg ml", in_mmHg_ml, "preloads"};
 
 }  // namespace
 
@@ -143,21 +165,10 @@ drawing::Figure study_figure(std::span<const Contractility> family) {
 
 std::string study_text(std::span<const Contractility> family) {
   std::string text;
-  for (const Contractility& state : family) {
-    const Line& e = state.end_systole.line;
-    const Line& w = state.stroke_work;
-    text += fmt::format("  {}\n", state_words(state));
-    text += line_words(
-        "end-systolic elastance E_es", e,
-        fmt::format("{:.3g} mmHg/ml, V_0 {:.3g} ml, points {:.2g} mmHg off",
-                    e.slope / circulation::elastance, e.intercept / units::ml, e.deviation / mmHg),
-        "loads");
-    text +=
-        line_words("preload-recruitable stroke work M_w", w,
-                   fmt::format("{:.3g} mmHg, V_w {:.3g} ml, points {:.2g} mmHg ml off",
-                               w.slope / mmHg, w.intercept / units::ml, w.deviation / in_mmHg_ml),
-                   "preloads");
-  }
+  for (const Contractility& state : family)
+    text += fmt::format("  {}\n", state_words(state)) +
+            line_text(state.end_systole.line, elastance_words) +
+            line_text(state.stroke_work, work_words);
   return text;
 }
 

@@ -39,6 +39,9 @@ TEST_CASE("a line through points knows its slope, intercept and how far they are
   CHECK(line.deviation == Approx(std::sqrt(2.0) / 3.0));
   CHECK(std::isnan(line_through(std::vector{2.0, 2.0}, std::vector{1.0, 3.0}).slope));
   CHECK(std::isnan(line_through({}, {}).slope));
+  const Line through_two = line_through(std::vector{1.0, 2.0}, std::vector{3.0, 1.0});
+  CHECK(through_two.slope == Approx(-2.0));
+  CHECK(std::isnan(through_two.deviation));  // it says nothing
 }
 
 TEST_CASE("the end-systolic relation of an elastance is its greatest stiffness and its own V_0",
