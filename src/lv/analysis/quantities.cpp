@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace lv::analysis {
 namespace {
@@ -36,7 +37,7 @@ constexpr Quantity other(const char* name, const char* title, const char* unit,
   return {name, title, unit, of, field};
 }
 
-constexpr std::array<Quantity, 15> list{
+constexpr std::array<Quantity, 16> list{
     shown_stress(
         "active_tension", "active tension", [](Cell c, Strain) { return c.tension; },
         "Tension T along the fibre that the muscle makes."),
@@ -80,12 +81,20 @@ constexpr std::array<Quantity, 15> list{
              "Deformed over undeformed volume; muscle is nearly incompressible, so anything but 1 "
              "is the model's error."},
     other(
-        "pressure", "pressure p", "kPa", [](Cell c, Strain) { return c.pressure; }, "pressure")};
+        "pressure", "pressure p", "kPa", [](Cell c, Strain) { return c.pressure; }, "pressure"),
+    Quantity{"activation_time", "activation time", "ms",
+             [](Cell c, Strain) { return 1e3 * c.activation_time; }, "activation_time", false, true,
+             false, 0.0, 0.0, "How long after the beginning of a beat's calcium it rises here."}};
 
 }  // namespace
 
 std::span<const Quantity> quantities() {
   return list;
+}
+
+bool is_known(const Quantity& quantity, std::span<const CellFields> cells) {
+  return std::none_of(cells.begin(), cells.end(),
+                      [&](Cell c) { return std::isnan(quantity.of(c, {})); });
 }
 
 const Quantity& quantity(std::string_view name) {

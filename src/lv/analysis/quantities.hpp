@@ -29,8 +29,12 @@ struct Quantity {
   }
 };
 
-/// All of them, in the order of regions.csv: the quantities of the paper's sections 3.3-3.5.
+/// All of them, in the order of regions.csv: the quantities of the paper's sections 3.3-3.5, and
+/// when muscle is activated, which not all beats know.
 [[nodiscard]] std::span<const Quantity> quantities();
+
+/// Whether elements have the quantity: it is a number.
+[[nodiscard]] bool is_known(const Quantity& quantity, std::span<const CellFields> cells);
 
 /// Throws CheckError (a defect) for a name that is none of theirs.
 [[nodiscard]] const Quantity& quantity(std::string_view name);

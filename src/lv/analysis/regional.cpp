@@ -42,6 +42,8 @@ std::vector<CellQuantity> cell_quantities(const std::vector<CellFields>& now,
     strains.push_back(then.empty() ? strain(now[c]) : strain(now[c], then[c]));
   std::vector<CellQuantity> all;
   for (const Quantity& q : quantities()) {
+    if (!is_known(q, now))
+      continue;
     std::vector<double> values;
     for (std::size_t c = 0; c < now.size(); ++c)
       values.push_back(q.of(now[c], strains[c]));

@@ -119,22 +119,37 @@ material::Myocardium without_penalty(material::Myocardium material) {
 
 }  // namespace
 
-FieldAnalysis::FieldAnalysis(const mesh::Mesh& mesh, const solid::CardiacModel& model)
+FieldAnalysis::FieldAnalysis(const mesh::Mesh& mesh, const solid::CardiacModel& model,
+                             std::vector<double> activation_times)
     : mesh_(mesh),
+      activation_times_(std::move(activation_times)),
       wall_(mesh, model.fibres, without_penalty(model.myocardium)),
       base_(mesh, model.base) {}
 
 std::vector<CellFields> FieldAnalysis::fields(const heartbeat::Snapshot& snapshot) const {
   if (snapshot.stress.empty())
-    return cell_fields(wall_, snapshot, wall_pressure(mesh_, wall_, base_, snapshot));
+    return activated(cell_fields(wall_, snapshot, wall_pressure(mesh_, wall_, base_, snapshot)));
   std::vector<CellFields> cells = shape_fields(wall_, mesh_, snapshot.positions);
   for (std::size_t c = 0; c < cells.size(); ++c)
     static_cast<solid::CellStress&>(cells[c]) = snapshot.stress[c];
-  return cells;
+  return activated(std::move(cells));
 }
 
 std::vector<CellFields> FieldAnalysis::at_rest() const {
-  return shape_fields(wall_, mesh_, mesh_.nodes);
+  return activated(shape_fields(wall_, mesh_, mesh_.nodes));
+}
+
+/// Means over the nodes of each element.
+std::vector<CellFields> FieldAnalysis::activated(std::vector<CellFields> cells) const {
+  if (activation_times_.empty())
+    return cells;
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    const auto nodes = mesh_.cell(static_cast<int>(c));
+    cells[c].activation_time = 0.0;
+    for (const int node : nodes)
+      cells[c].activation_time += activation_times_[node] / static_cast<double>(nodes.size());
+  }
+  return cells;
 }
 
 std::vector<CellFields> shape_fields(const solid::Wall& wall, const mesh::Mesh& mesh,

@@ -4,6 +4,7 @@
 #include "lv/solid/cardiac_model.hpp"
 #include "lv/solid/wall.hpp"
 
+#include <limits>
 #include <vector>
 
 namespace lv::analysis {
@@ -19,6 +20,9 @@ struct CellFields : solid::CellStress {
   double infarct = 0.0;  ///< M
   double J = 1.0;        ///< deformed over undeformed volume of the element
   double fibre_stretch = 1.0;
+  /// When it is activated, after the calcium of the beat begins [s]; not a number: at once with the
+  /// others.
+  double activation_time = std::numeric_limits<double>::quiet_NaN();
   Mat3 F = Mat3::Identity();
   Mat3 fibre_frame = Mat3::Identity();  ///< columns f0, s0, n0
   mesh::WallAxes axes;                  ///< of the undeformed wall
@@ -49,8 +53,9 @@ struct CellFields : solid::CellStress {
 /// All is collective; fields are on the root, empty on other ranks.
 class FieldAnalysis {
  public:
-  /// The mesh must outlive the analysis.
-  FieldAnalysis(const mesh::Mesh& mesh, const solid::CardiacModel& model);
+  /// The mesh must outlive the analysis. `activation_times`: of the nodes [s]; empty: all at once.
+  FieldAnalysis(const mesh::Mesh& mesh, const solid::CardiacModel& model,
+                std::vector<double> activation_times = {});
 
   [[nodiscard]] std::vector<CellFields> fields(const heartbeat::Snapshot& snapshot) const;
 
@@ -58,7 +63,10 @@ class FieldAnalysis {
   [[nodiscard]] std::vector<CellFields> at_rest() const;
 
  private:
+  [[nodiscard]] std::vector<CellFields> activated(std::vector<CellFields> cells) const;
+
   const mesh::Mesh& mesh_;
+  std::vector<double> activation_times_;
   solid::Wall wall_;  ///< without volumetric penalty: p stands for it
   solid::BasalPenalty base_;
 };

@@ -75,9 +75,15 @@ solid::CardiacModel cardiac_model(const Case& c) {
 }
 
 implicit::StaticModel static_model(const Case& c) {
-  return {{c.fibres, myocardium(c), quasi_static_support(c)},
-          c.protocol.calcium,
-          c.quasi_static.stabilisation};
+  implicit::StaticModel model({c.fibres, myocardium(c), quasi_static_support(c)},
+                              c.protocol.calcium, c.quasi_static.stabilisation);
+  if (c.bulk_modulus > 0.0)
+    model.compressibility.kappa = c.bulk_modulus;
+  model.surroundings = c.surroundings;
+  model.viscosity = c.viscosity;
+  if (c.protocol.cycle.inertia)
+    model.density = c.muscle_density;
+  return model;
 }
 
 immersed::ModelParameters model_parameters(const Case& c, const mesh::Mesh& mesh) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "lv/activation/parameters.hpp"
 #include "lv/base/units.hpp"
 #include "lv/calibrate/fit.hpp"
 #include "lv/circulation/parameters.hpp"
@@ -217,11 +218,15 @@ struct Case {
   material::Land2017 land2017;
   mesh::InfarctParameters scar;  ///< where the infarct is
   material::InfarctScaling infarct;
-  double muscle_density = 1.05e-6;  ///< of printed masses [kg/mm^3]
+  double muscle_density = 1.05e-6;  ///< of printed masses, and of a wall with inertia [kg/mm^3]
+  material::Viscosity viscosity;
+  double bulk_modulus = 0.0;  ///< of the implicit engine's wall; 0: incompressible [kPa]
   fluid::Blood blood;
   Box box;
   immersed::CouplingParameters coupling;
   solid::BasalSupport base;
+  solid::Surroundings surroundings;
+  activation::Parameters activation;
   Engine engine = Engine::immersed;
   QuasiStatic quasi_static;
   implicit::UnloadParameters unloaded{.tolerance = 0.05};

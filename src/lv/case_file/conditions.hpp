@@ -49,6 +49,7 @@ LV_CONDITION(immersed_engine, c.engine == Engine::immersed, "with engine = \"imm
 LV_CONDITION(static_engine, is_static(c, s),
              "with engine = \"quasi_static\", with a fit ([calibrate]) or with a wall to unload "
              "([unloaded])")
+LV_CONDITION(static_beat, c.engine == Engine::quasi_static, "with engine = \"quasi_static\"")
 LV_CONDITION(iterative,
              c.quasi_static.solver.newton.linear.method == implicit::LinearMethod::iterative,
              "with quasi_static.linear_solver = \"iterative\"")
@@ -59,6 +60,23 @@ LV_CONDITION(paper_protocol, s == Stage::calibrate || !is_cycle(c),
              "with protocol.kind = \"paper\"")
 LV_CONDITION(calcium_in_time, c.engine == Engine::immersed || is_cycle(c),
              "with engine = \"immersed\" or protocol.kind = \"cycle\"")
+LV_CONDITION(rates, is_cycle(c) && s == Stage::beat,
+             "with protocol.kind = \"cycle\", for without time nothing has a rate")
+LV_CONDITION(inertia, c.protocol.cycle.inertia, "with cycle.inertia = true")
+LV_CONDITION(elastic_base, c.base.kind == solid::BasalSupport::Kind::elastic,
+             "with base.support = \"elastic\"")
+LV_CONDITION(pericardium, !c.surroundings.epicardium.is_none(),
+             "with springs or dashpots of the pericardium")
+LV_CONDITION(weighted_pericardium,
+             c.surroundings.epicardium.weight.shape != solid::AxialWeight::Shape::even,
+             "with pericardium.weight = \"linear\" or \"sigmoid\"")
+LV_CONDITION(sigmoid_pericardium,
+             c.surroundings.epicardium.weight.shape == solid::AxialWeight::Shape::sigmoid,
+             "with pericardium.weight = \"sigmoid\"")
+LV_CONDITION(eikonal, c.activation.kind == activation::Kind::eikonal,
+             "with activation.kind = \"eikonal\"")
+LV_CONDITION(activation_file, c.activation.kind == activation::Kind::file,
+             "with activation.kind = \"file\"")
 LV_CONDITION(held_calcium, c.protocol.calcium.mode == material::Calcium::Mode::hold,
              "with calcium.mode = \"hold\"")
 
@@ -158,8 +176,10 @@ LV_CONDITION(calcium_counts, has_kinetics(c) || moving_fibres.holds(c, s),
 LV_CONDITION(alpha_function, has_alpha_function(c), "with calcium.shape = \"alpha_function\"")
 LV_CONDITION(double_exponential, !has_alpha_function(c),
              "with calcium.shape = \"double_exponential\"")
-LV_CONDITION(mass_counts, s == Stage::results || may_have_infarct(c),
-             "for the masses of wall and infarct")
+LV_CONDITION(mass_counts,
+             s == Stage::results ||
+                 (s == Stage::beat ? c.protocol.cycle.inertia && is_cycle(c) : may_have_infarct(c)),
+             "for the masses of wall and infarct, and with cycle.inertia = true")
 
 // circulation
 LV_CONDITION(circuit, has_circuit(c, s),

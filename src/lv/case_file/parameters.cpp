@@ -759,12 +759,25 @@ constexpr Group of_muscle[]{
 };
 
 constexpr Group of_blood_and_base[]{
-    {Stages(Stage::mesh, Stage::unload, Stage::results),
+    {Stages(Stage::mesh, Stage::unload, Stage::beat, Stage::results),
      {&mass_counts},
      {
          number("muscle.density", LV_AT(muscle_density), "g/ml", positive,
                 "density of the muscle: mass = density x volume; 1.05 g/ml is the clinical "
-                "convention, the motion goes by blood.density"),
+                "convention. The motion goes by it with cycle.inertia, and by blood.density in the "
+                "immersed engine"),
+     }},
+    {mechanics,
+     {&static_beat, &rates},
+     {
+         number("muscle.viscosity", LV_AT(viscosity.eta), "kPa s", not_negative,
+                "eta of the viscous stress S = eta dE/dt, E the Green-Lagrange strain"),
+     }},
+    {mechanics,
+     {&static_beat},
+     {
+         number("volumetric.bulk_modulus", LV_AT(bulk_modulus), "kPa", not_negative,
+                "kappa of the energy kappa/4 (J^2 - 1 - 2 ln J); 0: the wall is incompressible"),
      }},
     {Stages(Stage::beat),
      {&immersed_engine},
@@ -804,9 +817,10 @@ constexpr Group of_blood_and_base[]{
     {mechanics,
      {},
      {
-         choice("base.support", LV_AT(base.kind), "sliding fixed",
+         choice("base.support", LV_AT(base.kind), "sliding fixed elastic",
                 "the basal plane is held along the axis and around it and moves freely "
-                "outwards, or is held altogether",
+                "outwards, or is held altogether; or springs and dashpots of the case hold it "
+                "(quasi-static engine)",
                 "2.4"),
      }},
     {Stages(Stage::beat),
@@ -816,6 +830,65 @@ constexpr Group of_blood_and_base[]{
                 "springs per area that hold the basal plane (immersed engine; the quasi-static "
                 "engine holds it rigidly)",
                 "2.4"),
+     }},
+    {mechanics,
+     {&static_beat, &elastic_base},
+     {
+         number("base.normal_stiffness", LV_AT(surroundings.base.normal_stiffness), "kPa/mm",
+                not_negative, "springs per area along the normal of the undeformed base"),
+         number("base.tangential_stiffness", LV_AT(surroundings.base.tangential_stiffness),
+                "kPa/mm", not_negative, "springs per area in its plane"),
+     }},
+    {mechanics,
+     {&static_beat, &elastic_base, &rates},
+     {
+         number("base.normal_viscosity", LV_AT(surroundings.base.normal_viscosity), "kPa s/mm",
+                not_negative, "dashpots per area along the normal of the undeformed base"),
+         number("base.tangential_viscosity", LV_AT(surroundings.base.tangential_viscosity),
+                "kPa s/mm", not_negative, "dashpots per area in its plane"),
+     }},
+    {mechanics,
+     {&static_beat},
+     {
+         number("pericardium.normal_stiffness", LV_AT(surroundings.epicardium.normal_stiffness),
+                "kPa/mm", not_negative,
+                "springs per area along the normal of the undeformed epicardium"),
+         number("pericardium.tangential_stiffness",
+                LV_AT(surroundings.epicardium.tangential_stiffness), "kPa/mm", not_negative,
+                "springs per area in its tangential plane"),
+     }},
+    {mechanics,
+     {&static_beat, &rates},
+     {
+         number("pericardium.normal_viscosity", LV_AT(surroundings.epicardium.normal_viscosity),
+                "kPa s/mm", not_negative,
+                "dashpots per area along the normal of the undeformed epicardium"),
+         number("pericardium.tangential_viscosity",
+                LV_AT(surroundings.epicardium.tangential_viscosity), "kPa s/mm", not_negative,
+                "dashpots per area in its tangential plane"),
+     }},
+    {mechanics,
+     {&static_beat, &pericardium},
+     {
+         choice("pericardium.weight", LV_AT(surroundings.epicardium.weight.shape),
+                "even linear sigmoid",
+                "springs and dashpots are the same everywhere, or times w = weight_base + (1 - "
+                "weight_base) s at the height h, from 0 at the apex to 1 at the base: s = 1 - h, "
+                "or s = 1/(1 + exp(weight_steepness (h - weight_middle)))"),
+     }},
+    {mechanics,
+     {&static_beat, &pericardium, &weighted_pericardium},
+     {
+         number("pericardium.weight_base", LV_AT(surroundings.epicardium.weight.at_base), "",
+                not_negative, "see weight"),
+     }},
+    {mechanics,
+     {&static_beat, &pericardium, &sigmoid_pericardium},
+     {
+         number("pericardium.weight_middle", LV_AT(surroundings.epicardium.weight.middle), "",
+                between(0.0, 1.0), "see weight; the default is that of pyansys-heart"),
+         number("pericardium.weight_steepness", LV_AT(surroundings.epicardium.weight.steepness), "",
+                positive, "see weight; the default is that of pyansys-heart"),
      }},
 };
 
@@ -1036,6 +1109,56 @@ constexpr Group of_protocol[]{
                 "end-systolic volume, by more than this part of itself; 0: never"),
          number("cycle.step", LV_AT(protocol.cycle.step), "s", above_up_to(0.0, 0.02),
                 "of time, at most; a step that fails is repeated shorter"),
+         value("cycle.inertia", LV_AT(protocol.cycle.inertia),
+               "whether the wall has the mass of muscle.density; else it is in equilibrium at "
+               "every time"),
+     }},
+    {Stages(Stage::beat),
+     {&heartbeats, &inertia},
+     {
+         number("cycle.spectral_radius", LV_AT(protocol.cycle.spectral_radius), "",
+                between(0.0, 1.0),
+                "of the generalised alpha rule, by which the fastest waves shrink in a step: 0 "
+                "they vanish, 1 they stay"),
+     }},
+    {Stages(Stage::beat),
+     {&heartbeats},
+     {
+         choice("activation.kind", LV_AT(activation.kind), "uniform eikonal file",
+                "calcium begins everywhere at once; where a front has come, which spreads by the "
+                "eikonal equation; or at times of a file"),
+     }},
+    {Stages(Stage::beat),
+     {&heartbeats, &eikonal},
+     {
+         number("activation.v_f", LV_AT(activation.speeds.v_f), "m/s", positive,
+                "speed of the front along the fibres; the three defaults: Caldwell et al., Circ. "
+                "Arrhythm. Electrophysiol. 2:433, 2009"),
+         number("activation.v_s", LV_AT(activation.speeds.v_s), "m/s", positive,
+                "speed across the fibres in the sheets"),
+         number("activation.v_n", LV_AT(activation.speeds.v_n), "m/s", positive,
+                "speed along the sheets' normals"),
+         number("activation.v_endocardium", LV_AT(activation.speeds.endocardium), "m/s",
+                not_negative,
+                "speed along the endocardial surface, which stands for the Purkinje network; 0: "
+                "that of the muscle"),
+         filled_list("activation.sites", LV_AT(activation.sites),
+                     "where the front starts: segments (\"mid anterior\", \"apex\", or the AHA's "
+                     "number), whose middle on the endocardium is meant; points (\"12 -4 -30 mm\", "
+                     "in the coordinates of 02_mesh/mesh.vtu); or \"endocardium\", all of it. The "
+                     "default: Durrer et al., Circulation 41:899, 1970"),
+     }},
+    {Stages(Stage::beat),
+     {&heartbeats, &activation_file},
+     {
+         path("activation.file", LV_AT(activation.file),
+              "one time for each node or cell of 02_mesh/mesh.vtu, or each corner or element of a "
+              "mesh that became quadratic: an array of a .vtu or .vtk file, or a text with one a "
+              "line, as openCARP writes them; names are relative to the case file"),
+         value("activation.array", LV_AT(activation.array),
+               "array of a VTK file; empty: the only one of single numbers"),
+         number("activation.time_unit", LV_AT(activation.time_unit), "ms", positive,
+                "duration of the file's unit"),
      }},
     {Stages(Stage::calibrate, Stage::beat),
      {&paper_protocol},
@@ -1397,7 +1520,7 @@ const std::vector<Section>& sections() {
        "Holzapfel-Ogden law; the defaults are the paper's healthy subject"},
       {"passive.guccione", "Guccione law (law = \"guccione\")"},
       {"passive.neo_hookean", "Neo-Hookean law (law = \"neo_hookean\")"},
-      {"volumetric", "Incompressibility in Lagrangian form"},
+      {"volumetric", "Incompressibility"},
       {"infarct", "The infarct: its extent M and what it does to the muscle"},
       {"infarct.described",
        "An idealised infarct (source = \"described\"): a sector of the wall and the apex all "
@@ -1413,11 +1536,12 @@ const std::vector<Section>& sections() {
        "constants "
        "(law = \"land2017\")"},
       {"calcium", "Intracellular calcium, the same everywhere"},
-      {"muscle", "What masses are printed with"},
+      {"muscle", "Density and viscosity of the muscle"},
       {"blood", "Blood and muscle share density and viscosity"},
       {"box", "The box of blood around the ventricle and its grid"},
       {"coupling", "How the wall's finite elements meet the grid"},
       {"base", "How the basal plane is held"},
+      {"pericardium", "What holds the epicardium: springs and dashpots to where it was undeformed"},
       {"unloaded", "The shape without load, when the one that was seen is a loaded one"},
       {"calibrate",
        "Fitting of passive and active parameters to measured volumes and strains, with the "
@@ -1446,6 +1570,7 @@ const std::vector<Section>& sections() {
        "Every contractility and heart rate meets every preload and afterload"},
       {"protocol", "Pressures, timings and the ends of the phases"},
       {"cycle", "Heartbeats of the wall joined to the circulation (protocol.kind = \"cycle\")"},
+      {"activation", "When the calcium of a heartbeat begins at each point of the wall"},
       {"time", "Time steps"},
       {"output", "What is kept, and how often"}};
   return all;

@@ -1,5 +1,6 @@
 #include "lv/case_file/read_case.hpp"
 
+#include "lv/activation/sites.hpp"
 #include "lv/base/check.hpp"
 #include "lv/base/lines.hpp"
 #include "lv/base/nearest.hpp"
@@ -181,8 +182,10 @@ class CaseReader {
     check_land2017();
     check_calibration();
     check_circulation();
+    check_supports();
     check_cycle();
     check_study();
+    check_activation();
     const StrainStudy& study = case_.strain;
     rule(study.measured.empty() || !study.measured_column.empty(), "strain.measured",
          "needs strain.measured_column, the name of the column that holds end-systole");
@@ -288,6 +291,34 @@ class CaseReader {
     fits(p.closed_loop.left_atrium, "closed_loop.left_atrium");
     fits(p.closed_loop.right_atrium, "closed_loop.right_atrium");
     fits(p.closed_loop.right_ventricle, "closed_loop.right_ventricle");
+  }
+
+  void check_supports() {
+    if (case_.base.kind != solid::BasalSupport::Kind::elastic)
+      return;
+    rule(case_.engine == Engine::quasi_static, "base.support",
+         "is \"elastic\", which is not there yet for engine = \"immersed\": set engine = "
+         "\"quasi_static\", or another support");
+    const solid::Support& base = case_.surroundings.base;
+    const solid::Support& pericardium = case_.surroundings.epicardium;
+    rule(base.tangential_stiffness > 0.0 || pericardium.tangential_stiffness > 0.0, "base.support",
+         "is \"elastic\", but no spring keeps the wall from turning about its axis: set "
+         "base.tangential_stiffness or pericardium.tangential_stiffness");
+    rule(base.normal_stiffness > 0.0 || !pericardium.is_none(), "base.support",
+         "is \"elastic\", but no spring holds the wall along its axis: set "
+         "base.normal_stiffness or a pericardium");
+  }
+
+  void check_activation() {
+    const activation::Parameters& p = case_.activation;
+    rule(p.kind != activation::Kind::file || !p.file.empty(), "activation.kind",
+         "is \"file\", but activation.file is not set");
+    for (const std::string& words : p.sites)
+      try {
+        static_cast<void>(activation::site_of(words));
+      } catch (const std::invalid_argument& mistake) {
+        rule(false, "activation.sites", mistake.what());
+      }
   }
 
   void check_cycle() {

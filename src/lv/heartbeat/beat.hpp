@@ -55,15 +55,22 @@ struct NamedMoment {
   Snapshot wall{};
 };
 
-/// Work on the wall over a heartbeat, without inertia and viscosity: what the cavity's pressure and
-/// the muscle do is stored.
+/// Work on the wall over a heartbeat: what the cavity's pressure and the muscle do is stored, goes
+/// into motion, and is taken by supports and viscosity [mN mm].
 struct EnergyBalance {
-  double pressure = 0.0;  ///< int p dV, negative of the stroke work [mN mm]
-  double muscle = 0.0;    ///< -int int P_active : dF dX [mN mm]
-  double stored = 0.0;    ///< change of int W dX [mN mm]
+  /// Of the pressure on the endocardium; the negative of the stroke work int p dV where the base
+  /// stays in its plane.
+  double pressure = 0.0;
+  double muscle = 0.0;     ///< -int int P_active : dF dX
+  double stored = 0.0;     ///< change of int W dX
+  double kinetic = 0.0;    ///< change of int rho v.v/2 dX
+  double supports = 0.0;   ///< into springs and dashpots
+  double viscosity = 0.0;  ///< int int P_viscous : dF dX
 
   /// What is missing, as a part of what the muscle does.
-  [[nodiscard]] double error() const { return std::abs((pressure + muscle - stored) / muscle); }
+  [[nodiscard]] double error() const {
+    return std::abs((pressure + muscle - stored - kinetic - supports - viscosity) / muscle);
+  }
 };
 
 /// What a beat comes to, whichever engine ran it.
@@ -74,6 +81,8 @@ struct Beat {
   /// last.
   std::optional<circulation::Cycle> cycle;
   EnergyBalance energy;  ///< of the last heartbeat of a circulation
+  /// When each node is activated after the calcium of the beat begins [s]; empty: all at once.
+  std::vector<double> activation_times;
   int steps = 0;
   int retries = 0;          ///< steps taken back and repeated smaller
   double wall_clock = 0.0;  ///< of the computation, interruptions left out [s]

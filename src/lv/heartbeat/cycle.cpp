@@ -89,6 +89,8 @@ Archive archived(const TimeEngine::Moment& moment) {
   archive.add("now", archived(moment.now));
   archive.add("before", archived(moment.before));
   archive.set("dt_before", {moment.dt_before});
+  archive.set("velocity", flat(moment.rates.velocity));
+  archive.set("acceleration", flat(moment.rates.acceleration));
   archive.set("muscle", moment.muscle);
   return archive;
 }
@@ -138,7 +140,9 @@ class CycleRun {
 
   [[nodiscard]] Snapshot snapshot(const Passed& at, const Sample& sample) const;
   [[nodiscard]] double begin_of_beat() const { return beat_ * cycle_.period; }
-  [[nodiscard]] double calcium(double since) const;
+  [[nodiscard]] double calcium(double since, double delay) const;
+  [[nodiscard]] double mean_calcium() const;
+  [[nodiscard]] std::vector<implicit::CalciumStep> calcium_between(double since, double then) const;
   [[nodiscard]] double step_size() const;
   [[nodiscard]] double beats_left() const;
   [[nodiscard]] double seconds_left() const;  ///< negative: not known
@@ -150,6 +154,7 @@ class CycleRun {
   std::filesystem::path folder_;
   const Observers& observers_;
   TimeEngine engine_;
+  std::vector<double> delays_;  ///< of this rank's points [s]; a single one: of all
   Circuit circuit_;
   Cycle cycle_;
   RunState run_;        ///< of the beat underway; its phase is the number of the next event
@@ -161,7 +166,7 @@ class CycleRun {
   double change_before_ =
       std::numeric_limits<double>::quiet_NaN();  ///< of the beat before the last
   double blood_at_start_ = 0.0;
-  double stored_before_ = 0.0;  ///< in the wall when the beat began [mN mm]
+  double stored_before_ = 0.0, kinetic_before_ = 0.0;  ///< energy when the beat began [mN mm]
   TimeLeft reports_;
   std::optional<double> begun_;    ///< the beat underway, if in this process [s]
   double seconds_of_beat_ = -1.0;  ///< the last whole one of this process; negative: none [s]
@@ -173,7 +178,10 @@ CycleRun::CycleRun(const CycleSetup& setup, std::filesystem::path folder,
     : setup_(setup),
       folder_(std::move(folder)),
       observers_(observers),
-      engine_(setup.mesh, setup.model, setup.solver),
+      engine_(setup.mesh, setup.model, setup.solver, setup.cycle.spectral_radius),
+      delays_(setup.activation_times.empty()
+                  ? std::vector<double>{0.0}
+                  : engine_.equations().at_points(setup.activation_times)),
       circuit_(setup.circuit) {
   cycle_.period = setup.circuit.period;
   cycle_.columns = circuit_.columns();
@@ -228,6 +236,7 @@ void CycleRun::begin_beat() {
   run_.beat.curves.clear();
   run_.beat.energy = {};
   stored_before_ = engine_.stored_energy();
+  kinetic_before_ = engine_.kinetic_energy();
   run_.frames = 0;
   run_.frame_times.clear();
   run_.next_frame = begin_of_beat();
@@ -251,7 +260,7 @@ void CycleRun::step() {
     const auto [after, per_pressure] = circuit_.after(t, dt, p);
     return {after, per_pressure};
   };
-  const implicit::TimeStep step{dt, calcium(since_), calcium(since)};
+  const implicit::TimeStep step{dt, calcium_between(since_, since)};
   const auto newton = engine_.advance(step, volume);
   if (!newton.converged && !gives_way(step, volume)) {
     shorten(newton.why);
@@ -280,10 +289,12 @@ void CycleRun::step() {
 }
 
 void CycleRun::add_work(const Passed& before) {
-  const Signals& a = cycle_.samples[cycle_.samples.size() - 2].signals;
-  const Signals& b = cycle_.samples.back().signals;
-  run_.beat.energy.pressure += 0.5 * (a.pressure + b.pressure) * (b.volume - a.volume);
-  run_.beat.energy.muscle += engine_.muscle_work_since(before);
+  const TimeEngine::Work work = engine_.work_since(before);
+  EnergyBalance& sum = run_.beat.energy;
+  sum.pressure += work.pressure;
+  sum.muscle += work.muscle;
+  sum.supports += work.supports;
+  sum.viscosity += work.viscosity;
 }
 
 /// Where shorter steps did not help.
@@ -348,6 +359,7 @@ void CycleRun::end_beat() {
   if (begun_)
     seconds_of_beat_ = run_.beat.wall_clock - *begun_;
   run_.beat.energy.stored = engine_.stored_energy() - stored_before_;
+  run_.beat.energy.kinetic = engine_.kinetic_energy() - kinetic_before_;
   whole_.energy = run_.beat.energy;
   whole_.curves = run_.beat.curves;
   whole_.moments = run_.beat.moments;
@@ -375,6 +387,7 @@ Beat CycleRun::result() {
     log::warn("no limit cycle after {} beats: the last changed the states by {:.2g} of themselves",
               beat_, cycle_.change);
   whole_.cycle = std::move(cycle_);
+  whole_.activation_times = setup_.activation_times;
   if (observers_.curves) {
     run_.beat = whole_;
     observers_.curves(run_);
@@ -424,8 +437,11 @@ void CycleRun::record_curve() {
   row.phase = phase_after[run_.phase];
   row.pressure = s.signals.pressure;
   row.volume = s.signals.volume;
-  row.calcium = calcium(since_);
+  row.calcium = mean_calcium();
   row.mean_tension = engine_.mean_tension();
+  row.kinetic_energy = engine_.kinetic_energy();
+  for (const Vec3& v : engine_.rates().velocity)
+    row.largest_velocity = std::max(row.largest_velocity, v.norm());
   row.step = step_size();
   row.min_J = row.max_J = std::numeric_limits<double>::quiet_NaN();  // not looked at
   run_.beat.curves.push_back(row);
@@ -436,12 +452,32 @@ Snapshot CycleRun::snapshot(const Passed& at, const Sample& sample) const {
           {},          engine_.cell_stress(at)};
 }
 
-double CycleRun::calcium(double since) const {
+/// At a point that is activated so long after the others' calcium begins. What began in an earlier
+/// beat goes on until the point is activated again.
+double CycleRun::calcium(double since, double delay) const {
   const bool is_loop = setup_.circuit.kind == circulation::Kind::closed_loop;
-  const double s = since - (is_loop ? setup_.circuit.left_ventricle.t_C : 0.0);
+  double s = since - delay - (is_loop ? setup_.circuit.left_ventricle.t_C : 0.0);
+  for (int b = beat_; s < 0.0 && b > 0; --b)
+    s += cycle_.period;
   material::Calcium transient = setup_.calcium;
   transient.mode = material::Calcium::Mode::transient;
-  return transient.at(s < 0.0 && beat_ > 0 ? s + cycle_.period : s);
+  return transient.at(s);
+}
+
+std::vector<implicit::CalciumStep> CycleRun::calcium_between(double since, double then) const {
+  std::vector<implicit::CalciumStep> steps;
+  for (const double delay : delays_)
+    steps.push_back({calcium(since, delay), calcium(then, delay)});
+  return steps;
+}
+
+double CycleRun::mean_calcium() const {
+  if (setup_.activation_times.empty())
+    return calcium(since_, 0.0);
+  std::vector<double> at_points;
+  for (const double delay : delays_)
+    at_points.push_back(calcium(since_, delay));
+  return engine_.equations().mean(at_points);
 }
 
 /// The rest of the beat in equal steps.
@@ -505,7 +541,7 @@ void CycleRun::save() {
                  static_cast<double>(run_.halvings), static_cast<double>(run_.good_steps),
                  static_cast<double>(run_.beat.steps), static_cast<double>(run_.beat.retries),
                  run_.beat.wall_clock, static_cast<double>(beat_), since_, change_before_,
-                 blood_at_start_, stored_before_});
+                 blood_at_start_, stored_before_, kinetic_before_});
     archive.set("states_before", states_before_);
     archive.set("begins", {begins_.begin(), begins_.end()});
     archive.set("frame_times", run_.frame_times);
@@ -517,7 +553,7 @@ void CycleRun::save() {
 }
 
 void CycleRun::resume(Archive archive) {
-  const auto& n = archive.get_rows("run", 13, 1, {.missing = true});
+  const auto& n = archive.get_rows("run", 14, 1, {.missing = true});
   const auto whole = [&](double number, double most) {
     return archive.whole_number(number, {0.0, most});
   };
@@ -535,6 +571,7 @@ void CycleRun::resume(Archive archive) {
   change_before_ = n[10];
   blood_at_start_ = n[11];
   stored_before_ = n[12];
+  kinetic_before_ = n[13];
   cycle_ = load_cycle(archive);
   states_before_ = archive.get_rows("states_before", 1, circuit_.states().size());
   for (const int begin : archive.get_whole("begins", beat_ + 1,
@@ -561,6 +598,10 @@ implicit::State CycleRun::load_state(const Archive& archive) const {
 TimeEngine::Moment CycleRun::load_engine(Archive archive) const {
   TimeEngine::Moment moment;
   moment.dt_before = archive.number("dt_before");
+  const implicit::Rates& like = engine_.rates();
+  moment.rates.velocity = vectors(archive.get_rows("velocity", 3, like.velocity.size()));
+  moment.rates.acceleration =
+      vectors(archive.get_rows("acceleration", 3, like.acceleration.size()));
   moment.muscle = archive.get_rows("muscle", 1, engine_.muscle_numbers());
   moment.now = load_state(archive.take("now"));
   const Archive before = archive.take("before");
@@ -628,12 +669,13 @@ std::vector<Sample> load_samples(const Archive& archive, std::size_t columns) {
 }  // namespace
 
 void store(const EnergyBalance& energy, Archive& archive) {
-  archive.set("energy", {energy.pressure, energy.muscle, energy.stored});
+  archive.set("energy", {energy.pressure, energy.muscle, energy.stored, energy.kinetic,
+                         energy.supports, energy.viscosity});
 }
 
 EnergyBalance load_energy(const Archive& archive) {
-  const auto& n = archive.get_rows("energy", 3, 1);
-  return {n[0], n[1], n[2]};
+  const auto& n = archive.get_rows("energy", 6, 1);
+  return {n[0], n[1], n[2], n[3], n[4], n[5]};
 }
 
 circulation::Cycle load_cycle(const Archive& archive) {

@@ -16,16 +16,20 @@ struct CycleSetup {
   circulation::Parameters circuit;
   CycleParameters cycle;
   double frame_interval = 0.1;  ///< between frames of a beat [s]; the valves' events have one each
+  /// When each node is activated after the calcium of a beat begins [s]; empty: all at once.
+  std::vector<double> activation_times = {};
 };
 
-/// Heartbeats of the wall, without inertia, joined to a circulation: the pressure in the cavity is
-/// the multiplier of V_wall = V_circuit in every step. The wall starts filled to the pressure
+/// Heartbeats of the wall joined to a circulation: the pressure in the cavity is the multiplier of
+/// V_wall = V_circuit in every step. The wall starts filled to the pressure
 /// before the mitral valve. Beats end when the last has changed no state of the circuit, nor
 /// end-diastolic or end-systolic volume, by more than the tolerance, or with their largest number.
 ///
 /// Calcium rises at the beginning of a beat, in a closed loop at left_ventricle.t_C, since its
-/// other chambers have their own times. Curves, frames and moments are those of the last beat:
-/// end-diastole is the closing of the mitral valve, end-systole that of the aortic valve.
+/// other chambers have their own times, and at each point of the wall when activation reaches it;
+/// a transient that a beat begins may end in the next. Curves, frames and moments are those of the
+/// last beat: end-diastole is the closing of the mitral valve, end-systole that of the aortic
+/// valve.
 ///
 /// Resumes from `folder`/checkpoint when there is one. Throws Interrupted after SIGINT or SIGTERM;
 /// RunError when a step of the first beat has no solution at the smallest step, or when the aortic

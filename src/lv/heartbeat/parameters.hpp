@@ -11,9 +11,11 @@ enum class ProtocolKind { paper, cycle };
 
 /// Heartbeats of a wall joined to a circulation.
 struct CycleParameters {
-  int beats = 10;           ///< at most
-  double tolerance = 1e-3;  ///< of the limit cycle: largest relative change from beat to beat
-  double step = 2e-3;       ///< of time, at most [s]
+  int beats = 10;                ///< at most
+  double tolerance = 1e-3;       ///< of the limit cycle: largest relative change from beat to beat
+  double step = 2e-3;            ///< of time, at most [s]
+  bool inertia = false;          ///< whether the wall has a mass
+  double spectral_radius = 0.5;  ///< of the generalised alpha rule, with inertia [-]
 };
 
 /// Pressures, calcium and the ends of the phases (section 2.4): the endocardial pressure rises from

@@ -276,14 +276,10 @@ Equations::Inside Equations::inside(const State& state, const TensionAt& tension
   return result;
 }
 
-void Equations::add_supports(const State& state, double pressure, const Motion* motion,
-                             std::span<Vec3> forces) const {
-  endocardium_.add_gradient(pressure, state.positions, forces);
-  base_.add_forces(state.positions, forces);
-  const std::vector<Vec3> v =
-      motion != nullptr ? motion->velocities(state.positions) : std::vector<Vec3>{};
-  epicardial_support_.add_forces(state.positions, v, forces);
-  basal_support_.add_forces(state.positions, v, forces);
+void Equations::add_supports(const Moving& at, std::span<Vec3> forces) const {
+  base_.add_forces(at.positions, forces);
+  epicardial_support_.add_forces(at.positions, at.velocities, forces);
+  basal_support_.add_forces(at.positions, at.velocities, forces);
 }
 
 std::vector<double> Equations::residual(const State& state, double pressure,
@@ -292,7 +288,10 @@ std::vector<double> Equations::residual(const State& state, double pressure,
   if (parallel::any(inverted))
     return {};
   std::vector<Vec3> forces(state.positions.size(), Vec3::Zero());
-  add_supports(state, pressure, motion, forces);
+  endocardium_.add_gradient(pressure, state.positions, forces);
+  const std::vector<Vec3> v =
+      motion != nullptr ? motion->velocities(state.positions) : std::vector<Vec3>{};
+  add_supports({state.positions, v}, forces);
   for (std::size_t a = 0; a < forces.size(); ++a)
     for (int i = 0; i < 3; ++i)
       R[3 * a + i] -= forces[a][i];
@@ -300,13 +299,34 @@ std::vector<double> Equations::residual(const State& state, double pressure,
   return R;
 }
 
-std::vector<double> Equations::cavity_gradient(const State& state) const {
+/// Vectors of nodes as long as R, summed over ranks.
+std::vector<double> Equations::summed(std::span<const Vec3> of_nodes) const {
+  std::vector<double> all(of_nodes.data()->data(), of_nodes.data()->data() + 3 * of_nodes.size());
+  all.resize(size(), 0.0);
+  parallel::sum(all);
+  return all;
+}
+
+std::vector<double> Equations::pressure_force(const State& state) const {
+  std::vector<Vec3> force(state.positions.size(), Vec3::Zero());
+  endocardium_.add_gradient(1.0, state.positions, force);
+  return summed(force);
+}
+
+std::vector<double> Equations::volume_gradient(const State& state) const {
   std::vector<Vec3> gradient(state.positions.size(), Vec3::Zero());
-  endocardium_.add_gradient(1.0, state.positions, gradient);
-  std::vector<double> g(gradient.data()->data(), gradient.data()->data() + 3 * gradient.size());
-  g.resize(size(), 0.0);
-  parallel::sum(g);
-  return g;
+  endocardium_.add_volume_gradient(state.positions, gradient);
+  return summed(gradient);
+}
+
+double Equations::pressure_work(const State& from, const State& to) const {
+  std::vector<Vec3> force(from.positions.size(), Vec3::Zero());
+  for (const State* at : {&from, &to})
+    endocardium_.add_gradient(0.5 * at->cavity_pressure, at->positions, force);
+  double work = 0.0;
+  for (std::size_t a = 0; a < force.size(); ++a)
+    work += force[a].dot(to.positions[a] - from.positions[a]);
+  return parallel::sum(work);
 }
 
 std::vector<double> Equations::fibre_stretch(const State& state) const {
@@ -372,12 +392,83 @@ double Equations::mean_tension(const State& state, const TensionAt& tension) con
   return sums[0] / sums[1];
 }
 
+std::vector<double> Equations::at_points(std::span<const double> nodal) const {
+  const Eigen::MatrixXd phi = solid::element_shapes(mesh_.kind, mesh_.order).value;
+  std::vector<double> values;
+  for (const int e : wall_.own) {
+    Eigen::VectorXd own(phi.cols());
+    for (Eigen::Index a = 0; a < own.size(); ++a)
+      own[a] = nodal[wall_.elements.element(e)[static_cast<std::size_t>(a)]];
+    for (const double value : (phi * own).eval())
+      values.push_back(std::clamp(value, own.minCoeff(), own.maxCoeff()));
+  }
+  return values;
+}
+
+double Equations::mean(std::span<const double> at_points) const {
+  std::array<double, 2> sums{};
+  const double* next = at_points.data();
+  for (const std::vector<Point>& points : wall_.points)
+    for (const Point& point : points) {
+      sums[0] += point.volume * *next++;
+      sums[1] += point.volume;
+    }
+  parallel::sum(sums);
+  return sums[0] / sums[1];
+}
+
+double Equations::kinetic_energy(std::span<const Vec3> velocities) const {
+  double energy = 0.0;
+  for (std::size_t i = 0; i < masses_.size(); ++i) {
+    const Eigen::Matrix3Xd v = of_nodes(velocities, wall_.elements.element(wall_.own[i]));
+    energy += 0.5 * (v * masses_[i]).cwiseProduct(v).sum();
+  }
+  return parallel::sum(energy);
+}
+
+double Equations::support_work(const Moving& from, const Moving& to) const {
+  std::vector<Vec3> forces(from.positions.size(), Vec3::Zero());
+  add_supports(from, forces);
+  add_supports(to, forces);
+  double work = 0.0;
+  for (std::size_t a = 0; a < forces.size(); ++a)
+    work -= 0.5 * forces[a].dot(to.positions[a] - from.positions[a]);
+  return parallel::sum(work);
+}
+
+double Equations::viscous_work(const Moving& from, const Moving& to) const {
+  if (model_.viscosity.eta == 0.0)
+    return 0.0;
+  double work = 0.0;
+  for (std::size_t i = 0; i < wall_.points.size(); ++i) {
+    const auto nodes = wall_.elements.element(wall_.own[i]);
+    const auto at_nodes = [&](std::span<const Vec3> values) -> Eigen::Matrix3Xd {
+      if (values.empty())
+        return Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(nodes.size()));
+      return of_nodes(values, nodes);
+    };
+    const std::array x{at_nodes(from.positions), at_nodes(to.positions)};
+    const std::array v{at_nodes(from.velocities), at_nodes(to.velocities)};
+    for (const Point& point : wall_.points[i]) {
+      const Mat3 F = x[0] * point.gradient.transpose();
+      const Mat3 dF = x[1] * point.gradient.transpose() - F;
+      const Mat3 P = model_.viscosity.stress(F, v[0] * point.gradient.transpose()) +
+                     model_.viscosity.stress(F + dF, v[1] * point.gradient.transpose());
+      work += 0.5 * point.volume * P.cwiseProduct(dF).sum();
+    }
+  }
+  return parallel::sum(work);
+}
+
 double Equations::stored_energy(const State& state) const {
   double energy = 0.0;
   for (std::size_t i = 0; i < wall_.points.size(); ++i) {
     const ElementState s = element_state(wall_, wall_.own[i], state);
-    for (const Point& point : wall_.points[i]) {
+    for (std::size_t q = 0; q < wall_.points[i].size(); ++q) {
+      const Point& point = wall_.points[i][q];
       const Mat3 F = s.x * point.gradient.transpose();
+      const Eigen::VectorXd N = wall_.pressure_shapes.value.row(static_cast<Eigen::Index>(q));
+      energy += point.volume * model_.compressibility.energy(N.dot(s.p));
       energy +=
           point.volume * material::with_point_law(
                              model_.heart.myocardium, model_.stabilisation, [&](const auto& law) {

@@ -129,8 +129,11 @@ class Equations {
     tangent(state, loads.pressure, steady(loads.activation), K);
   }
 
-  /// dV/dx of the cavity, complete on every rank, as long as R [mm^2].
-  [[nodiscard]] std::vector<double> cavity_gradient(const State& state) const;
+  /// The force of a unit pressure in the cavity, and the derivative of the cavity's volume, which
+  /// are the same as long as the base stays in its plane; complete on every rank, as long as R
+  /// [mm^2].
+  [[nodiscard]] std::vector<double> pressure_force(const State& state) const;
+  [[nodiscard]] std::vector<double> volume_gradient(const State& state) const;
 
   /// This rank's elements, and the quadrature points of each.
   [[nodiscard]] std::size_t own_elements() const { return wall_.points.size(); }
@@ -146,8 +149,20 @@ class Equations {
   /// Volume-weighted mean over the wall of T with the infarct's factor [kPa].
   [[nodiscard]] double mean_tension(const State& state, const TensionAt& tension) const;
 
-  /// int W dX of the passive law and the stabilisation [mN mm].
+  /// The values at the quadrature points of this rank's elements, one after the other, of a field
+  /// that nodes have: the elements' shapes between them, never beyond the values of the element's
+  /// own nodes.
+  [[nodiscard]] std::vector<double> at_points(std::span<const double> nodal) const;
+
+  /// Volume-weighted mean over the wall of what those points have.
+  [[nodiscard]] double mean(std::span<const double> at_points) const;
+
+  /// int W dX of the passive law, the stabilisation and the resistance to changes of volume [mN
+  /// mm].
   [[nodiscard]] double stored_energy(const State& state) const;
+
+  /// int rho v.v/2 dX; 0 without a density [mN mm].
+  [[nodiscard]] double kinetic_energy(std::span<const Vec3> velocities) const;
 
   /// What muscle does while the wall goes from one state to another, -int P_active : dF dX, by the
   /// mean of both stresses; positive where it shortens under tension [mN mm].
@@ -156,6 +171,18 @@ class Equations {
     const TensionAt& tension;
   };
   [[nodiscard]] double muscle_work(const Working& from, const Working& to) const;
+
+  /// What the cavity's pressure does on the endocardium on the way from one state to another [mN
+  /// mm].
+  [[nodiscard]] double pressure_work(const State& from, const State& to) const;
+
+  /// What supports take up, in springs and dashpots, and what the wall's viscosity does, int
+  /// P_viscous : dF dX, on the same way [mN mm]. Velocities [mm/s] may be empty: at rest.
+  struct Moving {
+    std::span<const Vec3> positions, velocities;
+  };
+  [[nodiscard]] double support_work(const Moving& from, const Moving& to) const;
+  [[nodiscard]] double viscous_work(const Moving& from, const Moving& to) const;
 
   /// Stress in every linear cell of the mesh, complete on every rank: means over the cell of what
   /// the elements' own displacement and pressure give, with the tension of the nearest quadrature
@@ -170,8 +197,8 @@ class Equations {
   };
   [[nodiscard]] Inside inside(const State& state, const TensionAt& tension,
                               const Motion* motion) const;
-  void add_supports(const State& state, double pressure, const Motion* motion,
-                    std::span<Vec3> forces) const;
+  void add_supports(const Moving& at, std::span<Vec3> forces) const;
+  [[nodiscard]] std::vector<double> summed(std::span<const Vec3> of_nodes) const;
 
   const mesh::Mesh& mesh_;
   ReferenceWall wall_;

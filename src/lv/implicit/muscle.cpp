@@ -67,7 +67,8 @@ Tension Muscle::after(const TimeStep& step, std::size_t point, double stretch) c
   Tension result;
   with_states(states_, [&](const auto& law, const auto& states) {
     auto state = as_dual<std::decay_t<decltype(law)>>(states[point]);
-    law.advance(state, OneSlope::variable(stretch), step.Ca_before, step.Ca_after, step.dt);
+    const auto [before, after] = step.calcium_of(point);
+    law.advance(state, OneSlope::variable(stretch), before, after, step.dt);
     result = {state.tension.value, state.tension.slope[0]};
   });
   return result;
@@ -82,8 +83,10 @@ Tension Muscle::now(std::size_t point) const {
 
 void Muscle::advance(const TimeStep& step, std::span<const double> stretch) {
   with_states(states_, [&](const auto& law, auto& states) {
-    for (std::size_t i = 0; i < states.size(); ++i)
-      law.advance(states[i], stretch[i], step.Ca_before, step.Ca_after, step.dt);
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      const auto [before, after] = step.calcium_of(i);
+      law.advance(states[i], stretch[i], before, after, step.dt);
+    }
   });
 }
 

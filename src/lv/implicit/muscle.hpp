@@ -8,10 +8,19 @@
 
 namespace lv::implicit {
 
-/// A step of time and the calcium at its ends, of all muscle.
+/// The calcium at the ends of a step [uM].
+struct CalciumStep {
+  double before = 0.0, after = 0.0;
+};
+
+/// A step of time and its calcium: of every point, or one for all muscle.
 struct TimeStep {
-  double dt = 0.0;                         ///< [s]
-  double Ca_before = 0.0, Ca_after = 0.0;  ///< [uM]
+  double dt = 0.0;  ///< [s]
+  std::vector<CalciumStep> calcium = {};
+
+  [[nodiscard]] const CalciumStep& calcium_of(std::size_t point) const {
+    return calcium[calcium.size() == 1 ? 0 : point];
+  }
 };
 
 /// The contractile states of muscle at points, advanced by implicit steps: kinetics, stretch and

@@ -139,8 +139,8 @@ class Newton::Attempt {
   }
 
   bool renew_response() {
-    newton_.gradient_ = newton_.equations_.cavity_gradient(state_);
-    auto response = solve_linear(newton_.gradient_);
+    newton_.gradient_ = newton_.equations_.volume_gradient(state_);
+    auto response = solve_linear(newton_.equations_.pressure_force(state_));
     if (response)
       newton_.response_ = std::move(*response);
     return response.has_value();

@@ -46,11 +46,12 @@ struct Equilibrium {
 /// kept from step to step, since a factorisation costs far more than a correction.
 ///
 /// Where the cavity's volume is given, its pressure p is an unknown, the multiplier of V(u) =
-/// V_0D(p). With the residuals r_u and r_V = V - V_0D, g = dV/du and c = dV_0D/dp,
+/// V_0D(p). With the residuals r_u and r_V = V - V_0D, the force g of a unit pressure, h = dV/du
+/// and c = dV_0D/dp,
 ///
-///   a = -K^-1 r_u,  b = K^-1 g,  dp = -(r_V + g.a)/(g.b - c),  du = a + b dp
+///   a = -K^-1 r_u,  b = K^-1 g,  dp = -(r_V + h.a)/(h.b - c),  du = a + b dp
 ///
-/// b is kept with the tangent.
+/// g and h differ where the base leaves its plane (EndocardialSurface). b is kept with the tangent.
 class Newton {
  public:
   /// The equations must outlive this object.
@@ -79,7 +80,7 @@ class Newton {
   const Equations& equations_;
   NewtonParameters parameters_;
   SparseMatrix tangent_;
-  std::vector<double> gradient_;  ///< g, where a volume is given
+  std::vector<double> gradient_;  ///< h, where a volume is given
   std::vector<double> response_;  ///< b
   bool has_tangent_ = false;
 };

@@ -164,10 +164,15 @@ double TimeEngine::mean_tension() const {
   return engine_.equations().mean_tension(engine_.state(), tension_of(muscle_));
 }
 
-double TimeEngine::muscle_work_since(const Passed& before) const {
+TimeEngine::Work TimeEngine::work_since(const Passed& before) const {
+  const Equations& equations = engine_.equations();
   const TensionAt then = tension_of(before.muscle);
   const TensionAt now = tension_of(muscle_);
-  return engine_.equations().muscle_work({before.state, then}, {engine_.state(), now});
+  const Equations::Moving from{before.state.positions, before.rates.velocity};
+  const Equations::Moving to{state().positions, rates_.velocity};
+  return {equations.pressure_work(before.state, state()),
+          equations.muscle_work({before.state, then}, {state(), now}),
+          equations.support_work(from, to), equations.viscous_work(from, to)};
 }
 
 std::size_t TimeEngine::muscle_numbers() const {
@@ -176,11 +181,11 @@ std::size_t TimeEngine::muscle_numbers() const {
 }
 
 TimeEngine::Moment TimeEngine::moment() {
-  LV_CHECK(!has_rates_);  // which a moment does not hold
   const std::span<const int> own = engine_.equations().own();
   const std::size_t width = muscle_.numbers_per_point() * engine_.equations().points_per_element();
   const std::vector<double> mine = muscle_.numbers();
-  Moment moment{engine_.state(), before_, dt_before_, std::vector<double>(muscle_numbers(), 0.0)};
+  Moment moment{engine_.state(), before_, dt_before_, rates_,
+                std::vector<double>(muscle_numbers(), 0.0)};
   for (std::size_t i = 0; i < own.size(); ++i)
     std::copy_n(mine.begin() + static_cast<std::ptrdiff_t>(i * width), width,
                 moment.muscle.begin() + static_cast<std::ptrdiff_t>(own[i] * width));
@@ -200,6 +205,7 @@ void TimeEngine::restore(const Moment& moment) {
   muscle_.set_numbers(mine);
   engine_.restore(moment.now, {moment.now.cavity_pressure});
   engine_.begin_anew();
+  rates_ = moment.rates;
   before_ = moment.before;
   dt_before_ = moment.dt_before;
 }

@@ -49,6 +49,7 @@ class TimeEngine {
   struct Moment {
     State now, before;
     double dt_before = 0.0;      ///< of the step between them; 0: there was none [s]
+    Rates rates;                 ///< where the model has rates
     std::vector<double> muscle;  ///< Muscle::numbers of all elements
   };
   /// Collective. The steps that follow are those that follow a restore: what the solver had
@@ -62,14 +63,22 @@ class TimeEngine {
   struct Passed {
     State state;
     Muscle muscle;
+    Rates rates;
   };
-  [[nodiscard]] Passed present() const { return {engine_.state(), muscle_}; }
+  [[nodiscard]] Passed present() const { return {engine_.state(), muscle_, rates_}; }
   /// Stress in every linear cell of the mesh; collective.
   [[nodiscard]] std::vector<solid::CellStress> cell_stress(const Passed& at) const;
-  /// What muscle did since a time, if that is one step ago [mN mm].
-  [[nodiscard]] double muscle_work_since(const Passed& before) const;
+  /// What was done since a time, if that is one step ago: by the cavity's pressure and the muscle
+  /// on the wall, by the wall on its supports and against its viscosity [mN mm].
+  struct Work {
+    double pressure = 0.0, muscle = 0.0, supports = 0.0, viscosity = 0.0;
+  };
+  [[nodiscard]] Work work_since(const Passed& before) const;
   [[nodiscard]] double stored_energy() const {
     return engine_.equations().stored_energy(engine_.state());
+  }  ///< [mN mm]
+  [[nodiscard]] double kinetic_energy() const {
+    return engine_.equations().kinetic_energy(rates_.velocity);
   }  ///< [mN mm]
   /// Volume-weighted mean over the wall of the active tension, with the infarct's factor [kPa].
   [[nodiscard]] double mean_tension() const;
@@ -77,6 +86,7 @@ class TimeEngine {
   [[nodiscard]] double pressure() const { return engine_.state().cavity_pressure; }  ///< [kPa]
   [[nodiscard]] double cavity_volume() const { return engine_.cavity_volume(); }     ///< [mm^3]
   [[nodiscard]] const State& state() const { return engine_.state(); }
+  [[nodiscard]] const Equations& equations() const { return engine_.equations(); }
 
  private:
   [[nodiscard]] std::size_t point_number(std::size_t element, std::size_t point) const {

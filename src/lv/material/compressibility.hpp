@@ -25,6 +25,14 @@ struct Compressibility {
     const double x = p / kappa;
     return J(p) / (kappa * std::sqrt(1.0 + x * x));
   }
+
+  /// U(J(p)) [kPa].
+  [[nodiscard]] double energy(double p) const {
+    if (std::isinf(kappa))
+      return 0.0;
+    const double j = J(p);
+    return 0.25 * kappa * (j * j - 1.0 - 2.0 * std::log(j));
+  }
 };
 
 }  // namespace lv::material

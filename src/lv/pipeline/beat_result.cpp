@@ -31,6 +31,12 @@ std::vector<heartbeat::NamedMoment> load_whole_moments(const Archive& archive,
   return moments;
 }
 
+std::vector<double> load_activation_times(const Archive& archive, std::size_t nodes) {
+  if (archive.get("activation_times").empty())
+    return {};
+  return archive.get_rows("activation_times", 1, nodes, heartbeat::not_negative);
+}
+
 }  // namespace
 
 void write_beat(const heartbeat::Beat& beat, const std::filesystem::path& folder) {
@@ -42,6 +48,7 @@ void write_beat(const heartbeat::Beat& beat, const std::filesystem::path& folder
   if (beat.cycle) {
     heartbeat::store(*beat.cycle, archive);
     heartbeat::store(beat.energy, archive);
+    archive.set("activation_times", beat.activation_times);
   }
   archive.write(folder / beat_name);
 }
@@ -55,6 +62,7 @@ BeatResult read_beat(const std::filesystem::path& folder, const mesh::Mesh& mesh
   if (archive.has("cycle.facts")) {
     result.beat.cycle = heartbeat::load_cycle(archive);
     result.beat.energy = heartbeat::load_energy(archive);
+    result.beat.activation_times = load_activation_times(archive, mesh.nodes.size());
   }
   result.beat.steps = archive.whole_number(facts[0]);
   result.beat.retries = archive.whole_number(facts[1]);

@@ -24,13 +24,14 @@ void make_circulation(const Case& c, const std::filesystem::path& folder) {
 }
 
 heartbeat::Beat make_cycle(const Case& c, const mesh::Mesh& mesh,
+                           const std::vector<double>& activation_times,
                            const std::filesystem::path& folder,
                            const heartbeat::Observers& observers) {
   if (const std::string slow = slow_relaxation(c); !slow.empty())
     log::warn("{}", slow);
   return heartbeat::run_cycle(
       {mesh, case_file::static_model(c), c.quasi_static.solver, c.protocol.calcium, c.circulation,
-       c.protocol.cycle, c.output.frame_interval},
+       c.protocol.cycle, c.output.frame_interval, activation_times},
       folder, observers);
 }
 

@@ -19,8 +19,10 @@ namespace lv::pipeline {
 ///   circulation.txt      the last beat, in words
 void make_circulation(const case_file::Case& c, const std::filesystem::path& folder);
 
-/// Runs heartbeats of the case's wall joined to its circulation in `folder`; collective.
+/// Runs heartbeats of the case's wall joined to its circulation in `folder`, each node activated
+/// when `activation_times` say; collective.
 [[nodiscard]] heartbeat::Beat make_cycle(const case_file::Case& c, const mesh::Mesh& mesh,
+                                         const std::vector<double>& activation_times,
                                          const std::filesystem::path& folder,
                                          const heartbeat::Observers& observers);
 

@@ -14,6 +14,7 @@
 #include "lv/mesh/infarct.hpp"
 #include "lv/mesh/quality.hpp"
 #include "lv/mesh/refine.hpp"
+#include "lv/pipeline/activation.hpp"
 #include "lv/pipeline/calibration.hpp"
 #include "lv/pipeline/circulation.hpp"
 #include "lv/report/fields_vtk.hpp"
@@ -35,8 +36,9 @@ namespace {
 
 using case_file::Case;
 
-analysis::FieldAnalysis field_analysis(const Case& c, const mesh::Mesh& m) {
-  return {m, case_file::cardiac_model(c)};
+analysis::FieldAnalysis field_analysis(const Case& c, const mesh::Mesh& m,
+                                       const std::vector<double>& activation_times) {
+  return {m, case_file::cardiac_model(c), activation_times};
 }
 
 /// Velocity averaged to the cell centres, and pressure, of the whole box on the root.
@@ -61,8 +63,12 @@ report::BloodFields blood_fields(const heartbeat::Frame& frame) {
 /// Writes frames and curves of a running beat.
 class BeatWriter {
  public:
-  BeatWriter(const Case& c, const anatomy::MeshResult& mesh, std::filesystem::path folder)
-      : case_(c), mesh_(mesh), folder_(std::move(folder)), analysis_(field_analysis(c, mesh.mesh)) {
+  BeatWriter(const Case& c, const anatomy::MeshResult& mesh,
+             const std::vector<double>& activation_times, std::filesystem::path folder)
+      : case_(c),
+        mesh_(mesh),
+        folder_(std::move(folder)),
+        analysis_(field_analysis(c, mesh.mesh, activation_times)) {
     if (parallel::is_root())
       std::filesystem::create_directories(folder_ / "fields");
   }
@@ -370,11 +376,13 @@ heartbeat::Beat make_beat(const Case& c, const anatomy::MeshResult& mesh,
   const bool is_cycle = c.protocol.kind == heartbeat::ProtocolKind::cycle;
   if (c.engine == case_file::Engine::quasi_static && !is_cycle && parallel::is_root())
     std::filesystem::remove_all(folder / "fields");  // of a beat that was stopped: it starts anew
-  BeatWriter writer(c, mesh, folder);
+  const std::vector<double> activated =
+      is_cycle ? activation_times(c, mesh) : std::vector<double>{};
+  BeatWriter writer(c, mesh, activated, folder);
   const heartbeat::Observers observers{[&](const heartbeat::Frame& f) { writer.frame(f); },
                                        [&](const heartbeat::RunState& run) { writer.curves(run); }};
   if (is_cycle)
-    return make_cycle(c, mesh.mesh, folder, observers);
+    return make_cycle(c, mesh.mesh, activated, folder, observers);
   if (c.engine == case_file::Engine::quasi_static)
     return heartbeat::run_quasi_static_beat(
         {mesh.mesh, case_file::static_model(c), c.quasi_static.solver, c.protocol,
@@ -393,7 +401,7 @@ std::string make_results(const Case& c, const anatomy::MeshResult& mesh, const B
                          const FitRecord& fitted,
                          const std::optional<report::UnloadedShape>& unloaded,
                          const std::filesystem::path& folder) {
-  const analysis::FieldAnalysis analysis = field_analysis(c, mesh.mesh);
+  const analysis::FieldAnalysis analysis = field_analysis(c, mesh.mesh, beat.beat.activation_times);
   analysis::BeatFields fields{analysis.at_rest(), {}};
   for (const heartbeat::NamedMoment& m : beat.beat.moments)
     fields.moments.push_back({m.name, analysis.fields(m.wall)});

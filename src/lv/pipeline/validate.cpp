@@ -7,6 +7,7 @@
 #include "lv/cine/strain.hpp"
 #include "lv/cine/strain_targets.hpp"
 #include "lv/mesh/quality.hpp"
+#include "lv/pipeline/activation.hpp"
 #include "lv/pipeline/calibration.hpp"
 #include "lv/pipeline/circulation.hpp"
 #include "lv/pipeline/cost.hpp"
@@ -136,6 +137,7 @@ std::string validate(const Case& c) {
   const int members = check_study(c);
   const anatomy::MeshResult result = make_mesh(c, *shape);
   check_room(c, result.mesh);
+  static_cast<void>(activation_times(c, result));  // which may not fit to the wall
   const double cavity = solid::EndocardialSurface(result.mesh).volume(result.mesh.nodes);
   std::string text = describe_shape(c, *shape, cavity, result.mesh);
   if (const auto targets = cine::strain_targets(c, result.regions); !targets.empty())

@@ -177,7 +177,7 @@ void add_stresses(Arrays& arrays, const std::vector<CellFields>& now) {
 /// All that needs no other state.
 void add_quantities(Arrays& arrays, const std::vector<CellFields>& now) {
   for (const analysis::Quantity& q : analysis::quantities())
-    if (!q.is_strain && *q.field != '\0')
+    if (!q.is_strain && *q.field != '\0' && analysis::is_known(q, now))
       arrays.scalar(q.field, [&](auto c) { return q.of(now[c], {}); });
 }
 

@@ -241,6 +241,12 @@ void add_remarks(const RunFacts& facts, const Results& r, const std::vector<Judg
     json["marks"][path] = name(mark);
 }
 
+/// Of the wall, after the calcium of a beat begins; null: all of it is activated at once.
+Json latest_activation(const heartbeat::Beat& beat) {
+  const auto& times = beat.activation_times;
+  return times.empty() ? Json() : number(1e3 * *std::max_element(times.begin(), times.end()));
+}
+
 Json cycle_json(const heartbeat::Beat& beat) {
   const circulation::Cycle& cycle = *beat.cycle;
   Json last = Json::object();
@@ -251,10 +257,14 @@ Json cycle_json(const heartbeat::Beat& beat) {
           {"was_cut_short", cycle.cut_short},
           {"largest_change_of_last_beat", number(cycle.change)},
           {"last_beat", std::move(last)},
+          {"last_activation_ms", latest_activation(beat)},
           {"energy_of_last_beat",
            {{"work_of_pressure_mJ", number(millijoule * beat.energy.pressure)},
             {"work_of_muscle_mJ", number(millijoule * beat.energy.muscle)},
             {"stored_mJ", number(millijoule * beat.energy.stored)},
+            {"kinetic_mJ", number(millijoule * beat.energy.kinetic)},
+            {"work_on_supports_mJ", number(millijoule * beat.energy.supports)},
+            {"viscous_mJ", number(millijoule * beat.energy.viscosity)},
             {"missing_percent", number(100.0 * beat.energy.error())}}}};
 }
 
@@ -271,11 +281,16 @@ void add_ends(const heartbeat::Beat& beat, Json& json) {
 std::string cycle_text(const heartbeat::Beat& beat) {
   const heartbeat::EnergyBalance& e = beat.energy;
   return fmt::format(
-      "  beat {}\n{}  {:<26} {:.4g} mJ, of the cavity's pressure {:.4g} mJ, stored {:.2g} mJ: "
+      "  beat {}\n{}  {:<26} {:.4g} mJ, of the cavity's pressure {:.4g} mJ, stored {:.2g} mJ{}: "
       "{:.2g}% "
       "is missing\n\n",
       beat.cycle->beats.size(), beat_text(beat.cycle->beats.back()), "work of the muscle",
-      millijoule * e.muscle, millijoule * e.pressure, millijoule * e.stored, 100.0 * e.error());
+      millijoule * e.muscle, millijoule * e.pressure, millijoule * e.stored,
+      e.kinetic == 0.0 && e.viscosity == 0.0
+          ? ""
+          : fmt::format(", in motion {:.2g} mJ, supports {:.2g} mJ, viscosity {:.2g} mJ",
+                        millijoule * e.kinetic, millijoule * e.supports, millijoule * e.viscosity),
+      100.0 * e.error());
 }
 
 Json pairs(const std::vector<std::pair<std::string, std::string>>& list) {

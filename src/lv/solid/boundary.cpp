@@ -11,6 +11,8 @@
 namespace lv::solid {
 
 BasalPenalty::BasalPenalty(const mesh::Mesh& mesh, const BasalSupport& support) {
+  if (support.kind == BasalSupport::Kind::elastic)
+    return;
   std::map<int, double> area;
   const mesh::ElementNodes faces = mesh::sides(mesh.kind, 1, mesh.base);
   const ShapeTable shapes = side_shapes(mesh.kind, 1);

@@ -11,10 +11,11 @@ namespace lv::solid {
 struct BasalSupport {
   enum class Kind {
     sliding,  ///< against axial and circumferential displacement; radial motion is free
-    fixed     ///< against all displacement
+    fixed,    ///< against all displacement
+    elastic   ///< by springs and dashpots of its own (Surroundings::base) alone
   };
   Kind kind = Kind::sliding;
-  double stiffness = 300.0;  ///< kappa, of springs per reference area [kPa/mm]
+  double stiffness = 300.0;  ///< kappa, of springs per reference area, unless elastic [kPa/mm]
 };
 
 /// The springs that hold the base:
@@ -22,7 +23,7 @@ struct BasalSupport {
 ///   F_a = -kappa A_a { [(x - X).e_z] e_z + [(x - X).e_theta(X)] e_theta(X) }   [mN]
 ///
 /// with e_theta about the long axis and A_a the node's share of the basal area [mm^2]; a fixed base
-/// has a spring along e_r(X) too.
+/// has a spring along e_r(X) too, an elastic one none of these.
 class BasalPenalty {
  public:
   struct Spring {
@@ -35,7 +36,7 @@ class BasalPenalty {
 
   void add_forces(std::span<const Vec3> positions, std::span<Vec3> forces) const;
 
-  /// One per node of the base.
+  /// One per node of the base; none of an elastic one.
   [[nodiscard]] const std::vector<Spring>& springs() const { return springs_; }
 
   /// Largest axial displacement of the base [mm].

@@ -12,11 +12,16 @@ EndocardialSurface::EndocardialSurface(const mesh::Mesh& mesh)
     edge_.push_back(side[0]);
 }
 
-/// The quadrature is exact for the sides' polynomials.
-double EndocardialSurface::volume(std::span<const Vec3> positions) const {
+Vec3 EndocardialSurface::centre_of_edge(std::span<const Vec3> positions) const {
   Vec3 c = Vec3::Zero();
   for (const int node : edge_)
     c += positions[node] / static_cast<double>(edge_.size());
+  return c;
+}
+
+/// The quadrature is exact for the sides' polynomials.
+double EndocardialSurface::volume(std::span<const Vec3> positions) const {
+  const Vec3 c = centre_of_edge(positions);
   double three_V = 0.0;
   for (int f = 0; f < sides_.size(); ++f)
     for_side_points(shapes_, sides_.element(f), positions, [&](const SidePoint& point) {
@@ -42,6 +47,29 @@ void EndocardialSurface::add_gradient(double factor, std::span<const Vec3> posit
         to[nodes[a]] -= shapes_.value(point.q, a) * n_da;
     });
   });
+}
+
+/// d[(x - c).(x_s cross x_t)] = dx.(x_s cross x_t) + dx_s.(x_t cross (x - c))
+///                              + dx_t.((x - c) cross x_s) - dc.(x_s cross x_t)
+void EndocardialSurface::add_volume_gradient(std::span<const Vec3> positions,
+                                             std::span<Vec3> to) const {
+  const Vec3 c = centre_of_edge(positions);
+  Vec3 area = Vec3::Zero();  // int n da of the share
+  for_share([&](std::span<const int> nodes) {
+    for_side_points(shapes_, nodes, positions, [&](const SidePoint& point) {
+      const Eigen::MatrixXd& gradient = shapes_.gradient[point.q];
+      const double third = shapes_.weight[point.q] / 3.0;
+      const Vec3 r = point.x - c;
+      const Vec3 by_s = point.x_t.cross(r);
+      const Vec3 by_t = r.cross(point.x_s);
+      for (int a = 0; a < shapes_.nodes(); ++a)
+        to[nodes[a]] -= third * (shapes_.value(point.q, a) * point.normal() +
+                                 gradient(0, a) * by_s + gradient(1, a) * by_t);
+      area += 3.0 * third * point.normal();
+    });
+  });
+  for (const int node : edge_)
+    to[node] += area / (3.0 * static_cast<double>(edge_.size()));
 }
 
 /// d(x_s cross x_t)/dx_b = [x_s x] d phi_b/dt - [x_t x] d phi_b/ds.

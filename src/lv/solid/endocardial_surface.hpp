@@ -33,6 +33,10 @@ class EndocardialSurface {
   /// Adds `factor` dV/dx of this rank's share of the sides.
   void add_gradient(double factor, std::span<const Vec3> positions, std::span<Vec3> to) const;
 
+  /// Adds the derivative of volume(), the fan's share included, of this rank's share of the sides:
+  /// how the cavity's volume follows a base that leaves its plane.
+  void add_volume_gradient(std::span<const Vec3> positions, std::span<Vec3> to) const;
+
   /// Told a block of a matrix: the nodes it belongs to, three rows and columns for each.
   using Block = std::function<void(std::span<const int> nodes, const Eigen::MatrixXd& values)>;
 
@@ -42,6 +46,7 @@ class EndocardialSurface {
  private:
   template <class Visit>
   void for_share(const Visit& visit) const;
+  [[nodiscard]] Vec3 centre_of_edge(std::span<const Vec3> positions) const;
 
   mesh::ElementNodes sides_;
   ShapeTable shapes_;

@@ -5,15 +5,16 @@
 #include "lv/solid/side_points.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace lv::solid {
 namespace {
 
-/// The weight of a support at a height of its surface.
-class AxialWeight {
+/// The height of a place on a surface, from 0 at its lowest node to 1 at its highest.
+class Height {
  public:
-  AxialWeight(const mesh::Mesh& mesh, const mesh::Surface& surface, const Support& support)
-      : support_(support) {
+  Height(const mesh::Mesh& mesh, const mesh::Surface& surface) {
     for (const int node : surface.nodes) {
       low_ = std::min(low_, mesh.nodes[node].z());
       high_ = std::max(high_, mesh.nodes[node].z());
@@ -21,12 +22,10 @@ class AxialWeight {
   }
 
   [[nodiscard]] double at(double z) const {
-    const double height = high_ > low_ ? (z - low_) / (high_ - low_) : 0.0;
-    return support_.weight_below + height * (support_.weight_above - support_.weight_below);
+    return high_ > low_ ? (z - low_) / (high_ - low_) : 0.0;
   }
 
  private:
-  const Support& support_;
   double low_ = std::numeric_limits<double>::infinity();
   double high_ = -std::numeric_limits<double>::infinity();
 };
@@ -40,11 +39,18 @@ Eigen::VectorXd gather(std::span<const Vec3> values, std::span<const int> nodes)
 
 }  // namespace
 
+double AxialWeight::at(double h) const {
+  const double s = shape == Shape::even     ? 1.0
+                   : shape == Shape::linear ? 1.0 - h
+                                            : 1.0 / (1.0 + std::exp(steepness * (h - middle)));
+  return at_base + (1.0 - at_base) * s;
+}
+
 SupportedSurface::SupportedSurface(const mesh::Mesh& mesh, const mesh::Surface& surface,
                                    const Support& support) {
   if (support.is_none())
     return;
-  const AxialWeight weight(mesh, surface, support);
+  const Height height(mesh, surface);
   const mesh::ElementNodes sides = mesh::sides(mesh.kind, mesh.order, surface);
   const ShapeTable shapes = side_shapes(mesh.kind, mesh.order);
   const int n = shapes.nodes();
@@ -60,7 +66,7 @@ SupportedSurface::SupportedSurface(const mesh::Mesh& mesh, const mesh::Surface& 
       const Vec3 N = point.normal().normalized();
       const Mat3 along = N * N.transpose();
       const Mat3 across = Mat3::Identity() - along;
-      const double w = weight.at(point.x.z()) * dA;
+      const double w = support.weight.at(height.at(point.x.z())) * dA;
       for (int a = 0; a < n; ++a) {
         for (int b = 0; b < n; ++b) {
           const double wab = w * shapes.value(point.q, a) * shapes.value(point.q, b);

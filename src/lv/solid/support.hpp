@@ -8,17 +8,35 @@
 
 namespace lv::solid {
 
+/// How the strength of a support changes along the long axis: 1 at the apex and less towards the
+/// base,
+///
+///   w(h) = at_base + (1 - at_base) s(h),  h from 0 at the surface's lowest node to 1 at its highest
+///
+///   even     s = 1
+///   linear   s = 1 - h
+///   sigmoid  s = 1/(1 + exp(steepness (h - middle))), with the constants of the program
+///            pyansys-heart, whose pericardium holds the apical third
+struct AxialWeight {
+  enum class Shape { even, linear, sigmoid };
+
+  Shape shape = Shape::even;
+  double at_base = 0.0;                    ///< [-]
+  double middle = 0.15, steepness = 25.0;  ///< of the sigmoid [-]
+
+  [[nodiscard]] double at(double h) const;
+};
+
 /// Springs and dashpots per reference area of a surface, along its reference normal N and in the
-/// plane across it. The weight changes evenly along the long axis, from the surface's lowest to its
-/// highest node.
+/// plane across it.
 struct Support {
   double normal_stiffness = 0.0, tangential_stiffness = 0.0;  ///< [kPa/mm]
   double normal_viscosity = 0.0, tangential_viscosity = 0.0;  ///< [kPa s/mm]
-  double weight_below = 1.0, weight_above = 1.0;              ///< [-]
+  AxialWeight weight = {};
 
   /// The same along all directions.
   [[nodiscard]] static Support in_all_directions(double stiffness, double viscosity) {
-    return {stiffness, stiffness, viscosity, viscosity};
+    return {stiffness, stiffness, viscosity, viscosity, {}};
   }
 
   [[nodiscard]] bool is_none() const {
@@ -40,7 +58,7 @@ struct Surroundings {
 
 /// A supported surface. With u = x - X and the velocity v of its points,
 ///
-///   F_a = -int phi_a w(Z) {N (N.(k_n u + c_n v)) + (1 - N (x) N)(k_t u + c_t v)} dA      [mN]
+///   F_a = -int phi_a w(h) {N (N.(k_n u + c_n v)) + (1 - N (x) N)(k_t u + c_t v)} dA      [mN]
 ///
 /// over the undeformed surface: linear in u and v, and symmetric.
 class SupportedSurface {

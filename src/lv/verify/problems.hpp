@@ -22,6 +22,10 @@ void circulation_closed_loop(Findings& found);
 void cycle_default(Findings& found);
 void cycle_closed_loop(Findings& found);
 
+// activation
+void eikonal_point(Findings& found);
+void eikonal_plane(Findings& found);
+
 // blood alone
 void stokes_modes(Findings& found);
 void stokes_order(Findings& found);

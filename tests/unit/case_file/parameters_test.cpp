@@ -48,6 +48,14 @@ Lines with(Lines lines, const std::string& name, const std::string& value) {
 }
 
 const Lines static_engine{{"engine", "\"quasi_static\""}};
+/// A case of heartbeats with these lines too.
+Lines beating(Lines lines) {
+  for (const auto& [name, value] : Lines{{"engine", "\"quasi_static\""},
+                                         {"protocol.kind", "\"cycle\""},
+                                         {"circulation.kind", "\"windkessel\""}})
+    lines.emplace(name, value);
+  return lines;
+}
 const Lines given_mesh{{"anatomy.source", "\"mesh\""}, {"anatomy.mesh.file", "\"wall.vtk\""}};
 const Lines labelled_scar{{"infarct.source", "\"labels\""},
                           {"infarct.labels.file", "\"scar.nii\""},
@@ -98,6 +106,14 @@ const std::vector<Lines>& bases() {
       {{"unloaded.pressure", "\"2 mmHg\""}},
       {{"circulation.kind", "\"windkessel\""}},
       with(with(static_engine, "protocol.kind", "\"cycle\""), "circulation.kind", "\"windkessel\""),
+      beating({{"base.support", "\"elastic\""},
+               {"base.tangential_stiffness", "\"1 kPa/mm\""},
+               {"base.normal_stiffness", "\"1 kPa/mm\""},
+               {"pericardium.normal_stiffness", "\"1 kPa/mm\""},
+               {"pericardium.weight", "\"sigmoid\""},
+               {"cycle.inertia", "true"},
+               {"activation.kind", "\"eikonal\""}}),
+      beating({{"activation.kind", "\"file\""}, {"activation.file", "\"times.dat\""}}),
       {{"circulation.kind", "\"closed_loop\""}, {"circulation.valves.law", "\"arctangent\""}},
       {{"strain.cine", "\"cine\""}, {"strain.contours", "\"loops.csv\""}},
       {{"strain.cine", "\"cine\""}, {"strain.long_axis_cine", "[\"view\"]"}},
@@ -252,6 +268,14 @@ TEST_CASE("what does nothing is named with what it counts with", "[unit][case_fi
       {static_engine, "active.A_1", "-30", "with engine = \"immersed\""},
       {static_engine, "blood.density", "\"1.1 g/ml\"", "with engine = \"immersed\""},
       {{}, "quasi_static.tolerance", "\"1e-5 mm\"", "with engine = \"quasi_static\", with a fit"},
+      {static_engine, "muscle.viscosity", "\"1 kPa s\"", "for without time nothing has a rate"},
+      {static_engine, "pericardium.normal_viscosity", "\"1 kPa s/mm\"",
+       "for without time nothing has a rate"},
+      {static_engine, "base.normal_stiffness", "\"1 kPa/mm\"", "with base.support = \"elastic\""},
+      {{}, "pericardium.normal_stiffness", "\"1 kPa/mm\"", "with engine = \"quasi_static\""},
+      {static_engine, "activation.v_f", "\"1 m/s\"", "with protocol.kind = \"cycle\""},
+      {beating({}), "activation.v_f", "\"1 m/s\"", "with activation.kind = \"eikonal\""},
+      {beating({}), "cycle.spectral_radius", "0.8", "with cycle.inertia = true"},
       {{}, "passive.guccione.C", "\"1 kPa\"", "with passive.law = \"guccione\""},
       {{}, "active.tension", "\"50 kPa\"", "with active.law = \"second_piola\" or \"cauchy\""},
       {second_piola, "active.T_scale", "3", "with active.law = \"niederer\""},
@@ -434,6 +458,13 @@ Numbers static_muscle_of(const Case& c) {
   for (const double stretch : {0.7, 0.9, 1.05, 1.2})
     for (const double activation : {0.0, 0.6})
       numbers.push_back(model.contractility.at(stretch, activation).value);
+  for (const solid::Support& s : {model.surroundings.epicardium, model.surroundings.base}) {
+    numbers.insert(numbers.end(), {s.normal_stiffness, s.tangential_stiffness, s.normal_viscosity,
+                                   s.tangential_viscosity});
+    for (const double h : {0.0, 0.1, 0.3, 1.0})
+      numbers.push_back(s.weight.at(h));
+  }
+  numbers.insert(numbers.end(), {model.compressibility.kappa, model.viscosity.eta, model.density});
   const implicit::SolverParameters& solver = c.quasi_static.solver;
   numbers.insert(numbers.end(), {model.stabilisation.beta_s, solver.first_step,
                                  solver.newton.tolerance, solver.newton.linear.tolerance});
@@ -445,6 +476,11 @@ Numbers static_beat_of(const Case& c) {
   const heartbeat::Protocol& p = c.protocol;
   numbers.insert(numbers.end(), {p.ed_pressure, p.es_pressure, p.filling_ramp, p.contraction_ramp,
                                  c.output.frame_interval});
+  if (p.kind == heartbeat::ProtocolKind::cycle) {
+    const activation::Speeds& v = c.activation.speeds;
+    numbers.insert(numbers.end(), {p.cycle.spectral_radius, v.v_f, v.v_s, v.v_n, v.endocardium,
+                                   static_cast<double>(c.activation.sites.size())});
+  }
   return numbers;
 }
 
@@ -544,6 +580,14 @@ std::vector<Lines> cases_without_files() {
   all.push_back(with(quasi_static, "active.law", "\"second_piola\""));
   all.push_back(with(quasi_static, "active.law", "\"land2017\""));
   all.push_back(with(quasi_static, "quasi_static.linear_solver", "\"iterative\""));
+  all.push_back(beating({{"quasi_static.edge_length", "\"18 mm\""},
+                         {"base.support", "\"elastic\""},
+                         {"base.tangential_stiffness", "\"1 kPa/mm\""},
+                         {"base.normal_stiffness", "\"2 kPa/mm\""},
+                         {"pericardium.normal_stiffness", "\"3 kPa/mm\""},
+                         {"pericardium.weight", "\"sigmoid\""},
+                         {"activation.kind", "\"eikonal\""},
+                         {"cycle.inertia", "true"}}));
   all.push_back(
       with(with(static_engine, "quasi_static.order", "1"), "mesh.edge_length", "\"9 mm\""));
   return all;
@@ -568,7 +612,13 @@ bool is_tried_elsewhere(const std::string& name) {
                                                "infarct.length_unit",
                                                "calibrate.",
                                                "circulation.",
-                                               "cycle.",
+                                               "cycle.beats",
+                                               "cycle.tolerance",
+                                               "cycle.step",
+                                               "activation.sites",
+                                               "activation.file",
+                                               "activation.array",
+                                               "activation.time_unit",
                                                "strain.",
                                                "study.",
                                                "unloaded.",

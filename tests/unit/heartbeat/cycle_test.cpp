@@ -52,8 +52,62 @@ std::filesystem::path empty_folder(const char* name) {
   return folder;
 }
 
+/// The same with all that an implicit wall may have: base and epicardium on springs and dashpots.
+/// Viscosities are some ten times those of a heart, so that the balance of energy sees them.
+CycleSetup moving(const mesh::Mesh& mesh) {
+  CycleSetup setup = quick(mesh);
+  setup.cycle.step = 4e-3;
+  setup.model.heart.base.kind = solid::BasalSupport::Kind::elastic;
+  setup.model.surroundings.base = {20.0, 5.0, 0.05, 0.05, {}};
+  setup.model.surroundings.epicardium = {
+      0.2, 0.0, 0.05, 0.0, {solid::AxialWeight::Shape::sigmoid, 0.3}};
+  setup.model.viscosity.eta = 1.0;
+  setup.model.density = 1.05e-6;
+  for (const double t : mesh.transmural)
+    setup.activation_times.push_back(0.02 * t);
+  return setup;
+}
+
 /// Ends a run in the middle of a step, as a kill would.
 struct Stop {};
+
+/// Stopped after its first checkpoint.
+Beat stopped_and_resumed(const CycleSetup& setup) {
+  const auto folder = empty_folder("lv_cycle_stopped");
+  int frames = 0;
+  heartbeat::Observers stopping;
+  stopping.frame = [&](const heartbeat::Frame& frame) {
+    frames = frame.number;
+    if (frame.run.beat.steps > 30)  // after the checkpoint at 25
+      throw Stop();
+  };
+  CycleSetup watched = setup;
+  watched.frame_interval = 1e-3;
+  CHECK_THROWS_AS(heartbeat::run_cycle(watched, folder, stopping), Stop);
+  CHECK(frames > 25);
+  return heartbeat::run_cycle(setup, folder, {});
+}
+
+void check_same(const Beat& undisturbed, const Beat& resumed) {
+  REQUIRE(undisturbed.cycle);
+  const auto& a = undisturbed.cycle->samples;
+  const auto& b = resumed.cycle->samples;
+  REQUIRE(a.size() == b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    CHECK(a[i].time == b[i].time);
+    CHECK(a[i].signals.pressure == b[i].signals.pressure);
+    CHECK(a[i].signals.volume == b[i].signals.volume);
+  }
+  REQUIRE(undisturbed.moments.size() == resumed.moments.size());
+  for (std::size_t i = 0; i < undisturbed.moments.size(); ++i)
+    CHECK(undisturbed.moments[i].wall.positions == resumed.moments[i].wall.positions);
+  const heartbeat::EnergyBalance& before = undisturbed.energy;
+  const heartbeat::EnergyBalance& after = resumed.energy;
+  CHECK(before.muscle == after.muscle);
+  CHECK(before.supports == after.supports);
+  CHECK(before.viscosity == after.viscosity);
+  CHECK(before.kinetic == after.kinetic);
+}
 
 }  // namespace
 
@@ -91,34 +145,40 @@ TEST_CASE("a heartbeat that was stopped goes on bit for bit", "[unit][heartbeat]
   const mesh::Mesh mesh = coarse_wall();
   const CycleSetup setup = quick(mesh);
   const Beat undisturbed = heartbeat::run_cycle(setup, empty_folder("lv_cycle_whole"), {});
-  REQUIRE(undisturbed.cycle);
+  check_same(undisturbed, stopped_and_resumed(setup));
+  CHECK(undisturbed.energy.error() < 0.01);
+  CHECK(undisturbed.energy.kinetic == 0.0);
+  CHECK(undisturbed.energy.viscosity == 0.0);
+}
 
-  const auto folder = empty_folder("lv_cycle_stopped");
-  int frames = 0;
-  heartbeat::Observers stopping;
-  stopping.frame = [&](const heartbeat::Frame& frame) {
-    frames = frame.number;
-    if (frame.run.beat.steps > 30)  // after the checkpoint at 25
-      throw Stop();
-  };
-  CycleSetup watched = setup;
-  watched.frame_interval = 1e-3;
-  CHECK_THROWS_AS(heartbeat::run_cycle(watched, folder, stopping), Stop);
-  CHECK(frames > 25);
-  const Beat resumed = heartbeat::run_cycle(setup, folder, {});
+TEST_CASE(
+    "with inertia, viscosity, springs, dashpots and activation it does too, and its energy is "
+    "all there",
+    "[unit][heartbeat]") {
+  const mesh::Mesh mesh = coarse_wall();
+  const CycleSetup setup = moving(mesh);
+  const Beat undisturbed = heartbeat::run_cycle(setup, empty_folder("lv_cycle_moving"), {});
+  check_same(undisturbed, stopped_and_resumed(setup));
+  const heartbeat::EnergyBalance& e = undisturbed.energy;
+  INFO("pressure " << e.pressure << " muscle " << e.muscle << " stored " << e.stored << " kinetic "
+                   << e.kinetic << " supports " << e.supports << " viscosity " << e.viscosity);
+  CHECK(e.error() < 0.01);
+  CHECK(e.supports > 0.01 * e.muscle);  // else the balance would not see them
+  CHECK(e.viscosity > 0.01 * e.muscle);
+  CHECK(undisturbed.curves.back().largest_velocity > 0.0);
+}
 
-  const auto& a = undisturbed.cycle->samples;
-  const auto& b = resumed.cycle->samples;
-  REQUIRE(a.size() == b.size());
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    CHECK(a[i].time == b[i].time);
-    CHECK(a[i].signals.pressure == b[i].signals.pressure);
-    CHECK(a[i].signals.volume == b[i].signals.volume);
-  }
-  REQUIRE(undisturbed.moments.size() == resumed.moments.size());
-  for (std::size_t i = 0; i < undisturbed.moments.size(); ++i)
-    CHECK(undisturbed.moments[i].wall.positions == resumed.moments[i].wall.positions);
-  CHECK(undisturbed.energy.muscle == resumed.energy.muscle);
+TEST_CASE("muscle that is activated later contracts later", "[unit][heartbeat]") {
+  const mesh::Mesh mesh = coarse_wall();
+  CycleSetup setup = quick(mesh);
+  setup.circuit.period = 0.24;
+  const Beat at_once = heartbeat::run_cycle(setup, empty_folder("lv_cycle_at_once"), {});
+  constexpr double delay = 0.04;  // of five steps
+  setup.activation_times.assign(mesh.nodes.size(), delay);
+  const Beat later = heartbeat::run_cycle(setup, empty_folder("lv_cycle_later"), {});
+  const auto opens = [](const Beat& beat) { return beat.cycle->beats.back().aortic_opens; };
+  CHECK(opens(later) - opens(at_once) == Approx(delay).margin(1e-3));
+  CHECK(later.curves.front().calcium == Approx(0.1));
 }
 
 TEST_CASE("heartbeats in an archive are those that were put in", "[unit][heartbeat]") {

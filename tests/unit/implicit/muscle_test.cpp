@@ -22,7 +22,7 @@ Muscle contracting() {
   Muscle muscle(Law{}, stretch.size());
   muscle.relax(0.1, stretch);
   for (int i = 0; i < 20; ++i)
-    muscle.advance({2e-3, 0.6, 0.6}, stretch);
+    muscle.advance({2e-3, {{0.6, 0.6}}}, stretch);
   return muscle;
 }
 
@@ -31,7 +31,7 @@ Muscle contracting() {
 TEMPLATE_TEST_CASE("the slope of the tension after a step is that of the step's stretch",
                    "[unit][implicit]", Land2017, NiedererHunterSmith) {
   const Muscle muscle = contracting<TestType>();
-  const TimeStep step{2e-3, 0.6, 0.7};
+  const TimeStep step{2e-3, {{0.6, 0.7}}};
   constexpr double h = 1e-7;
   for (std::size_t i = 0; i < stretch.size(); ++i) {
     const double to = stretch[i] - 0.004;
@@ -44,7 +44,7 @@ TEMPLATE_TEST_CASE("the slope of the tension after a step is that of the step's 
 TEMPLATE_TEST_CASE("muscle that takes a step has the tension that was foretold", "[unit][implicit]",
                    Land2017, NiedererHunterSmith) {
   Muscle muscle = contracting<TestType>();
-  const TimeStep step{2e-3, 0.6, 0.7};
+  const TimeStep step{2e-3, {{0.6, 0.7}}};
   const std::vector<double> next{0.94, 1.02, 1.11};
   std::vector<double> foretold;
   for (std::size_t i = 0; i < next.size(); ++i)
@@ -61,8 +61,23 @@ TEMPLATE_TEST_CASE("muscle restored from its numbers goes on bit for bit", "[uni
   restored.set_numbers(muscle.numbers());
   CHECK(muscle.numbers().size() == stretch.size() * muscle.numbers_per_point());
   for (Muscle* m : {&muscle, &restored})
-    m->advance({2e-3, 0.6, 0.7}, stretch);
+    m->advance({2e-3, {{0.6, 0.7}}}, stretch);
   CHECK(muscle.numbers() == restored.numbers());
+}
+
+TEMPLATE_TEST_CASE("muscle whose calcium differs from point to point is so many muscles",
+                   "[unit][implicit]", Land2017, NiedererHunterSmith) {
+  Muscle muscle = contracting<TestType>();
+  const TimeStep step{2e-3, {{0.6, 0.7}, {0.6, 0.2}, {0.1, 0.6}}};
+  std::vector<double> foretold;
+  for (std::size_t i = 0; i < stretch.size(); ++i) {
+    const TimeStep of_point{2e-3, {step.calcium[i]}};
+    CHECK(muscle.after(step, i, stretch[i]).value == muscle.after(of_point, i, stretch[i]).value);
+    foretold.push_back(muscle.after(step, i, stretch[i]).value);
+  }
+  muscle.advance(step, stretch);
+  for (std::size_t i = 0; i < stretch.size(); ++i)
+    CHECK(muscle.now(i).value == Approx(foretold[i]).epsilon(1e-12));
 }
 
 TEST_CASE("a prescribed tension knows no time and is refused", "[unit][implicit]") {

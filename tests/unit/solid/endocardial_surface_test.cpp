@@ -184,3 +184,19 @@ TEST_CASE("pressure in the cavity pushes the wall out and the apex down", "[unit
   CHECK(test::resultant(forces).z() < 0.0);
   CHECK(-test::resultant(forces).z() == Approx(opening).epsilon(0.03));
 }
+
+TEST_CASE("the whole derivative of the volume holds for a base that leaves its plane too",
+          "[unit][solid]") {
+  for (const Mesh& mesh : ventricles()) {
+    const EndocardialSurface endocardium(mesh);
+    test::RandomValues random(5);
+    const auto displacements = random.vectors(mesh.nodes.size(), 1.0);
+    std::vector<Vec3> gradient(mesh.nodes.size(), Vec3::Zero());
+    endocardium.add_volume_gradient(mesh.nodes, gradient);
+    const double slope = slope_of_cubic([&](double h) {
+      return endocardium.volume(test::displaced(mesh.nodes, displacements, h));
+    });
+    CHECK(test::work(gradient, displacements) == Approx(slope).epsilon(1e-9));
+    CHECK(test::resultant(gradient).norm() < 1e-10 * test::magnitude(gradient));
+  }
+}

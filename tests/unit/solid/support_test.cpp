@@ -6,6 +6,8 @@
 #include "support/random_values.hpp"
 #include <catch2/catch.hpp>
 
+#include <cmath>
+
 namespace {
 
 using namespace lv;
@@ -63,20 +65,29 @@ TEST_CASE("a support's weight changes along the long axis", "[unit][solid]") {
   mesh::Mesh m = cube();
   for (Vec3& X : m.nodes)
     X = Vec3(X.z(), X.x(), X.y());  // the surface stands upright, z from 0 to 6
-  Support support = Support::in_all_directions(1.0, 0.0);
+  Support support = Support::in_all_directions(3.0, 0.0);
   const Vec3 even = test::resultant(forces(m, support, Vec3::UnitX(), Vec3::Zero()));
-  support.weight_below = 3.0;
-  support.weight_above = 0.0;
+  support.weight.shape = solid::AxialWeight::Shape::linear;
   const auto f = forces(m, support, Vec3::UnitX(), Vec3::Zero());
-  CHECK(test::resultant(f).x() == Approx(1.5 * even.x()));
+  CHECK(test::resultant(f).x() == Approx(0.5 * even.x()));
   double below = 0.0;
   for (std::size_t a = 0; a < m.nodes.size(); ++a)
     below += m.nodes[a].z() < 3.0 ? f[a].x() : 0.0;
-  CHECK(below == Approx(2.0 / 3.0 * test::resultant(f).x()));  // int of 3 (1-s) (1-s) over 3/2
+  CHECK(below == Approx(2.0 / 3.0 * test::resultant(f).x()));  // int of (1-s) (1-s) over 1/2
+}
+
+TEST_CASE("a sigmoid of the long axis holds the apex and lets the base go", "[unit][solid]") {
+  solid::AxialWeight weight{.shape = solid::AxialWeight::Shape::sigmoid};
+  CHECK(weight.at(0.0) == Approx(1.0 / (1.0 + std::exp(-25.0 * 0.15))));
+  CHECK(weight.at(0.15) == Approx(0.5));
+  CHECK(weight.at(1.0) < 1e-8);
+  weight.at_base = 0.2;
+  CHECK(weight.at(1.0) == Approx(0.2));
+  CHECK(weight.at(0.15) == Approx(0.6));
 }
 
 TEST_CASE("a support's stiffness is the derivative of its forces", "[unit][solid]") {
-  const Support support{2.0, 0.5, 0.03, 0.01, 0.4, 1.2};
+  const Support support{2.0, 0.5, 0.03, 0.01, {solid::AxialWeight::Shape::linear, 0.4}};
   constexpr double slope = 25.0;
   for (const mesh::Mesh& m : meshes()) {
     const SupportedSurface surface(m, m.epi, support);
