@@ -64,8 +64,9 @@ SupportedSurface::SupportedSurface(const mesh::Mesh& mesh, const mesh::Surface& 
     for_side_points(shapes, nodes, mesh.nodes, [&](const SidePoint& point) {
       const double dA = shapes.weight[point.q] * point.normal().norm();
       const Vec3 N = point.normal().normalized();
-      const Mat3 along = N * N.transpose();
-      const Mat3 across = Mat3::Identity() - along;
+      const Mat3 on_normal = N * N.transpose();
+      const Mat3 along = support.scatter ? Mat3(on_normal + support.scatter(point.x)) : on_normal;
+      const Mat3 across = Mat3::Identity() - on_normal;
       const double w = support.weight.at(height.at(point.x.z())) * dA;
       for (int a = 0; a < n; ++a) {
         for (int b = 0; b < n; ++b) {

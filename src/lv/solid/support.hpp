@@ -3,6 +3,7 @@
 #include "lv/mesh/quadratic.hpp"
 #include "lv/solid/endocardial_surface.hpp"
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -33,10 +34,13 @@ struct Support {
   double normal_stiffness = 0.0, tangential_stiffness = 0.0;  ///< [kPa/mm]
   double normal_viscosity = 0.0, tangential_viscosity = 0.0;  ///< [kPa s/mm]
   AxialWeight weight = {};
+  /// Mean of (n - N)(n - N)^T at a place X, where the normal springs and dashpots act along
+  /// directions n that scatter about N, as the normals of flat facets do [-]; empty: along N.
+  std::function<Mat3(const Vec3& X)> scatter = {};
 
   /// The same along all directions.
   [[nodiscard]] static Support in_all_directions(double stiffness, double viscosity) {
-    return {stiffness, stiffness, viscosity, viscosity, {}};
+    return {stiffness, stiffness, viscosity, viscosity, {}, {}};
   }
 
   [[nodiscard]] bool is_none() const {
@@ -58,9 +62,10 @@ struct Surroundings {
 
 /// A supported surface. With u = x - X and the velocity v of its points,
 ///
-///   F_a = -int phi_a w(h) {N (N.(k_n u + c_n v)) + (1 - N (x) N)(k_t u + c_t v)} dA      [mN]
+///   F_a = -int phi_a w(h) {(N (x) N + S)(k_n u + c_n v) + (1 - N (x) N)(k_t u + c_t v)} dA   [mN]
 ///
-/// over the undeformed surface: linear in u and v, and symmetric.
+/// with S the scatter of the normals, over the undeformed surface: linear in u and v, and
+/// symmetric.
 class SupportedSurface {
  public:
   SupportedSurface(const mesh::Mesh& mesh, const mesh::Surface& surface, const Support& support);

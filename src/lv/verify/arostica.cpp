@@ -26,6 +26,24 @@ double base_angle(const ArosticaWall& wall, double t) {
   return mix(std::acos(wall.endo_cosine), std::acos(wall.epi_cosine), t);
 }
 
+/// The angle mu of a place on an ellipsoid, r = across sin mu and z = along cos mu, whatever its
+/// size.
+double polar_angle(const Vec3& place, double across, double along) {
+  return std::atan2(std::hypot(place.x(), place.y()) / across, place.z() / along);
+}
+
+/// Of the ellipsoid's meridian between two angles, by the midpoint rule [mm].
+double meridian_length(double across, double along, double from, double to) {
+  constexpr int parts = 200;
+  const double step = (to - from) / parts;
+  double length = 0.0;
+  for (int i = 0; i < parts; ++i) {
+    const double mu = from + (i + 0.5) * step;
+    length += std::hypot(across * std::cos(mu), along * std::sin(mu)) * step;
+  }
+  return length;
+}
+
 /// A point of the wall that is watched.
 struct Probe {
   std::vector<int> nodes;
@@ -136,6 +154,11 @@ implicit::StaticModel model_of(const ArosticaConstants& c) {
   implicit::StaticModel model(heart, {}, {.beta_s = 0.5 * c.share_at_points * c.kappa});
   model.compressibility.kappa = (1.0 - c.share_at_points) * c.kappa;
   model.surroundings.epicardium = {.normal_stiffness = c.k_epi, .normal_viscosity = c.c_epi};
+  if (c.facet_edge > 0.0)
+    model.surroundings.epicardium.scatter = [edge = c.facet_edge](const Vec3& X) {
+      const ArosticaWall wall;
+      return wall.facet_scatter(X, wall.facet_edge(X, edge), ArosticaWall::gmsh_tilt);
+    };
   model.surroundings.base = solid::Support::in_all_directions(c.k_base, c.c_base);
   model.viscosity.eta = c.eta;
   model.density = c.rho;
@@ -233,12 +256,34 @@ Vec3 ArosticaWall::point(double u, double theta, double t) const {
 Vec3 ArosticaWall::normal(const Vec3& place, double t) const {
   const double across = mix(endo_radius, epi_radius, t);
   const double along = mix(endo_length, epi_length, t);
-  const double r = std::hypot(place.x(), place.y());
-  const double mu = std::atan2(r / across, place.z() / along);
+  const double mu = polar_angle(place, across, along);
   const double theta = std::atan2(place.y(), place.x());
   const double outwards = along * std::sin(mu);
   return Vec3(outwards * std::cos(theta), outwards * std::sin(theta), across * std::cos(mu))
       .normalized();
+}
+
+Mat3 ArosticaWall::facet_scatter(const Vec3& place, double edge, double c) const {
+  const Vec3 N = normal(place, 1.0);
+  const double mu = polar_angle(place, epi_radius, epi_length);
+  const double g = std::hypot(epi_length * std::sin(mu), epi_radius * std::cos(mu));
+  const double along = epi_length * epi_radius / (g * g * g);
+  const double around = epi_length / (epi_radius * g);
+  const double theta = std::atan2(place.y(), place.x());
+  const Vec3 e_c(-std::sin(theta), std::cos(theta), 0.0);
+  const Vec3 e_m = N.cross(e_c);
+  const double tilt = c * (along - around) * (along - around);
+  return edge * edge *
+         ((along * along / 24.0 + tilt) * e_m * e_m.transpose() +
+          (around * around / 24.0 + tilt) * e_c * e_c.transpose());
+}
+
+double ArosticaWall::facet_edge(const Vec3& place, double at_base) const {
+  const double mu = polar_angle(place, epi_radius, epi_length);
+  const double from_apex = meridian_length(epi_radius, epi_length, mu, std::numbers::pi);
+  const double whole =
+      meridian_length(epi_radius, epi_length, std::acos(epi_cosine), std::numbers::pi);
+  return at_base * (0.5 + 0.5 * from_apex / whole);
 }
 
 /// The mesher's base is plane, so it gets a wall whose shells are moved along the axis until theirs

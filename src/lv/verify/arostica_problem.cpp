@@ -37,6 +37,7 @@ std::map<std::string, Constant> constants_of(ArosticaConstants& c) {
           {"rho", {&c.rho, "kg/mm^3"}},
           {"k_epi", {&c.k_epi, "kPa/mm"}},
           {"c_epi", {&c.c_epi, "kPa s/mm"}},
+          {"facet_edge", {&c.facet_edge, "mm"}},
           {"k_base", {&c.k_base, "kPa/mm"}},
           {"c_base", {&c.c_base, "kPa s/mm"}},
           {"helix_endo", {&c.helix_endo, "rad"}},

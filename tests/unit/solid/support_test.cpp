@@ -52,6 +52,20 @@ TEST_CASE("a support pulls back along its normal and across it", "[unit][solid]"
   CHECK(f.z() == Approx(-area * (2.0 * 0.3 + 0.03 * -3.0)));
 }
 
+TEST_CASE("normals that scatter hold a surface across its own normal too", "[unit][solid]") {
+  const mesh::Mesh m = cube();
+  Support support{2.0, 0.0, 0.03, 0.0};
+  support.scatter = [](const Vec3& X) {
+    CHECK(X.z() == Approx(6.0));
+    return Mat3(Vec3(0.01, 0.04, 0.0).asDiagonal());
+  };
+  const Vec3 f = test::resultant(forces(m, support, {0.1, -0.2, 0.3}, {1.0, 2.0, -3.0}));
+  constexpr double area = 36.0;
+  CHECK(f.x() == Approx(-area * 0.01 * (2.0 * 0.1 + 0.03 * 1.0)));
+  CHECK(f.y() == Approx(-area * 0.04 * (2.0 * -0.2 + 0.03 * 2.0)));
+  CHECK(f.z() == Approx(-area * (2.0 * 0.3 + 0.03 * -3.0)));
+}
+
 TEST_CASE("a support of all directions is one spring", "[unit][solid]") {
   for (const mesh::Mesh& m : meshes()) {
     const Vec3 u(0.2, 0.1, -0.3);
