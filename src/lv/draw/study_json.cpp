@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <set>
 #include <tuple>
@@ -16,11 +15,10 @@ namespace lv::draw {
 namespace {
 
 using geometry::Contour;
+using geometry::Landmark;
 using geometry::Side;
 using nlohmann::json;
 
-constexpr std::array landmark_names{"centre", "septum_anterior", "septum_inferior", "apex_endo",
-                                    "apex_epi"};
 constexpr const char* what_page = "what the page sent";
 constexpr const char* reload = "Reload the page, and draw again what is wrong";
 
@@ -177,7 +175,8 @@ Landmark landmark_of(const json& said, const Study& study) {
   Landmark mark{said.at("name").get<std::string>(),
                 counted(said, "slice", study.cine.slices.size()), point(said.at("at")),
                 word(said, "by"), word(said, "when")};
-  if (std::find(landmark_names.begin(), landmark_names.end(), mark.name) == landmark_names.end())
+  const auto& names = geometry::landmark_names;
+  if (std::find(names.begin(), names.end(), mark.name) == names.end())
     throw InputError(what_page, "a landmark has an unknown name", reload);
   check_plane(mark.at, mark.slice, study);
   return mark;
@@ -199,8 +198,12 @@ Kept kept_of(const json& said, const Study& study) {
     std::sort(lines.begin(), lines.end(), [](const Contour& a, const Contour& b) {
       return std::tuple(a.slice, a.side) < std::tuple(b.slice, b.side);
     });
-  for (const json& mark : said.at("landmarks"))
-    kept.drawing.landmarks.push_back(landmark_of(mark, study));
+  for (const json& mark : said.at("landmarks")) {
+    Landmark read = landmark_of(mark, study);
+    if (geometry::find(kept.drawing.landmarks, read.name) != nullptr)
+      throw InputError(what_page, "a landmark is there twice", reload);
+    kept.drawing.landmarks.push_back(std::move(read));
+  }
   for (const json& sure : said.at("confidence"))
     kept.drawing.confidence.push_back(
         {counted(sure, "slice", study.cine.slices.size()), counted(sure, "phase", study.phases()),

@@ -169,6 +169,8 @@ TEST_CASE("what no page of ours would send is refused", "[draw]") {
       damaged("/landmarks",
               {{{"name", "../x"}, {"slice", 1}, {"at", {0, 0, 0}}, {"by", ""}, {"when", ""}}}),
       Contains("unknown name"));
+  const json mark{{"name", "centre"}, {"slice", 1}, {"at", {0, 0, 0}}, {"by", ""}, {"when", ""}};
+  CHECK_THAT(damaged("/landmarks", {mark, mark}), Contains("there twice"));
 }
 
 TEST_CASE("a wish to redraw a border is checked as a drawing is", "[draw]") {

@@ -24,7 +24,8 @@ export interface SaidStudy extends SaidProposal {
 export const sides: Side[] = ["endo", "epi"];
 export const sideNames: Record<Side, string> = { endo: "endocardium", epi: "epicardium" };
 export const landmarkNames: Record<string, string> = { centre: "centre of the blood", septum_anterior: "anterior insertion of the septum",
-  septum_inferior: "inferior insertion of the septum", apex_endo: "tip of the endocardium", apex_epi: "tip of the epicardium" };
+  septum_inferior: "inferior insertion of the septum", apex_endo: "tip of the endocardium", apex_epi: "tip of the epicardium",
+  annulus_1: "mitral annulus, a point", annulus_2: "mitral annulus, second point", annulus_3: "mitral annulus, third point", annulus_4: "mitral annulus, fourth point" };
 
 /** The name of a border among all: slice, phase and side. */
 export const keyOf = (slice: number, phase: number, side: Side) => `${slice}/${phase}/${side}`;
