@@ -43,6 +43,8 @@ target_link_libraries(itk INTERFACE ${ITK_LIBRARIES})
 find_path(MATIO_INCLUDE matio.h REQUIRED)
 find_library(MATIO matio REQUIRED)
 find_package(pugixml 1.13 REQUIRED)  # XML, as cvi42 writes it
+find_path(MINIZIP_INCLUDE minizip/unzip.h REQUIRED)  # cvi42's files in zip archives
+find_library(MINIZIP minizip REQUIRED)
 find_package(ZLIB REQUIRED)  # NIfTI images are packed with it
 # ITK brings an older Eigen of its own: the sources that include ITK or GDCM are told to use the system's. ITK's headers also
 # step back from the null pointer of an empty neighbourhood, which is no finding of ours. So they cannot share the precompiled header.

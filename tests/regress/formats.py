@@ -9,6 +9,7 @@ import pathlib
 import subprocess
 import sys
 import tempfile
+import zipfile
 import zlib
 
 try:
@@ -316,6 +317,10 @@ def check_cvi42(folder):
         f'<Hash:item Hash:key="StudyMapStates"><List:item><Hash:item Hash:key="ImageStates">{"".join(images)}</Hash:item></List:item>'
         "</Hash:item></Workspace>")
     check_refused(folder, "cvi42 without images", contour_file("study.cvi42wsx"), "anatomy.contour_file.images is not set")
+    with zipfile.ZipFile(folder / "packed.cvi42wsx", "w", zipfile.ZIP_DEFLATED) as packed:
+        packed.writestr("read me first.txt", "words")
+        packed.write(folder / "study.cvi42wsx", "workspaces/study.cvi42wsx")
+    check_wall(folder, "cvi42 in a zip archive", contour_file("packed.cvi42wsx", 'images = "images"\nphase = 1\n'), time=0)
     for phase in (1, 2):
         check_wall(folder, f"cvi42, time {phase}", contour_file("study.cvi42wsx", f'images = "images"\nphase = {phase}\n'), time=phase - 1)
 

@@ -2,7 +2,7 @@
 // node draw.mjs VENTRICLE [--case CASE.toml] [--screenshots FOLDER]   exit code 77: skipped
 // With --case only pictures are taken, of a case that is there.
 import { execFileSync, spawn } from "node:child_process";
-import { chmodSync, cpSync, existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { chmodSync, cpSync, existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
 import http from "node:http";
 import { createRequire } from "node:module";
 import { connect } from "node:net";
@@ -40,8 +40,8 @@ function makeStudy() {
 }
 
 /** Starts `ventricle draw` and waits for the address that it prints. */
-function start(file, { uid, more = [] } = {}) {
-  const child = spawn(program, ["draw", file, "--no-browser", ...more], { uid, gid: uid, cwd: folder });
+function start(file, { uid, more = ["--no-browser"], env = {} } = {}) {
+  const child = spawn(program, ["draw", file, ...more], { uid, gid: uid, cwd: folder, env: { ...process.env, ...env } });
   let said = "";
   child.stderr.on("data", (text) => { said += text; });
   const ended = new Promise((done) => child.on("exit", (code, signal) => done({ code, signal, said })));
@@ -180,6 +180,46 @@ async function checkRedraw(page) {
   await page.mouse.up();
   check("a closed stroke is a new border, drawn by hand", (await text(page, "#where")).includes("endocardium: drawn"), await text(page, "#where"));
   await page.getByLabel("pull a part").check();
+}
+
+const greenOf = (page) => topOf(page, [0x7d, 0xff, 0x5a]);
+
+/** A border is pulled by one point to where it does not run, and redrawn by the program through it. */
+async function checkRedrawFromPoints(page) {
+  await go(page, 6, 4);
+  await page.getByRole("button", { name: "Fit" }).click();
+  await page.locator("#from-points").click();
+  check("a border is not redrawn without a point", (await text(page, "#said")).startsWith("Pull the endocardium"), await text(page, "#said"));
+  const before = await volumeNow(page);
+  await page.locator("#smaller").evaluate((button) => { for (let k = 0; k < 12; ++k) button.click(); });
+  const small = await volumeNow(page);
+  await drag(page, await topOf(page, endoColour), [0, -25]);
+  check("what was pulled is a point, marked", (await greenOf(page)) !== undefined);
+  const times = [];
+  for (let k = 0; k < 5; ++k) {
+    const began = performance.now();
+    await page.locator("#from-points").click();
+    await waitFor(page, "#said", "The endocardium was redrawn through 1 point in");
+    times.push(performance.now() - began);
+    if (k < 4) await page.locator("#undo").click();
+  }
+  const told = await text(page, "#said");
+  console.log(`${told} Between click and line: ${times.map((t) => t.toFixed(0)).join(", ")} ms`);
+  check("it is redrawn in well under a second", times.sort((a, b) => a - b)[2] < 500, times.join());
+  const after = await volumeNow(page);
+  check("a border that was 6 mm too small is back at the image's edge", Math.abs(after - before) < 0.4 * (before - small), `${before} ${small} ${after}`);
+  check("the point is on it and stays", (await greenOf(page)) !== undefined && (await text(page, "#where")).includes("endocardium: corrected"), await text(page, "#where"));
+  await shot(page, "redrawn-from-points");
+  await page.getByLabel("set points").check();
+  const box = await page.locator("canvas.slice").boundingBox();
+  await page.mouse.click(box.x + box.width / 2 - 120, box.y + box.height / 2);
+  check("a click sets another", (await text(page, "#said")).startsWith("2 points set"), await text(page, "#said"));
+  await page.locator("#drop-points").click();
+  check("points are dropped", (await greenOf(page)) === undefined);
+  await page.getByLabel("pull a part").check();
+  const made = await changes(page);
+  for (let k = 0; k < made; ++k) await page.locator("#undo").click();
+  check("all of it can be undone", (await volumeNow(page)) === before);
 }
 
 async function checkSave(page) {
@@ -348,10 +388,34 @@ async function checkServer(url) {
   for (const address of hosts) check(`nothing listens on ${address}`, !(await listensOn(address, port)));
 }
 
+/** The file that sends the browser on holds the token: it is there for this user alone, and only until the browser has come. */
+async function checkBrowserFile() {
+  const tools = join(folder, "tools");
+  mkdirSync(tools);
+  writeFileSync(join(tools, "xdg-open"), `#!/bin/sh\nprintf %s "$1" > '${tools}/opened.part' && mv '${tools}/opened.part' '${tools}/opened'\n`, { mode: 0o755 });
+  const env = { PATH: `${tools}:${process.env.PATH}`, DISPLAY: ":77", TMPDIR: tools };
+  const opened = async (server) => {
+    for (let k = 0; k < 100 && !existsSync(join(tools, "opened")); ++k) await new Promise((done) => setTimeout(done, 50));
+    const file = readFileSync(join(tools, "opened"), "utf8");
+    rmSync(join(tools, "opened"));
+    return { file, whole: readFileSync(file, "utf8").includes(server.url), mode: statSync(file).mode & 0o777 };
+  };
+  const server = await start(caseFile, { more: ["--to", join(folder, "file")], env });
+  const { file, whole, mode } = await opened(server);
+  check("the browser is handed a file for this user alone", whole && mode === 0o600, mode.toString(8));
+  await (await fetch(server.url)).text();
+  check("which is gone when the page was fetched", !existsSync(file));
+  await server.stop();
+  const unseen = await start(caseFile, { more: ["--to", join(folder, "file")], env });
+  const left = await opened(unseen);
+  await unseen.stop("SIGINT");
+  check("and at the end, if it never was", !existsSync(left.file));
+}
+
 /** Everything by the keyboard: to the picture by Tab, then its keys. */
 async function checkKeyboard() {
   const own = join(folder, "keyboard");
-  const server = await start(caseFile, { more: ["--to", own] });
+  const server = await start(caseFile, { more: ["--no-browser", "--to", own] });
   const { page, said, context } = await open(server.url);
   let tabs = 0;
   while (!(await page.evaluate(() => document.activeElement?.matches("canvas.slice")))) {
@@ -365,6 +429,11 @@ async function checkKeyboard() {
   await press("PageDown", "PageDown", ".", ",");
   check("keys go through slices and phases", (await text(page, "#where")).startsWith("slice 5"), await text(page, "#where"));
   const before = await volumeNow(page);
+  await press("n", "x", "r");
+  await page.waitForFunction(() => /redrawn through 1 point|Not redrawn/.test(document.querySelector("#said").textContent));
+  check("X and R redraw a border through a point", (await text(page, "#said")).includes("redrawn through 1 point"), await text(page, "#said"));
+  await press("Control+z", "Control+z");
+  check("and Ctrl+Z takes it back", (await volumeNow(page)) === before);
   await press("n", "n", "Shift+ArrowLeft", "ArrowLeft", "ArrowUp");
   check("arrows move the selected point", (await text(page, "#where")).includes("corrected; point") && (await volumeNow(page)) !== before, await text(page, "#where"));
   check("taps of a key are one change", (await changes(page)) === 1);
@@ -395,6 +464,7 @@ async function checkExport() {
   const { page, said, asked } = await open(pathToFileURL(file).href, context);
   check("the exported page works from a file without a network", said.length === 0 && asked.every((to) => !to.startsWith("http")), said.join("\n") + asked.join());
   check("it says where the result goes", (await text(page, "#save")) === "Download the result");
+  check("and that redrawing needs the program", (await text(page, "#from-points")).includes("needs ventricle draw itself") && await page.locator("#from-points").isDisabled());
   await go(page, 6, 1);
   await page.getByRole("button", { name: "Fit" }).click();
   await drag(page, await topOf(page, endoColour), [0, -15]);
@@ -447,7 +517,7 @@ async function observe(page, own, moments) {
 
 async function checkFiveCorrections() {
   const own = join(folder, "five");
-  const server = await start(caseFile, { more: ["--to", own] });
+  const server = await start(caseFile, { more: ["--no-browser", "--to", own] });
   const { page, context } = await open(server.url);
   const truth = JSON.parse(readFileSync(join(study, "truth.json"), "utf8"));
   const moments = [["end_diastole", "ed"], ["end_systole", "es"]].map(([moment, file]) =>
@@ -472,7 +542,7 @@ async function checkFiveCorrections() {
 }
 
 async function takePictures(file) {
-  const server = await start(file, { more: ["--to", join(folder, "pictures")] });
+  const server = await start(file, { more: ["--no-browser", "--to", join(folder, "pictures")] });
   const { page, said } = await open(server.url);
   console.log(said.join("\n"));
   await shot(page, "first");
@@ -492,6 +562,7 @@ async function checkAll() {
   const one = await open(server.url);
   await checkLoad(one.page, one.said, one.asked, server.url);
   await shot(one.page, "loaded");
+  await checkRedrawFromPoints(one.page);
   await checkDrag(one.page);
   await checkRedraw(one.page);
   await shot(one.page, "redrawn");
@@ -504,6 +575,7 @@ async function checkAll() {
   await one.context.close();
   await checkReadOnly();
   await checkKeyboard();
+  await checkBrowserFile();
   await checkExport();
   await checkFiveCorrections();
 }

@@ -1,5 +1,6 @@
 #include "lv/anatomy/drawn.hpp"
 
+#include "lv/anatomy/named_points.hpp"
 #include "lv/anatomy/proposals.hpp"
 #include "lv/base/check.hpp"
 #include "lv/base/units.hpp"
@@ -418,6 +419,7 @@ double volume_of(const geometry::Contours& contours) {
 
 Drawn read_drawn(const Case& c) {
   Drawn drawn = read_source(c);
+  add_landmarks(c, drawn);
   const double thinnest = c.anatomy.contours.fit.thinnest_wall;
   const bool mended = c.anatomy.source != case_file::AnatomySource::contours &&
                       c.anatomy.source != case_file::AnatomySource::surfaces;

@@ -55,6 +55,7 @@ enum class BaseChoice { automatic, slice, slab, annulus };
 struct ContourAnatomy {
   std::string short_axis, long_axis, apex_endo, apex_epi;
   std::string es_short_axis;  ///< drawn at end-systole, for comparison
+  std::string landmarks;      ///< points that an observer named
   BaseChoice base_at = BaseChoice::automatic;
   geometry::SplineFitParameters fit;
 };

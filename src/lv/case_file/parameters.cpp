@@ -91,6 +91,11 @@ constexpr Group of_anatomy[]{
     {Stages(Stage::strain, Stage::anatomy),
      {&septum_shown},
      {
+         path("anatomy.contours.landmarks", LV_AT(anatomy.contours.landmarks),
+              "CSV of landmarks as ventricle draw saves it (landmark, slice, x_mm, y_mm, z_mm, by, "
+              "when): insertions of the septum, tips of both surfaces, points of the mitral "
+              "annulus, "
+              "which then is where base_at = \"automatic\" lays the base plane; may be left out"),
          number("anatomy.contours.septum_point", LV_AT(anatomy.contours.fit.frame.septum), "mm",
                 any,
                 "a point of the middle of the septum in scanner coordinates: "

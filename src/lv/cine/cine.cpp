@@ -1,5 +1,6 @@
 #include "lv/cine/cine.hpp"
 
+#include "lv/anatomy/named_points.hpp"
 #include "lv/anatomy/proposals.hpp"
 #include "lv/base/check.hpp"
 #include "lv/base/formats.hpp"
@@ -154,12 +155,14 @@ std::size_t slice_with(const image::Cine& cine, const Contour& loop) {
 }
 
 /// The direction about the long axis that sectors are counted from.
-Vec3 septum_point(const Case& c, const geometry::LongAxis& axis, std::vector<std::string>& notes) {
+Vec3 septum_point(const Case& c, const geometry::LongAxis& axis, CineStudy& study) {
   const auto& own = c.strain.septum_point;
   const auto& anatomy = c.anatomy.contours.fit.frame.septum;
   if (own || anatomy)
     return Vec3((own ? own : anatomy)->data());
-  notes.emplace_back(
+  if (const auto named = anatomy::named_septum(c, study.drawn, study.notes))
+    return *named;
+  study.notes.emplace_back(
       "the septum is assumed towards the patient's right: sectors bear the wrong names if it is "
       "elsewhere (set strain.septum_point)");
   const Vec3 right = -Vec3::UnitX();
@@ -174,7 +177,7 @@ strain::Orientation orientation(const Case& c, CineStudy& study) {
   o.base = geometry::mean_of(geometry::find(study.drawn.short_axis, basal, Side::endo)->points) +
            0.5 * study.spacing * axis.up;
   o.apex = geometry::endo_apex(study.drawn);
-  o.septum = septum_point(c, axis, study.notes);
+  o.septum = septum_point(c, axis, study);
   return o;
 }
 

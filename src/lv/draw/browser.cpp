@@ -23,7 +23,10 @@ fs::path private_file(const std::string& text) {
     return {};
   const bool whole = write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size());
   close(file);
-  return whole ? fs::path(name) : fs::path();
+  if (whole)
+    return name;
+  fs::remove(name, error);
+  return {};
 }
 
 /// Starts a program by itself, its words unseen.

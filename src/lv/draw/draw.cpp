@@ -18,6 +18,7 @@
 #include <nlohmann/json.hpp>
 #include <zlib.h>
 
+#include <optional>
 #include <string_view>
 
 namespace lv::draw {
@@ -45,6 +46,13 @@ Answer slice_of(const Study& study, std::string_view number) {
           slice_bytes(study, static_cast<std::size_t>(*slice - 1))};
 }
 
+std::string redrawn(const Study& study, const std::string& body) {
+  const Redrawn asked = read_wish(body, study);
+  return points_json(segment::redraw(study.cine.slices[asked.slice], asked.wish,
+                                     study.settings.anatomy.cine.segmentation.fall,
+                                     "what the page sent"));
+}
+
 /// All that the page asks for.
 Answer answer(Study& study, const Request& request) {
   constexpr std::string_view slices = "slice/";
@@ -64,6 +72,8 @@ Answer answer(Study& study, const Request& request) {
     return keep(study, request.body, place == "overwrite");
   if (place == "segment")
     return {200, "application/json", proposal_json(propose(study, read_centre(request.body)))};
+  if (place == "redraw")
+    return {200, "application/json", redrawn(study, request.body)};
   return refused(404, "there is nothing of this name");
 }
 
@@ -101,7 +111,10 @@ std::string page_with(const Study& study) {
 
 void serve(Study& study, bool browser) {
   const NamesAlone names({fs::absolute(study.folder).parent_path(), study.folder.parent_path()});
+  std::optional<OpenPage> page;  // until the browser has come: its file need not stay
   Server server([&](const Request& request) {
+    if (request.place.empty())
+      page.reset();
     try {
       return answer(study, request);
     } catch (const InputError& error) {
@@ -114,7 +127,7 @@ void serve(Study& study, bool browser) {
       fmt::format("{}\nThis address works on this machine alone, until Ctrl-C ends this program. "
                   "What is saved goes to {}\n",
                   server.address(), study.folder.string()));
-  const OpenPage page(browser ? server.address() : "");
+  page.emplace(browser ? server.address() : "");
   server.run();
   print("ended\n");
 }

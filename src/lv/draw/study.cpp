@@ -11,7 +11,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <sstream>
 
@@ -20,6 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using geometry::Contour;
+using geometry::Landmark;
 using geometry::Side;
 
 fs::path phase_file(const fs::path& folder, std::size_t phase) {
@@ -74,19 +74,8 @@ std::vector<Confidence> read_confidence(const fs::path& file) {
   return all;
 }
 
-std::vector<Landmark> read_landmarks(const fs::path& file) {
-  std::vector<Landmark> all;
-  if (!fs::exists(file))
-    return all;
-  const Table table = Table::read_csv(file);
-  const auto names = table.words("landmark");
-  const auto slices = table.whole_numbers("slice");
-  const std::array x{table.numbers("x_mm"), table.numbers("y_mm"), table.numbers("z_mm")};
-  const auto by = table.words("by");
-  const auto when = table.words("when");
-  for (std::size_t i = 0; i < names.size(); ++i)
-    all.push_back({names[i], slices[i], {x[0][i], x[1][i], x[2][i]}, by[i], when[i]});
-  return all;
+std::vector<Landmark> kept_landmarks(const fs::path& file) {
+  return fs::exists(file) ? geometry::read_landmarks(file) : std::vector<Landmark>{};
 }
 
 Proposal proposal_of(const image::Cine& cine, const segment::Segmentation& found) {
@@ -190,13 +179,8 @@ void write_phase(const fs::path& file, const std::vector<Contour>& lines) {
     fs::remove(file);
 }
 
-void write_landmarks(const Drawing& drawing, const fs::path& folder) {
-  Table table({"landmark", "slice", "x_mm", "y_mm", "z_mm", "by", "when"});
-  const auto number = [](double x) { return fmt::format("{:.3f}", x); };
-  for (const Landmark& mark : drawing.landmarks)
-    table.add_row({mark.name, std::to_string(mark.slice), number(mark.at.x()), number(mark.at.y()),
-                   number(mark.at.z()), mark.by, mark.when});
-  table.write_csv(folder / "landmarks.csv");
+void write_marks(const Drawing& drawing, const fs::path& folder) {
+  geometry::write_landmarks(drawing.landmarks, folder / "landmarks.csv");
   for (const Side side : {Side::endo, Side::epi}) {
     const std::string name = fmt::format("apex_{}", geometry::name(side));
     std::vector<Contour> tip;
@@ -253,7 +237,7 @@ Study open_study(const case_file::Case& c, const fs::path& folder) {
   study.saved = fs::exists(folder / "contours");
   if (study.saved)
     study.drawing = {read_lines(folder, study.cine, "drawn"),
-                     read_landmarks(folder / "landmarks.csv"),
+                     kept_landmarks(folder / "landmarks.csv"),
                      read_confidence(folder / "quality.csv")};
   else
     study.drawing = {study.proposal.lines, {}, study.proposal.confidence};
@@ -275,7 +259,7 @@ void save(Study& study, Drawing drawing) {
   fs::create_directories(study.folder / "contours");
   for (std::size_t t = 0; t < drawing.lines.size(); ++t)
     write_phase(phase_file(study.folder, t), drawing.lines[t]);
-  write_landmarks(drawing, study.folder);
+  write_marks(drawing, study.folder);
   write_quality(drawing, study.folder);
   write_volumes(drawing, study.spacing, study.folder);
   study.drawing = std::move(drawing);

@@ -2,6 +2,7 @@
 
 #include "lv/case_file/case.hpp"
 #include "lv/geometry/contours.hpp"
+#include "lv/geometry/landmarks.hpp"
 #include "lv/segment/segment.hpp"
 
 #include <filesystem>
@@ -19,14 +20,6 @@ struct Confidence {
   double endo = 0.0, epi = 0.0;
 };
 
-/// A point that an observer named.
-struct Landmark {
-  std::string name;  ///< one of landmark_names
-  int slice = 0;     ///< from 1
-  Vec3 at = Vec3::Zero();
-  std::string by, when;
-};
-
 /// What the program proposes.
 struct Proposal {
   Lines lines;
@@ -37,7 +30,7 @@ struct Proposal {
 /// What observer and program have drawn in a cine.
 struct Drawing {
   Lines lines;
-  std::vector<Landmark> landmarks;
+  std::vector<geometry::Landmark> landmarks;
   std::vector<Confidence> confidence;
 };
 
@@ -75,7 +68,7 @@ struct Study {
 /// Writes into the study's folder
 ///
 ///   contours/phase_NN.csv  the borders of a phase, as anatomy.source = "contours" reads them
-///   landmarks.csv          points that an observer named
+///   landmarks.csv          points that an observer named, as anatomy.contours.landmarks reads them
 ///   apex_endo.csv, apex_epi.csv  those of the tip, as anatomy.contours.apex_endo reads them
 ///   quality.csv            confidence of the proposal that the drawing started from
 ///   volumes.csv            cavity and muscle per phase, areas times spacing

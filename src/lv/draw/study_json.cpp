@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <set>
 #include <tuple>
@@ -16,11 +15,10 @@ namespace lv::draw {
 namespace {
 
 using geometry::Contour;
+using geometry::Landmark;
 using geometry::Side;
 using nlohmann::json;
 
-constexpr std::array landmark_names{"centre", "septum_anterior", "septum_inferior", "apex_endo",
-                                    "apex_epi"};
 constexpr const char* what_page = "what the page sent";
 constexpr const char* reload = "Reload the page, and draw again what is wrong";
 
@@ -29,21 +27,24 @@ json numbers(const Vec3& x) {
   return {rounded(x.x()), rounded(x.y()), rounded(x.z())};
 }
 
+json all_numbers(const std::vector<Vec3>& points) {
+  json all = json::array();
+  for (const Vec3& x : points)
+    all.push_back(numbers(x));
+  return all;
+}
+
 json lines_json(const Lines& lines) {
   json all = json::array();
   for (std::size_t t = 0; t < lines.size(); ++t)
-    for (const Contour& line : lines[t]) {
-      json points = json::array();
-      for (const Vec3& x : line.points)
-        points.push_back(numbers(x));
+    for (const Contour& line : lines[t])
       all.push_back({{"slice", line.slice},
                      {"phase", t + 1},
                      {"side", geometry::name(line.side)},
-                     {"points", std::move(points)},
+                     {"points", all_numbers(line.points)},
                      {"how", line.drawn.how},
                      {"by", line.drawn.by},
                      {"when", line.drawn.when}});
-    }
   return all;
 }
 
@@ -118,36 +119,64 @@ void check_plane(const Vec3& x, int slice, const Study& study) {
     throw InputError(what_page, fmt::format("a point lies off slice {}", slice), reload);
 }
 
+/// So many points of a slice.
+std::vector<Vec3> points_of(const json& said, int slice, const Study& study, std::size_t fewest,
+                            std::size_t most) {
+  if (said.size() < fewest || said.size() > most)
+    throw InputError(what_page, fmt::format("a line of slice {} has {} points", slice, said.size()),
+                     reload);
+  std::vector<Vec3> points;
+  for (const json& x : said) {
+    points.push_back(point(x));
+    check_plane(points.back(), slice, study);
+  }
+  return points;
+}
+
+constexpr std::size_t fewest_of_line = 3;
+constexpr std::size_t most_of_line = 2000;
+
+Side side_of(const json& said) {
+  const std::string side = said.at("side").get<std::string>();
+  if (side != "endo" && side != "epi")
+    throw InputError(what_page, "a line is neither endo nor epi", reload);
+  return side == "endo" ? Side::endo : Side::epi;
+}
+
 Contour line_of(const json& said, const Study& study) {
-  constexpr std::size_t fewest = 3;
-  constexpr std::size_t most = 2000;
   Contour line;
   line.slice = counted(said, "slice", study.cine.slices.size());
-  const std::string side = said.at("side").get<std::string>();
+  line.side = side_of(said);
   const std::string how = said.at("how").get<std::string>();
-  if ((side != "endo" && side != "epi") ||
-      (how != "proposed" && how != "corrected" && how != "drawn"))
-    throw InputError(what_page, "a line is neither endo nor epi, or not said how it was drawn",
-                     reload);
-  line.side = side == "endo" ? Side::endo : Side::epi;
+  if (how != "proposed" && how != "corrected" && how != "drawn")
+    throw InputError(what_page, "a line does not say how it was drawn", reload);
   line.drawn = {how, word(said, "by"), word(said, "when")};
-  if (said.at("points").size() < fewest || said.at("points").size() > most)
-    throw InputError(
-        what_page,
-        fmt::format("a line of slice {} has {} points", line.slice, said.at("points").size()),
-        reload);
-  for (const json& x : said.at("points")) {
-    line.points.push_back(point(x));
-    check_plane(line.points.back(), line.slice, study);
-  }
+  line.points = points_of(said.at("points"), line.slice, study, fewest_of_line, most_of_line);
   return line;
+}
+
+Redrawn wish_of(const json& said, const Study& study) {
+  constexpr std::size_t most_points = 100;
+  const int slice = counted(said, "slice", study.cine.slices.size());
+  const auto line = [&](const char* name) {
+    return said.at(name).empty()
+               ? std::vector<Vec3>()
+               : points_of(said.at(name), slice, study, fewest_of_line, most_of_line);
+  };
+  return {static_cast<std::size_t>(slice - 1),
+          {.side = side_of(said),
+           .frame = static_cast<std::size_t>(counted(said, "phase", study.phases()) - 1),
+           .points = points_of(said.at("points"), slice, study, 1, most_points),
+           .endo = line("endo"),
+           .epi = line("epi")}};
 }
 
 Landmark landmark_of(const json& said, const Study& study) {
   Landmark mark{said.at("name").get<std::string>(),
                 counted(said, "slice", study.cine.slices.size()), point(said.at("at")),
                 word(said, "by"), word(said, "when")};
-  if (std::find(landmark_names.begin(), landmark_names.end(), mark.name) == landmark_names.end())
+  const auto& names = geometry::landmark_names;
+  if (std::find(names.begin(), names.end(), mark.name) == names.end())
     throw InputError(what_page, "a landmark has an unknown name", reload);
   check_plane(mark.at, mark.slice, study);
   return mark;
@@ -169,8 +198,12 @@ Kept kept_of(const json& said, const Study& study) {
     std::sort(lines.begin(), lines.end(), [](const Contour& a, const Contour& b) {
       return std::tuple(a.slice, a.side) < std::tuple(b.slice, b.side);
     });
-  for (const json& mark : said.at("landmarks"))
-    kept.drawing.landmarks.push_back(landmark_of(mark, study));
+  for (const json& mark : said.at("landmarks")) {
+    Landmark read = landmark_of(mark, study);
+    if (geometry::find(kept.drawing.landmarks, read.name) != nullptr)
+      throw InputError(what_page, "a landmark is there twice", reload);
+    kept.drawing.landmarks.push_back(std::move(read));
+  }
   for (const json& sure : said.at("confidence"))
     kept.drawing.confidence.push_back(
         {counted(sure, "slice", study.cine.slices.size()), counted(sure, "phase", study.phases()),
@@ -221,6 +254,14 @@ Kept read_kept(const std::string& text, const Study& study) {
 
 Vec3 read_centre(const std::string& text) {
   return from_text(text, [](const json& said) { return point(said.at("centre")); });
+}
+
+Redrawn read_wish(const std::string& text, const Study& study) {
+  return from_text(text, [&](const json& said) { return wish_of(said, study); });
+}
+
+std::string points_json(const std::vector<Vec3>& points) {
+  return json_text(json{{"points", all_numbers(points)}}, -1);
 }
 
 std::string slice_bytes(const Study& study, std::size_t slice) {

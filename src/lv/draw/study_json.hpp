@@ -1,8 +1,10 @@
 #pragma once
 
 #include "lv/draw/study.hpp"
+#include "lv/segment/redraw.hpp"
 
 #include <string>
+#include <vector>
 
 namespace lv::draw {
 
@@ -25,6 +27,19 @@ struct Kept {
 
 /// The point {"centre": [x, y, z]} [mm]. Throws InputError.
 [[nodiscard]] Vec3 read_centre(const std::string& json);
+
+/// A border that a page wants drawn again: {"slice": 3, "phase": 1, "side": "endo", "points":
+/// [...], "endo": [...], "epi": [...]}, lines that are not there empty.
+struct Redrawn {
+  std::size_t slice = 0;  ///< from 0
+  segment::BorderWish wish;
+};
+
+/// Reads and checks it: one to 100 points, lines as read_kept takes them. Throws InputError.
+[[nodiscard]] Redrawn read_wish(const std::string& json, const Study& study);
+
+/// {"points": [...]}
+[[nodiscard]] std::string points_json(const std::vector<Vec3>& points);
 
 /// The pictures of a slice, a byte per pixel, phase by phase, row by row: 0 and 255 stand for the
 /// darkest and brightest thousandth of the study.

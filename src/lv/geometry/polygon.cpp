@@ -1,5 +1,7 @@
 #include "lv/geometry/polygon.hpp"
 
+#include <algorithm>
+
 namespace lv::geometry {
 
 bool encloses(const Polygon& polygon, const Eigen::Vector2d& point) {
@@ -12,6 +14,21 @@ bool encloses(const Polygon& polygon, const Eigen::Vector2d& point) {
       in = !in;
   }
   return in;
+}
+
+double farthest_crossing(const Polygon& polygon, const Eigen::Vector2d& ray) {
+  double farthest = 0.0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Eigen::Vector2d& a = polygon[i];
+    const Eigen::Vector2d e = polygon[(i + 1) % polygon.size()] - a;
+    const double det = ray.y() * e.x() - ray.x() * e.y();
+    if (det == 0.0)
+      continue;
+    const double s = (ray.x() * a.y() - ray.y() * a.x()) / det;
+    if (s >= 0.0 && s <= 1.0)
+      farthest = std::max(farthest, (a.y() * e.x() - a.x() * e.y()) / det);
+  }
+  return farthest;
 }
 
 }  // namespace lv::geometry

@@ -33,22 +33,6 @@ std::vector<Vec2> in_plane(const Contour& loop, const Frame& plane) {
   return points;
 }
 
-/// How far out a ray from the origin last crosses a loop; 0 if it never does.
-double reach(const std::vector<Vec2>& loop, const Vec2& ray) {
-  double farthest = 0.0;
-  for (std::size_t i = 0; i < loop.size(); ++i) {
-    const Vec2& a = loop[i];
-    const Vec2 e = loop[(i + 1) % loop.size()] - a;
-    const double det = ray.y() * e.x() - ray.x() * e.y();
-    if (det == 0.0)
-      continue;
-    const double s = (ray.x() * a.y() - ray.y() * a.x()) / det;
-    if (s >= 0.0 && s <= 1.0)
-      farthest = std::max(farthest, (a.y() * e.x() - a.x() * e.y()) / det);
-  }
-  return farthest;
-}
-
 /// Radius of the endocardium and thickness of the wall along each ray.
 struct Wall {
   std::vector<double> inner, thickness;
@@ -84,8 +68,9 @@ Wall measure(const Contour& endo, const Contour& epi, const Frame& plane, double
   const auto outside = in_plane(epi, plane);
   Wall wall;
   for (int k = 0; k < rays; ++k) {
-    wall.inner.push_back(reach(inside, direction(k)));
-    wall.thickness.push_back(reach(outside, direction(k)) - wall.inner.back());
+    wall.inner.push_back(geometry::farthest_crossing(inside, direction(k)));
+    wall.thickness.push_back(geometry::farthest_crossing(outside, direction(k)) -
+                             wall.inner.back());
   }
   wall.there = rays_there(wall.thickness, least);
   return wall;

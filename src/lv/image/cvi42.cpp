@@ -3,14 +3,20 @@
 #include "lv/base/check.hpp"
 #include "lv/base/lines.hpp"
 #include "lv/base/printable.hpp"
+#include "lv/base/table.hpp"
+#include "lv/image/first_bytes.hpp"
 
 #include <fmt/format.h>
+#include <minizip/unzip.h>
 #include <pugixml.hpp>
 
-#include <array>
+#include <algorithm>
 #include <cmath>
-#include <fstream>
+#include <memory>
+#include <optional>
+#include <string>
 #include <string_view>
+#include <utility>
 
 namespace lv::image {
 namespace {
@@ -18,8 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void fail_cvi42(const fs::path& file, const std::string& what) {
-  throw InputError(file.string(), what,
-                   "Export the workspace again as XML (.cvi42wsx); a packed one must be unpacked");
+  throw InputError(file.string(), what, "Export the workspace again as XML (.cvi42wsx)");
 }
 
 /// The next element of a document, children first; none at its end.
@@ -85,20 +90,89 @@ void add_contours(const fs::path& file, const pugi::xml_node& image, ForeignCont
   }
 }
 
-}  // namespace
+constexpr std::size_t seen_of_workspace = 4096;  // bytes that tell one
 
-bool holds_cvi42(const fs::path& file) {
-  std::array<char, 4096> bytes{};
-  std::ifstream stream(file, std::ios::binary);
-  stream.read(bytes.data(), bytes.size());
-  const std::string_view begin(bytes.data(), static_cast<std::size_t>(stream.gcount()));
+bool begins_workspace(std::string_view begin) {
+  begin = begin.substr(0, seen_of_workspace);
   return begin.find("circlecvi.com/cvi42") != std::string_view::npos &&
          begin.find('<') != std::string_view::npos;
 }
 
+bool is_zip(std::string_view begin) {
+  return begin.starts_with("PK\x03\x04");
+}
+
+/// A zip archive, its files one after the other.
+class Archive {
+ public:
+  explicit Archive(const fs::path& file)
+      : zip_(unzOpen64(file.c_str()), &unzClose),
+        found_(zip_ != nullptr && unzGoToFirstFile(zip_.get()) == UNZ_OK) {}
+  [[nodiscard]] bool at_file() const { return found_; }
+  void next() { found_ = unzGoToNextFile(zip_.get()) == UNZ_OK; }
+
+  /// The file that is reached, or so much of it; none if it is damaged.
+  [[nodiscard]] std::optional<std::string> text(std::size_t most) const {
+    if (unzOpenCurrentFile(zip_.get()) != UNZ_OK)
+      return std::nullopt;
+    std::string all;
+    std::string part(std::size_t{1} << 16, '\0');
+    int count = 1;
+    while (count > 0 && all.size() < most) {
+      count = unzReadCurrentFile(zip_.get(), part.data(), static_cast<unsigned>(part.size()));
+      all.append(part, 0, static_cast<std::size_t>(std::max(count, 0)));
+    }
+    const bool is_right = unzCloseCurrentFile(zip_.get()) == UNZ_OK;  // the sum of its bytes
+    if (count < 0 || !is_right)
+      return std::nullopt;
+    return all;
+  }
+
+ private:
+  std::unique_ptr<void, decltype(&unzClose)> zip_;
+  bool found_;
+};
+
+/// Goes to the workspace of an archive.
+bool find_workspace(Archive& archive) {
+  for (; archive.at_file(); archive.next())
+    if (const auto begin = archive.text(seen_of_workspace); begin && begins_workspace(*begin))
+      return true;
+  return false;
+}
+
+/// The XML of a file.
+std::string workspace_text(const fs::path& file) {
+  constexpr std::size_t most = std::size_t{256} << 20;  // workspaces are a hundredth of it
+  if (!is_zip(first_bytes(file, seen_of_workspace)))
+    return read_file(file);
+  Archive archive(file);
+  if (!find_workspace(archive))
+    fail_cvi42(file, "is a zip archive without a workspace");
+  std::optional<std::string> text = archive.text(most);
+  if (!text)
+    fail_cvi42(file, "is a zip archive whose workspace is damaged");
+  if (text->size() >= most)
+    fail_cvi42(file, fmt::format("unpacks to more than {} MB", most >> 20));
+  return std::move(*text);
+}
+
+bool packs_workspace(const fs::path& file) {
+  Archive archive(file);
+  return find_workspace(archive);
+}
+
+}  // namespace
+
+bool holds_cvi42(const fs::path& file) {
+  const std::string begin = first_bytes(file, seen_of_workspace);
+  return is_zip(begin) ? packs_workspace(file) : begins_workspace(begin);
+}
+
 ForeignContours read_cvi42(const fs::path& file) {
+  const std::string text = workspace_text(file);
   pugi::xml_document document;
-  if (const auto parsed = document.load_file(file.c_str()); !parsed)
+  if (const auto parsed = document.load_buffer(text.data(), text.size()); !parsed)
     fail_cvi42(file, fmt::format("cannot be read as XML: {} at byte {}", parsed.description(),
                                  parsed.offset));
   ForeignContours drawn{file.string(),          "a workspace of cvi42", true, {},

@@ -4,7 +4,6 @@
 #include "lv/base/memory.hpp"
 #include "lv/base/trial.hpp"
 #include "lv/image/dicom_file.hpp"
-#include "lv/image/dicom_stream.hpp"
 #include "lv/image/dicom_values.hpp"
 #include "lv/image/place.hpp"
 #include "lv/image/segments.hpp"
@@ -13,8 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
-#include <new>
 #include <set>
 
 namespace lv::image {
@@ -23,9 +20,11 @@ namespace {
 namespace fs = std::filesystem;
 using gdcm::Tag;
 
+constexpr const char* segmentation_remedy =
+    "Export it again as an uncompressed DICOM segmentation, or as NIfTI or NRRD";
+
 [[noreturn]] void fail_segmentation(const fs::path& file, const std::string& what) {
-  throw InputError(file.string(), what,
-                   "Export it again as an uncompressed DICOM segmentation, or as NIfTI or NRRD");
+  throw InputError(file.string(), what, segmentation_remedy);
 }
 
 /// One frame: a segment on a plane.
@@ -247,23 +246,10 @@ Volume segmentation_in(const fs::path& file, const DicomValues& values) {
 }
 
 Volume read_file_of_segments(const fs::path& file) {
-  try {
-    const DicomStream stream = open_dicom(file);
-    gdcm::Reader reader;
-    reader.SetStream(*stream.bytes);
-    if (!reader.Read())
-      fail_segmentation(file, "cannot be read: its DICOM data are truncated or damaged");
-    return segmentation_in(file, DicomValues(reader.GetFile().GetDataSet()));
-  } catch (const InputError&) {
-    throw;
-  } catch (const RunError&) {
-    throw;
-  } catch (const std::bad_alloc&) {
-    throw;  // ends the trial in the child
-  } catch (const std::exception& error) {
-    fail_segmentation(file,
-                      fmt::format("cannot be read: its DICOM data are damaged: {}", error.what()));
-  }
+  Volume volume;
+  with_data_set(file, segmentation_remedy,
+                [&](const DicomValues& values) { volume = segmentation_in(file, values); });
+  return volume;
 }
 
 }  // namespace

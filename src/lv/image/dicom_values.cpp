@@ -1,7 +1,9 @@
 #include "lv/image/dicom_values.hpp"
 
+#include "lv/base/check.hpp"
 #include "lv/base/lines.hpp"
 #include "lv/base/printable.hpp"
+#include "lv/image/dicom_stream.hpp"
 #include "lv/image/dicom_text.hpp"
 
 #include <fmt/format.h>
@@ -9,6 +11,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
+#include <new>
 
 namespace lv::image {
 
@@ -31,6 +35,29 @@ void silence_gdcm() {
     return true;
   }();
   static_cast<void>(once);
+}
+
+void with_data_set(const std::filesystem::path& file, const std::string& remedy,
+                   const std::function<void(const DicomValues&)>& use) {
+  try {
+    const DicomStream stream = open_dicom(file);
+    gdcm::Reader reader;
+    reader.SetStream(*stream.bytes);
+    if (!reader.Read())
+      throw InputError(file.string(), "cannot be read: its DICOM data are truncated or damaged",
+                       remedy);
+    use(DicomValues(reader.GetFile().GetDataSet()));
+  } catch (const InputError&) {
+    throw;
+  } catch (const RunError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;  // ends the trial in the child
+  } catch (const std::exception& error) {
+    throw InputError(file.string(),
+                     fmt::format("cannot be read: its DICOM data are damaged: {}", error.what()),
+                     remedy);
+  }
 }
 
 std::string_view DicomValues::bytes(const Tag& tag) const {

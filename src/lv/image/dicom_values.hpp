@@ -9,6 +9,8 @@
 
 #include <cmath>
 #include <cstring>
+#include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -53,6 +55,12 @@ class DicomValues {
  private:
   const gdcm::DataSet* set_;
 };
+
+/// Lets `use` look at the values of a file, read up to what pixels it may have. Throws InputError
+/// with the remedy where its DICOM data are truncated or damaged, also as GDCM finds while they are
+/// looked at.
+void with_data_set(const std::filesystem::path& file, const std::string& remedy,
+                   const std::function<void(const DicomValues&)>& use);
 
 /// The functional groups of one frame: its own, else those that all frames share.
 class FrameGroups {

@@ -5,6 +5,7 @@
 #include "lv/base/lines.hpp"
 #include "lv/base/memory.hpp"
 #include "lv/base/trial.hpp"
+#include "lv/image/first_bytes.hpp"
 #include "lv/image/place.hpp"
 
 #include <fmt/format.h>
@@ -12,7 +13,6 @@
 
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <iostream>
 #include <limits>
 #include <sstream>
@@ -50,11 +50,8 @@ double claimed_bytes(const MetaImage& meta) {
 
 /// Whether the header has any of these keys.
 bool states(const fs::path& file, std::initializer_list<std::string_view> keys) {
-  constexpr std::streamsize enough = 16384;
-  std::string text(enough, '\0');
-  std::ifstream stream(file, std::ios::binary);
-  stream.read(text.data(), enough);
-  text.resize(static_cast<std::size_t>(stream.gcount()));
+  constexpr std::size_t enough = 16384;
+  const std::string text = first_bytes(file, enough);
   for (const std::string_view line : fields_of(text, '\n'))
     for (const std::string_view key : keys)
       if (line.starts_with(key) && trimmed(line.substr(key.size())).starts_with('='))

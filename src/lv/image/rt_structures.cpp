@@ -3,13 +3,9 @@
 #include "lv/base/check.hpp"
 #include "lv/base/trial.hpp"
 #include "lv/image/dicom_file.hpp"
-#include "lv/image/dicom_stream.hpp"
 #include "lv/image/dicom_values.hpp"
 
 #include <fmt/format.h>
-
-#include <exception>
-#include <new>
 
 namespace lv::image {
 namespace {
@@ -17,9 +13,11 @@ namespace {
 namespace fs = std::filesystem;
 using gdcm::Tag;
 
+constexpr const char* structures_remedy =
+    "The file seems to be truncated or damaged: export or copy it again";
+
 [[noreturn]] void fail_structures(const fs::path& file, const std::string& what) {
-  throw InputError(file.string(), what,
-                   "The file seems to be truncated or damaged: export or copy it again");
+  throw InputError(file.string(), what, structures_remedy);
 }
 
 /// The items of a sequence, from 1.
@@ -84,29 +82,10 @@ ForeignContours structures_in(const fs::path& file, const DicomValues& set) {
   return drawn;
 }
 
-/// Reads the file up to what pixels it may have; `use` is given its values.
-template <class Use>
-void with_data_set(const fs::path& file, const Use& use) {
-  try {
-    const DicomStream stream = open_dicom(file);
-    gdcm::Reader reader;
-    reader.SetStream(*stream.bytes);
-    if (!reader.Read())
-      fail_structures(file, "cannot be read: its DICOM data are truncated or damaged");
-    use(DicomValues(reader.GetFile().GetDataSet()));
-  } catch (const InputError&) {
-    throw;
-  } catch (const std::bad_alloc&) {
-    throw;  // ends the trial in the child
-  } catch (const std::exception& error) {
-    fail_structures(file,
-                    fmt::format("cannot be read: its DICOM data are damaged: {}", error.what()));
-  }
-}
-
 ForeignContours read_set(const fs::path& file) {
   ForeignContours drawn;
-  with_data_set(file, [&](const DicomValues& set) { drawn = structures_in(file, set); });
+  with_data_set(file, structures_remedy,
+                [&](const DicomValues& set) { drawn = structures_in(file, set); });
   return drawn;
 }
 

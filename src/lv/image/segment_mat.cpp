@@ -2,13 +2,13 @@
 
 #include "lv/base/check.hpp"
 #include "lv/base/trial.hpp"
+#include "lv/image/first_bytes.hpp"
 
 #include <fmt/format.h>
 #include <matio.h>
 
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -235,11 +235,7 @@ ForeignContours read_stacks(const fs::path& file) {
 }  // namespace
 
 bool holds_segment_mat(const fs::path& file) {
-  std::array<char, 8> bytes{};
-  std::ifstream stream(file, std::ios::binary);
-  stream.read(bytes.data(), bytes.size());
-  const std::string_view begin(bytes.data(), static_cast<std::size_t>(stream.gcount()));
-  return begin.starts_with("MATLAB ");
+  return first_bytes(file, 8).starts_with("MATLAB ");
 }
 
 ForeignContours read_segment_mat(const fs::path& file) {

@@ -6,6 +6,7 @@
 #include "lv/base/formats.hpp"
 #include "lv/base/lines.hpp"
 #include "lv/image/dicom_segmentation.hpp"
+#include "lv/image/first_bytes.hpp"
 #include "lv/image/meta_image.hpp"
 #include "lv/image/nifti.hpp"
 #include "lv/image/nrrd.hpp"
@@ -15,7 +16,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <string_view>
 
 namespace lv::image {
@@ -43,10 +43,8 @@ constexpr std::array<Format, 2> formats_of_voxels{
     {{begins_as_nrrd, read_nrrd}, {begins_as_meta_image, read_meta_image}}};
 
 const Format* format_of(const fs::path& file) {
-  std::array<char, 16384> bytes{};
-  std::ifstream stream(file, std::ios::binary);
-  stream.read(bytes.data(), bytes.size());
-  const std::string_view begin(bytes.data(), static_cast<std::size_t>(stream.gcount()));
+  constexpr std::size_t enough = 16384;
+  const std::string begin = first_bytes(file, enough);
   const auto* found = std::find_if(formats_of_voxels.begin(), formats_of_voxels.end(),
                                    [&](const Format& format) { return format.begins(begin); });
   return found == formats_of_voxels.end() ? nullptr : found;

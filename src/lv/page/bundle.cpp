@@ -1,21 +1,13 @@
 #include "lv/page/bundle.hpp"
 
-// The file is put into the program as it is; LV_PAGE_BUNDLE is its path.
-__asm__(
-    ".section .rodata\n"
-    "lv_page_bundle: .incbin \"" LV_PAGE_BUNDLE
-    "\"\n"
-    "lv_page_bundle_end: .byte 0\n"
-    ".global lv_page_bundle, lv_page_bundle_end\n"
-    ".previous\n");
+#include "lv/base/embedded_file.hpp"
 
-// NOLINTNEXTLINE(readability-identifier-naming): the assembler's labels
-extern "C" const char lv_page_bundle[], lv_page_bundle_end[];
+LV_EMBED_FILE(lv_page_bundle, LV_PAGE_BUNDLE);
 
 namespace lv::page {
 
 std::string_view page_bundle() {
-  return {lv_page_bundle, static_cast<std::size_t>(lv_page_bundle_end - lv_page_bundle)};
+  return embedded(lv_page_bundle, lv_page_bundle_end);
 }
 
 }  // namespace lv::page

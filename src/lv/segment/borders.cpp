@@ -1,13 +1,19 @@
 #include "lv/segment/borders.hpp"
 
+#include "lv/base/dense.hpp"
 #include "lv/base/interrupt.hpp"
 #include "lv/base/median.hpp"
 #include "lv/segment/closed_path.hpp"
 #include "lv/segment/grey_levels.hpp"
+#include "lv/segment/redraw_border.hpp"
 #include "lv/segment/smooth_border.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <map>
+#include <numbers>
+#include <numeric>
 
 namespace lv::segment {
 namespace {
@@ -67,23 +73,36 @@ Polar unlikeness(const Polar& values, const Levels& levels) {
       .min(1.0);
 }
 
+using Fixes = std::vector<Fixed>;
+
 /// The edge of the blood, before muscle is known.
-Radii blood_edge(const Polar& values, const Levels& guess) {
+Radii blood_edge(const Polar& values, const Levels& guess, const Fixes& fixed = {}) {
   constexpr double region = 0.3;  // weight of a millimetre beside the edge's
   constexpr double edge_weight = 2.0;
   const Polar dark = darkness(values, guess);
   const Polar edge = mean_at(dark, 1, 4) - mean_at(dark, -4, -1);
   const Polar cost = region * integral(dark - 0.5) - edge_weight * edge.max(0.0);
-  return closed_path(cost, {.reach = 2, .stiffness = 0.05}, grid);
+  return closed_path(cost, {.reach = 2, .stiffness = 0.05}, grid, fixed);
 }
 
-/// The line along which a band is most like muscle, not far from the blood.
-Radii middle_of_wall(const Polar& values, const Radii& blood, const Levels& levels) {
+/// Forbids what lies less than `least` [mm] within points.
+Polar forbid_outside(const Fixes& points, double least) {
+  Polar cost = Polar::Zero(grid.rays, grid.radii);
+  for (const Fixed& at : points)
+    for (int k = 0; k < grid.radii; ++k)
+      cost(at.ray, k) = grid.radius(k) > grid.radius(at.k) - least ? wall_of_cost : 0.0;
+  return cost;
+}
+
+/// The line along which a band is most like muscle, not far from the blood and within points of the
+/// epicardium.
+Radii middle_of_wall(const Polar& values, const Radii& blood, const Levels& levels,
+                     const Fixes& epi = {}) {
   constexpr int half_band = 2;     // radii
   constexpr double nearer = 0.02;  // a millimetre farther costs so much
   const Polar away = distance_from(blood);
   const Polar cost = mean_at(unlikeness(values, levels), -half_band, half_band) +
-                     nearer * away.max(0.0) + forbid(away, 1.0, 16.0);
+                     nearer * away.max(0.0) + forbid(away, 1.0, 16.0) + forbid_outside(epi, 1.5);
   return closed_path(cost, {.reach = 1, .stiffness = 0.1}, grid);
 }
 
@@ -111,29 +130,35 @@ std::vector<Radii> median_in_time(const std::vector<Radii>& lines, int reach) {
   return result;
 }
 
-/// The epicardium of all frames; the second and third time close to what the frames around it show.
-std::vector<Radii> epicardium(const std::vector<Polar>& costs) {
+constexpr PathRule epicardial_rule{.reach = 1, .stiffness = 0.15};
+
+/// What it costs the epicardium to leave the place where it is expected.
+Polar pull_to(const Radii& expected) {
   constexpr double pull = 0.02;  // [1/mm^2]
   constexpr double most = 50.0;  // [mm^2]
-  constexpr PathRule rule{.reach = 1, .stiffness = 0.15};
+  return pull * distance_from(expected).square().min(most);
+}
+
+/// The epicardium of all frames; the second and third time close to what the frames around it show.
+std::vector<Radii> epicardium(const std::vector<Polar>& costs) {
   std::vector<Radii> lines;
   for (const Polar& cost : costs)
-    lines.push_back(closed_path(cost, rule, grid));
+    lines.push_back(closed_path(cost, epicardial_rule, grid));
   for (int round = 0; round < 2; ++round) {
     const std::vector<Radii> usual = median_in_time(lines, 2);
-    for (std::size_t t = 0; t < costs.size(); ++t) {
-      const Polar away = distance_from(harmonics_of(usual[t], epi_harmonics));
-      lines[t] = closed_path(costs[t] + pull * away.square().min(most), rule, grid);
-    }
+    for (std::size_t t = 0; t < costs.size(); ++t)
+      lines[t] = closed_path(costs[t] + pull_to(harmonics_of(usual[t], epi_harmonics)),
+                             epicardial_rule, grid);
   }
   return lines;
 }
 
 /// Where the grey value has fallen by a part of the way to muscle, inside the middle of the wall.
-Radii endocardium(const Polar& values, const Radii& outside, const Levels& levels, double fall) {
+Radii endocardium(const Polar& values, const Radii& outside, const Levels& levels, double fall,
+                  const Fixes& fixed = {}) {
   const Polar cost = integral(darkness(values, levels) - fall) +
                      wall_of_cost * (distance_from(outside) > -2.0).cast<double>();
-  return closed_path(cost, {.reach = 1, .stiffness = 0.2}, grid);
+  return closed_path(cost, {.reach = 1, .stiffness = 0.2}, grid, fixed);
 }
 
 /// How much muscle lies within 4 mm outside a line, 0 to 1.
@@ -190,22 +215,27 @@ Radii scaled_to(const Radii& shape, const Radii& seen, const Radii& trusted) {
 
 constexpr double walled = 0.5;  // of wall_behind: muscle is seen
 
-/// The endocardium of a slice as it is drawn; `inner` is the slice before it, or null.
-std::vector<Radii> drawn_endocardium(const Work& work, const SliceBorders* inner) {
+/// How the endocardium is made smooth; `sees`: the part of each ray on which muscle is seen.
+BorderFit endocardial_fit(const Radii& seen, const Radii& sees, const Radii& expected) {
   constexpr double unseen_weight = 0.05;
   constexpr double trust = 0.1;
   constexpr double unseen_trust = 0.3;
+  return {.seen = seen,
+          .weight = sees.max(unseen_weight),
+          .expected = expected,
+          .trust = sees * trust + (1.0 - sees) * unseen_trust,
+          .harmonics = 3,
+          .within = 0.1};
+}
+
+/// The endocardium of a slice as it is drawn; `inner` is the slice before it, or null.
+std::vector<Radii> drawn_endocardium(const Work& work, const SliceBorders* inner) {
   std::vector<Radii> lines;
   for (std::size_t t = 0; t < work.endo.size(); ++t) {
     const Radii sees = (work.wall[t] > walled).cast<double>();
     const Radii& seen = work.endo[t];
     const Radii expected = inner == nullptr ? seen : scaled_to(inner->frames[t].endo, seen, sees);
-    lines.push_back(convex(fit_border({.seen = seen,
-                                       .weight = sees.max(unseen_weight),
-                                       .expected = expected,
-                                       .trust = sees * trust + (1.0 - sees) * unseen_trust,
-                                       .harmonics = 3,
-                                       .within = 0.1})));
+    lines.push_back(convex(fit_border(endocardial_fit(seen, sees, expected))));
   }
   return median_in_time(lines, 1);
 }
@@ -258,7 +288,116 @@ std::vector<Work> begin_all(const image::Cine& cine, const Heart& heart) {
   return all;
 }
 
+/// A radius that a border must have on a ray [mm].
+struct Held {
+  int ray = 0;
+  double radius = 0.0;
+};
+
+/// The radii of points on the rays nearest to them, in order of the rays; of several on a ray the
+/// mean.
+std::vector<Held> on_rays(const std::vector<PolarPoint>& points) {
+  std::map<int, std::vector<double>> radii;
+  for (const PolarPoint& p : points)
+    radii[nearest_ray(p.angle, grid.rays)].push_back(p.radius);
+  std::vector<Held> held;
+  for (const auto& [ray, all] : radii)
+    held.push_back(
+        {ray, std::accumulate(all.begin(), all.end(), 0.0) / static_cast<double>(all.size())});
+  return held;
+}
+
+Fixes on_grid(const std::vector<Held>& held) {
+  Fixes fixed;
+  for (const Held& at : held)
+    fixed.push_back({at.ray, grid.index(at.radius)});
+  return fixed;
+}
+
+double mean_radius(const std::vector<Held>& held) {
+  double sum = 0.0;
+  for (const Held& at : held)
+    sum += at.radius;
+  return sum / static_cast<double>(held.size());
+}
+
+/// A line bent so that it runs through points: what one asks for alone dies away with the angle phi
+/// from it as (1 + a) exp(-a), a = phi/15 degrees, of which the half is left after 25 degrees.
+Radii bent_through(const Radii& line, const std::vector<Held>& held) {
+  constexpr double width = std::numbers::pi / 12.0;
+  const auto n = static_cast<Eigen::Index>(held.size());
+  const auto likeness = [&](Eigen::Index a, Eigen::Index b) {
+    const Eigen::Index apart = std::abs(a - b);
+    const double phi = ray_angle(std::min<Eigen::Index>(apart, grid.rays - apart), grid.rays);
+    return (1.0 + phi / width) * std::exp(-phi / width);
+  };
+  Eigen::MatrixXd K(n, n);
+  Eigen::VectorXd off(n);
+  for (Eigen::Index a = 0; a < n; ++a) {
+    const Held& at = held[static_cast<std::size_t>(a)];
+    off(a) = at.radius - line(at.ray);
+    for (Eigen::Index b = 0; b < n; ++b)
+      K(a, b) = likeness(at.ray, held[static_cast<std::size_t>(b)].ray);
+  }
+  const Eigen::VectorXd weight = dense::solve_symmetric(K, off);
+  Radii bent = line;
+  for (Eigen::Index i = 0; i < bent.size(); ++i)
+    for (Eigen::Index a = 0; a < n; ++a)
+      bent(i) += weight(a) * likeness(i, held[static_cast<std::size_t>(a)].ray);
+  return bent;
+}
+
+/// A slice whose grey levels are known, and a frame of it.
+struct Frame {
+  const Work& work;
+  std::size_t t;
+
+  [[nodiscard]] const Polar& values() const { return work.values[t]; }
+};
+
+Radii redrawn_endocardium(const Frame& frame, const Radii& expected, const std::vector<Held>& held,
+                          double fall) {
+  const Levels& levels = frame.work.levels;
+  const Polar& values = frame.values();
+  const Fixes fixed = on_grid(held);
+  const Radii blood = blood_edge(values, levels, fixed);
+  const Radii middle = middle_of_wall(values, blood, levels);
+  const Radii outside =
+      closed_path(epicardial_cost(values, middle, levels), epicardial_rule, grid).min(middle + 3.0);
+  const Radii seen = endocardium(values, outside, levels, fall, fixed);
+  const Radii sees = (wall_behind(values, seen, levels) > walled).cast<double>();
+  return bent_through(convex(fit_border(endocardial_fit(seen, sees, expected))), held);
+}
+
+Radii redrawn_epicardium(const Frame& frame, const std::optional<Radii>& endo,
+                         const Radii& expected, const std::vector<Held>& held) {
+  const Levels& levels = frame.work.levels;
+  const Polar& values = frame.values();
+  const Fixes fixed = on_grid(held);
+  const Radii blood = endo ? *endo : blood_edge(values, levels);
+  const Radii middle = middle_of_wall(values, blood, levels, fixed);
+  const Radii seen = closed_path(epicardial_cost(values, middle, levels) + pull_to(expected),
+                                 epicardial_rule, grid, fixed);
+  return bent_through(harmonics_of(seen, epi_harmonics), held);
+}
+
 }  // namespace
+
+Radii redraw_border(const image::CineSlice& slice, const Redrawing& asked, double fall) {
+  Work work = begin(slice, asked.centre);
+  work.levels.muscle.setConstant(
+      muscle_levels({around_blood(work.values, work.blood, grid)}, {work.levels.blood}).front());
+  find_middle(work);
+  const Frame frame{work, asked.frame};
+  const std::vector<Held> held = on_rays(asked.points);
+  const bool inner = asked.side == geometry::Side::endo;
+  const Radii stands =
+      (inner ? asked.endo : asked.epi).value_or(Radii::Constant(grid.rays, mean_radius(held)));
+  const Radii expected = bent_through(stands, held);
+  const Radii drawn = inner ? redrawn_endocardium(frame, expected, held, fall)
+                            : redrawn_epicardium(frame, asked.endo, expected, held);
+  return drawn.max(grid.first);
+}
 
 std::vector<SliceBorders> draw_borders(const image::Cine& cine, const Heart& heart, double fall) {
   std::vector<Work> work = begin_all(cine, heart);

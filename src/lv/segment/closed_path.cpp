@@ -1,6 +1,7 @@
 #include "lv/segment/closed_path.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <limits>
 #include <numeric>
 
@@ -62,6 +63,24 @@ Path path_from(int start, const Polar& cost, const PathRule& rule) {
   return path;
 }
 
+/// The reach with which a path can run through all, in order of their rays.
+int reach_through(const std::vector<Fixed>& fixed, int rays, int least) {
+  int reach = least;
+  for (std::size_t i = 0; i < fixed.size(); ++i) {
+    const Fixed& next = fixed[(i + 1) % fixed.size()];
+    const int apart = (next.ray - fixed[i].ray + rays - 1) % rays + 1;
+    reach = std::max(reach, (std::abs(next.k - fixed[i].k) + apart - 1) / apart);
+  }
+  return reach;
+}
+
+/// More than two paths can differ by.
+double any_difference(const Polar& cost, const PathRule& rule) {
+  const double of_steps = rule.stiffness * rule.reach * rule.reach;
+  return 1.0 + static_cast<double>(cost.rows()) * of_steps +
+         (cost.rowwise().maxCoeff() - cost.rowwise().minCoeff()).sum();
+}
+
 }  // namespace
 
 std::vector<int> closed_path(const Polar& cost, const PathRule& rule) {
@@ -79,8 +98,29 @@ std::vector<int> closed_path(const Polar& cost, const PathRule& rule) {
   return best.radii;
 }
 
-Radii closed_path(const Polar& cost, const PathRule& rule, const PolarGrid& grid) {
-  const std::vector<int> path = closed_path(cost, rule);
+std::vector<int> closed_path(Polar cost, PathRule rule, const std::vector<Fixed>& fixed) {
+  if (fixed.empty())
+    return closed_path(cost, rule);
+  const auto rays = static_cast<int>(cost.rows());
+  rule.reach = reach_through(fixed, rays, rule.reach);
+  const double forbidden = cost.maxCoeff() + any_difference(cost, rule);
+  for (const Fixed& at : fixed) {
+    const double own = cost(at.ray, at.k);
+    cost.row(at.ray).setConstant(forbidden);
+    cost(at.ray, at.k) = own;
+  }
+  // a path that begins on a ray whose radius is known is found at once
+  const int first = fixed.front().ray;
+  Polar turned(cost.rows(), cost.cols());
+  turned << cost.bottomRows(rays - first), cost.topRows(first);
+  std::vector<int> radii = path_from(fixed.front().k, turned, rule).radii;
+  std::rotate(radii.begin(), radii.end() - first, radii.end());
+  return radii;
+}
+
+Radii closed_path(const Polar& cost, const PathRule& rule, const PolarGrid& grid,
+                  const std::vector<Fixed>& fixed) {
+  const std::vector<int> path = closed_path(cost, rule, fixed);
   Radii radii(cost.rows());
   for (Eigen::Index i = 0; i < radii.size(); ++i)
     radii(i) = grid.radius(path[static_cast<std::size_t>(i)]);

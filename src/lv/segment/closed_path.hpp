@@ -20,7 +20,18 @@ struct PathRule {
 /// cost is a lower bound, leaves a chance to be best. The costs must be finite.
 [[nodiscard]] std::vector<int> closed_path(const Polar& cost, const PathRule& rule);
 
+/// A radius, by its number, that a path has on a ray.
+struct Fixed {
+  int ray = 0, k = 0;
+};
+
+/// The same through given radii, one per ray at most. The reach grows to what the steepest way from
+/// one to the next needs.
+[[nodiscard]] std::vector<int> closed_path(Polar cost, PathRule rule,
+                                           const std::vector<Fixed>& fixed);
+
 /// The same in mm.
-[[nodiscard]] Radii closed_path(const Polar& cost, const PathRule& rule, const PolarGrid& grid);
+[[nodiscard]] Radii closed_path(const Polar& cost, const PathRule& rule, const PolarGrid& grid,
+                                const std::vector<Fixed>& fixed = {});
 
 }  // namespace lv::segment

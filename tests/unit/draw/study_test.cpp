@@ -169,6 +169,35 @@ TEST_CASE("what no page of ours would send is refused", "[draw]") {
       damaged("/landmarks",
               {{{"name", "../x"}, {"slice", 1}, {"at", {0, 0, 0}}, {"by", ""}, {"when", ""}}}),
       Contains("unknown name"));
+  const json mark{{"name", "centre"}, {"slice", 1}, {"at", {0, 0, 0}}, {"by", ""}, {"when", ""}};
+  CHECK_THAT(damaged("/landmarks", {mark, mark}), Contains("there twice"));
+}
+
+TEST_CASE("a wish to redraw a border is checked as a drawing is", "[draw]") {
+  const test::TemporaryFolder folder;
+  const draw::Study study = small_study(folder / "heart.draw");
+  const json all = json::parse(draw::study_json(study));
+  const json line = all["contours"][0]["points"];
+  const json good{{"slice", 1},          {"phase", 2},   {"side", "endo"},
+                  {"points", {line[3]}}, {"endo", line}, {"epi", json::array()}};
+  const draw::Redrawn asked = draw::read_wish(good.dump(), study);
+  CHECK(asked.slice == 0);
+  CHECK(asked.wish.frame == 1);
+  CHECK(asked.wish.points.size() == 1);
+  CHECK(asked.wish.endo.size() == 72);
+  CHECK(asked.wish.epi.empty());
+  const auto refused = [&](const char* name, const json& value) {
+    json bad = good;
+    bad[name] = value;
+    CHECK_THROWS_AS(draw::read_wish(bad.dump(), study), InputError);
+  };
+  refused("slice", 5);
+  refused("phase", 7);
+  refused("side", "rv");
+  refused("points", json::array());
+  refused("points", json::array({{0.0, 0.0, 4.0}}));
+  refused("endo", json::array({line[0], line[1]}));
+  refused("epi", 7);
 }
 
 TEST_CASE("the page is told no name of a person and no path", "[draw]") {

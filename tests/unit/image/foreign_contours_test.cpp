@@ -3,6 +3,7 @@
 #include "lv/base/check.hpp"
 #include "lv/geometry/contour_checks.hpp"
 #include "lv/geometry/contour_measures.hpp"
+#include "lv/geometry/fit_report.hpp"
 
 #include "image/foreign_files.hpp"
 #include "image/nifti_files.hpp"
@@ -144,6 +145,21 @@ TEST_CASE("contours of cvi42 lie on the images that they name", "[unit][image]")
       Contains("cannot be read as XML"));
   CHECK_THROWS_WITH(read_drawn("x.cvi42wsx", "<a xmlns=\"http://www.circlecvi.com/cvi42/\"></a>"),
                     Contains("holds no closed contours"));
+}
+
+TEST_CASE("a workspace of cvi42 is read in a zip archive too", "[unit][image]") {
+  const std::string text =
+      test::cvi42_text({{"saendocardialContour", 12.0}, {"saepicardialContour", 18.0}});
+  const std::string zip = test::zip_bytes({{"note.txt", "words"}, {"a/study.cvi42wsx", text}});
+  const ForeignContours plain = read_drawn("x.cvi42wsx", text);
+  const ForeignContours packed = read_drawn("x.cvi42wsx", zip);
+  REQUIRE(packed.loops.size() == plain.loops.size());
+  CHECK(packed.loops.back().points.back() == plain.loops.back().points.back());
+  std::string damaged = zip;
+  damaged[zip.size() / 2] = static_cast<char>(~damaged[zip.size() / 2]);
+  CHECK_THROWS_AS(read_drawn("x.cvi42wsx", damaged), InputError);
+  CHECK_THROWS_WITH(read_drawn("x.zip", test::zip_bytes({{"note.txt", "words"}})),
+                    Contains("Segment (.mat), DICOM RTSTRUCT and cvi42"));
 }
 
 TEST_CASE("files of contours that are none are named as such", "[unit][image]") {

@@ -2,11 +2,16 @@
 
 #include "lv/base/tensor.hpp"
 
+#include "support/archive_bytes.hpp"
+#include "support/temporary_folder.hpp"
 #include <fmt/format.h>
+#include <minizip/zip.h>
+#include <zlib.h>
 
 #include <cmath>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 /// Files as other programs write them, byte by byte.
@@ -137,6 +142,21 @@ inline std::string segmentation_bytes(const Mat3& axes = Mat3::Identity()) {
                         sequence(0x62, 2, {segment(1, "LV blood"), segment(2, "Scar")}) +
                         sequence(0x5200, 0x9229, {shared}) + sequence(0x5200, 0x9230, groups) +
                         element(0x7fe0, 0x10, "OB", bits));
+}
+
+/// A zip archive of files, stored or packed, by name.
+inline std::string zip_bytes(const std::vector<std::pair<std::string, std::string>>& files) {
+  const TemporaryFolder folder;
+  const std::string name = (folder / "x.zip").string();
+  const zipFile zip = zipOpen64(name.c_str(), APPEND_STATUS_CREATE);
+  for (const auto& [file, bytes] : files) {
+    zipOpenNewFileInZip(zip, file.c_str(), nullptr, nullptr, 0, nullptr, 0, nullptr,
+                        bytes.size() > 100 ? Z_DEFLATED : 0, Z_DEFAULT_COMPRESSION);
+    zipWriteInFileInZip(zip, bytes.data(), static_cast<unsigned>(bytes.size()));
+    zipCloseFileInZip(zip);
+  }
+  zipClose(zip, nullptr);
+  return bytes_of(folder / "x.zip");
 }
 
 /// A cvi42 workspace with a circle of the radius, in pixels, on images 1.2.3.4.1.1 to 1.2.3.4.3.1

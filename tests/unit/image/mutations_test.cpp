@@ -230,7 +230,8 @@ TEST_CASE("damaged contours of Segment and cvi42 are read or refused", "[unit][i
       static_cast<void>(arranged(drawn, "Endo", "Epi", nullptr));
   };
   try_damaged("x.mat", test::segment_bytes(Mat3::Identity()), read, {.few = 10});
-  try_damaged("x.cvi42wsx",
-              test::cvi42_text({{"saendocardialContour", 12.0}, {"saepicardialContour", 18.0}}),
-              read);
+  const std::string workspace =
+      test::cvi42_text({{"saendocardialContour", 12.0}, {"saepicardialContour", 18.0}});
+  try_damaged("x.cvi42wsx", workspace, read);
+  try_damaged("x.cvi42wsx", test::zip_bytes({{"x.cvi42wsx", workspace}}), read);
 }

@@ -4,7 +4,9 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <random>
 
@@ -23,12 +25,19 @@ double cost_of(const std::vector<int>& path, const Polar& cost, const PathRule& 
   return sum;
 }
 
-/// The least cost of all closed paths, tried one by one.
-double least_cost(const Polar& cost, const PathRule& rule) {
+bool runs_through(const std::vector<int>& path, const std::vector<Fixed>& fixed) {
+  return std::all_of(fixed.begin(), fixed.end(), [&](const Fixed& at) {
+    return path[static_cast<std::size_t>(at.ray)] == at.k;
+  });
+}
+
+/// The least cost of all closed paths through given radii, tried one by one.
+double least_cost(const Polar& cost, const PathRule& rule, const std::vector<Fixed>& fixed = {}) {
   std::vector<int> path(static_cast<std::size_t>(cost.rows()), 0);
   double least = std::numeric_limits<double>::infinity();
   for (;;) {
-    least = std::min(least, cost_of(path, cost, rule));
+    if (runs_through(path, fixed))
+      least = std::min(least, cost_of(path, cost, rule));
     std::size_t i = 0;
     while (i < path.size() && ++path[i] == cost.cols())
       path[i++] = 0;
@@ -52,6 +61,26 @@ TEST_CASE("no closed path costs less than the one found", "[segment]") {
       c = number(random);
     const PathRule rule{.reach = 1 + trial % 2, .stiffness = 0.1 * (trial % 4)};
     CHECK(cost_of(closed_path(cost, rule), cost, rule) == Approx(least_cost(cost, rule)));
+  }
+}
+
+TEST_CASE("no closed path through given radii costs less than the one found", "[segment]") {
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> number(-1.0, 1.0);
+  for (int trial = 0; trial < 60; ++trial) {
+    Polar cost(6, 5);
+    for (double& c : cost.reshaped())
+      c = number(random);
+    std::vector<Fixed> fixed{{1, trial % 5}};
+    if (trial % 3 > 0)
+      fixed.push_back({4, (trial / 5) % 5});
+    // from one to the other are three rays: radii 0 and 4 need steps of two
+    const bool steep = fixed.size() == 2 && std::abs(fixed[0].k - fixed[1].k) > 3;
+    const PathRule rule{.reach = 1, .stiffness = 0.1 * (trial % 4)};
+    const PathRule grown{.reach = steep ? 2 : 1, .stiffness = rule.stiffness};
+    const std::vector<int> path = closed_path(cost, rule, fixed);
+    CHECK(runs_through(path, fixed));
+    CHECK(cost_of(path, cost, grown) == Approx(least_cost(cost, grown, fixed)));
   }
 }
 

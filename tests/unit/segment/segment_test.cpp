@@ -6,6 +6,7 @@
 #include "lv/image/dicom_study.hpp"
 #include "lv/image/sunnybrook.hpp"
 #include "lv/phantom/study.hpp"
+#include "lv/segment/redraw.hpp"
 #include "lv/strain/measures.hpp"
 
 #include "support/temporary_folder.hpp"
@@ -14,6 +15,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdlib>
 
 using namespace lv;
@@ -57,6 +59,50 @@ Agreement agreement(const geometry::Contours& found, const geometry::Contours& t
 void tell(const std::string& what, const Agreement& a) {
   fmt::print("{}: Dice {:.3f}, distance {:.2f} mm, volume {:+.1f}%, {} of {} loops missed\n", what,
              a.dice, a.distance, 100.0 * a.volume, a.missed, a.loops);
+}
+
+/// The point of a true line that is farthest from a drawn one.
+Vec3 farthest_of(const std::vector<Vec3>& truth, const std::vector<Vec3>& drawn) {
+  const auto away = [&](const Vec3& x) { return strain::distance({x}, {drawn}, true).mean; };
+  return *std::max_element(truth.begin(), truth.end(),
+                           [&](const Vec3& a, const Vec3& b) { return away(a) < away(b); });
+}
+
+/// What some points, each set where the line is farthest from the true one, and redrawing from them
+/// make of the mean distance of the lines of a side.
+void try_redrawing(const std::string& what, const image::Cine& cine, std::size_t frame,
+                   const geometry::Contours& drawn, const geometry::Contours& truth, Side side) {
+  constexpr int most_points = 3;
+  std::array<double, most_points + 1> distance{};
+  double slowest = 0.0;
+  int loops = 0;
+  for (const Contour& loop : truth.short_axis) {
+    const Contour* endo = geometry::find(drawn.short_axis, loop.slice, Side::endo);
+    const Contour* epi = geometry::find(drawn.short_axis, loop.slice, Side::epi);
+    if (loop.side != side || endo == nullptr || epi == nullptr)
+      continue;
+    ++loops;
+    segment::BorderWish wish{side, frame, {}, endo->points, epi->points};
+    std::vector<Vec3>& line = side == Side::endo ? wish.endo : wish.epi;
+    for (int n = 0;; ++n) {
+      distance.at(n) += strain::distance(line, {loop.points}, true).mean;
+      if (n == most_points)
+        break;
+      wish.points.push_back(farthest_of(loop.points, line));
+      const auto began = std::chrono::steady_clock::now();
+      line =
+          segment::redraw(cine.slices[static_cast<std::size_t>(loop.slice - 1)], wish, 0.85, what);
+      const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began;
+      slowest = std::max(slowest, took.count());
+    }
+  }
+  fmt::print("{}, {}: mean distance {:.2f} mm as proposed", what, geometry::name(side),
+             distance[0] / loops);
+  for (int n = 1; n <= most_points; ++n)
+    fmt::print(", {:.2f} through {}", distance.at(n) / loops, n);
+  fmt::print(" points; slowest {:.0f} ms\n", 1e3 * slowest);
+  CHECK(distance[1] < distance[0]);
+  CHECK(distance[most_points] < 0.8 * distance[0]);
 }
 
 phantom::Ventricle with_papillary_muscles() {
@@ -129,6 +175,11 @@ void try_patient(const std::string& name, const std::string& images, int diastol
   tell(name + ", end-systole, endocardium", small);
   fmt::print("{}: proposed end-diastole {}, end-systole {}, observers' {}, {}\n", name,
              found.phases.end_diastole + 1, found.phases.end_systole + 1, diastole, systole);
+  for (const Side side : {Side::endo, Side::epi})
+    try_redrawing(name + ", end-diastole", cine, static_cast<std::size_t>(diastole - 1),
+                  at(diastole), drawn.phases.at(diastole), side);
+  try_redrawing(name + ", end-systole", cine, static_cast<std::size_t>(systole - 1), at(systole),
+                drawn.phases.at(systole), Side::endo);
   CHECK(endo.dice > 0.90);
   CHECK(small.dice > 0.85);
   CHECK(epi.dice > 0.92);

@@ -1,14 +1,18 @@
 // The borders and landmarks as they stand, and every change of them, forth and back.
-import type { Confidence, Landmark, Line } from "./study.ts";
+import type { Confidence, Landmark, Line, Place } from "./study.ts";
 
-/** What becomes of borders and landmarks; undefined: they are gone. */
-export interface Change { what: string; lines?: [string, Line | undefined][]; marks?: [string, Landmark | undefined][]; confidence?: Confidence[] }
+/** What becomes of borders, points and landmarks; undefined: they are gone. A border that changes loses its points unless it is given some. */
+export interface Change {
+  what: string; lines?: [string, Line | undefined][]; points?: [string, Place[] | undefined][]; marks?: [string, Landmark | undefined][]; confidence?: Confidence[];
+}
 
 type Step = { forth: Change; back: Change; goesOn?: string };
 
 export class Drawing {
   lines: Map<string, Line>;
   landmarks: Map<string, Landmark>;
+  /** Where the hand wants a border to run. */
+  points = new Map<string, Place[]>();
   confidence: Confidence[];
   private done: Step[] = [];
   private undone: Step[] = [];
@@ -28,9 +32,11 @@ export class Drawing {
   get canRedo(): boolean { return this.undone.length > 0; }
 
   private apply(change: Change): Change {
-    const back: Change = { what: change.what, lines: change.lines?.map(([key]) => [key, this.lines.get(key)]),
+    const points = new Map([...(change.lines ?? []).map(([key]): [string, Place[] | undefined] => [key, undefined]), ...(change.points ?? [])]);
+    const back: Change = { what: change.what, lines: change.lines?.map(([key]) => [key, this.lines.get(key)]), points: [...points.keys()].map((key) => [key, this.points.get(key)]),
       marks: change.marks?.map(([name]) => [name, this.landmarks.get(name)]), confidence: change.confidence && this.confidence };
     for (const [key, line] of change.lines ?? []) line ? this.lines.set(key, line) : this.lines.delete(key);
+    for (const [key, places] of points) places?.length ? this.points.set(key, places) : this.points.delete(key);
     for (const [name, mark] of change.marks ?? []) mark ? this.landmarks.set(name, mark) : this.landmarks.delete(name);
     if (change.confidence) this.confidence = change.confidence;
     return back;

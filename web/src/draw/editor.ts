@@ -5,8 +5,8 @@ import { Picture, handleStep } from "./picture.ts";
 import { circle, distance, nearest, pulled, redrawn, resized } from "./shape.ts";
 import { inSpace, keyOf, landmarkNames, ofKey, placeOn, sideNames, sides, type How, type Line, type Place, type SaidStudy, type Side } from "./study.ts";
 
-/** What the pointer does: pull a part, resize, redraw, or set a landmark of this name. */
-export type Tool = "pull" | "size" | "redraw" | string;
+/** What the pointer does: pull a part, resize, redraw, set points of a border, or set a landmark of this name. */
+export type Tool = "pull" | "size" | "redraw" | "points" | string;
 
 const grasp = 14;  // CSS pixels
 
@@ -49,6 +49,8 @@ export class Editor {
 
   get key(): string { return keyOf(this.slice, this.phase, this.side); }
   get line(): Line | undefined { return this.drawing.lines.get(this.key); }
+  /** Where the hand wants the border to run. */
+  get wanted(): Place[] { return this.drawing.points.get(this.key) ?? []; }
   get plane() { return this.study.slices[this.slice - 1]; }
   get selected(): number | undefined { return this.point; }
 
@@ -60,7 +62,8 @@ export class Editor {
     this.picture.show({ plane, greys: this.greys.get(slice)?.subarray((phase - 1) * size, phase * size),
       lines: this.showsLines ? ofSides((key) => this.drawing.lines.get(key)) : {}, doubtful: ofSides((key) => doubtful.has(key)),
       original: this.showsOriginal ? ofSides((key) => this.proposal.get(key)) : {},
-      marks: [...this.drawing.landmarks.values()].filter((mark) => mark.slice === slice), side: this.side, point: this.point, stroke: this.stroke });
+      marks: [...this.drawing.landmarks.values()].filter((mark) => mark.slice === slice), side: this.side, point: this.point,
+      wanted: this.showsLines ? this.wanted : [], stroke: this.stroke });
   }
 
   go(slice: number, phase: number, side = this.side): void {
@@ -94,9 +97,18 @@ export class Editor {
     return { how, by: this.observer, when: new Date().toISOString().replace(/\.\d+/, "") };
   }
 
-  /** A border is given points by the hand. */
-  private put(what: string, points: Place[], how: How, goesOn?: string): void {
-    this.drawing.change({ what, lines: [[this.key, { points, ...this.stamp(how) }]] }, goesOn);
+  /** A border is given a shape by the hand, or for it. */
+  private put(what: string, points: Place[], how: How, wanted: Place[] = [], goesOn?: string): void {
+    this.drawing.change({ what, lines: [[this.key, { points, ...this.stamp(how) }]], points: [[this.key, wanted]] }, goesOn);
+  }
+
+  /** The points that the hand set, with one more in the place of those that a pull of it took along. */
+  private wantedWith(at: Place): Place[] { return [...this.wanted.filter((place) => distance(place, at) >= this.width / 2), at]; }
+
+  /** What the program drew through the points: they stay, for more. */
+  redrawn(points: Place[]): void {
+    this.point = undefined;
+    this.put(`redraw the ${sideNames[this.side]} from points`, points, this.line ? this.corrected() : "drawn", this.wanted);
   }
 
   private corrected(): How { return this.line?.how === "drawn" ? "drawn" : "corrected"; }
@@ -108,6 +120,7 @@ export class Editor {
     if (event.button === 1) return this.pan(event);
     if (this.tool in landmarkNames) return this.mark(this.tool, at);
     if (this.tool === "redraw") return this.startStroke(at);
+    if (this.tool === "points") return this.startPoint(at);
     const side = this.grasped(at);
     if (!side) return this.pan(event);
     this.side = side;
@@ -154,7 +167,8 @@ export class Editor {
     this.letGo = () => {
       this.drawing.lines.set(key, before);
       if (now === before.points) return this.show();
-      this.put(`${this.tool === "size" ? "resize" : "pull"} the ${sideNames[this.side]}`, now, how);
+      if (this.tool === "size") this.put(`resize the ${sideNames[this.side]}`, now, how);
+      else this.put(`pull the ${sideNames[this.side]}`, now, how, this.wantedWith(now[this.point!]));
     };
   }
 
@@ -162,6 +176,31 @@ export class Editor {
   private outwards(points: Place[], from: Place, at: Place): number {
     const middle: Place = [points.reduce((s, p) => s + p[0], 0) / points.length, points.reduce((s, p) => s + p[1], 0) / points.length];
     return distance(at, middle) - distance(from, middle);
+  }
+
+  /** A point is taken where there is one, else set. */
+  private startPoint(at: Place): void {
+    const others = this.wanted.filter((place) => distance(place, at) > this.picture.mm(grasp));
+    const set = (place: Place) => this.drawing.change({ what: `set a point of the ${sideNames[this.side]}`, points: [[this.key, [...others, place]]] }, `${this.key} set ${others.length}`);
+    set(at);
+    this.held = set;
+    this.letGo = () => this.saySet();
+  }
+
+  private saySet(): void {
+    const n = this.wanted.length;
+    this.say(`${n} point${n === 1 ? "" : "s"} set for the ${sideNames[this.side]}: R redraws it through ${n === 1 ? "it" : "them"}`);
+  }
+
+  /** Without a pointer: the selected point of the border, or the middle of the picture. */
+  setPoint(): void {
+    const at = this.point === undefined ? this.picture.centre : this.line?.points[this.point] ?? this.picture.centre;
+    this.drawing.change({ what: `set a point of the ${sideNames[this.side]}`, points: [[this.key, [...this.wanted, at]]] });
+    this.saySet();
+  }
+
+  dropPoints(): void {
+    if (this.wanted.length > 0) this.drawing.change({ what: `drop the points of the ${sideNames[this.side]}`, points: [[this.key, undefined]] });
   }
 
   private startStroke(at: Place): void {
@@ -209,12 +248,14 @@ export class Editor {
       return this.drawing.change({ what: `move the ${landmarkNames[this.tool]}`, marks: [[this.tool, { ...mark, at: [mark.at[0] + u, mark.at[1] + v] }]] }, `mark ${this.tool}`);
     if (this.point === undefined) return this.step(1);
     const line = this.line;
-    if (line) this.put(`move a point of the ${sideNames[this.side]}`, pulled(line.points, this.point, [u, v], this.width), this.corrected(), `${this.key} ${this.point}`);
+    if (!line) return;
+    const points = pulled(line.points, this.point, [u, v], this.width);
+    this.put(`move a point of the ${sideNames[this.side]}`, points, this.corrected(), this.wantedWith(points[this.point]), `${this.key} ${this.point}`);
   }
 
   grow(by: number): void {
     const line = this.line;
-    if (line) this.put(`resize the ${sideNames[this.side]}`, resized(line.points, by), this.corrected(), `${this.key} size`);
+    if (line) this.put(`resize the ${sideNames[this.side]}`, resized(line.points, by), this.corrected(), [], `${this.key} size`);
   }
 
   /** The borders of this side on all slices of the phase. */

@@ -1,6 +1,9 @@
 // Where the study comes from and where the drawing goes: the program that serves the page, or the page itself.
 import { save as download } from "../dom.ts";
-import type { Place, SaidProposal, SaidStudy } from "./study.ts";
+import type { Place, Point, SaidProposal, SaidStudy, Side } from "./study.ts";
+
+/** One border and the points through which it is wanted; lines that do not stand are empty. */
+export interface Wish { slice: number; phase: number; side: Side; points: Point[]; endo: Point[]; epi: Point[] }
 
 export class Refused extends Error {
   status: number;
@@ -16,7 +19,9 @@ export interface Keeper {
   slice(number: number): Promise<Uint8Array<ArrayBuffer>>;
   /** Keeps a drawing and says the new revision; none where it was downloaded. */
   save?(drawing: string, whateverStands: boolean): Promise<number>;
-  propose?(centre: [number, number, number]): Promise<SaidProposal>;
+  propose?(centre: Point): Promise<SaidProposal>;
+  /** A border anew through points of it. */
+  redraw?(wish: Wish): Promise<Point[]>;
   /** The revision that stands. */
   alive?(): Promise<number>;
 }
@@ -38,6 +43,7 @@ const served: Keeper = {
   slice: async (number) => new Uint8Array(await (await ask(`slice/${number}`)).arrayBuffer()),
   save: async (drawing, whateverStands) => (await (await ask(whateverStands ? "overwrite" : "save", drawing)).json()).revision,
   propose: async (centre) => (await ask("segment", JSON.stringify({ centre }))).json(),
+  redraw: async (wish) => (await (await ask("redraw", JSON.stringify(wish))).json()).points,
   alive: async () => (await (await ask("alive")).json()).revision,
 };
 

@@ -4,6 +4,7 @@ import { sides, type Landmark, type Line, type Place, type Plane, type Side } fr
 
 export const colours: Record<Side, string> = { endo: "#ffd23f", epi: "#5ad1ff" };
 const doubtColour = "#ff7b1a";
+const wantedColour = "#7dff5a";
 
 /** What is shown. */
 export interface Scene {
@@ -15,6 +16,7 @@ export interface Scene {
   marks: Landmark[];
   side: Side;
   point: number | undefined;  ///< of that side that is selected
+  wanted: Place[];  ///< points of that side that the hand set
   stroke: Place[];
 }
 
@@ -88,6 +90,7 @@ export class Picture {
       if (line && this.scene.doubtful[side]) this.drawLine(context, line.points, doubtColour, 2.5, [7, 7]);
     }
     this.drawPoints(context);
+    for (const place of this.scene.wanted) this.drawWanted(context, place);
     if (this.scene.stroke.length > 1) this.drawLine(context, this.scene.stroke, "#fff", 2, [], false);
     for (const mark of this.scene.marks) this.drawMark(context, mark);
   }
@@ -137,6 +140,15 @@ export class Picture {
       context.strokeStyle = i === point ? "#d00080" : "#000";
       context.stroke();
     });
+  }
+
+  private drawWanted(context: CanvasRenderingContext2D, place: Place): void {
+    const [x, y] = this.at(place);
+    context.lineWidth = 2;
+    context.fillStyle = wantedColour;
+    context.strokeStyle = "#000";
+    context.fillRect(x - 4.5, y - 4.5, 9, 9);
+    context.strokeRect(x - 4.5, y - 4.5, 9, 9);
   }
 
   private drawMark(context: CanvasRenderingContext2D, mark: Landmark): void {

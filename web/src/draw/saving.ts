@@ -2,7 +2,7 @@
 import { el } from "../dom.ts";
 import type { Editor } from "./editor.ts";
 import { Refused, Stopped, downloadDrawing, type Keeper } from "./keeper.ts";
-import { inSpace, linesOf, said, type SaidStudy } from "./study.ts";
+import { inSpace, keyOf, linesOf, placeOn, said, sideNames, toldPoints, type SaidStudy, type Side } from "./study.ts";
 
 const asking = 3000;  // ms between two questions whether the program still runs
 
@@ -121,6 +121,28 @@ export class Saving {
     });
     this.channel.postMessage({ opened: true });
     addEventListener("pagehide", () => this.channel!.postMessage({ closed: true }));
+  }
+
+  /** Whether the program that redraws is there. */
+  get redraws(): boolean { return this.source.redraw !== undefined; }
+
+  /** Lets the program draw the border again through the points that were set. */
+  async redraw(): Promise<void> {
+    const { editor } = this;
+    const { slice, phase, side, key, plane, wanted, line } = editor;
+    if (!this.source.redraw) return this.say("This page is a file: only ventricle draw itself can redraw from points.");
+    if (wanted.length === 0) return this.say(`Pull the ${sideNames[side]} to where it runs, or set points of it, first.`);
+    const told = (of: Side) => toldPoints(plane, editor.drawing.lines.get(keyOf(slice, phase, of))?.points ?? []);
+    const began = performance.now();
+    try {
+      const points = await this.source.redraw({ slice, phase, side, points: toldPoints(plane, wanted), endo: told("endo"), epi: told("epi") });
+      if (editor.key !== key || editor.line !== line) return this.say("Not redrawn: the border was changed or left meanwhile.");
+      editor.redrawn(points.map((x) => placeOn(plane, x)));
+      this.say(`The ${sideNames[side]} was redrawn through ${wanted.length} point${wanted.length === 1 ? "" : "s"} in ${Math.round(performance.now() - began)} ms.`);
+    } catch (error) {
+      if (error instanceof Stopped) this.stopped();
+      else this.say(`Not redrawn: ${(error as Error).message}`);
+    }
   }
 
   /** Lets the program segment again round the centre; what a hand drew stays. */

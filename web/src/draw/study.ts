@@ -4,7 +4,7 @@ export type Side = "endo" | "epi";
 export type How = "proposed" | "corrected" | "drawn";
 /** A place in a slice: millimetres along its rows and its columns from the middle of the first pixel. */
 export type Place = readonly [number, number];
-type Point = [number, number, number];
+export type Point = [number, number, number];
 
 export interface Line { points: Place[]; how: How; by: string; when: string }
 export interface Landmark { name: string; slice: number; at: Place; by: string; when: string }
@@ -24,7 +24,8 @@ export interface SaidStudy extends SaidProposal {
 export const sides: Side[] = ["endo", "epi"];
 export const sideNames: Record<Side, string> = { endo: "endocardium", epi: "epicardium" };
 export const landmarkNames: Record<string, string> = { centre: "centre of the blood", septum_anterior: "anterior insertion of the septum",
-  septum_inferior: "inferior insertion of the septum", apex_endo: "tip of the endocardium", apex_epi: "tip of the epicardium" };
+  septum_inferior: "inferior insertion of the septum", apex_endo: "tip of the endocardium", apex_epi: "tip of the epicardium",
+  annulus_1: "mitral annulus, a point", annulus_2: "mitral annulus, second point", annulus_3: "mitral annulus, third point", annulus_4: "mitral annulus, fourth point" };
 
 /** The name of a border among all: slice, phase and side. */
 export const keyOf = (slice: number, phase: number, side: Side) => `${slice}/${phase}/${side}`;
@@ -43,6 +44,9 @@ export function placeOn(plane: Plane, x: Point): Place {
 export const inSpace = (plane: Plane, [u, v]: Place): Point =>
   [0, 1, 2].map((i) => plane.origin[i] + u * plane.along_row[i] + v * plane.along_column[i]) as Point;
 
+/** In space, as the program is told it. */
+export const toldPoints = (plane: Plane, places: readonly Place[]): Point[] => places.map((p) => rounded(inSpace(plane, p)));
+
 const rounded = (x: Point): Point => x.map((c) => Math.round(1e3 * c) / 1e3) as Point;
 
 export function linesOf(said: SaidLine[], slices: Plane[]): Map<string, Line> {
@@ -56,7 +60,7 @@ export const landmarksOf = (said: SaidLandmark[], slices: Plane[]): Map<string, 
 /** The drawing as the program takes it. */
 export function said(lines: Map<string, Line>, landmarks: Map<string, Landmark>, confidence: Confidence[], slices: Plane[], revision: number): string {
   const contours = [...lines].map(([key, line]) =>
-    ({ ...ofKey(key), ...line, points: line.points.map((p) => rounded(inSpace(slices[ofKey(key).slice - 1], p))) }));
+    ({ ...ofKey(key), ...line, points: toldPoints(slices[ofKey(key).slice - 1], line.points) }));
   const marks = [...landmarks.values()].map((mark) => ({ ...mark, at: rounded(inSpace(slices[mark.slice - 1], mark.at)) }));
   return JSON.stringify({ revision, contours, landmarks: marks, confidence });
 }

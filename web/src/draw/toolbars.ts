@@ -35,13 +35,15 @@ export function placeBar(editor: Editor, player: Player): Bar {
 
 export function toolBar(editor: Editor, saving: Saving): Bar {
   const side = radios<Side>("side", sides.map((s) => [s, sideNames[s]]), editor.side, (s) => editor.go(editor.slice, editor.phase, s));
-  const tool = radios<string>("tool", [["pull", "pull a part"], ["size", "resize"], ["redraw", "redraw"]], "pull", (t) => { editor.tool = t; mark.value = ""; });
+  const tool = radios<string>("tool", [["pull", "pull a part"], ["size", "resize"], ["redraw", "redraw"], ["points", "set points"]], "pull", (t) => { editor.tool = t; mark.value = ""; });
   const mark = el("select", { id: "landmark", change: () => { editor.tool = mark.value || "pull"; tool.set(editor.tool); } },
     el("option", { value: "" }, "none"), ...Object.entries(landmarkNames).map(([name, words]) => el("option", { value: name }, words)));
   const width = slider("a pull takes along", 4, 60, 1, editor.width, (value) => { editor.width = value; shown.textContent = `${value} mm`; });
   const shown = el("span", {}, `${editor.width} mm`);
+  const redraw = button(saving.redraws ? "Redraw from my points" : "Redraw from my points (needs ventricle draw itself)", () => void saving.redraw(), "from-points");
+  redraw.disabled = !saving.redraws;
   const element = el("div", { class: "toolbar" }, group("Border", ...side.labels), group("Pointer", ...tool.labels), el("label", {}, "or sets", mark),
-    button("Propose again from the centre", () => void saving.proposeAgain(), "propose"), width.element, shown);
+    redraw, button("Drop points", () => editor.dropPoints(), "drop-points"), button("Propose again from the centre", () => void saving.proposeAgain(), "propose"), width.element, shown);
   return { element, show: () => { side.set(editor.side); width.range.value = String(editor.width); shown.textContent = `${editor.width} mm`; } };
 }
 
