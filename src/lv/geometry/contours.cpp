@@ -34,9 +34,9 @@ struct Row {
 };
 
 /// One contour file, read line by line.
-class Table {
+class RowReader {
  public:
-  explicit Table(const std::filesystem::path& path) : file_(path.string()), lines_(path) {
+  explicit RowReader(const std::filesystem::path& path) : file_(path.string()), lines_(path) {
     if (!lines_.is_open())
       throw InputError(file_, "the contour file cannot be opened",
                        "Check the name and that it can be read");
@@ -155,7 +155,7 @@ Contour in_order(std::vector<Row> rows, const std::string& file) {
 
 std::vector<Contour> read_file(const std::filesystem::path& path) {
   std::map<std::pair<int, Side>, std::vector<Row>> groups;
-  for (const Row& row : Table(path).rows())
+  for (const Row& row : RowReader(path).rows())
     groups[{row.slice, row.side}].push_back(row);
   std::vector<Contour> contours;
   for (auto& [key, rows] : groups)

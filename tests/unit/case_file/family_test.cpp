@@ -10,7 +10,7 @@ namespace {
 using namespace lv;
 using Catch::Matchers::Contains;
 
-case_file::Case beating(const std::string& study, const std::string& kind = "windkessel") {
+case_file::Case studied(const std::string& study, const std::string& kind = "windkessel") {
   return case_file::parse_case(
       "engine = \"quasi_static\"\nprotocol.kind = \"cycle\"\nactive.law = \"land2017\"\n"
       "calcium.shape = \"double_exponential\"\ncalcium.t_1 = \"0.04 s\"\n"
@@ -22,7 +22,7 @@ case_file::Case beating(const std::string& study, const std::string& kind = "win
 }  // namespace
 
 TEST_CASE("every contractility and heart rate of a study meets every load", "[unit][case_file]") {
-  const auto c = beating("preload = [0.8, 1.2]\nafterload = [1.5]\ncontractility = [1.2]\n");
+  const auto c = studied("preload = [0.8, 1.2]\nafterload = [1.5]\ncontractility = [1.2]\n");
   const auto members = case_file::family(c.study);
   std::vector<std::string> names;
   for (const case_file::Member& m : members)
@@ -34,7 +34,7 @@ TEST_CASE("every contractility and heart rate of a study meets every load", "[un
 }
 
 TEST_CASE("a member of a study is the case with what its factors multiply", "[unit][case_file]") {
-  const auto c = beating("preload = [0.8]\n");
+  const auto c = studied("preload = [0.8]\n");
   const circulation::Factors all{0.5, 2.0, 1.25, 1.1};
   const auto changed = case_file::under(all, c);
   CHECK(changed.circulation.windkessel.p_ven == Approx(0.5 * c.circulation.windkessel.p_ven));
@@ -43,7 +43,7 @@ TEST_CASE("a member of a study is the case with what its factors multiply", "[un
   CHECK(changed.circulation.period == Approx(c.circulation.period / 1.1));
   CHECK_FALSE(changed.study.asked());
   CHECK(changed.origin.at("circulation.windkessel.p_ven") == "case.toml:9");
-  const auto loop = beating("preload = [0.8]\n", "closed_loop");
+  const auto loop = studied("preload = [0.8]\n", "closed_loop");
   const auto bled = case_file::under({.preload = 0.9, .afterload = 1.5}, loop);
   CHECK(bled.circulation.start.p_ven_sys == Approx(0.9 * loop.circulation.start.p_ven_sys));
   CHECK(bled.circulation.closed_loop.systemic.R_ar ==
@@ -52,7 +52,7 @@ TEST_CASE("a member of a study is the case with what its factors multiply", "[un
 
 TEST_CASE("a factor that makes a case which cannot be run is refused at its line",
           "[unit][case_file]") {
-  const auto c = beating("heart_rate = [2.5]\n");
+  const auto c = studied("heart_rate = [2.5]\n");
   CHECK_THROWS_WITH(case_file::under({.heart_rate = 2.5}, c),
                     Contains("case.toml:9") && Contains("shorter than the calcium of a beat"));
   CHECK_THROWS_WITH(
