@@ -13,8 +13,8 @@ struct Cost {
 };
 
 /// Tried on this machine: a few steps of the immersed engine, the first load step of the
-/// quasi-static one, each on its own mesh; of heartbeats the time of one and their number. What an engine cannot run says why. `mesh` is that of
-/// the engine of the case.
+/// quasi-static one, each on its own mesh; of heartbeats the time of one and their number. What an
+/// engine cannot run says why. `mesh` is that of the engine of the case.
 [[nodiscard]] Cost cost_of(const case_file::Case& c, const anatomy::Shape& shape,
                            const anatomy::MeshResult& mesh);
 
