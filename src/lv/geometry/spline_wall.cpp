@@ -232,12 +232,14 @@ void check_wall(const Contours& contours, const Thickness& thinnest, double leas
       "Redraw the borders there, or accept a thinner wall");
 }
 
-/// The middle of the first cell of a fine lattice in (t, theta, u) that is turned inside out:
-/// det[dx/dt dx/dtheta dx/du] <= 0 of its middle lines. None if the wall is sound.
+/// The first place of a fine lattice where the wall (nearly) turns inside out: where
+/// det[dx/dt dx/dtheta dx/du] is less than a twentieth of the product of these lengths. None if the
+/// wall is sound.
 std::optional<Vec3> inside_out(const SplineWall& wall) {
-  constexpr int along = 24;
+  constexpr int along = 32;
   constexpr int around = 48;
-  constexpr int across = 4;
+  constexpr int across = 2;
+  constexpr double least = 0.05;
   for (int i = 0; i < along; ++i)
     for (int j = 0; j < around; ++j) {
       const auto line = [&](int up, int on) -> std::pair<Vec3, Vec3> {
@@ -246,8 +248,8 @@ std::optional<Vec3> inside_out(const SplineWall& wall) {
         return {wall.point(u, theta, 0.0), wall.point(u, theta, 1.0)};
       };
       const std::array lines{line(0, 0), line(0, 1), line(1, 0), line(1, 1)};
-      for (int k = 0; k < across; ++k) {
-        const double t = (k + 0.5) / across;
+      for (int k = 0; k <= across; ++k) {
+        const double t = static_cast<double>(k) / across;
         const auto at = [&](int n) {
           return Vec3((1.0 - t) * lines[n].first + t * lines[n].second);
         };
@@ -257,7 +259,7 @@ std::optional<Vec3> inside_out(const SplineWall& wall) {
           map.col(0) += outer - inner;
         map.col(1) = at(1) + at(3) - at(0) - at(2);
         map.col(2) = at(2) + at(3) - at(0) - at(1);
-        if (!(map.determinant() > 0.0))
+        if (!(map.colwise().normalized().determinant() > least))
           return 0.25 * (at(0) + at(1) + at(2) + at(3));
       }
     }

@@ -56,7 +56,7 @@ class SplineWall {
 ///
 /// @throws InputError naming slice, height and angle if a contour is folded as seen from the long
 /// axis, a slice is moved by more than the largest shift, the wall is thinner than the thinnest
-/// wall, its surfaces cross, or the map (t, theta, u) -> x turns inside out, which no
+/// wall, its surfaces cross, or the map (t, theta, u) -> x (nearly) turns inside out, which no
 /// mesh could follow.
 [[nodiscard]] SplineWall fit_spline_wall(const Contours& contours,
                                          const SplineFitParameters& parameters);

@@ -326,8 +326,9 @@ void CycleRun::stop_early(const std::string& why) {
     show_progress();
     throw RunError(what,
                    "Look at cycle.csv up to there: a circuit that empties the heart, or overfills "
-                   "it, has other resistances, pressures or contractility than meant; else try a "
-                   "finer mesh");
+                   "it, has other resistances, pressures or contractility than meant; a thin or "
+                   "scarred wall may need what holds muscle back (muscle.viscosity = \"100 Pa "
+                   "s\"); else try a finer mesh");
   }
   cycle_.cut_short = true;
   cycle_.samples.resize(begins_.back() + 1);
