@@ -28,6 +28,7 @@ class [[nodiscard]] Outcome {
   [[nodiscard]] const Unsolved& why() const { return std::get<Unsolved>(content_); }
 
   /// For whom there is no other way: throws RunError where there is no answer.
+  // NOLINTNEXTLINE(modernize-use-nodiscard): some ask for it to throw alone
   const T& value() const {
     if (!*this)
       throw RunError(why().what, why().what_to_do);

@@ -86,6 +86,7 @@ struct ContourFileAnatomy {
 };
 
 /// In which space the coordinates of surfaces are; `stated`: as their files say.
+// NOLINTNEXTLINE(readability-identifier-naming): as files call them
 enum class SurfaceSpace { stated, LPS, RAS };
 
 /// Endocardium and epicardium as surfaces of triangles.

@@ -12,6 +12,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <ranges>
 #include <set>
 #include <utility>
 
@@ -144,9 +145,9 @@ class Sampler {
 
   /// Mean thickness of the most apical slice that shows both borders.
   [[nodiscard]] double apical_thickness() const {
-    for (auto slice = slices_.rbegin(); slice != slices_.rend(); ++slice)
-      if (const Contour* epi = find(contours_.short_axis, *slice, Side::epi))
-        return mean_radius(*epi) - mean_radius(*find(contours_.short_axis, *slice, Side::endo));
+    for (const int slice : slices_ | std::views::reverse)
+      if (const Contour* epi = find(contours_.short_axis, slice, Side::epi))
+        return mean_radius(*epi) - mean_radius(*find(contours_.short_axis, slice, Side::endo));
     return 0.0;
   }
 

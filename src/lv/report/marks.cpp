@@ -10,8 +10,10 @@ namespace {
 
 using Marks = std::vector<std::pair<std::string, Mark>>;
 
+/// A heartbeat has the pressures that its circulation makes, not those of the fit.
 bool was_fitted(const RunFacts& facts, const char* volume) {
-  return std::any_of(facts.fitted.begin(), facts.fitted.end(),
+  return facts.pressure != Mark::computed &&
+         std::any_of(facts.fitted.begin(), facts.fitted.end(),
                      [&](const FittedVolume& v) { return v.name == volume; });
 }
 

@@ -62,7 +62,7 @@ void number_paths(const json& value, const std::string& path, std::set<std::stri
     found.insert(path);
   if (value.is_object())
     for (const auto& [key, inner] : value.items())
-      number_paths(inner, path.empty() ? key : path + "." + key, found);
+      number_paths(inner, path.empty() ? key : fmt::format("{}.{}", path, key), found);
   if (value.is_array())
     for (const auto& inner : value)
       number_paths(inner, path, found);
@@ -108,6 +108,11 @@ TEST_CASE("every figure of the summary is measured, fitted, assumed or computed"
   CHECK(mark("parameters.passive.C_a") == "fitted");
   CHECK(mark("parameters.calibrate.edv") == "measured");
   CHECK(mark("parameters.box.size") == "assumed");
+
+  report::RunFacts heartbeat = calibrated_facts();
+  heartbeat.pressure = report::Mark::computed;
+  const json other = json::parse(report::summary_json(heartbeat, {}, results(true)));
+  CHECK(mark_of(other["marks"], "edv_ml") == "computed");
 }
 
 TEST_CASE("what was assumed is said at the end, once", "[unit][report]") {
