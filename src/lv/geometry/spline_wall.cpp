@@ -12,7 +12,6 @@
 #include <limits>
 #include <numbers>
 #include <optional>
-#include <ranges>
 #include <set>
 #include <utility>
 
@@ -145,9 +144,10 @@ class Sampler {
 
   /// Mean thickness of the most apical slice that shows both borders.
   [[nodiscard]] double apical_thickness() const {
-    for (const int slice : slices_ | std::views::reverse)
-      if (const Contour* epi = find(contours_.short_axis, slice, Side::epi))
-        return mean_radius(*epi) - mean_radius(*find(contours_.short_axis, slice, Side::endo));
+    // NOLINTNEXTLINE(modernize-loop-convert): clang 14 cannot read std::views::reverse
+    for (auto slice = slices_.rbegin(); slice != slices_.rend(); ++slice)
+      if (const Contour* epi = find(contours_.short_axis, *slice, Side::epi))
+        return mean_radius(*epi) - mean_radius(*find(contours_.short_axis, *slice, Side::endo));
     return 0.0;
   }
 
