@@ -257,6 +257,11 @@ inline constexpr double systolic_share = 0.9;
   return c.anatomy.source != AnatomySource::ellipsoid && c.anatomy.source != AnatomySource::mesh;
 }
 
+/// Whether the wall beats in a circulation.
+[[nodiscard]] inline bool is_cycle(const Case& c) {
+  return c.protocol.kind == heartbeat::ProtocolKind::cycle;
+}
+
 /// Whether the wall that was seen is a loaded one.
 [[nodiscard]] inline bool is_loaded(const Case& c) {
   return c.unloaded.pressure > 0.0;

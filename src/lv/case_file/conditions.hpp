@@ -18,9 +18,6 @@ inline bool may_have_infarct(const Case& c) {
   return c.scar.source == Scar::mesh ? c.anatomy.source == Source::mesh
                                      : c.scar.source != Scar::none;
 }
-inline bool is_cycle(const Case& c) {
-  return c.protocol.kind == heartbeat::ProtocolKind::cycle;
-}
 /// By itself it always may run; with the wall it does in a cycle.
 inline bool has_circuit(const Case& c, Stage s) {
   return c.circulation.asked() && (s != Stage::beat || is_cycle(c));

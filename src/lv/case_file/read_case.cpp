@@ -323,7 +323,7 @@ class CaseReader {
 
   void check_cycle() {
     const heartbeat::Protocol& p = case_.protocol;
-    if (p.kind != heartbeat::ProtocolKind::cycle)
+    if (!is_cycle(case_))
       return;
     rule(case_.circulation.asked(), "protocol.kind",
          "is \"cycle\", which needs a circulation: set circulation.kind to \"windkessel\" or "

@@ -176,7 +176,7 @@ calibrate::OtherPressure fit_at(double pressure, Case c, const anatomy::MeshResu
 /// Pressures that a case leaves to the defaults or to a rule of thumb. In a heartbeat the
 /// circulation makes them; a fit before it still reads them.
 std::vector<geometry::Assumption> assumed_pressures(const Case& c) {
-  if (c.protocol.kind == heartbeat::ProtocolKind::cycle && !c.calibration.asked())
+  if (case_file::is_cycle(c) && !c.calibration.asked())
     return {};
   std::vector<geometry::Assumption> assumed;
   const auto left_out = [&](const char* parameter, const char* moment, double pressure) {
@@ -275,6 +275,15 @@ Case calibrated(Case c, const std::filesystem::path& file) {
   for (const std::string& name : fitted_names(c.calibration))
     c.origin[name] = file.string();
   return with(std::move(c), calibrate::read_parameters(file));
+}
+
+Case fitted(const Case& c, const std::filesystem::path& calibration,
+            const std::filesystem::path& beat) {
+  if (!c.calibration.asked())
+    return c;
+  const auto corrected = beat / confirmation_name;
+  return calibrated(
+      c, std::filesystem::exists(corrected) ? corrected : calibration / calibration_name);
 }
 
 bool correct(const Case& c, const std::filesystem::path& calibration_folder,

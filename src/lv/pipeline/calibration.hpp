@@ -27,6 +27,12 @@ inline constexpr const char* confirmation_name = "confirmation.json";
 /// The case with the parameters of such a file.
 [[nodiscard]] case_file::Case calibrated(case_file::Case c, const std::filesystem::path& file);
 
+/// The case with the parameters in use: its own, those of the calibration's folder, or those of a
+/// beat in whose folder they were corrected.
+[[nodiscard]] case_file::Case fitted(const case_file::Case& c,
+                                     const std::filesystem::path& calibration,
+                                     const std::filesystem::path& beat);
+
 /// Records a beat made with the parameters of the calibration, and its volumes beside the measured
 /// ones and the quasi-static engine's, in confirmation.json of the beat's `folder`. When they are
 /// off by more than the tolerance and the case wants confirmation, up to twice, it records

@@ -75,8 +75,7 @@ std::vector<std::string> cycle_warnings(const Case& c, const circulation::Cycle&
 }
 
 std::string slow_relaxation(const Case& c) {
-  if (c.protocol.kind != heartbeat::ProtocolKind::cycle ||
-      c.active_law != case_file::ActiveLaw::niederer)
+  if (!case_file::is_cycle(c) || c.active_law != case_file::ActiveLaw::niederer)
     return "";
   return "active.law = \"niederer\" has the rates of a rat at room temperature: its relaxation "
          "does "

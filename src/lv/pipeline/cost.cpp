@@ -56,12 +56,8 @@ Estimate of_immersed(const Case& c, const mesh::Mesh& mesh) {
       fmt::format("about {}", log::duration(simulated / c.time.longest * step)), step};
 }
 
-bool is_cycle(const Case& c) {
-  return c.protocol.kind == heartbeat::ProtocolKind::cycle;
-}
-
 std::string beat_in_words(const Case& c, double load_step) {
-  if (!is_cycle(c))
+  if (!case_file::is_cycle(c))
     return fmt::format("about {}", log::duration(steps_of_beat * load_step));
   const heartbeat::CycleParameters& cycle = c.protocol.cycle;
   const double time_steps = c.circulation.period / cycle.step;
@@ -128,7 +124,7 @@ Cost cost_of(const Case& c, const anatomy::Shape& shape, const anatomy::MeshResu
     return made;
   };
   const auto immersed = [&]() -> Estimate {
-    if (is_cycle(c))
+    if (case_file::is_cycle(c))
       return {"", "cannot run heartbeats", 0.0};
     return of_immersed(with_engine(c, case_file::Engine::immersed),
                        mesh_of(case_file::Engine::immersed).mesh);

@@ -43,8 +43,7 @@ class Pipeline {
   Pipeline(const Case& c, const RunOptions& options)
       : case_(c),
         options_(options),
-        work_(options.work.empty() ? c.file.parent_path() / (c.file.stem().string() + ".work")
-                                   : options.work),
+        work_(work_folder(c, options)),
         last_(last_stage()),
         files_({work_, c.file}) {}
 
@@ -226,7 +225,7 @@ class Pipeline {
         const auto beat = folder(Stage::beat);
         const auto wall = wall_of(beat);
         const anatomy::MeshResult mesh = anatomy::read_mesh_result(wall);
-        text_ = make_results(fitted(c, beat), mesh, read_beat(beat, mesh.mesh),
+        text_ = make_results(fitted(c, calibration(), beat), mesh, read_beat(beat, mesh.mesh),
                              fit_record(case_, calibration(), beat), unloaded_shape(wall), part);
         on_root([&] { write_file(part / "summary.txt", text_); });
         break;
@@ -260,7 +259,7 @@ class Pipeline {
         unload(part,
                folder(Stage::unload) / elements_name);  // with corrected parameters
       const anatomy::MeshResult mesh = anatomy::read_mesh_result(wall_of(part));
-      beat = make_beat(fitted(c, part), mesh, part);
+      beat = make_beat(fitted(c, calibration(), part), mesh, part);
       log::info("beat: {} steps in {}", beat.steps, log::duration(beat.wall_clock));
       on_root([&] {
         again = c.calibration.asked() && correct(c, calibration(), beat, part);
@@ -277,7 +276,7 @@ class Pipeline {
   /// The wall without load for the parameters in use, into a folder.
   void unload(const std::filesystem::path& part, const std::filesystem::path& elements) const {
     make_unloading(
-        fitted(work::stage_view(case_, Stage::unload), part),
+        fitted(work::stage_view(case_, Stage::unload), calibration(), part),
         anatomy::read_mesh_result(folder(Stage::mesh)), anatomy::read_mesh_result(elements).mesh,
         part,
         case_.calibration.asked() ? calibration() / unloaded_shape_name : std::filesystem::path());
@@ -298,16 +297,6 @@ class Pipeline {
   }
 
   [[nodiscard]] std::filesystem::path calibration() const { return folder(Stage::calibrate); }
-
-  /// A case with the parameters in use: its own, a calibration's, or those of a beat that corrects
-  /// it.
-  [[nodiscard]] Case fitted(const Case& c, const std::filesystem::path& beat) const {
-    if (!c.calibration.asked())
-      return c;
-    const auto corrected = beat / confirmation_name;
-    return calibrated(
-        c, std::filesystem::exists(corrected) ? corrected : calibration() / calibration_name);
-  }
 
   /// What a user looks at first.
   void show(Stage stage) const {
@@ -342,6 +331,11 @@ class Pipeline {
 };
 
 }  // namespace
+
+std::filesystem::path work_folder(const Case& c, const RunOptions& options) {
+  return options.work.empty() ? c.file.parent_path() / (c.file.stem().string() + ".work")
+                              : options.work;
+}
 
 void run(const Case& c, const RunOptions& options) {
   if (options.dry_run) {

@@ -17,6 +17,10 @@ struct RunOptions {
   bool quiet = false;                ///< print no results
 };
 
+/// The work folder of a case.
+[[nodiscard]] std::filesystem::path work_folder(const case_file::Case& c,
+                                                const RunOptions& options);
+
 /// Runs all stages of a case, skipping those whose inputs, parameters and program version are
 /// unchanged:
 ///

@@ -373,7 +373,7 @@ void show_mesh(const anatomy::MeshResult& result, const Case& c,
 
 heartbeat::Beat make_beat(const Case& c, const anatomy::MeshResult& mesh,
                           const std::filesystem::path& folder) {
-  const bool is_cycle = c.protocol.kind == heartbeat::ProtocolKind::cycle;
+  const bool is_cycle = case_file::is_cycle(c);
   if (c.engine == case_file::Engine::quasi_static && !is_cycle && parallel::is_root())
     std::filesystem::remove_all(folder / "fields");  // of a beat that was stopped: it starts anew
   const std::vector<double> activated =

@@ -67,8 +67,7 @@ class StudyRun {
       : case_(c),
         options_(options),
         members_(case_file::family(c.study)),
-        work_(options.work.empty() ? c.file.parent_path() / (c.file.stem().string() + ".work")
-                                   : options.work) {
+        work_(work_folder(c, options)) {
     if (!c.study.asked())
       throw InputError(c.file.string(), "asks for no study",
                        "Add a list of factors, such as preload = [0.8, 1.2], under [study]");
@@ -112,7 +111,7 @@ class StudyRun {
       pipeline::run(case_, options);
     else {
       parallel::on_root([&] { take_walls(work_of(i - 1), options.work); });
-      pipeline::run(case_file::under(members_[i].factors, fitted()), options);
+      pipeline::run(case_file::under(members_[i].factors, with_its_fit()), options);
     }
     if (is_new) {
       const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begun;
@@ -122,13 +121,8 @@ class StudyRun {
   }
 
   /// The case with what its own run has fitted.
-  [[nodiscard]] Case fitted() const {
-    if (!case_.calibration.asked())
-      return case_;
-    const fs::path corrected = folder_in(work_, Stage::beat) / confirmation_name;
-    return calibrated(case_, fs::exists(corrected)
-                                 ? corrected
-                                 : folder_in(work_, Stage::calibrate) / calibration_name);
+  [[nodiscard]] Case with_its_fit() const {
+    return fitted(case_, folder_in(work_, Stage::calibrate), folder_in(work_, Stage::beat));
   }
 
   void report_progress(std::size_t i) const {

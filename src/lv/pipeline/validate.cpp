@@ -116,7 +116,7 @@ std::string describe_shape(const Case& c, const anatomy::Shape& shape, double ca
 }  // namespace
 
 std::string fit_outside_heartbeats(const Case& c) {
-  if (c.protocol.kind != heartbeat::ProtocolKind::cycle || !c.calibration.asked())
+  if (!case_file::is_cycle(c) || !c.calibration.asked())
     return "";
   return fmt::format(
       "[calibrate] fits outside of the heartbeats, at protocol.ed_pressure ({:g} mmHg) and "
