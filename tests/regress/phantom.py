@@ -123,7 +123,7 @@ def compare(options, folder):
     # Strain has its own tests and takes longer than all the rest.
     case = study / "mesh.toml"
     case.write_text((study / "case.toml").read_text().split("\n[strain]")[0] + '\n[mesh]\nedge_length = "1.4 mm"\n')
-    subprocess.run([program, "run", case, "--until", "mesh", "--work", work], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run([program, "run", case, "--until", "mesh", "--work", work, "--ranks", "1"], check=True, stdout=subprocess.DEVNULL)
     sheet = {r["quantity"]: float(r["value"]) for r in csv.DictReader((work / "01_anatomy" / "quality.csv").open())}
     cavity, wall = truth["early_diastole"]["cavity_volume_ml"], truth["wall_volume_ml"]
     check(f"{name}: cavity volume (%)", 100 * (sheet["cavity_fitted"] / cavity - 1), 2)

@@ -139,8 +139,10 @@ bool run(const Options& options) {
 std::string list() {
   std::string text;
   for (const Problem& p : problems())
-    text += fmt::format("{:<28} {:<8} {}\n", p.name, p.length == Length::nightly ? "nightly" : "",
-                        p.proves);
+    text += fmt::format(
+        "{:<28} {:<8} {:<12} {}\n", p.name, p.length == Length::nightly ? "nightly" : "brief",
+        fmt::format("{} rank{}", fmt::join(p.ranks, ","), p.ranks.back() == 1 ? "" : "s"),
+        p.proves);
   return text;
 }
 
