@@ -24,13 +24,8 @@ add_library(gmsh UNKNOWN IMPORTED)
 set_target_properties(gmsh PROPERTIES IMPORTED_LOCATION ${GMSH_LIBRARY} INTERFACE_INCLUDE_DIRECTORIES ${GMSH_INCLUDE_DIR})
 find_package(Boost 1.74 REQUIRED)  # headers alone: the R-tree
 
-# deal.II's own set-up macro would set the language standard and optimisation of everything: only its library and headers.
-find_package(deal.II 9.4 REQUIRED)
-add_library(deal_ii INTERFACE)
-target_include_directories(deal_ii SYSTEM INTERFACE ${DEAL_II_INCLUDE_DIRS})
-set(DEAL_II_INLINED ${DEAL_II_LIBRARIES_RELEASE})  # what its headers call by themselves
-list(FILTER DEAL_II_INLINED INCLUDE REGEX "libtrilinos_teuchos")
-target_link_libraries(deal_ii INTERFACE ${DEAL_II_TARGET_RELEASE} ${DEAL_II_INLINED})
+find_path(METIS_INCLUDE metis.h REQUIRED)
+find_library(METIS metis REQUIRED)
 pkg_check_modules(PETSC REQUIRED IMPORTED_TARGET PETSc)
 
 # The images alone, without ITK's factories: what is read and written is named where it is used.
@@ -39,7 +34,7 @@ find_package(ITK 5.2 REQUIRED COMPONENTS ITKCommon ITKIOGDCM ITKIONIFTI ITKMetaI
 add_library(itk INTERFACE)
 target_include_directories(itk SYSTEM INTERFACE ${ITK_INCLUDE_DIRS})
 target_link_libraries(itk INTERFACE ${ITK_LIBRARIES})
-# Files of MATLAB, as Segment writes them. Not by pkg-config, which adds headers of another HDF5 than deal.II's.
+# Files of MATLAB, as Segment writes them. Not by pkg-config, which adds headers of another HDF5 than PETSc's.
 find_path(MATIO_INCLUDE matio.h REQUIRED)
 find_library(MATIO matio REQUIRED)
 find_package(pugixml 1.13 REQUIRED)  # XML, as cvi42 writes it

@@ -2,8 +2,7 @@
 
 #include "lv/base/check.hpp"
 #include "lv/mesh/shapes.hpp"
-
-#include <deal.II/base/quadrature_lib.h>
+#include "lv/solid/quadrature.hpp"
 
 #include <cmath>
 
@@ -18,15 +17,8 @@ using Place = std::array<double, Dim>;
 /// Calls visit(place, weight) for the points of the displacement's own rule.
 template <int Dim, class Visit>
 void for_points(CellKind kind, int order, const Visit& visit) {
-  const dealii::Quadrature<Dim> rule = kind == CellKind::hexahedron
-                                           ? dealii::Quadrature<Dim>(dealii::QGauss<Dim>(order + 1))
-                                           : dealii::QGaussSimplex<Dim>(order + 1);
-  for (unsigned q = 0; q < rule.size(); ++q) {
-    Place<Dim> xi;
-    for (int d = 0; d < Dim; ++d)
-      xi[d] = rule.point(q)[d];
-    visit(xi, rule.weight(q));
-  }
+  for (const QuadraturePoint<Dim>& point : quadrature<Dim>(kind, order))
+    visit(point.xi, point.weight);
 }
 
 /// The table of functions that `at` gives at each of the points.
