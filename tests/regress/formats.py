@@ -160,6 +160,27 @@ def check_voxels(folder):
     check_wall(folder, "overlapping segments", labelled("layers.seg.nrrd", "[3]", "[1]"))
 
 
+def check_mirrored(folder):
+    """A heart that lies as in people, and the same voxels with a header that mirrors them."""
+    septal = np.array([-0.57, -0.81, 0.10]) / np.linalg.norm([-0.57, -0.81, 0.10])  # in LPS
+    up = np.cross(septal, [0.45, -0.20, 0.87])
+    up /= np.linalg.norm(up)
+    axes = np.column_stack([septal, np.cross(up, septal), up])
+    i, j, _ = np.meshgrid(*(np.arange(n) for n in SIZE), indexing="ij")
+    right = np.hypot(-45.0 + 1.25 * i - 45.0, -48.0 + 1.5 * j) < 22.0  # blood of the right ventricle beside the septum
+    values = np.where((labels() == 0) & right, 3, labels()).astype(np.uint8)
+    for name, signs in (("lies_as_in_people", [-1, -1, 1]), ("mirrored", [1, -1, 1])):
+        place = np.eye(4)
+        place[:3, :3] = np.diag(signs) @ axes * SPACING
+        image = nibabel.Nifti1Image(values, place)
+        image.header.set_xyzt_units("mm")
+        nibabel.save(image, folder / f"{name}.nii.gz")
+        found, said = wall_of(folder, name, labelled(f"{name}.nii.gz", more="right_ventricle = [3]\n"))
+        warned = found is not None and any("seems mirrored" in text for text in found[1]["warnings"])
+        check(f"{name}: it is {'' if name == 'mirrored' else 'not '}said that the image seems mirrored",
+              found is not None and warned == (name == "mirrored"), said[-400:])
+
+
 def written(file, dataset, sop_class, uid):
     meta = FileMetaDataset()
     meta.MediaStorageSOPClassUID, meta.MediaStorageSOPInstanceUID = sop_class, uid
@@ -376,7 +397,7 @@ def check_surfaces(folder):
 with tempfile.TemporaryDirectory() as temporary:
     base = pathlib.Path(temporary)
     write_images(base / "images")
-    for test in (check_voxels, check_segmentation, check_structures, check_segment, check_cvi42, check_surfaces):
+    for test in (check_voxels, check_mirrored, check_segmentation, check_structures, check_segment, check_cvi42, check_surfaces):
         test(base)
 print(f"{len(failures)} failed")
 sys.exit(1 if failures else 0)

@@ -117,7 +117,7 @@ def target(process, work, choice):
     """The process to kill, and what it is."""
     others = {n: name for n, name in processes(work).items() if n != process.pid}
     launchers = [n for n, name in others.items() if name in ("mpirun", "orterun")]
-    ranks = [n for n, name in others.items() if name == "ventricle"]
+    ranks = [n for n, name in others.items() if name == program.name[:15]]  # as the kernel cuts it
     if choice == "mpirun" and launchers:
         return launchers[0], choice
     if choice == "rank" and ranks:

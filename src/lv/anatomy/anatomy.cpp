@@ -59,6 +59,34 @@ void assume_moment(const Case& c, const std::vector<std::string>& warnings, bool
     shape.assumed.push_back({"early diastole", assumed_moment});
 }
 
+/// Whether the points of a case's anatomy are the scanner's: x to the patient's left, y to the
+/// back, z to the head. Contours and surfaces may come in any axes.
+bool is_in_patient(const Case& c) {
+  using case_file::AnatomySource;
+  const AnatomySource source = c.anatomy.source;
+  return source == AnatomySource::labels || source == AnatomySource::sunnybrook ||
+         source == AnatomySource::cine;
+}
+
+/// Warns where the wall lies in the patient as no heart does: the septum faces the left, or the
+/// anterior wall the back and the feet. A header that mirrors the image does this, and exchanges
+/// the names of regions.
+void check_orientation(const Case& c, Shape& shape) {
+  constexpr double clearly = 0.5;  // cosine
+  const Vec3 septal = shape.frame.axes.col(0);
+  const Vec3 anterior = shape.frame.axes.col(1);
+  const Vec3 up_and_front = Vec3(0.0, -1.0, 1.0).normalized();
+  const bool to_the_left = septal.x() > clearly;
+  if (!is_in_patient(c) || (!to_the_left && anterior.dot(up_and_front) > -clearly))
+    return;
+  shape.warnings.push_back(
+      {"orientation",
+       fmt::format("in the coordinates of the image {}: the image seems mirrored or turned, and "
+                   "anterior and inferior regions exchanged; check how its header lays it in space",
+                   to_the_left ? "the septum faces the patient's left"
+                               : "the anterior wall faces the patient's back and feet")});
+}
+
 /// Warnings are assumptions and notes too.
 void collect_remarks(Shape& shape) {
   shape.assumed.insert(shape.assumed.begin(), shape.warnings.begin(), shape.warnings.end());
@@ -105,6 +133,8 @@ Shape from_drawn(const Case& c) {
   shape.segmentation = std::move(drawn.segmentation);
   if (!fit.frame.septum && !c.origin.contains("regions.septum_angle"))
     shape.warnings.push_back({"septum", assumed_septum});
+  if (fit.frame.septum)
+    check_orientation(c, shape);
   shape.assumed = wall->report().assumed;
   assume_moment(c, drawn.warnings, drawn.moment_is_known, shape);
   collect_remarks(shape);

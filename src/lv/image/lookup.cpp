@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace lv::image {
 namespace {
@@ -26,7 +27,23 @@ std::vector<Level> levels_by_distance(const Cine& stack, const Vec3& x) {
   return levels;
 }
 
+/// The voxel that holds a place given in voxels; nothing outside the image.
+std::optional<std::array<int, 3>> voxel_at(const Volume& volume, const Vec3& ijk) {
+  std::array<int, 3> at{};
+  for (int d = 0; d < 3; ++d) {
+    const double nearest = std::round(ijk[d]);
+    if (!(nearest >= 0 && nearest < volume.size[d]))
+      return std::nullopt;
+    at[d] = static_cast<int>(nearest);
+  }
+  return at;
+}
+
 }  // namespace
+
+bool shows(const Volume& volume, const Vec3& x) {
+  return voxel_at(volume, volume.index(x)).has_value();
+}
 
 bool is_one_of(float value, const std::vector<int>& labels) {
   return std::any_of(labels.begin(), labels.end(),
@@ -43,14 +60,8 @@ bool has_label(const Volume& volume, const Vec3& x, const std::vector<int>& labe
       return false;
     ijk = volume.index(x - moves[static_cast<std::size_t>(slice)]);
   }
-  std::array<int, 3> at{};
-  for (int d = 0; d < 3; ++d) {
-    const double nearest = std::round(ijk[d]);
-    if (!(nearest >= 0 && nearest < volume.size[d]))
-      return false;
-    at[d] = static_cast<int>(nearest);
-  }
-  return is_one_of(volume.at(at[0], at[1], at[2]), labels);
+  const auto at = voxel_at(volume, ijk);
+  return at && is_one_of(volume.at((*at)[0], (*at)[1], (*at)[2]), labels);
 }
 
 std::vector<Vec3> slice_moves(const Volume& volume, const std::vector<int>& labels,

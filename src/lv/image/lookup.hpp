@@ -10,6 +10,9 @@ namespace lv::image {
 /// Whether a voxel's value is one of these labels.
 [[nodiscard]] bool is_one_of(float value, const std::vector<int>& labels);
 
+/// Whether x lies in a voxel of the image.
+[[nodiscard]] bool shows(const Volume& volume, const Vec3& x);
+
 /// Whether x lies in a voxel with one of these labels; false outside the image. `moves`, if there
 /// are any, say by how much each slice across slice_axis has been moved in image space (see
 /// slice_moves).

@@ -135,7 +135,7 @@ std::vector<int> face_parts(const Surface& surface) {
   return parts.numbers();
 }
 
-int edge_loops(const Surface& surface) {
+std::vector<std::vector<std::array<int, 2>>> boundary_loops(const Surface& surface) {
   const auto edges = boundary_edges(surface);
   std::map<int, int> edge_at_node;
   Parts parts(static_cast<int>(edges.size()));
@@ -146,7 +146,15 @@ int edge_loops(const Surface& surface) {
         parts.join(entry->second, e);
     }
   }
-  return count_parts(parts.numbers());
+  const std::vector<int> number = parts.numbers();
+  std::vector<std::vector<std::array<int, 2>>> loops(count_parts(number));
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    loops[number[e]].push_back(edges[e]);
+  return loops;
+}
+
+int edge_loops(const Surface& surface) {
+  return static_cast<int>(boundary_loops(surface).size());
 }
 
 int count_parts(const std::vector<int>& parts) {

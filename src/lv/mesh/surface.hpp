@@ -26,6 +26,9 @@ using FaceKey = std::array<int, 4>;
 /// For each face the number, from 0, of its part: faces that hang together by edges.
 [[nodiscard]] std::vector<int> face_parts(const Surface& surface);
 
+/// The edges of one face alone, by the closed lines that they make.
+[[nodiscard]] std::vector<std::vector<std::array<int, 2>>> boundary_loops(const Surface& surface);
+
 /// Number of closed lines that the edge of the surface consists of: 0 for a sphere, 1 for a disc, 2
 /// for a ring.
 [[nodiscard]] int edge_loops(const Surface& surface);

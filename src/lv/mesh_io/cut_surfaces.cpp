@@ -112,6 +112,28 @@ Triangles without_lid(const Triangles& t) {
   return open;
 }
 
+/// "163 mm around at (1.2, 3.4, 5.6) mm, ..." of the longest openings.
+std::string places_of(const Triangles& t, const std::vector<std::vector<Edge>>& openings) {
+  constexpr std::size_t most = 4;
+  std::vector<std::pair<double, Vec3>> found;
+  for (const std::vector<Edge>& edges : openings) {
+    double around = 0.0;
+    Vec3 middle = Vec3::Zero();
+    for (const auto& [a, b] : edges) {
+      around += (t.nodes[b] - t.nodes[a]).norm();
+      middle += 0.5 / static_cast<double>(edges.size()) * (t.nodes[a] + t.nodes[b]);
+    }
+    found.emplace_back(around, middle);
+  }
+  std::sort(found.begin(), found.end(),
+            [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<std::string> words;
+  for (std::size_t i = 0; i < std::min(most, found.size()); ++i)
+    words.push_back(fmt::format("{:.3g} mm around at ({:.1f}, {:.1f}, {:.1f}) mm", found[i].first,
+                                found[i].second.x(), found[i].second.y(), found[i].second.z()));
+  return fmt::format("{}{}", fmt::join(words, ", "), found.size() > most ? ", ..." : "");
+}
+
 /// A surface that is open at the base.
 struct OpenSurface {
   Triangles triangles;
@@ -128,8 +150,8 @@ OpenSurface open_at_base(const Triangles& t) {
     open.had_lid = true;
     edges = open_edges(open.triangles);
   }
-  if (const int pieces = mesh::edge_loops(open.triangles.faces); pieces != 1)
-    fail_surface(t, fmt::format("has {} openings", pieces),
+  if (const auto openings = mesh::boundary_loops(open.triangles.faces); openings.size() != 1)
+    fail_surface(t, fmt::format("has {} openings: {}", openings.size(), places_of(t, openings)),
                  "A surface may be open at the base alone: close the other holes");
   double length = 0.0;
   for (const Edge& e : edges) {

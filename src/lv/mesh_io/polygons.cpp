@@ -16,6 +16,13 @@
 #include <vtkSTLReader.h>
 #include <vtkXMLPolyDataReader.h>
 
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <string_view>
+
 namespace lv::mesh_io {
 namespace {
 
@@ -27,14 +34,41 @@ vtkSmartPointer<vtkPolyData> read_with(const std::string& file) {
   return reader->GetOutput();
 }
 
+/// VTK reads what there is of a binary STL file and says nothing of what is lacking: 80 bytes of
+/// header, the number of triangles, 50 bytes for each.
+void check_stl_length(const std::string& file) {
+  constexpr std::uintmax_t before_triangles = 84;
+  constexpr std::uintmax_t per_triangle = 50;
+  std::array<char, 1024> first{};
+  std::ifstream in(file, std::ios::binary);
+  in.read(first.data(), first.size());
+  const std::string_view beginning(first.data(), static_cast<std::size_t>(in.gcount()));
+  const bool is_text = beginning.starts_with("solid") && beginning.find("facet") != beginning.npos;
+  const std::uintmax_t there = std::filesystem::file_size(file);
+  if (is_text || there < before_triangles)
+    return;
+  std::uint32_t triangles = 0;
+  std::memcpy(&triangles, first.data() + before_triangles - sizeof triangles, sizeof triangles);
+  const std::uintmax_t stated = before_triangles + per_triangle * triangles;
+  if (there < stated)
+    throw InputError(
+        file,
+        fmt::format(
+            "the file is truncated: {} of the {} bytes that its {} triangles take are there", there,
+            stated, triangles),
+        "Copy or export the file again");
+}
+
 }  // namespace
 
 vtkSmartPointer<vtkPolyData> read_polygons(const std::string& file) {
   const std::string ending = ending_of(file);
   require_readable(file, "Check the name of the surface");
   const auto polygons = read_by_vtk(file, [&] {
-    if (ending == ".stl")
+    if (ending == ".stl") {
+      check_stl_length(file);
       return read_with<vtkSTLReader>(file);
+    }
     if (ending == ".ply")
       return read_with<vtkPLYReader>(file);
     if (ending == ".obj")

@@ -13,26 +13,43 @@
 #include <vtkSmartPointer.h>
 
 #include <array>
+#include <cmath>
 #include <map>
 
 namespace lv::mesh_io {
 namespace {
 
-/// The number of each point, the same for points in the same place.
+/// The number of each point, the same for points in the same place: closer than 2.5e-5 mm, for the
+/// points of a circle that programs compute twice differ in their last digits.
 class PointNumbers {
  public:
   std::vector<Vec3> points;
 
   int operator()(const Vec3& x) {
-    const auto [entry, added] =
-        number_.emplace(std::array{x.x(), x.y(), x.z()}, static_cast<int>(points.size()));
-    if (added)
-      points.push_back(x);
-    return entry->second;
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3 towards((corner & 1) != 0 ? 0.25 : -0.25, (corner & 2) != 0 ? 0.25 : -0.25,
+                         (corner & 4) != 0 ? 0.25 : -0.25);
+      const auto box = boxes_.find(box_of(x / side + towards));
+      if (box == boxes_.end())
+        continue;
+      for (const int number : box->second)
+        if ((points[number] - x).cwiseAbs().maxCoeff() < 0.25 * side)
+          return number;
+    }
+    const int number = static_cast<int>(points.size());
+    points.push_back(x);
+    boxes_[box_of(x / side)].push_back(number);
+    return number;
   }
 
  private:
-  std::map<std::array<double, 3>, int> number_;
+  static constexpr double side = 1e-4;  // of a box [mm]
+  using Box = std::array<long long, 3>;
+  std::map<Box, std::vector<int>> boxes_;
+
+  static Box box_of(const Vec3& x) {
+    return {std::llround(x.x()), std::llround(x.y()), std::llround(x.z())};
+  }
 };
 
 }  // namespace
@@ -65,7 +82,8 @@ Triangles read_triangles(const std::string& file, double unit, const std::string
       n.push_back(number(x));
     }
     for (std::size_t i = 2; i < n.size(); ++i)
-      triangles.faces.nodes.insert(triangles.faces.nodes.end(), {n[0], n[i - 1], n[i]});
+      if (n[0] != n[i - 1] && n[i - 1] != n[i] && n[i] != n[0])
+        triangles.faces.nodes.insert(triangles.faces.nodes.end(), {n[0], n[i - 1], n[i]});
   }
   if (triangles.faces.size() == 0)
     throw InputError(file, "holds no triangles", "Export the surface as polygons");

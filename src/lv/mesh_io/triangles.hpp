@@ -8,7 +8,8 @@
 
 namespace lv::mesh_io {
 
-/// A surface of triangles in image space (LPS) [mm]; points in the same place are one.
+/// A surface of triangles in image space (LPS) [mm]; points in the same place are one, and
+/// triangles with two corners in one place are left out.
 struct Triangles {
   std::string file;  ///< for messages
   std::vector<Vec3> nodes;

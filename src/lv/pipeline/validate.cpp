@@ -49,7 +49,10 @@ std::vector<Warning> warnings_of(const Case& c, const anatomy::Shape& shape, dou
   if (std::string outside = fit_outside_heartbeats(c); !outside.empty())
     warnings.push_back({"fit outside heartbeats", std::move(outside)});
   for (const geometry::Assumption& a : shape.warnings)
-    warnings.push_back({a.part == "septum" ? "septum assumed" : "end-diastolic shape", a.text});
+    warnings.push_back({a.part == "septum"        ? "septum assumed"
+                        : a.part == "orientation" ? "orientation"
+                                                  : "end-diastolic shape",
+                        a.text});
   const double edv = c.calibration.edv;
   if (c.calibration.passive != calibrate::FittedPassive::none && !case_file::is_loaded(c) &&
       edv < little_filling * cavity)

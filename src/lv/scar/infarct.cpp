@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <optional>
 
 namespace lv::scar {
@@ -99,6 +100,14 @@ Vec3 in_images(const Case& c, const anatomy::Shape& shape, const Vec3& X) {
   return shape.frame.to_image(X) - Vec3(c.scar.shift[0], c.scar.shift[1], c.scar.shift[2]);
 }
 
+/// Warns where a map shows less than the wall: there is no scar where nothing is shown.
+void check_shown(const Mesh& mesh, const std::string& file, const std::function<bool(int)>& shows) {
+  constexpr double worth_saying = 0.05;  // of the wall
+  if (const double part = unseen_part(mesh, shows); part > worth_saying)
+    log::warn("scar: {:.1f}% of the wall lies outside of {}: it is taken as healthy", 100.0 * part,
+              file);
+}
+
 /// How the slices of a map move until the middle of its muscle lies on that of the wall.
 std::vector<Vec3> moves_onto_wall(const Case& c, const anatomy::Shape& shape, const Mesh& mesh,
                                   const image::Volume& volume, std::vector<int> muscle) {
@@ -156,6 +165,9 @@ Infarct within_image(const Case& c, const anatomy::Shape& shape, const Mesh& mes
   image::require_labels(volume, 0, c.scar.no_reflow,
                         case_file::place_of(c, "infarct.labels.no_reflow"),
                         "infarct.labels.no_reflow");
+  check_shown(mesh, file, [&](int cell) {
+    return image::shows(volume, in_images(c, shape, mesh::cell_centre(mesh, cell)));
+  });
   const std::vector<int> wanted = infarcted_labels(c);
   const std::vector<Vec3> moves =
       c.scar.in_plane ? moves_onto_wall(c, shape, mesh, volume, wanted) : std::vector<Vec3>{};
@@ -269,6 +281,7 @@ Infarct by_brightness(const Case& c, const anatomy::Shape& shape, const Mesh& me
                      fmt::format("{} shows nothing of the wall, which reaches {} in image space",
                                  c.scar.lge.image, place_of_wall(shape, mesh)),
                      "Check that both share the scanner's coordinates");
+  check_shown(mesh, c.scar.lge.image, [&](int cell) { return !std::isnan(values[cell]); });
   const double threshold = scar_threshold(c, mesh, lge, values);
   log::info("late enhancement: scar is brighter than {:.4g}", threshold);
   Infarct infarct = within(
@@ -288,6 +301,9 @@ Infarct within_labels(const Case& c, const anatomy::Shape& shape, const Mesh& me
     return within_image(c, shape, mesh, file);
   const mesh_io::LabelVolume volume(file, c.scar.array, c.scar.length_unit);
   check_labels(c, file, volume.labels());
+  check_shown(mesh, file, [&](int cell) {
+    return volume.box().contains(in_images(c, shape, mesh::cell_centre(mesh, cell)));
+  });
   const std::vector<int> wanted = infarcted_labels(c);
   return within(
       c, shape, mesh,
@@ -364,6 +380,18 @@ case_file::Missing missing_of_labels(const Case& c) {
 }
 
 }  // namespace
+
+double unseen_part(const Mesh& mesh, const std::function<bool(int)>& shows) {
+  double wall = 0.0;
+  double unseen = 0.0;
+  for (int cell = 0; cell < mesh.cell_count(); ++cell) {
+    const double volume = mesh::cell_volume(mesh, cell);
+    wall += volume;
+    if (!shows(cell))
+      unseen += volume;
+  }
+  return unseen / wall;
+}
 
 void require_infarct(const Case& c) {
   std::string found;

@@ -5,6 +5,7 @@
 #include "lv/base/table.hpp"
 #include "lv/case_file/case.hpp"
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,6 +27,9 @@ void require_infarct(const case_file::Case& c);
 /// infarct holds the centre of no element of the wall.
 [[nodiscard]] InfarctExtent infarct_extent(const case_file::Case& c, const anatomy::Shape& shape,
                                            const mesh::Mesh& mesh);
+
+/// The part of the wall's volume that a map does not show; `shows` says it of an element.
+[[nodiscard]] double unseen_part(const mesh::Mesh& mesh, const std::function<bool(int)>& shows);
 
 /// infarct.csv: per AHA segment the infarct's volume, mass (with the density of the case), part of
 /// the segment and transmurality (see mesh::infarct_by_segment).

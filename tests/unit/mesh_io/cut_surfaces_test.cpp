@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
+#include <array>
 #include <numbers>
 
 namespace {
@@ -73,8 +74,36 @@ TEST_CASE("surfaces that show no base, or no wall, are refused", "[unit][mesh_io
   CHECK_THROWS_WITH(mesh_io::cut_across(epi, endo), Contains("does not reach below"));
   Triangles holed = epi;
   holed.faces.nodes.erase(holed.faces.nodes.begin() + 900, holed.faces.nodes.begin() + 903);
-  CHECK_THROWS_WITH(mesh_io::cut_across(endo, holed), Contains("has 2 openings"));
+  CHECK_THROWS_WITH(mesh_io::cut_across(endo, holed),
+                    Contains("has 2 openings: ") && Contains(" mm around at ("));
   test::Bowl round = test::half_ellipsoid(25.0, 60.0, 0.999, true);
   CHECK_THROWS_WITH(mesh_io::cut_across(written(round), epi),
                     Contains("closed without a flat lid"));
+}
+
+TEST_CASE("points that differ in their last digits are one", "[unit][mesh_io]") {
+  const test::Bowl made = bowl(25.0, 60.0, false);
+  test::Bowl apart;  // every triangle has its own corners
+  for (const auto& face : made.faces) {
+    std::array<int, 3> corners{};
+    for (int i = 0; i < 3; ++i) {
+      corners[i] = static_cast<int>(apart.points.size());
+      apart.points.push_back(made.points[face[i]] + 1e-9 * Vec3(i, corners[i] % 3, -i));
+    }
+    apart.faces.push_back(corners);
+  }
+  CHECK(written(apart).nodes.size() == written(made).nodes.size());
+  CHECK(written(apart).faces.size() == written(made).faces.size());
+}
+
+TEST_CASE("a binary STL file that lacks triangles is refused", "[unit][mesh_io]") {
+  const test::TemporaryFolder folder;
+  const std::string whole = test::binary_stl(bowl(25.0, 60.0, false));
+  const auto triangles = [&](std::size_t lacking) {
+    test::write_bytes(folder / "x.stl", whole.substr(0, whole.size() - lacking));
+    return mesh_io::read_triangles((folder / "x.stl").string(), 1.0, "LPS").faces.size();
+  };
+  CHECK(triangles(0) == static_cast<int>((whole.size() - 84) / 50));
+  for (const std::size_t lacking : {1, 50, 1000})
+    CHECK_THROWS_WITH(triangles(lacking), Contains("the file is truncated"));
 }

@@ -6,6 +6,8 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <string>
 #include <vector>
 
@@ -67,6 +69,25 @@ inline std::string stl_text(const Bowl& bowl) {
     text += "endloop\nendfacet\n";
   }
   return text + "endsolid bowl\n";
+}
+
+inline std::string binary_stl(const Bowl& bowl) {
+  std::string bytes(80, ' ');
+  const auto add = [&](const auto& value) {
+    std::array<char, sizeof value> raw{};
+    std::memcpy(raw.data(), &value, sizeof value);
+    bytes.append(raw.data(), raw.size());
+  };
+  add(static_cast<std::uint32_t>(bowl.faces.size()));
+  for (const auto& f : bowl.faces) {
+    for (int i = 0; i < 3; ++i)
+      add(0.0F);
+    for (const int n : f)
+      for (int i = 0; i < 3; ++i)
+        add(static_cast<float>(bowl.points[n][i]));
+    add(std::uint16_t{0});
+  }
+  return bytes;
 }
 
 }  // namespace lv::test

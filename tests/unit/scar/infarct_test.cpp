@@ -1,6 +1,7 @@
 #include "lv/scar/infarct.hpp"
 
 #include "lv/geometry/contours.hpp"
+#include "lv/mesh/cell.hpp"
 #include "lv/mesh/infarct.hpp"
 #include "lv/work/ingredients.hpp"
 
@@ -336,4 +337,18 @@ TEST_CASE("without an infarct nothing is said of it", "[unit][scar]") {
   anatomy::MeshResult wall{test::coarse_mesh(mesh::CellKind::tetrahedron), {}, {}};
   wall.infarcted.assign(wall.mesh.cell_count(), 0.0);
   CHECK(scar::describe_infarct(c, wall).empty());
+}
+
+TEST_CASE("the part of the wall that a map does not show is measured by volume", "[unit][scar]") {
+  const mesh::Mesh wall = test::ellipsoid_mesh({}, 6.0);
+  const auto above = [&](int cell) { return mesh::cell_centre(wall, cell).z() > -50.0; };
+  double below = 0.0;
+  double all = 0.0;
+  for (int cell = 0; cell < wall.cell_count(); ++cell) {
+    all += mesh::cell_volume(wall, cell);
+    below += above(cell) ? 0.0 : mesh::cell_volume(wall, cell);
+  }
+  CHECK(below > 0.0);
+  CHECK(scar::unseen_part(wall, above) == Approx(below / all));
+  CHECK(scar::unseen_part(wall, [](int) { return true; }) == 0.0);
 }
