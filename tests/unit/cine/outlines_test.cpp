@@ -155,6 +155,10 @@ TEST_CASE("outlines follow the curve of quadratic elements", "[cine]") {
   straight.mesh.order = 1;
   static_cast<void>(outlined(curved, temporary / "curved"));
   static_cast<void>(outlined(straight, temporary / "straight"));
-  // a chord half as long is a quarter as far from its arc
-  CHECK(farthest(temporary / "curved") < 0.4 * farthest(temporary / "straight"));
+  // A chord half as long is a quarter as far from its arc. Near the apex such large elements are
+  // themselves off the ellipsoid.
+  const auto off = [&](const char* name) {
+    return Table::read_csv(temporary / name / "outline_distances.csv").numbers("mean_mm").front();
+  };
+  CHECK(off("curved") < 0.4 * off("straight"));
 }
