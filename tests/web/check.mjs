@@ -25,8 +25,8 @@ try {
   await of("half", checkHalf);
   await of("beats", checkBeats);
   await of("images", checkImages, checkFigures);
-  await of("real", checkReal, checkDocumented);
   await of("mixed", checkMixed);
+  await of("real", checkReal, checkDocumented);
 } finally {
   await browser.close();
   await Promise.allSettled(Object.values(made));

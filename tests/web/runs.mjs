@@ -1,4 +1,4 @@
-// The runs and pages that the checks look at, each made once, on two processors at most.
+// The runs and pages that the checks look at, each made once, two long runs at a time.
 import { execFile } from "node:child_process";
 import { cpSync, existsSync, mkdirSync, readFileSync, renameSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
@@ -119,7 +119,7 @@ async function runReal() {
   await ventricle("run", "hv01.toml", "--ranks", "1");
 }
 
-/** Promises by what is made. What one needs that another makes it waits for; the chains beside each other are two. */
+/** Promises by what is made; each waits for what it needs. The phantom is followed while the small beat runs, and then the real ventricle. */
 export function makeRuns() {
   const made = {};
   const small = (made.page = timed("[run] small", makeSmall));
@@ -132,8 +132,8 @@ export function makeRuns() {
   made.half = after(made.fitted, "half", makeHalf);
   made.beats = after(made.half, "beats", pretendBeats);
   made.images = after(phantom, "images", () => ventricle("report", images, "--output", "images.html"));
-  made.real = after(made.images, "HV01", runReal);
-  made.mixed = after(Promise.all([made.real, small]), "mixed", () => ventricle("compare", images, work, "--output", "mixed.html"));
+  made.real = after(small, "HV01", runReal);
+  made.mixed = after(Promise.all([made.images, small]), "mixed", () => ventricle("compare", images, work, "--output", "mixed.html"));
   // who waits for one hears of its failure; until then it is no unhandled one
   for (const one of Object.values(made)) one.catch(() => {});
   return made;
