@@ -116,6 +116,11 @@ def check_examples(work):
         check("weighted by reference_volume the field has the table's means", difference < 2e-6, difference)
 
 
+def check_documents(work):
+    told = subprocess.run([sys.executable, here.parent / "documents" / "outputs.py", work], capture_output=True, text=True, check=False)
+    check("all that a run leaves is documented", told.returncode == 0, told.stdout + told.stderr)
+
+
 def check_stages(work):
     again = run(work, 1, here / "small.toml", "--explain")
     check("a second run has nothing to do", again.stdout.count("is up to date") == 5, again.stdout)
@@ -265,6 +270,7 @@ with tempfile.TemporaryDirectory(prefix="ventricle_regress_") as temporary:
         check_outputs(undisturbed)
         check_paraview(undisturbed)
         check_examples(undisturbed)
+        check_documents(undisturbed)
         check_stages(undisturbed)
         check_stop_and_resume(undisturbed, folder / "killed", signal.SIGKILL, -signal.SIGKILL)
         check_stop_and_resume(undisturbed, folder / "terminated", signal.SIGTERM, 130)
@@ -273,6 +279,7 @@ with tempfile.TemporaryDirectory(prefix="ventricle_regress_") as temporary:
         check_stop_and_resume(folder / "two_ranks", folder / "stopped_on_two", signal.SIGINT, 130, ranks=2)
         check_moved(undisturbed)
     check_unloading(folder / "unloaded")
+    check_documents(folder / "unloaded")
     check_same_bits(folder)
     check_refusals(folder)
 print(f"{len(failures)} failed")

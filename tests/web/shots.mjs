@@ -4,20 +4,20 @@
 // opens with and every section, on screens of 1440 x 900, 1280 x 720 and 390 x 844 pixels, at 200% zoom, dark, and printed, and print.pdf.
 import { mkdirSync } from "node:fs";
 import { join } from "node:path";
-import { lacking, launch, openPage, screens } from "./browser.mjs";
+import { inSight, lacking, launch, openPage, screens, settled } from "./browser.mjs";
 
 const [file, folder, ...wanted] = process.argv.slice(2);
 if (lacking) throw new Error(lacking);
 mkdirSync(folder, { recursive: true });
 const browser = await launch();
-const drawn = (page) => page.waitForTimeout(1500);  // what is drawn when it comes into sight
 
 async function shootPart(id, name) {
   const page = await openPage(browser, file, { viewport: id === "phone" ? { width: 390, height: 800 } : { width: 1200, height: 900 } });
   const path = join(folder, `${name}.png`);
   const part = page.locator(id === "phone" ? "canvas.wall" : id === "top" ? "body" : `#${id}`).first();
   await part.scrollIntoViewIfNeeded();
-  await drawn(page);
+  if (id === "phone" || id === "top") await settled(page);
+  else await inSight(page, id);
   await (id === "phone" || id === "top" ? page : part).screenshot({ path });
   await page.context().close();
 }
@@ -26,11 +26,10 @@ async function shootScreen(name, { media = "screen", ...settings }) {
   const page = await openPage(browser, file, settings);
   await page.emulateMedia({ media });
   if (media === "print") await page.evaluate(() => dispatchEvent(new Event("beforeprint")));
-  await drawn(page);
+  await settled(page);
   await page.screenshot({ path: join(folder, `${name}_top.png`) });
   for (const id of await page.locator("section:not(.folded)").evaluateAll((all) => all.map((one) => one.id))) {
-    await page.locator(`#${id}`).scrollIntoViewIfNeeded();
-    await drawn(page);
+    await inSight(page, id);
     await page.locator(`#${id}`).screenshot({ path: join(folder, `${name}_${id}.png`) });
   }
   await page.context().close();

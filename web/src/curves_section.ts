@@ -19,12 +19,18 @@ function states(c: Case): { x: number; y: number; label: string; time: number }[
   });
 }
 
+/** A case with curves, and its number among all. */
+interface Shown { c: Case; number: number; rows: Row[] }
+
+const courseOf = (group: Shown[]) => (group[0].c.isLoaded ? "load (sequence of equilibria, no time)" : "time (s)");
+
 export function curvesSection(cases: Case[], shared: Shared, time: Timeline): HTMLElement {
   const title = "Pressure, volume, tension, calcium";
-  const shownCases = cases.map((c, number) => ({ c, number, rows: c.table("curves.csv") })).filter(({ rows }) => rows.length);
+  const shownCases: Shown[] = cases.map((c, number) => ({ c, number, rows: c.table("curves.csv") })).filter(({ rows }) => rows.length);
   if (!shownCases.length) return folded("curves", title, "curves.csv is missing: the beat has not begun.");
-  const loads = shownCases.every(({ c }) => c.isLoaded);
-  const course = loads ? "load (sequence of equilibria, no time)" : shownCases.some(({ c }) => c.isLoaded) ? "time (s); load where there is no time" : "time (s)";
+  const loads = shownCases.some(({ c }) => c.isLoaded);
+  // load and time share no axis
+  const groups = new Set(shownCases.map(({ c }) => c.isLoaded)).size > 1 ? shownCases.map((one) => [one]) : [shownCases];
   const beats = shownCases.every(({ c }) => c.isBeating);
   const help = "From curves.csv. " + (beats ? "Valves and a circulation set pressure and volume; the curves are those of one beat. " :
     "There are no valves: pressure and activation are given, and the volume follows, so the path of pressure against volume is no loop of a heart. ") + (loads ? "The quasi-static engine goes from equilibrium to equilibrium: the axis counts its load, not time. " : "") +
@@ -36,27 +42,29 @@ export function curvesSection(cases: Case[], shared: Shared, time: Timeline): HT
     { y: "mean_active_tension_kPa", title: "mean active tension (kPa)" },
     { y: "calcium_uM", title: "calcium (µM)" },
   ];
-  const named = shownCases.map(({ c }) => states(c));
-  const drawn: { chart: DrawnChart; x: string; y: string }[] = [];
-  const make = (caption: string, x: string, xTitle: string, y: string, yTitle: string) => {
-    const chart: Chart = { x: xTitle, y: yTitle, zero: true,
-      lines: shownCases.map(({ c, rows }, i): Line => ({ label: c.name, colour: lineColours[i], x: column(rows, x), y: column(rows, y) })) };
-    if (x === "time_s" && shownCases.length === 1) chart.marks = named[0].map(({ time: at, label }) => ({ x: at, label }));
-    if (x !== "time_s") chart.points = named.flat();
+  const drawn: { chart: DrawnChart; group: Shown[]; x: string; y: string }[] = [];
+  const make = (group: Shown[], caption: string, x: string, xTitle: string, y: string, yTitle: string) => {
+    const chart: Chart = { x: xTitle, y: yTitle, zero: true, lines: group.map(({ c, rows, number }): Line =>
+      ({ label: c.name, colour: lineColours[number], x: column(rows, x), y: column(rows, y) })) };
+    if (x === "time_s" && group.length === 1) chart.marks = states(group[0].c).map(({ time: at, label }) => ({ x: at, label }));
+    if (x !== "time_s") chart.points = group.flatMap(({ c }) => states(c));
     const one = drawChart(chart);
-    drawn.push({ chart: one, x, y });
-    return figure(`${shownCases.map(({ c }) => c.name).join(", ")}: ${caption}`, fileName(joined(cases), y, "against", x), one.figure);
+    drawn.push({ chart: one, group, x, y });
+    const names = group.map(({ c }) => c);
+    return figure(`${names.map((c) => c.name).join(", ")}: ${caption}`, fileName(joined(names), y, "against", x), one.figure);
   };
-  const figures = [make(beats ? "pressure-volume loop" : "pressure-volume path (no valves)", "cavity_volume_ml", "cavity volume (ml)", "pressure_mmHg", "endocardial pressure (mmHg)"),
-    ...against.map(({ y, title: words }) => make(`${words} against ${loads ? "load" : "time"}`, "time_s", course, y, words))];
-  const mark = () => shownCases.forEach(({ number, rows }, i) => {
-    const t = time.time(number, shared.state.step);
-    const row = rowAt(rows, t)!;
-    for (const { chart, x, y } of drawn) {
-      chart.dot(i, Number.isFinite(t) ? value(row[x]) : NaN, value(row[y]));
-      if (x === "time_s" && shownCases.length === 1) chart.cursor(t);
-    }
-  });
+  const figures = [make(shownCases, beats ? "pressure-volume loop" : "pressure-volume path (no valves)", "cavity_volume_ml", "cavity volume (ml)", "pressure_mmHg",
+    "endocardial pressure (mmHg)"), ...against.flatMap(({ y, title: words }) => groups.map((group) =>
+    make(group, `${words} against ${group[0].c.isLoaded ? "load" : "time"}`, "time_s", courseOf(group), y, words)))];
+  const mark = () => {
+    for (const { chart, group, x, y } of drawn)
+      group.forEach(({ number, rows }, i) => {
+        const t = time.time(number, shared.state.step);
+        const row = rowAt(rows, t)!;
+        chart.dot(i, Number.isFinite(t) ? value(row[x]) : NaN, value(row[y]));
+        if (x === "time_s" && group.length === 1) chart.cursor(t);
+      });
+  };
   shared.onChange((_, changed) => changed.has("step") && mark());
   mark();
   return section("curves", title, help, el("div", { class: "figures" }, ...figures));

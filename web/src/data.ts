@@ -68,16 +68,26 @@ function text(id: string): string {
   return document.getElementById(id)!.textContent!;
 }
 
+/** Whether the browser has read all of an element: while it reads one, the page holds its beginning. */
+function isRead(id: string): boolean {
+  const element = document.getElementById(id);
+  return element !== null && (element.nextSibling !== null || document.readyState !== "loading");
+}
+
 const parsed = new Promise((done) => document.addEventListener("DOMContentLoaded", done));
 /** The arrays of the first picture have been read; they stand before all others. */
 const wallData = new Promise((done) => addEventListener("wall-data", done));
 
+/** The text of an element after the script; these stand in the order in which they are needed. */
+async function laterText(id: string): Promise<string> {
+  if (!isRead(id)) await wallData;
+  if (!isRead(id)) await parsed;
+  return text(id);
+}
+
 /** Undoes src/lv/page/packing.hpp. */
 async function unpacked(id: string, bytes: 2 | 4): Promise<Int16Array | Int32Array> {
-  // the page's data stand after the script, in the order in which they are needed
-  if (!document.getElementById(id)) await wallData;
-  if (!document.getElementById(id)) await parsed;
-  const letters = atob(text(id));
+  const letters = atob(await laterText(id));
   const packed = new Uint8Array(letters.length);
   for (let i = 0; i < letters.length; ++i) packed[i] = letters.charCodeAt(i);
   const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
@@ -184,11 +194,13 @@ export class Case {
   readonly moments: Moment[];
   private readonly phases: { name: string; end: number }[] = [];  // as far as curves.csv goes
   private readonly tables = new Map<string, Row[]>();  // that have been read
+  private readonly regional = new Map<string, Row>();  // rows of regions.csv by what they are of
   name: string;
   wall?: Wall;  // once it is loaded
   private constructor(readonly json: CaseJson, readonly summary: any) {
     this.name = summary?.case ?? json.folder;
     this.regions = this.table("regions.csv");
+    for (const r of this.regions) this.regional.set([r.state, r.scheme, r.region, r.quantity].join("/"), r);
     this.moments = this.table("moments.csv").map((r) => ({ name: r.moment, time: value(r.time_s) }));
     for (const r of this.table("curves.csv")) {
       if (this.phases.at(-1)?.name !== r.phase) this.phases.push({ name: r.phase, end: 0 });
@@ -207,9 +219,7 @@ export class Case {
   /** Cine images with outlines; none for a case without images. */
   async pictures(): Promise<Outlined[]> {
     const id = this.json.pictures;
-    if (!id) return [];
-    if (!document.getElementById(id)) await parsed;
-    return JSON.parse(text(id));
+    return id ? JSON.parse(await laterText(id)) : [];
   }
 
   get flow(): FlowJson | undefined { return this.json.flow; }
@@ -250,8 +260,7 @@ export class Case {
 
   /** A row of regions.csv. */
   row(state: string, scheme: string, region: string, quantity: string): Row | undefined {
-    return this.regions.find((r) =>
-      r.state === state && r.scheme === scheme && r.region === region && r.quantity === quantity);
+    return this.regional.get([state, scheme, region, quantity].join("/"));
   }
 
   /** When the beat came to a moment; undefined when it did not. */
@@ -294,8 +303,13 @@ export function nearest(times: number[], time: number): number {
   return times.reduce((best, t, i) => (Math.abs(t - time) < Math.abs(times[best] - time) ? i : best), 0);
 }
 
+const timesOf = new WeakMap<Row[], number[]>();  // tables are asked at every moment
+
 /** The row of curves.csv that is nearest to a moment. */
-export const rowAt = (rows: Row[], time: number): Row | undefined => rows[nearest(rows.map((row) => value(row.time_s)), time)];
+export function rowAt(rows: Row[], time: number): Row | undefined {
+  if (!timesOf.has(rows)) timesOf.set(rows, rows.map((row) => value(row.time_s)));
+  return rows[nearest(timesOf.get(rows)!, time)];
+}
 
 export interface About { version: string; cases: number }
 export function about(): About { return JSON.parse(text("about")); }

@@ -103,7 +103,7 @@ export function firstSection(cases: Case[]): HTMLElement {
     : several ? table(name, ["", ...cases.flatMap((c) => [c.name, ...(anyMeasured(c) ? ["measured"] : [])]), "difference"], ofTwo(cases))
     : table(name, ["", "model", ...(none ? [] : ["measured"]), "usual", "answer", "origin"], ofOne(cases[0], !none));
   return titled("summary", "Summary", {}, content,
-    none ? el("p", { class: "help" }, "No measured volumes: the case is not fitted to any.") : undefined,
+    none ? el("p", { class: "help" }, `No measured volumes: ${several ? "neither case" : "the case"} is ${several ? "" : "not "}fitted to any.`) : undefined,
     el("p", { class: "help" }, "Strain at end-systole is Green-Lagrange, the mean over the wall; measured, the mean over the regions of the images. " +
       "Sources of the usual ranges and what was assumed are below."),
     ...cases.flatMap((c) => c.assumptions.map((a) => el("p", { class: "warning" }, el("strong", {}, `${several ? `${c.name}: ` : ""}assumed, ${a.part}: `), a.text))),

@@ -113,9 +113,10 @@ const allBeats = (h: Heartbeats) => el("details", { class: "more" }, el("summary
 
 /** Moves the dot of every loop and the line of every Wiggers diagram to the time that the 3-D view shows. */
 function follow(all: Heartbeats[], loop: DrawnChart, diagrams: DrawnChart[], shared: Shared, time: Timeline): void {
+  const times = all.map((h) => timesIn(h, h.last));
   const mark = () => all.forEach((h, i) => {
     const t = time.time(h.number, shared.state.step) - h.begin;
-    const row = h.last[nearest(timesIn(h, h.last), t)];
+    const row = h.last[nearest(times[i], t)];
     loop.dot(i, Number.isFinite(t) ? value(row.volume_ml) : NaN, value(row.pressure_mmHg));
     diagrams[i].cursor(t);
   });

@@ -34,7 +34,11 @@ function footer(cases: Case[], version: string): HTMLElement {
     "Colour maps are even in lightness and safe for colour-blind eyes. ventricle is free software under the GPL, version 3 or later.");
 }
 
-const painted = () => new Promise((done) => requestAnimationFrame(() => setTimeout(done)));
+/** After the screen's next frame; where nobody looks, and there is none, soon. */
+const painted = () => new Promise((done) => {
+  requestAnimationFrame(() => setTimeout(done));
+  setTimeout(done, 500);
+});
 
 async function main(): Promise<void> {
   const { version, cases: count } = about();
@@ -54,6 +58,10 @@ async function main(): Promise<void> {
   const shared = new Shared({ quantity, step: time.start, cut: { kind: "long", angle: 0, height: -40 }, fibres: false, fixed: false });
   const wall = wallSection(cases, shared, time);
   first.append(wall.element);
+  await wall.drawn;
+  await painted();
+  document.body.dataset.wall = performance.now().toFixed(0);
+
   const all = [bullsEyeSection(cases, shared, wall.scale), zoneSection(cases, shared), heartbeatSection(cases, shared, time), curvesSection(cases, shared, time), detailsSection(cases),
     rotationSection(cases), flowSection(cases), outlinesSection(cases), strainSection(cases), normalSection(cases), muscleSection(cases),
     inputSection(cases), parameterSection(cases)];
@@ -61,12 +69,12 @@ async function main(): Promise<void> {
   const sections = [...all.filter((part) => !isFolded(part)), ...all.filter(isFolded)];
   nav.append(...all.filter((part) => !isFolded(part)).map((part) => el("a", { href: `#${part.id}` }, part.querySelector("h2")!.textContent!)));
   page.append(...sections, footer(cases, version));
-  await wall.drawn;
   await painted();
   document.body.dataset.ready = performance.now().toFixed(0);
 }
 
 main().catch((error: unknown) => {
+  document.body.dataset.failed = String(error);
   document.getElementById("page")!.append(el("p", { class: "state", role: "alert" }, `This page cannot be drawn: ${error}`));
   throw error;
 });

@@ -7,6 +7,12 @@ import type { WallView } from "./wall_view.ts";
 
 const edge = 10;  // [pixels]
 
+/** Sets what has changed: the browser draws again whatever is touched. */
+function place(element: Element, attributes: Record<string, string | number>): void {
+  for (const [name, value] of Object.entries(attributes))
+    if (element.getAttribute(name) !== String(value)) element.setAttribute(name, String(value));
+}
+
 export class Overlay {
   readonly element = svg("svg", { class: "overlay", "font-family": "sans-serif", "font-size": 13, "aria-hidden": "true" });
   private caption = svg("g", { fill: ink.text });
@@ -16,6 +22,9 @@ export class Overlay {
   private bar = svg("path", { stroke: ink.text, "stroke-width": 2, fill: "none" });
   private length = svg("text", { "text-anchor": "middle", fill: ink.text, "font-size": 12 }, "20 mm");
   private star = svg("text", { "text-anchor": "end", fill: ink.text, "font-size": 11 });
+  private legendParts: (width: number) => SVGElement[] = () => [];
+  private explained = "";  // by the legend
+  private legendWidth = 0;
 
   constructor(private view: WallView) {
     this.element.append(this.caption, this.region, this.legend, this.bar, this.length, this.star);
@@ -31,7 +40,20 @@ export class Overlay {
   write(lines: string[], scale: Scale, title: string): void {
     this.caption.replaceChildren(...lines.map((line, i) =>
       svg("text", { x: edge, y: 20 + 17 * i, ...(i === 0 ? { "font-weight": 600 } : {}) }, line)));
-    this.legend.replaceChildren(...barParts(scale, title, 190));
+    const explained = JSON.stringify([scale, title]);
+    if (explained === this.explained) return;
+    this.explained = explained;
+    this.legendParts = (width) => barParts(scale, title, width);
+    this.legendWidth = 0;
+    this.place();
+  }
+
+  /** Left of the middle, where an assumed apex has its name. */
+  private placeLegend(width: number): void {
+    const room = Math.max(60, Math.min(190, width / 2 - 32 - edge));
+    if (room === this.legendWidth) return;
+    this.legendWidth = room;
+    this.legend.replaceChildren(...this.legendParts(room));
   }
 
   /** The region that is marked. */
@@ -43,21 +65,14 @@ export class Overlay {
     const { clientWidth: width, clientHeight: height } = this.view.canvas;
     if (!width) return;  // in print a copy stands for the canvas, and what was written over that holds
     const [length, letters] = [20 * this.view.scale, this.view.letters()];
-    this.element.setAttribute("viewBox", `0 0 ${width} ${height}`);
-    this.element.setAttribute("width", String(width));
-    this.element.setAttribute("height", String(height));
-    this.legend.setAttribute("transform", `translate(${edge} ${height - 52})`);
-    this.region.setAttribute("x", String(width - edge));
-    this.bar.setAttribute("d", `M${width - edge - length} ${height - 22}v6h${length}v-6`);
-    this.length.setAttribute("x", String(width - edge - length / 2));
-    this.length.setAttribute("y", String(height - 24));
-    this.star.setAttribute("x", String(width - edge));
-    this.star.setAttribute("y", String(height - 44));
-    for (const { name, x, y, seen } of letters) {
-      const letter = this.letters.get(name)!;
-      letter.setAttribute("x", x.toFixed(1));
-      letter.setAttribute("y", y.toFixed(1));
-      letter.setAttribute("visibility", seen ? "visible" : "hidden");
-    }
+    this.placeLegend(width);
+    place(this.element, { viewBox: `0 0 ${width} ${height}`, width, height });
+    place(this.legend, { transform: `translate(${edge} ${height - 52})` });
+    place(this.region, { x: width - edge });
+    place(this.bar, { d: `M${width - edge - length} ${height - 22}v6h${length}v-6` });
+    place(this.length, { x: width - edge - length / 2, y: height - 24 });
+    place(this.star, { x: width - edge, y: height - 44 });
+    for (const { name, x, y, seen } of letters)
+      place(this.letters.get(name)!, { x: x.toFixed(1), y: y.toFixed(1), visibility: seen ? "visible" : "hidden" });
   }
 }

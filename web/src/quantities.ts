@@ -19,7 +19,7 @@ export const quantities: Quantity[] = about.quantities;
 export const beatMeasures: { name: string; title: string; unit: string; help: string }[] = about.beat_measures;
 
 export const infarct: Quantity = {
-  name: "infarct", title: "infarct M", unit: "1", signed: false, middle: 0, floor: 0.005,
+  name: "infarct", title: "infarct M", unit: "1", signed: false, middle: 0, floor: about.infarct_floor,
   help: "Extent of the infarct: 1 in it, falling to 0 across the border zone; it does not change with time.",
 };
 

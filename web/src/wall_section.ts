@@ -210,6 +210,7 @@ export function wallSection(cases: Case[], shared: Shared, time: Timeline): Wall
       el("label", { class: "check" }, el("input", { type: "checkbox", id: "fibres", change: (event: Event) =>
         shared.set({ fibres: (event.target as HTMLInputElement).checked }) }), "fibres"), range.element),
     what, el("p", { class: "help" }, help));
+  let turns = 0;
   const refresh = () => {
     const { quantity: name, cut: now } = shared.state;
     what.textContent = quantity(name).help;
@@ -220,7 +221,9 @@ export function wallSection(cases: Case[], shared: Shared, time: Timeline): Wall
     angle.element.hidden = now.kind !== "long";
     height.element.hidden = now.kind !== "short";
     bar.show();
-    return Promise.all(panels.map((panel) => panel.update()));
+    element.setAttribute("aria-busy", "true");
+    const turn = ++turns;
+    return Promise.all(panels.map((panel) => panel.update())).then(() => turn === turns && element.removeAttribute("aria-busy"));
   };
   shared.onChange((_, changed) => {
     if (["quantity", "step", "cut", "fibres", "range"].some((name) => changed.has(name as never))) void refresh();

@@ -4,7 +4,7 @@ import {
   OrthographicCamera, Raycaster, RGBAFormat, Scene, ShaderMaterial, Sphere, Vector2, Vector3, Vector4, WebGLRenderer, DoubleSide,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
-import { colourTable, type Scale, uncoloured } from "./colours.ts";
+import { colourTable, type Rgb, type Scale, uncoloured } from "./colours.ts";
 import type { Scheme, Selection, Series, Wall } from "./data.ts";
 import { DrawnWall } from "./curved.ts";
 import type { Fibres } from "./fibres.ts";
@@ -80,6 +80,7 @@ export class WallView {
   private waiting = false;
   private slow: boolean;  // no graphics processor
   private atRest = 0;  // timer of the full resolution
+  private colours?: Rgb[];
   onRender?: () => void;
 
   /** Throws when the browser has no WebGL. */
@@ -250,18 +251,25 @@ export class WallView {
     this.updateSkin();
     this.updateCap();
     this.turnPlane();
-    const table = colourTable(scale);
+    this.takeColours(colourTable(scale));
+    for (const { material } of [this.skin, this.cap]) {
+      material.uniforms.range.value.set(scale.min, scale.max);
+      material.uniforms.none.value.set(scale.middle, scale.floor);
+      material.uniforms.plain.value = this.values ? 0 : 1;
+    }
+    this.choose(this.selection);
+  }
+
+  private takeColours(table: Rgb[]): void {
+    if (table === this.colours) return;
+    this.colours = table;
     const map = new DataTexture(Uint8Array.from(table.flatMap((rgb) => [...rgb, 255])), 256, 1, RGBAFormat);
     map.magFilter = map.minFilter = LinearFilter;
     map.needsUpdate = true;
     for (const { material } of [this.skin, this.cap]) {
       material.uniforms.map.value?.dispose();
       material.uniforms.map.value = map;
-      material.uniforms.range.value.set(scale.min, scale.max);
-      material.uniforms.none.value.set(scale.middle, scale.floor);
-      material.uniforms.plain.value = this.values ? 0 : 1;
     }
-    this.choose(this.selection);
   }
 
   /** Follows the camera with the side of the plane that is seen. */
@@ -409,13 +417,17 @@ export class WallView {
   render(): void {
     if (this.waiting) return;
     this.waiting = true;
+    this.canvas.dataset.at = "motion";
     requestAnimationFrame(() => {
       this.waiting = false;
       if (this.plane && this.facing !== this.plane) this.turnPlane();
       // finer at rest than in motion; edges are smoothed by drawing finer than the screen where that is cheap
       this.draw(this.slow ? 0.5 : 1);
       clearTimeout(this.atRest);
-      this.atRest = window.setTimeout(() => this.draw(this.slow ? 1 : 2), 200);
+      this.atRest = window.setTimeout(() => {
+        this.draw(this.slow ? 1 : 2);
+        this.canvas.dataset.at = "rest";
+      }, 200);
       this.onRender?.();
     });
   }

@@ -33,6 +33,9 @@ struct Quantity {
 /// when muscle is activated, which not all beats know.
 [[nodiscard]] std::span<const Quantity> quantities();
 
+/// An infarct's extent M nearer to 0 is as good as none and has no colour.
+inline constexpr double infarct_floor = 0.005;
+
 /// Whether elements have the quantity: it is a number.
 [[nodiscard]] bool is_known(const Quantity& quantity, std::span<const CellFields> cells);
 

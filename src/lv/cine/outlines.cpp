@@ -4,6 +4,7 @@
 #include "lv/drawing/overlay.hpp"
 #include "lv/drawing/picture_files.hpp"
 #include "lv/drawing/wall_surface.hpp"
+#include "lv/mesh/curved.hpp"
 #include "lv/strain/measures.hpp"
 
 #include <fmt/format.h>
@@ -27,22 +28,23 @@ std::size_t nearest_image(int phase, int diastole, std::size_t images, std::size
   return (static_cast<std::size_t>(diastole - 1) + static_cast<std::size_t>(later)) % count;
 }
 
-/// The model's two surfaces at one time, in image space.
+/// The model's two surfaces at one time, in image space, curved as its elements are.
 struct Surfaces {
   std::vector<std::array<Vec3, 3>> endo, epi;
 };
 
-Surfaces surfaces(const ModelledBeat& model, const std::vector<Vec3>& positions) {
+Surfaces surfaces(const mesh::CurvedMesh& curved, const geometry::Frame& frame,
+                  const std::vector<Vec3>& positions) {
+  const std::vector<Vec3> nodes = curved.at_nodes(positions);
   const auto triangles = [&](const mesh::Surface& side) {
-    const drawing::Patch patch = drawing::wall_surface(model.mesh.mesh, positions, side).patch;
+    const drawing::Patch patch = drawing::wall_surface(curved.mesh, nodes, side).patch;
     std::vector<std::array<Vec3, 3>> all;
     for (const auto& t : patch.triangles)
-      all.push_back({model.frame.to_image(patch.points[t[0]]),
-                     model.frame.to_image(patch.points[t[1]]),
-                     model.frame.to_image(patch.points[t[2]])});
+      all.push_back({frame.to_image(patch.points[t[0]]), frame.to_image(patch.points[t[1]]),
+                     frame.to_image(patch.points[t[2]])});
     return all;
   };
-  return {triangles(model.mesh.mesh.endo), triangles(model.mesh.mesh.epi)};
+  return {triangles(curved.mesh.endo), triangles(curved.mesh.epi)};
 }
 
 std::vector<Vec3> closed(std::vector<Vec3> loop) {
@@ -179,12 +181,14 @@ std::vector<DrawnImage> images_at(const CineStudy& study, int phase, int diastol
 
 std::string write_outlines(const ModelledBeat& model, const CineStudy& study, int diastole,
                            int systole, const fs::path& folder) {
+  const mesh::CurvedMesh curved = mesh::curved(model.mesh.mesh);
+  const auto surfaces_at = [&](const char* moment) {
+    return surfaces(curved, model.frame, model.beat.at(moment).positions);
+  };
   Outlines outlines(model);
-  outlines.add(heartbeat::end_diastole,
-               surfaces(model, model.beat.at(heartbeat::end_diastole).positions),
+  outlines.add(heartbeat::end_diastole, surfaces_at(heartbeat::end_diastole),
                images_at(study, diastole, diastole), folder / "outlines_ed.png");
-  outlines.add(heartbeat::end_systole,
-               surfaces(model, model.beat.at(heartbeat::end_systole).positions),
+  outlines.add(heartbeat::end_systole, surfaces_at(heartbeat::end_systole),
                images_at(study, systole, diastole), folder / "outlines_es.png");
   outlines.write(folder);
   return outlines.words(heartbeat::end_diastole) + outlines.words(heartbeat::end_systole);

@@ -84,10 +84,14 @@ Colour category(int index) {
   return {1.0 - w * (1.0 - pure.r), 1.0 - w * (1.0 - pure.g), 1.0 - w * (1.0 - pure.b)};
 }
 
+double ColourScale::place(double value) const {
+  return max > min ? std::clamp((value - min) / (max - min), 0.0, 1.0) : 0.5;
+}
+
 std::optional<Colour> ColourScale::operator()(double value) const {
   if (std::isnan(value))
     return std::nullopt;
-  return map(max > min ? (value - min) / (max - min) : 0.5);
+  return std::abs(value - middle) < floor ? uncoloured : map(place(value));
 }
 
 }  // namespace lv::drawing

@@ -49,14 +49,23 @@ class ColourMap {
 /// ones.
 [[nodiscard]] Colour category(int index);
 
-/// Values to colours: `min` is the map's beginning, `max` its end.
+/// Of values that are as good as nothing.
+inline constexpr Colour uncoloured = hex(0xeceae7);
+
+/// Values to colours: `min` is the map's beginning, `max` its end. Values nearer than `floor` to
+/// `middle` are as good as nothing and have no colour of the map.
 struct ColourScale {
   ColourMap map = sequential();
   double min = 0.0;
   double max = 1.0;
+  double middle = 0.0;
+  double floor = 0.0;
 
   /// Nothing when the value is missing (NaN).
   [[nodiscard]] std::optional<Colour> operator()(double value) const;
+
+  /// How far along the map a value is: 0 at `min`, 1 at `max`, not beyond.
+  [[nodiscard]] double place(double value) const;
 };
 
 }  // namespace lv::drawing

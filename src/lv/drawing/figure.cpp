@@ -125,6 +125,11 @@ void draw_bar(Canvas& canvas, const Box& box, const ColourBar& bar, bool with_mi
   const double height = std::min(0.8 * box.height, 260.0);
   const Box strip{box.x + 14.0, box.y + 0.5 * (box.height - height), bar_width, height};
   canvas.gradient(strip, bar.scale.map);
+  const double from = bar.scale.place(bar.scale.middle - bar.scale.floor);
+  const double to = bar.scale.place(bar.scale.middle + bar.scale.floor);
+  if (to > from)
+    canvas.fill(Box{strip.x, strip.bottom() - to * height, strip.width, (to - from) * height},
+                uncoloured);
   canvas.outline(corners(strip), {ink, 0.6});
   const auto marks = ticks_within({bar.scale.min, bar.scale.max});
   for (std::size_t i = 0; i < marks.values.size(); ++i) {

@@ -420,6 +420,7 @@ std::string page(const std::vector<PageCase>& cases, const std::string& version)
                     Json{{"version", version},
                          {"cases", cases.size()},
                          {"quantities", quantities_json()},
+                         {"infarct_floor", analysis::infarct_floor},
                          {"beat_measures", beat_measures_json()}}
                         .dump()),
             "", ""};

@@ -1,5 +1,6 @@
 #include "lv/report/heart_figures.hpp"
 
+#include "lv/analysis/quantities.hpp"
 #include "lv/base/units.hpp"
 #include "lv/drawing/sticks.hpp"
 #include "lv/drawing/wall_surface.hpp"
@@ -38,12 +39,12 @@ std::vector<double> at_nodes(const Mesh& mesh, const std::vector<CellFields>& ce
   return sum;
 }
 
-/// From the 1st to the 99th percentile, rounded outwards to a step that ticks can name.
-drawing::ColourScale common_scale(std::vector<double> values,
-                                  const drawing::ColourMap& map = drawing::sequential()) {
+/// From the 1st to the 99th percentile, rounded outwards to a step that ticks can name, with the
+/// quantity's own floor.
+drawing::ColourScale common_scale(std::vector<double> values, const analysis::Quantity& quantity) {
   std::erase_if(values, [](double value) { return !std::isfinite(value); });
   if (values.empty())
-    return {map, 0.0, 1.0};
+    return {drawing::sequential(), 0.0, 1.0, quantity.middle, quantity.floor};
   std::sort(values.begin(), values.end());
   const auto at = [&](double fraction) {
     return values[static_cast<std::size_t>(fraction * static_cast<double>(values.size() - 1))];
@@ -51,7 +52,8 @@ drawing::ColourScale common_scale(std::vector<double> values,
   const double low = at(0.01);
   const double high = std::max(at(0.99), low + 1e-6);
   const double step = std::pow(10.0, std::floor(std::log10(high - low))) / 2.0;
-  return {map, step * std::floor(low / step), step * std::ceil(high / step)};
+  return {drawing::sequential(), step * std::floor(low / step), step * std::ceil(high / step),
+          quantity.middle, quantity.floor};
 }
 
 /// A wall to draw, its elements curved as they are, with the nodes of its mesh at `positions`.
@@ -300,7 +302,7 @@ drawing::Figure fibre_figure(const Mesh& mesh, const std::vector<CellFields>& un
 }
 
 drawing::Figure infarct_figure(const Mesh& mesh, const drawing::Orientation& o) {
-  const drawing::ColourScale scale{drawing::sequential(), 0.0, 1.0};
+  const drawing::ColourScale scale{drawing::sequential(), 0.0, 1.0, 0.0, analysis::infarct_floor};
   const mesh::CurvedMesh curved = mesh::curved(mesh);
   const PaintedWall wall({curved, mesh.nodes}, mesh.infarct, scale);
   const Vec3 middle = infarct_middle(mesh);
@@ -345,6 +347,8 @@ drawing::Figure states_figure(const Mesh& mesh, const heartbeat::Beat& beat,
 
 drawing::Figure stress_figure(const Mesh& mesh, const heartbeat::Beat& beat,
                               const analysis::BeatFields& fields, const drawing::Orientation& o) {
+  const analysis::Quantity& fibre_stress = analysis::quantity("fibre_stress");
+  const analysis::Quantity& active_tension = analysis::quantity("active_tension");
   const auto stress = [](const CellFields& c) { return c.fibre_stress(); };
   const auto tension = [](const CellFields& c) { return c.tension; };
   const auto ed = at_nodes(mesh, fields.at(heartbeat::end_diastole), stress);
@@ -355,9 +359,10 @@ drawing::Figure stress_figure(const Mesh& mesh, const heartbeat::Beat& beat,
   const DrawnWall contracted(curved, beat.at(heartbeat::end_systole).positions);
   std::vector<double> both = ed;
   both.insert(both.end(), es.begin(), es.end());
-  const std::vector<PaintedWall> walls{{filled, ed, common_scale(both)},
-                                       {contracted, es, common_scale(both)},
-                                       {contracted, active, common_scale(active)}};
+  const drawing::ColourScale of_stress = common_scale(both, fibre_stress);
+  const std::vector<PaintedWall> walls{{filled, ed, of_stress},
+                                       {contracted, es, of_stress},
+                                       {contracted, active, common_scale(active, active_tension)}};
   drawing::Figure figure{.panels = both_axes({heartbeat::title(heartbeat::end_diastole),
                                               heartbeat::title(heartbeat::end_systole),
                                               heartbeat::title(heartbeat::end_systole)},

@@ -138,15 +138,16 @@ std::string with_stars(const std::string& footnote, const drawing::Orientation& 
   return footnote + (footnote.empty() || note.empty() ? "" : ". ") + note;
 }
 
-/// From the least to the greatest value, rounded outwards to a step that ticks can name.
+/// From the least to the greatest value, rounded outwards to a step that ticks can name, with the
+/// quantity's own floor.
 drawing::ColourScale scale_of(std::vector<double> values, const std::string& quantity) {
   std::erase_if(values, [](double v) { return !std::isfinite(v); });
+  const analysis::Quantity& q = analysis::quantity(quantity);
   if (values.empty())
-    return {drawing::sequential(), 0.0, 1.0};
+    return {drawing::sequential(), 0.0, 1.0, q.middle, q.floor};
   const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
   double low = *least;
   double high = std::max(*greatest, low + 1e-6);
-  const analysis::Quantity& q = analysis::quantity(quantity);
   if (q.is_signed) {
     const double most = std::max(std::abs(low - q.middle), std::abs(high - q.middle));
     low = q.middle - most;
@@ -154,7 +155,7 @@ drawing::ColourScale scale_of(std::vector<double> values, const std::string& qua
   }
   const double step = std::pow(10.0, std::floor(std::log10(high - low))) / 2.0;
   return {q.is_signed ? drawing::diverging() : drawing::sequential(), step * std::floor(low / step),
-          step * std::ceil(high / step)};
+          step * std::ceil(high / step), q.middle, q.floor};
 }
 
 /// As many as give three digits of the scale's end.

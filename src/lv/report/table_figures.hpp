@@ -34,7 +34,7 @@ struct CurveFacts {
 
 /// A quantity's regional means at a state in the paper's seven slices and in the 17 segments, from
 /// regions.csv, by the scale of both states. Strains have a scale that is symmetric about 0, J one
-/// about 1.
+/// about 1; what is below the quantity's floor has no colour.
 [[nodiscard]] drawing::Figure bulls_eyes_figure(const Table& regions, const std::string& quantity,
                                                 const std::string& state,
                                                 const drawing::Orientation& orientation);

@@ -76,6 +76,29 @@ CineStudy study() {
   return s;
 }
 
+anatomy::MeshResult mesh_of(int order, double edge_length) {
+  const auto wall = [](double u, double theta, double t) { return ellipsoid.point(u, theta, t); };
+  return {mesh::wall_mesh(wall, {.edge_length = edge_length, .order = order}), {}, {}};
+}
+
+/// What write_outlines leaves in `folder` for a wall that does not move, and says.
+std::string outlined(const anatomy::MeshResult& mesh, const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
+  heartbeat::Beat beat;
+  for (const char* name : {heartbeat::end_diastole, heartbeat::end_systole}) {
+    beat.moments.push_back({.name = name});
+    beat.moments.back().wall.positions = mesh.mesh.nodes;
+  }
+  const analysis::BeatFields fields;
+  return cine::write_outlines({mesh, beat, fields, frame}, study(), 9, 3, folder);
+}
+
+/// The farthest that points of contours on the ellipsoid are from the model's outlines [mm].
+double farthest(const std::filesystem::path& folder) {
+  const auto largest = Table::read_csv(folder / "outline_distances.csv").numbers("largest_mm");
+  return *std::max_element(largest.begin(), largest.end());
+}
+
 }  // namespace
 
 TEST_CASE("a long axis with more images shows the one nearest in the cycle", "[cine]") {
@@ -99,24 +122,13 @@ TEST_CASE("a long axis with more images shows the one nearest in the cycle", "[c
 TEST_CASE("outlines on a long axis are the ventricle's, beside those on short axes", "[cine]") {
   const test::TemporaryFolder temporary;
   const std::filesystem::path folder = temporary / "results";
-  std::filesystem::create_directories(folder);
-  const auto wall = [](double u, double theta, double t) { return ellipsoid.point(u, theta, t); };
-  const anatomy::MeshResult mesh{mesh::wall_mesh(wall, {.edge_length = 6.0}), {}, {}};
-  heartbeat::Beat beat;
-  for (const char* name : {heartbeat::end_diastole, heartbeat::end_systole}) {
-    beat.moments.push_back({.name = name});
-    beat.moments.back().wall.positions = mesh.mesh.nodes;
-  }
-  const analysis::BeatFields fields;
-  const std::string words =
-      cine::write_outlines({mesh, beat, fields, frame}, study(), 9, 3, folder);
+  const std::string words = outlined(mesh_of(1, 6.0), folder);
   CHECK(words.find("at end_diastole") != std::string::npos);
   CHECK(words.find("at end_systole") == std::string::npos);  // nothing was drawn then
 
   const Table distances = Table::read_csv(folder / "outline_distances.csv");
   CHECK(distances.words("slice") == std::vector<std::string>{"4", "long axis 1", "long axis 1"});
-  for (const double largest : distances.numbers("largest_mm"))
-    CHECK(largest < 0.7);  // chords of 6 mm at the endocardial apex, where the radius is 6.3 mm
+  CHECK(farthest(folder) < 0.7);  // chords of 6 mm at the endocardial apex, of radius 6.3 mm
 
   const Table outlines = Table::read_csv(folder / "outlines.csv");
   const auto state = outlines.words("state");
@@ -134,4 +146,19 @@ TEST_CASE("outlines on a long axis are the ventricle's, beside those on short ax
   CHECK(count("end_systole", "model") == count("end_diastole", "model"));
   CHECK(std::filesystem::exists(folder / "pictures" / "end_systole_long_axis_1.png"));
   CHECK(std::filesystem::exists(folder / "outlines_ed.png"));
+}
+
+TEST_CASE("outlines follow the curve of quadratic elements", "[cine]") {
+  const test::TemporaryFolder temporary;
+  const anatomy::MeshResult curved = mesh_of(2, 12.0);
+  anatomy::MeshResult straight = curved;  // the same nodes, their cells taken for straight elements
+  straight.mesh.order = 1;
+  static_cast<void>(outlined(curved, temporary / "curved"));
+  static_cast<void>(outlined(straight, temporary / "straight"));
+  // A chord half as long is a quarter as far from its arc. Near the apex such large elements are
+  // themselves off the ellipsoid.
+  const auto off = [&](const char* name) {
+    return Table::read_csv(temporary / name / "outline_distances.csv").numbers("mean_mm").front();
+  };
+  CHECK(off("curved") < 0.4 * off("straight"));
 }

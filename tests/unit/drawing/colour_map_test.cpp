@@ -83,3 +83,14 @@ TEST_CASE("a colour scale clamps, and has no colour for a missing value", "[unit
   const lv::drawing::ColourScale constant{.min = 3.0, .max = 3.0};
   CHECK(distance(*constant(3.0), constant.map(0.5)) == 0.0);
 }
+
+TEST_CASE("what is nearer than the floor to the middle has no colour of the map",
+          "[unit][drawing]") {
+  const lv::drawing::ColourScale scale{
+      .map = lv::drawing::diverging(), .min = 0.9, .max = 1.1, .middle = 1.0, .floor = 0.01};
+  for (const double value : {0.991, 1.0, 1.009})
+    CHECK(distance(*scale(value), lv::drawing::uncoloured) == 0.0);
+  for (const double value : {0.9, 0.98, 1.02, 1.1})
+    CHECK(distance(*scale(value), scale.map(scale.place(value))) == 0.0);
+  CHECK(scale.place(0.95) == Approx(0.25));
+}

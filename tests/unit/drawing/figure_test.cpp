@@ -91,6 +91,18 @@ TEST_CASE("missing values of a bull's-eye are striped and never a colour of the 
   CHECK(stripes(0.0) < 20);  // letters have some grey pixels
 }
 
+TEST_CASE("a bull's-eye and its colour bar show what is below the floor", "[unit][drawing]") {
+  const auto grey = [](double floor) {
+    BullsEye plot = bulls_eye(0.05);
+    plot.scale.floor = floor;
+    const Panel panel{.content = plot, .colour_bar = ColourBar{"stress [kPa]", plot.scale}};
+    return decoded(png(of(panel))).counts()[packed(uncoloured)];
+  };
+  CHECK(grey(0.0) == 0);
+  CHECK(grey(0.1) > 200);              // a segment
+  CHECK(grey(2.0) > grey(0.1) + 300);  // and a fifth of the bar
+}
+
 TEST_CASE("a bull's-eye counts anticlockwise from the top", "[unit][drawing]") {
   BullsEye plot{.values = std::vector<double>(17, 0.0), .decimals = -1};
   plot.colours.assign(17, hex(0xcccccc));

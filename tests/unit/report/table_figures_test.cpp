@@ -1,5 +1,6 @@
 #include "lv/report/table_figures.hpp"
 
+#include "lv/analysis/quantities.hpp"
 #include "lv/base/table.hpp"
 #include "lv/material/stress_stretch.hpp"
 
@@ -113,6 +114,16 @@ TEST_CASE("both states of a quantity have one scale, and an assumed septum has s
   CHECK(ed.colour_bar->scale.max >= 60.0);
   CHECK(std::get<BullsEye>(ed.panels.at(1).content).walls[1] == "septal*");
   CHECK(ed.footnote == "* assumed: nothing shows it");
+}
+
+TEST_CASE("a tension of nearly nothing has no colour, as on the page", "[report]") {
+  const Figure figure = report::bulls_eyes_figure(segments("active_tension", 0.007, 60.0),
+                                                  "active_tension", "end_systole", {});
+  const drawing::ColourScale& scale = std::get<BullsEye>(figure.panels.at(0).content).scale;
+  CHECK(scale.floor == analysis::quantity("active_tension").floor);
+  CHECK(scale(0.007)->b == drawing::uncoloured.b);
+  CHECK(scale(60.0)->b != drawing::uncoloured.b);
+  CHECK(figure.colour_bar->scale.floor == scale.floor);
 }
 
 TEST_CASE("each muscle is a line of its table, published ones dashed", "[report]") {
