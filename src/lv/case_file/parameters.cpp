@@ -824,12 +824,11 @@ constexpr Group of_blood_and_base[]{
      {
          choice("base.support", LV_AT(base.kind), "sliding fixed elastic",
                 "the basal plane is held along the axis and around it and moves freely "
-                "outwards, or is held altogether; or springs and dashpots of the case hold it "
-                "(quasi-static engine)",
+                "outwards, or is held altogether; or springs and dashpots of the case hold it",
                 "2.4"),
      }},
     {Stages(Stage::beat),
-     {&immersed_engine},
+     {&immersed_engine, &rigid_base},
      {
          number("base.stiffness", LV_AT(base.stiffness), "kPa/mm", positive,
                 "springs per area that hold the basal plane (immersed engine; the quasi-static "
@@ -837,7 +836,7 @@ constexpr Group of_blood_and_base[]{
                 "2.4"),
      }},
     {mechanics,
-     {&static_beat, &elastic_base},
+     {&elastic_base},
      {
          number("base.normal_stiffness", LV_AT(surroundings.base.normal_stiffness), "kPa/mm",
                 not_negative, "springs per area along the normal of the undeformed base"),
@@ -845,7 +844,7 @@ constexpr Group of_blood_and_base[]{
                 "kPa/mm", not_negative, "springs per area in its plane"),
      }},
     {mechanics,
-     {&static_beat, &elastic_base, &rates},
+     {&elastic_base, &rates},
      {
          number("base.normal_viscosity", LV_AT(surroundings.base.normal_viscosity), "kPa s/mm",
                 not_negative, "dashpots per area along the normal of the undeformed base"),
@@ -853,7 +852,7 @@ constexpr Group of_blood_and_base[]{
                 "kPa s/mm", not_negative, "dashpots per area in its plane"),
      }},
     {mechanics,
-     {&static_beat},
+     {},
      {
          number("pericardium.normal_stiffness", LV_AT(surroundings.epicardium.normal_stiffness),
                 "kPa/mm", not_negative,
@@ -863,7 +862,7 @@ constexpr Group of_blood_and_base[]{
                 "springs per area in its tangential plane"),
      }},
     {mechanics,
-     {&static_beat, &rates},
+     {&rates},
      {
          number("pericardium.normal_viscosity", LV_AT(surroundings.epicardium.normal_viscosity),
                 "kPa s/mm", not_negative,
@@ -873,7 +872,7 @@ constexpr Group of_blood_and_base[]{
                 "dashpots per area in its tangential plane"),
      }},
     {mechanics,
-     {&static_beat, &pericardium},
+     {&pericardium},
      {
          choice("pericardium.weight", LV_AT(surroundings.epicardium.weight.shape),
                 "even linear sigmoid",
@@ -882,13 +881,13 @@ constexpr Group of_blood_and_base[]{
                 "or s = 1/(1 + exp(weight_steepness (h - weight_middle)))"),
      }},
     {mechanics,
-     {&static_beat, &pericardium, &weighted_pericardium},
+     {&pericardium, &weighted_pericardium},
      {
          number("pericardium.weight_base", LV_AT(surroundings.epicardium.weight.at_base), "",
                 not_negative, "see weight"),
      }},
     {mechanics,
-     {&static_beat, &pericardium, &sigmoid_pericardium},
+     {&pericardium, &sigmoid_pericardium},
      {
          number("pericardium.weight_middle", LV_AT(surroundings.epicardium.weight.middle), "",
                 between(0.0, 1.0), "see weight; the default is that of pyansys-heart"),

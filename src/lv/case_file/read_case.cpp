@@ -296,9 +296,6 @@ class CaseReader {
   void check_supports() {
     if (case_.base.kind != solid::BasalSupport::Kind::elastic)
       return;
-    rule(case_.engine == Engine::quasi_static, "base.support",
-         "is \"elastic\", which is not there yet for engine = \"immersed\": set engine = "
-         "\"quasi_static\", or another support");
     const solid::Support& base = case_.surroundings.base;
     const solid::Support& pericardium = case_.surroundings.epicardium;
     rule(base.tangential_stiffness > 0.0 || pericardium.tangential_stiffness > 0.0, "base.support",

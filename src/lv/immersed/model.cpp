@@ -28,7 +28,9 @@ Model::Model(const mesh::Mesh& mesh, const solid::CardiacModel& heart,
       strength_(solid::strength(mesh, heart.myocardium.infarct)),
       contraction_(kinetics(active_), {mesh.nodes, wall_.nodal_volumes(), strength_},
                    parameters.blood.density, parameters.grid.spacing.minCoeff()),
-      base_(mesh, heart.base),
+      supports_(mesh, heart.base, heart.surroundings),
+      longest_step_(heart.surroundings.longest_step(parameters.blood.density *
+                                                    parameters.grid.spacing.minCoeff())),
       endocardium_(mesh),
       transfer_(parameters.grid, slab_, parameters.coupling.kernel),
       coupling_(make_coupling(parameters.coupling, mesh, parameters.grid, slab_)),
@@ -83,7 +85,7 @@ solid::VolumeRange Model::nodal_forces(double pressure) {
   const solid::VolumeRange J =
       wall_.add_elastic_forces(state_.positions, contraction_.tension(), node_forces_);
   endocardium_.add_gradient(pressure, state_.positions, node_forces_);
-  base_.add_forces(state_.positions, node_forces_);
+  supports_.add_forces(state_.positions, state_.node_velocities, node_forces_);
   parallel::sum({node_forces_.data()->data(), 3 * node_forces_.size()});
   return J;
 }

@@ -7,6 +7,7 @@
 #include "lv/solid/contraction.hpp"
 #include "lv/solid/endocardial_surface.hpp"
 #include "lv/solid/loads.hpp"
+#include "lv/solid/support.hpp"
 #include "lv/solid/wall.hpp"
 
 #include <memory>
@@ -48,6 +49,7 @@ struct StepReport {
 ///
 ///   T^n         from (A.2)-(A.11) with the stretch increment of the step that ended at t^n
 ///   F^n         = weak form of all stresses and loads at x^n                                   (2.9)-(2.10)
+///                 and the supports' forces at x^n; their dashpots see the velocity U^{n-1/2}
 ///   u^{n+1/2}   from u^{n-1/2}, the force at t^n and convection extrapolated to t^n            (2.1)-(2.2)
 ///   x^{n+1}     = x^n + dt U,  U = u^{n+1/2} interpolated at x^n + dt/2 U^{n-1/2}              (2.4)
 class Model {
@@ -60,6 +62,14 @@ class Model {
   /// Advances by dt [s] from the present time, at which `loads` act. `drag` [1/s] is a uniform
   /// resistance to the velocity, which moves no equilibrium.
   StepReport step(const solid::Loads& loads, double dt, double drag = 0.0);
+
+  /// The longest step that the supports of epicardium and base allow [s]: the springs move at least
+  /// the blood of one mesh width h with the wall, rho h per area (Surroundings::longest_step). The
+  /// 4-point kernel spreads a sheet's force over 8/3 h.
+  [[nodiscard]] double longest_step() const { return longest_step_; }
+
+  /// The forces on the nodes at the start of the last step [mN]; complete on every rank.
+  [[nodiscard]] std::span<const Vec3> node_forces() const { return node_forces_; }
 
   /// The model as it is now, and back to an earlier state: all steps after it come out the same to
   /// the last bit.
@@ -102,7 +112,8 @@ class Model {
   material::ActiveLaw active_;
   std::vector<double> strength_;  ///< of contraction, per node
   solid::Contraction contraction_;
-  solid::BasalPenalty base_;
+  solid::Supports supports_;
+  double longest_step_;
   solid::EndocardialSurface endocardium_;
   Transfer transfer_;
   std::unique_ptr<Coupling> coupling_;

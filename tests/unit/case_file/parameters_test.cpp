@@ -458,7 +458,7 @@ Numbers static_muscle_of(const Case& c) {
   for (const double stretch : {0.7, 0.9, 1.05, 1.2})
     for (const double activation : {0.0, 0.6})
       numbers.push_back(model.contractility.at(stretch, activation).value);
-  for (const solid::Support& s : {model.surroundings.epicardium, model.surroundings.base}) {
+  for (const solid::Support& s : {model.heart.surroundings.epicardium, model.heart.surroundings.base}) {
     numbers.insert(numbers.end(), {s.normal_stiffness, s.tangential_stiffness, s.normal_viscosity,
                                    s.tangential_viscosity});
     for (const double h : {0.0, 0.1, 0.3, 1.0})
