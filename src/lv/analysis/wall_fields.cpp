@@ -128,7 +128,8 @@ FieldAnalysis::FieldAnalysis(const mesh::Mesh& mesh, const solid::CardiacModel& 
 
 std::vector<CellFields> FieldAnalysis::fields(const heartbeat::Snapshot& snapshot) const {
   if (snapshot.stress.empty())
-    return activated(cell_fields(wall_, snapshot, wall_pressure(mesh_, wall_, supports_, snapshot)));
+    return activated(
+        cell_fields(wall_, snapshot, wall_pressure(mesh_, wall_, supports_, snapshot)));
   std::vector<CellFields> cells = shape_fields(wall_, mesh_, snapshot.positions);
   for (std::size_t c = 0; c < cells.size(); ++c)
     static_cast<solid::CellStress&>(cells[c]) = snapshot.stress[c];

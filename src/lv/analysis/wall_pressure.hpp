@@ -21,8 +21,8 @@ namespace lv::analysis {
 ///
 /// epsilon = 1e-3 stands against modes that change sign from node to node, which the first term
 /// does not see and the mean over an element's nodes, the value returned, removes. Inertia and
-/// dashpots are left out: in fast motion p is that of the wall held in its place. NaN when the solution does not
-/// converge (nearly flat elements), with a warning in the log.
+/// dashpots are left out: in fast motion p is that of the wall held in its place. NaN when the
+/// solution does not converge (nearly flat elements), with a warning in the log.
 ///
 /// `wall` must have been made without volumetric penalty.
 [[nodiscard]] std::vector<double> wall_pressure(const mesh::Mesh& mesh, const solid::Wall& wall,

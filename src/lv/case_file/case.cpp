@@ -94,4 +94,8 @@ immersed::ModelParameters model_parameters(const Case& c, const mesh::Mesh& mesh
   return p;
 }
 
+heartbeat::BeatSetup beat_setup(const Case& c, const mesh::Mesh& mesh) {
+  return {mesh, cardiac_model(c), model_parameters(c, mesh), c.protocol, c.time, c.output};
+}
+
 }  // namespace lv::case_file

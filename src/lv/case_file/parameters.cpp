@@ -723,7 +723,7 @@ constexpr Group of_muscle[]{
                 "distortion per stretch"),
      }},
     {Stages(Stage::beat),
-     {&immersed_engine},
+     {&immersed_engine, &paper_protocol},
      {
          choice("calcium.mode", LV_AT(protocol.calcium.mode), "hold transient",
                 "calcium stays at its peak until the ventricle is steady, or decays as its shape "
@@ -773,7 +773,7 @@ constexpr Group of_blood_and_base[]{
                 "immersed engine"),
      }},
     {mechanics,
-     {&static_beat, &rates},
+     {&static_beat, &static_rates},
      {
          number("muscle.viscosity", LV_AT(viscosity.eta), "kPa s", not_negative,
                 "eta of the viscous stress S = eta dE/dt, E the Green-Lagrange strain"),
@@ -1101,7 +1101,7 @@ constexpr Group of_protocol[]{
      {
          choice("protocol.kind", LV_AT(protocol.kind), "paper cycle",
                 "filling and contraction as in the paper; or heartbeats of the wall joined to the "
-                "circulation, with engine = \"quasi_static\"",
+                "circulation",
                 "2.4"),
      }},
     {Stages(Stage::beat),
@@ -1111,6 +1111,10 @@ constexpr Group of_protocol[]{
          number("cycle.tolerance", LV_AT(protocol.cycle.tolerance), "", not_negative,
                 "beats end when the last has changed no state of the circuit, nor end-diastolic or "
                 "end-systolic volume, by more than this part of itself; 0: never"),
+     }},
+    {Stages(Stage::beat),
+     {&heartbeats, &static_beat},
+     {
          number("cycle.step", LV_AT(protocol.cycle.step), "s", above_up_to(0.0, 0.02),
                 "of time, at most; a step that fails is repeated shorter"),
          value("cycle.inertia", LV_AT(protocol.cycle.inertia),
@@ -1118,7 +1122,7 @@ constexpr Group of_protocol[]{
                "every time"),
      }},
     {Stages(Stage::beat),
-     {&heartbeats, &inertia},
+     {&heartbeats, &static_beat, &inertia},
      {
          number("cycle.spectral_radius", LV_AT(protocol.cycle.spectral_radius), "",
                 between(0.0, 1.0),
@@ -1126,14 +1130,14 @@ constexpr Group of_protocol[]{
                 "they vanish, 1 they stay"),
      }},
     {Stages(Stage::beat),
-     {&heartbeats},
+     {&heartbeats, &static_beat},
      {
          choice("activation.kind", LV_AT(activation.kind), "uniform eikonal file",
                 "calcium begins everywhere at once; where a front has come, which spreads by the "
                 "eikonal equation; or at times of a file"),
      }},
     {Stages(Stage::beat),
-     {&heartbeats, &eikonal},
+     {&heartbeats, &static_beat, &eikonal},
      {
          number("activation.v_f", LV_AT(activation.speeds.v_f), "m/s", positive,
                 "speed of the front along the fibres; the three defaults: Caldwell et al., Circ. "
@@ -1153,7 +1157,7 @@ constexpr Group of_protocol[]{
                      "default: Durrer et al., Circulation 41:899, 1970"),
      }},
     {Stages(Stage::beat),
-     {&heartbeats, &activation_file},
+     {&heartbeats, &static_beat, &activation_file},
      {
          path("activation.file", LV_AT(activation.file),
               "one time for each node or cell of 02_mesh/mesh.vtu, or each corner or element of a "
@@ -1176,7 +1180,7 @@ constexpr Group of_protocol[]{
                 "taken to be 0.9 of it (Kelly et al., Circulation 86:513, 1992); 0: none"),
      }},
     {Stages(Stage::beat),
-     {&paper_protocol},
+     {&filled_in_time},
      {
          number("protocol.filling_ramp", LV_AT(protocol.filling_ramp), "s", above_up_to(0.0, 100.0),
                 "time in which the pressure rises to ed_pressure"),
@@ -1205,7 +1209,7 @@ constexpr Group of_protocol[]{
                 "time in which the pressure rises from ed_pressure to es_pressure"),
      }},
     {Stages(Stage::beat),
-     {&immersed_engine, &held_calcium},
+     {&immersed_engine, &paper_protocol, &held_calcium},
      {
          number("protocol.contraction_tolerance", LV_AT(protocol.contraction_tolerance), "",
                 between(1e-6, 0.5),
@@ -1215,14 +1219,14 @@ constexpr Group of_protocol[]{
                 above_up_to(0.0, 100.0), "see contraction_tolerance"),
      }},
     {Stages(Stage::beat),
-     {&immersed_engine},
+     {&immersed_engine, &paper_protocol},
      {
          number("protocol.contraction_longest", LV_AT(protocol.contraction_longest), "s",
                 above_up_to(0.0, 100.0),
                 "contraction ends after this time at the latest, with a warning"),
      }},
     {Stages(Stage::beat),
-     {&immersed_engine, &held_calcium},
+     {&immersed_engine, &paper_protocol, &held_calcium},
      {
          number("protocol.contraction_drag", LV_AT(protocol.contraction_drag), "1/s", not_negative,
                 "like filling_drag, once pressure and calcium are constant"),

@@ -325,9 +325,6 @@ class CaseReader {
     rule(case_.circulation.asked(), "protocol.kind",
          "is \"cycle\", which needs a circulation: set circulation.kind to \"windkessel\" or "
          "\"closed_loop\"");
-    rule(case_.engine == Engine::quasi_static, "protocol.kind",
-         "is \"cycle\", which is not there yet for engine = \"immersed\": set engine = "
-         "\"quasi_static\"");
     rule(case_.active_law == ActiveLaw::land2017 || case_.active_law == ActiveLaw::niederer,
          "active.law",
          "prescribes a tension, which knows no time: a cycle takes \"land2017\" (or \"niederer\")");

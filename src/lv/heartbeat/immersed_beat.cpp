@@ -9,8 +9,8 @@
 #include "lv/heartbeat/checkpoint.hpp"
 #include "lv/heartbeat/immersed_steps.hpp"
 #include "lv/heartbeat/settling.hpp"
+#include "lv/heartbeat/timer.hpp"
 
-#include <chrono>
 #include <cmath>
 #include <utility>
 
@@ -18,31 +18,6 @@ namespace lv::heartbeat {
 namespace {
 
 using units::mmHg;
-
-double wall_clock() {
-  const auto now = std::chrono::steady_clock::now().time_since_epoch();
-  // one clock for all ranks: they must agree on what to do next
-  std::array<double, 1> seconds{std::chrono::duration<double>(now).count()};
-  parallel::broadcast(seconds);
-  return seconds[0];
-}
-
-/// Does things at regular wall-clock intervals.
-class Timer {
- public:
-  explicit Timer(double interval) : interval_(interval), last_(wall_clock()) {}
-
-  [[nodiscard]] bool due(double now) {
-    if (now - last_ < interval_)
-      return false;
-    last_ = now;
-    return true;
-  }
-
- private:
-  double interval_;
-  double last_;
-};
 
 class ImmersedRun {
  public:
@@ -227,7 +202,8 @@ void ImmersedRun::record_curve() {
   const solid::Loads now = loads_now();
   run_.beat.curves.push_back({run_.time, phase().name, now.pressure, model_.cavity_volume(),
                               now.calcium, model_.mean_tension(), motion.kinetic_energy,
-                              motion.largest_velocity, last_.J.min_J, last_.J.max_J, steps_.size(run_)});
+                              motion.largest_velocity, last_.J.min_J, last_.J.max_J,
+                              steps_.size(run_)});
   run_.next_curve = run_.time + setup_.output.curve_interval;
 }
 

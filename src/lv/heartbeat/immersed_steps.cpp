@@ -33,6 +33,8 @@ std::string ImmersedSteps::failure(const immersed::StepReport& report, RunState&
 }
 
 std::string ImmersedSteps::what_is_wrong(const immersed::StepReport& report, RunState& run) const {
+  if (!std::isfinite(report.pressure))
+    return "no pressure leaves the cavity the volume that its circuit has";
   if (!report.inside_box)
     return "the wall reached the side of the box";
   if (report.J.min_J <= 0.0)

@@ -26,8 +26,8 @@ class ImmersedSteps {
   /// Lets `run`, gone back to before a failure, go on with smaller steps than `failed` had.
   static void go_back(const RunState& failed, RunState& run);
 
-  /// Whether a run that went back has halved its steps too often; its steps are then long again, for
-  /// whoever resumes.
+  /// Whether a run that went back has halved its steps too often; its steps are then long again,
+  /// for whoever resumes.
   [[nodiscard]] bool gives_up(RunState& run) const;
 
   /// What to tell of that: `where` and why the last step failed.

@@ -59,11 +59,36 @@ void Model::relax(double calcium) {
   state_.calcium = calcium;
 }
 
+void Model::balance(double calcium) {
+  slack_ = false;
+  wall_.nodal_stretch(state_.positions, stretch_);
+  contraction_.relax(calcium, stretch_);
+  state_.calcium = calcium;
+}
+
 StepReport Model::step(const solid::Loads& loads, double dt, double drag) {
   activate(loads);
   const solid::VolumeRange J = nodal_forces(loads.pressure);
   move_blood(drag, dt);
-  StepReport report = move_wall(dt);
+  return finished(move_wall(dt, [&] { return loads.pressure; }), J, loads, dt);
+}
+
+StepReport Model::step(const solid::Loads& loads, double dt, const PressureOfStep& pressure,
+                       bool anew) {
+  if (anew) {
+    response_.reset();
+    transform_.to_points(state_.velocity_modes, velocity_);
+    fluid::fill_ghosts(velocity_, slab_);
+  }
+  activate(loads);
+  const solid::VolumeRange J = nodal_forces(loads.pressure);
+  move_blood(0.0, dt);
+  const auto correct = [&] { return find_pressure(loads.pressure, dt, pressure); };
+  return finished(move_wall(dt, correct), J, loads, dt);
+}
+
+StepReport Model::finished(StepReport report, const solid::VolumeRange& J,
+                           const solid::Loads& loads, double dt) {
   report.J = {parallel::min(J.min_J), parallel::max(J.max_J)};
   state_.dt_before = state_.dt;
   state_.dt = dt;
@@ -72,7 +97,9 @@ StepReport Model::step(const solid::Loads& loads, double dt, double drag) {
 }
 
 void Model::activate(const solid::Loads& loads) {
-  if (const auto* prescribed = std::get_if<material::PrescribedTension>(&active_)) {
+  if (slack_) {
+    contraction_.prescribe(0.0);
+  } else if (const auto* prescribed = std::get_if<material::PrescribedTension>(&active_)) {
     contraction_.prescribe(loads.activation * prescribed->T_max);
   } else if (state_.dt > 0.0) {
     wall_.nodal_stretch(state_.positions, stretch_);
@@ -102,7 +129,9 @@ void Model::move_blood(double drag, double dt) {
   fluid::fill_ghosts(velocity_, slab_);
 }
 
-StepReport Model::move_wall(double dt) {
+/// `correct_velocities` may change what the blood's velocity makes of the nodes', and says under
+/// which pressure.
+StepReport Model::move_wall(double dt, const std::function<double()>& correct_velocities) {
   auto& x = state_.positions;
   auto& U = state_.node_velocities;
   for (std::size_t a = 0; a < x.size(); ++a)
@@ -113,6 +142,7 @@ StepReport Model::move_wall(double dt) {
     return report;
   const std::vector<Vec3> U_before = U;
   coupling_->interpolate(velocity_, midpoints_, U);
+  report.pressure = correct_velocities();
 
   double product = 0.0;
   double squares = 0.0;
@@ -135,6 +165,51 @@ StepReport Model::move_wall(double dt) {
   return report;
 }
 
+/// Adds the response to the pressure that is missing from the guess.
+double Model::find_pressure(double guess, double dt, const PressureOfStep& pressure) {
+  const double half_steps = 0.5 * (state_.dt + dt);
+  constexpr double rounding = 1e-9;  // of steps that share a duration evenly
+  if (!response_ || std::abs(half_steps - response_->half_steps) > rounding * half_steps)
+    find_response(half_steps);
+  std::vector<Vec3> x(state_.positions.size());
+  const auto volume_with = [&](double dp) {
+    for (std::size_t a = 0; a < x.size(); ++a)
+      x[a] = state_.positions[a] + dt * (state_.node_velocities[a] + dp * response_->nodes[a]);
+    return endocardium_.volume(x);
+  };
+  const double volume = volume_with(0.0);
+  constexpr double unit = 1.0;  // [kPa]
+  const double found = pressure({guess, volume, (volume_with(unit) - volume) / unit});
+  const double dp = found - guess;
+  for (std::size_t a = 0; a < x.size(); ++a)
+    state_.node_velocities[a] += dp * response_->nodes[a];
+  const auto add = [dp](const std::vector<double>& from, std::vector<double>& to) {
+    for (std::size_t i = 0; i < to.size(); ++i)
+      to[i] += dp * from[i];
+  };
+  for (int c = 0; c < 3; ++c) {
+    add(response_->velocity.component[c].values(), velocity_.component[c].values());
+    add(response_->modes[c], state_.velocity_modes[c]);
+    add(response_->force_modes[c], force_modes_[c]);
+  }
+  return found;
+}
+
+void Model::find_response(double half_steps) {
+  response_ = Response{half_steps, std::vector<Vec3>(state_.positions.size(), Vec3::Zero()),
+                       fluid::FaceField(parameters_.grid, slab_), transform_.zero_modes(),
+                       transform_.zero_modes()};
+  Response& r = *response_;
+  endocardium_.add_gradient(1.0, state_.positions, r.nodes);
+  parallel::sum({r.nodes.data()->data(), 3 * r.nodes.size()});
+  coupling_->spread(state_.positions, r.nodes, r.velocity);  // the force, to begin with
+  transform_.to_modes(r.velocity, r.force_modes);
+  stokes_.advance(r.modes, r.force_modes, half_steps, 0.0);
+  transform_.to_points(r.modes, r.velocity);
+  fluid::fill_ghosts(r.velocity, slab_);
+  coupling_->interpolate(r.velocity, midpoints_, r.nodes);
+}
+
 bool Model::inside_box(std::span<const Vec3> positions) const {
   return std::all_of(positions.begin(), positions.end(),
                      [&](const Vec3& x) { return transfer_.inside(x); });
@@ -142,6 +217,7 @@ bool Model::inside_box(std::span<const Vec3> positions) const {
 
 void Model::restore(const ModelState& state) {
   state_ = state;
+  response_.reset();
   contraction_.set_state(state.contraction);
   transform_.to_points(state_.velocity_modes, velocity_);
   fluid::fill_ghosts(velocity_, slab_);

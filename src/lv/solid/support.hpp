@@ -60,10 +60,10 @@ struct Surroundings {
     return epicardium.has_dashpots() || base.has_dashpots();
   }
 
-  /// The longest step dt of a leapfrog whose dashpots see the velocity of half a step before, around
-  /// a mass m per area [kg/mm^2] that moves with the surfaces: (k/m) dt^2 + 2 (c/m) dt < 4 with the
-  /// largest k and c of both surfaces, which meet at the edge of the base [s]; infinite without
-  /// supports.
+  /// The longest step dt of a leapfrog whose dashpots see the velocity of half a step before,
+  /// around a mass m per area [kg/mm^2] that moves with the surfaces: (k/m) dt^2 + 2 (c/m) dt < 4
+  /// with the largest k and c of both surfaces, which meet at the edge of the base [s]; infinite
+  /// without supports.
   [[nodiscard]] double longest_step(double mass) const;
 };
 
