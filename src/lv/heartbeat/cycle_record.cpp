@@ -236,8 +236,7 @@ void CycleRecord::store(Archive& archive) const {
 
 void CycleRecord::load(Archive& archive, std::size_t nodes) {
   const auto& n = archive.get_rows("run", 17, 1, {.missing = true});
-  constexpr double any = std::numeric_limits<int>::max();
-  const auto whole = [&](double number, double most = any) {
+  const auto whole = [&](double number, double most = std::numeric_limits<int>::max()) {
     return archive.whole_number(number, {0.0, most});
   };
   run_.time = n[0];

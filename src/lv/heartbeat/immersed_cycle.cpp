@@ -177,7 +177,10 @@ void ImmersedCycleRun::begin_beat() {
 void ImmersedCycleRun::step() {
   const double dt = record_.step_size(steps_.size(state()));
   const auto circuit = [&](double p) { return record_.volume_after(dt, p); };
-  const auto pressure = [&](const immersed::StepVolume& wall) {
+  // the circuit goes by what the endocardium sweeps; the fan at the base is no part of it
+  const double share_of_base = model_.cavity_volume() - record_.now().signals.volume;
+  const auto pressure = [&](immersed::StepVolume wall) {
+    wall.volume -= share_of_base;
     return matching_pressure(wall, circuit);
   };
   const solid::Loads loads{.pressure = record_.pressure(),
@@ -319,7 +322,7 @@ Archive ImmersedCycleRun::archived_place(const immersed::ModelState& model,
                                          const CycleRecord& record) const {
   Archive archive;
   record.store(archive);
-  archive.add("model", archived(model, model_.transform()));
+  archive.add("model", heartbeat::archived(model, model_.transform()));
   return archive;
 }
 

@@ -4,6 +4,7 @@
 #include "lv/base/parallel.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace lv::immersed {
@@ -171,18 +172,19 @@ double Model::find_pressure(double guess, double dt, const PressureOfStep& press
   constexpr double rounding = 1e-9;  // of steps that share a duration evenly
   if (!response_ || std::abs(half_steps - response_->half_steps) > rounding * half_steps)
     find_response(half_steps);
-  std::vector<Vec3> x(state_.positions.size());
-  const auto volume_with = [&](double dp) {
-    for (std::size_t a = 0; a < x.size(); ++a)
-      x[a] = state_.positions[a] + dt * (state_.node_velocities[a] + dp * response_->nodes[a]);
-    return endocardium_.volume(x);
-  };
-  const double volume = volume_with(0.0);
-  constexpr double unit = 1.0;  // [kPa]
-  const double found = pressure({guess, volume, (volume_with(unit) - volume) / unit});
+  auto& U = state_.node_velocities;
+  std::vector<Vec3> gradient(U.size(), Vec3::Zero());
+  endocardium_.add_gradient(1.0, midpoints_, gradient);
+  std::array<double, 2> flow{};  // under the guess, and of the response [mm^3/s]
+  for (std::size_t a = 0; a < U.size(); ++a) {
+    flow[0] += gradient[a].dot(U[a]);
+    flow[1] += gradient[a].dot(response_->nodes[a]);
+  }
+  parallel::sum(flow);
+  const double found = pressure({guess, cavity_volume() + dt * flow[0], dt * flow[1]});
   const double dp = found - guess;
-  for (std::size_t a = 0; a < x.size(); ++a)
-    state_.node_velocities[a] += dp * response_->nodes[a];
+  for (std::size_t a = 0; a < U.size(); ++a)
+    U[a] += dp * response_->nodes[a];
   const auto add = [dp](const std::vector<double>& from, std::vector<double>& to) {
     for (std::size_t i = 0; i < to.size(); ++i)
       to[i] += dp * from[i];

@@ -47,8 +47,11 @@ struct StepReport {
   double pressure = 0.0;         ///< in the cavity, as it was given or found [kPa]
 };
 
-/// How the cavity's volume at the end of a step follows the pressure p during it, to first order:
-/// V + dV/dp (p - guess).
+/// How the cavity's volume at the end of a step follows the pressure p during it,
+/// V + dV/dp (p - guess). V is that before the step and what the endocardium sweeps in it: the fan
+/// that closes the cavity at the base is held, since the pressure does not push it
+/// (solid::EndocardialSurface). A volume that followed the base's own vibration would give its edge
+/// a negative mass.
 struct StepVolume {
   double guess = 0.0;         ///< [kPa]
   double volume = 0.0;        ///< V [mm^3]
@@ -81,7 +84,7 @@ class Model {
   /// with u_g under a guess, that of `loads`, and the response u_1 of wall and blood at rest to a
   /// unit pressure over this step, another solve of the same equations,
   ///
-  ///   u = u_g + (p - guess) u_1,   x^{n+1} = x^n + dt U,   V(x^{n+1}) to first order in p
+  ///   u = u_g + (p - guess) u_1,   x^{n+1} = x^n + dt U,   dV = dt dV/dx(x^n + dt/2 U^{n-1/2}) . U
   ///
   /// u_1 changes as slowly as the wall's shape does: it is kept until `anew` asks for another or
   /// dt changes. `anew` also makes the velocity anew from its modes, so that a restored model takes

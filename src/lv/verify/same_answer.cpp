@@ -26,9 +26,8 @@ double largest_difference(const std::vector<double>& a, const std::vector<double
 /// Steps around a cavity whose volume stays, by the pressure that each of them takes; the last
 /// one's [kPa].
 double hold_volume(immersed::Model& model, double pressure) {
-  const double volume = model.cavity_volume();
   const auto of_step = [&](const immersed::StepVolume& v) {
-    return v.guess + (volume - v.volume) / v.per_pressure;
+    return v.guess - (v.volume - model.cavity_volume()) / v.per_pressure;
   };
   constexpr int steps = 40;
   constexpr int same_response = 10;

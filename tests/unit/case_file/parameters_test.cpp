@@ -56,15 +56,15 @@ Lines beating(Lines lines) {
     lines.emplace(name, value);
   return lines;
 }
-/// The same with the immersed engine, held by springs.
-const Lines beating_immersed{{"engine", "\"immersed\""},
-                             {"protocol.kind", "\"cycle\""},
-                             {"circulation.kind", "\"windkessel\""},
-                             {"base.support", "\"elastic\""},
-                             {"base.tangential_stiffness", "\"1 kPa/mm\""},
-                             {"base.normal_stiffness", "\"2 kPa/mm\""},
-                             {"pericardium.normal_stiffness", "\"3 kPa/mm\""},
-                             {"pericardium.weight", "\"sigmoid\""}};
+/// The same with the immersed engine.
+const Lines beating_immersed{{"protocol.kind", "\"cycle\""},
+                             {"circulation.kind", "\"windkessel\""}};
+/// The immersed engine's wall held by springs.
+const Lines held_immersed{{"base.support", "\"elastic\""},
+                          {"base.tangential_stiffness", "\"1 kPa/mm\""},
+                          {"base.normal_stiffness", "\"2 kPa/mm\""},
+                          {"pericardium.normal_stiffness", "\"3 kPa/mm\""},
+                          {"pericardium.weight", "\"sigmoid\""}};
 const Lines given_mesh{{"anatomy.source", "\"mesh\""}, {"anatomy.mesh.file", "\"wall.vtk\""}};
 const Lines labelled_scar{{"infarct.source", "\"labels\""},
                           {"infarct.labels.file", "\"scar.nii\""},
@@ -124,6 +124,7 @@ const std::vector<Lines>& bases() {
                {"activation.kind", "\"eikonal\""}}),
       beating({{"activation.kind", "\"file\""}, {"activation.file", "\"times.dat\""}}),
       beating_immersed,
+      held_immersed,
       {{"circulation.kind", "\"closed_loop\""}, {"circulation.valves.law", "\"arctangent\""}},
       {{"strain.cine", "\"cine\""}, {"strain.contours", "\"loops.csv\""}},
       {{"strain.cine", "\"cine\""}, {"strain.long_axis_cine", "[\"view\"]"}},
@@ -282,7 +283,7 @@ TEST_CASE("what does nothing is named with what it counts with", "[unit][case_fi
       {static_engine, "pericardium.normal_viscosity", "\"1 kPa s/mm\"",
        "for without time nothing has a rate"},
       {static_engine, "base.normal_stiffness", "\"1 kPa/mm\"", "with base.support = \"elastic\""},
-      {beating_immersed, "base.stiffness", "\"100 kPa/mm\"", "\"sliding\" or \"fixed\""},
+      {held_immersed, "base.stiffness", "\"100 kPa/mm\"", "\"sliding\" or \"fixed\""},
       {beating_immersed, "cycle.step", "\"1 ms\"", "with engine = \"quasi_static\""},
       {beating_immersed, "activation.v_f", "\"1 m/s\"", "with engine = \"quasi_static\""},
       {beating_immersed, "calcium.mode", "\"transient\"", "with protocol.kind = \"paper\""},
@@ -605,7 +606,8 @@ std::vector<Lines> cases_without_files() {
                          {"cycle.inertia", "true"}}));
   all.push_back(
       with(with(static_engine, "quasi_static.order", "1"), "mesh.edge_length", "\"9 mm\""));
-  all.push_back(with(beating_immersed, "mesh.edge_length", "\"9 mm\""));
+  for (const Lines& immersed : {beating_immersed, held_immersed})
+    all.push_back(with(immersed, "mesh.edge_length", "\"9 mm\""));
   return all;
 }
 

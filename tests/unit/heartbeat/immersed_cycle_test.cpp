@@ -14,13 +14,13 @@ using namespace lv;
 using heartbeat::Beat;
 using heartbeat::BeatSetup;
 
-mesh::Mesh coarse_mesh() {
+mesh::Mesh blood_sized_mesh() {
   return verify::ideal_mesh({.edge_length = 9.0});
 }
 
 /// Human muscle on a coarse grid; a beat too short for a heart, after a filling too short for a
 /// wall to come to rest, for the test's sake.
-BeatSetup quick(const mesh::Mesh& mesh) {
+BeatSetup quick_immersed(const mesh::Mesh& mesh) {
   BeatSetup setup = verify::default_beat(mesh, {20, 20, 27}, 4e-4);
   setup.heart.myocardium.active = material::Land2017{};
   setup.protocol.calcium = {.Ca_0 = 0.1,
@@ -68,7 +68,7 @@ Beat through_kills(BeatSetup setup, const circulation::Parameters& circuit) {
   }
 }
 
-void check_same(const Beat& a, const Beat& b) {
+void check_bitwise(const Beat& a, const Beat& b) {
   REQUIRE(a.cycle->samples.size() == b.cycle->samples.size());
   for (std::size_t i = 0; i < a.cycle->samples.size(); ++i) {
     CHECK(a.cycle->samples[i].time == b.cycle->samples[i].time);
@@ -103,13 +103,14 @@ TEST_CASE("the pressure of a step is that at which wall and circuit agree", "[un
 }
 
 TEST_CASE("the immersed wall beats in a circulation", "[unit][heartbeat]") {
-  const mesh::Mesh mesh = coarse_mesh();
+  const mesh::Mesh mesh = blood_sized_mesh();
   const test::TemporaryFolder folder;
-  const Beat beat = heartbeat::run_immersed_cycle(quick(mesh), windkessel(), folder / "", {});
+  const Beat beat =
+      heartbeat::run_immersed_cycle(quick_immersed(mesh), windkessel(), folder / "", {});
   REQUIRE(beat.cycle);
   REQUIRE(beat.cycle->beats.size() == 1);
   const circulation::BeatMeasures& m = beat.cycle->beats.back();
-  CHECK(beat.cycle->volume_gap < 1e-8);
+  CHECK(beat.cycle->volume_gap < 0.01);  // of the fan at the base, which yields on its springs
   CHECK(m.end_systolic_volume < 0.9 * m.end_diastolic_volume);
   CHECK(m.peak_pressure > 80.0 * units::mmHg);
   CHECK(m.aortic_opens > m.mitral_closes);
@@ -122,20 +123,20 @@ TEST_CASE("the immersed wall beats in a circulation", "[unit][heartbeat]") {
 }
 
 TEST_CASE("an immersed heartbeat that was killed goes on bit for bit", "[unit][heartbeat]") {
-  const mesh::Mesh mesh = coarse_mesh();
-  BeatSetup setup = quick(mesh);
+  const mesh::Mesh mesh = blood_sized_mesh();
+  BeatSetup setup = quick_immersed(mesh);
   setup.output.frame_interval = 0.05;
   const test::TemporaryFolder folder;
   heartbeat::Observers frames;
   frames.frame = [](const heartbeat::Frame&) {};
   const Beat undisturbed = heartbeat::run_immersed_cycle(setup, windkessel(), folder / "", frames);
-  check_same(undisturbed, through_kills(setup, windkessel()));
+  check_bitwise(undisturbed, through_kills(setup, windkessel()));
 }
 
 TEST_CASE("steps that fail in an immersed heartbeat are taken back and repeated smaller",
           "[unit][heartbeat]") {
-  const mesh::Mesh mesh = coarse_mesh();
-  BeatSetup setup = quick(mesh);
+  const mesh::Mesh mesh = blood_sized_mesh();
+  BeatSetup setup = quick_immersed(mesh);
   setup.control.longest = 2e-3;  // far too long
   setup.output.frame_interval = 0.05;
   circulation::Parameters circuit = windkessel();
@@ -147,11 +148,12 @@ TEST_CASE("steps that fail in an immersed heartbeat are taken back and repeated 
   CHECK(undisturbed.cycle->samples.back().time == Approx(0.4));
   for (std::size_t i = 1; i < undisturbed.cycle->samples.size(); ++i)
     CHECK(undisturbed.cycle->samples[i].time > undisturbed.cycle->samples[i - 1].time);
-  check_same(undisturbed, through_kills(setup, circuit));
+  check_bitwise(undisturbed, through_kills(setup, circuit));
 }
 
 TEST_CASE("immersed heartbeats without a circulation are refused", "[unit][heartbeat]") {
-  const mesh::Mesh mesh = coarse_mesh();
+  const mesh::Mesh mesh = blood_sized_mesh();
   const test::TemporaryFolder folder;
-  CHECK_THROWS_AS(heartbeat::run_immersed_cycle(quick(mesh), {}, folder / "", {}), InputError);
+  CHECK_THROWS_AS(heartbeat::run_immersed_cycle(quick_immersed(mesh), {}, folder / "", {}),
+                  InputError);
 }
