@@ -124,11 +124,12 @@ FieldAnalysis::FieldAnalysis(const mesh::Mesh& mesh, const solid::CardiacModel& 
     : mesh_(mesh),
       activation_times_(std::move(activation_times)),
       wall_(mesh, model.fibres, without_penalty(model.myocardium)),
-      base_(mesh, model.base) {}
+      supports_(mesh, model.base, model.surroundings) {}
 
 std::vector<CellFields> FieldAnalysis::fields(const heartbeat::Snapshot& snapshot) const {
   if (snapshot.stress.empty())
-    return activated(cell_fields(wall_, snapshot, wall_pressure(mesh_, wall_, base_, snapshot)));
+    return activated(
+        cell_fields(wall_, snapshot, wall_pressure(mesh_, wall_, supports_, snapshot)));
   std::vector<CellFields> cells = shape_fields(wall_, mesh_, snapshot.positions);
   for (std::size_t c = 0; c < cells.size(); ++c)
     static_cast<solid::CellStress&>(cells[c]) = snapshot.stress[c];

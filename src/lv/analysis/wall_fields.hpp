@@ -68,7 +68,7 @@ class FieldAnalysis {
   const mesh::Mesh& mesh_;
   std::vector<double> activation_times_;
   solid::Wall wall_;  ///< without volumetric penalty: p stands for it
-  solid::BasalPenalty base_;
+  solid::Supports supports_;
 };
 
 /// Green-Lagrange strain of an element between two states, E = (F^T F - 1)/2 with F = F_now

@@ -93,12 +93,12 @@ Integrals integrals(const mesh::Mesh& mesh, std::span<const Vec3> x) {
 
 /// All nodal forces but those of p, complete on every rank.
 std::vector<Vec3> forces_without_pressure(const mesh::Mesh& mesh, const solid::Wall& wall,
-                                          const solid::BasalPenalty& base,
+                                          const solid::Supports& supports,
                                           const heartbeat::Snapshot& s) {
   std::vector<Vec3> forces(mesh.nodes.size(), Vec3::Zero());
   wall.add_elastic_forces(s.positions, s.tension, forces);
   solid::EndocardialSurface(mesh).add_gradient(s.pressure, s.positions, forces);
-  base.add_forces(s.positions, forces);
+  supports.add_forces(s.positions, {}, forces);
   parallel::sum({forces.data()->data(), 3 * forces.size()});
   return forces;
 }
@@ -177,9 +177,9 @@ Eigen::VectorXd nodal_pressure(const Integrals& wall, const std::vector<Vec3>& f
 }  // namespace
 
 std::vector<double> wall_pressure(const mesh::Mesh& mesh, const solid::Wall& wall,
-                                  const solid::BasalPenalty& base,
+                                  const solid::Supports& supports,
                                   const heartbeat::Snapshot& snapshot) {
-  const std::vector<Vec3> forces = forces_without_pressure(mesh, wall, base, snapshot);
+  const std::vector<Vec3> forces = forces_without_pressure(mesh, wall, supports, snapshot);
   if (!parallel::is_root())
     return {};
   const Eigen::VectorXd p = nodal_pressure(integrals(mesh, snapshot.positions), forces);

@@ -71,15 +71,15 @@ mesh::WallMeshParameters mesh_parameters(const Case& c) {
 }
 
 solid::CardiacModel cardiac_model(const Case& c) {
-  return {c.fibres, myocardium(c), c.engine == Engine::immersed ? c.base : quasi_static_support(c)};
+  return {c.fibres, myocardium(c), c.engine == Engine::immersed ? c.base : quasi_static_support(c),
+          c.surroundings};
 }
 
 implicit::StaticModel static_model(const Case& c) {
-  implicit::StaticModel model({c.fibres, myocardium(c), quasi_static_support(c)},
+  implicit::StaticModel model({c.fibres, myocardium(c), quasi_static_support(c), c.surroundings},
                               c.protocol.calcium, c.quasi_static.stabilisation);
   if (c.bulk_modulus > 0.0)
     model.compressibility.kappa = c.bulk_modulus;
-  model.surroundings = c.surroundings;
   model.viscosity = c.viscosity;
   if (c.protocol.cycle.inertia)
     model.density = c.muscle_density;
@@ -92,6 +92,10 @@ immersed::ModelParameters model_parameters(const Case& c, const mesh::Mesh& mesh
   p.blood = c.blood;
   p.coupling = c.coupling;
   return p;
+}
+
+heartbeat::BeatSetup beat_setup(const Case& c, const mesh::Mesh& mesh) {
+  return {mesh, cardiac_model(c), model_parameters(c, mesh), c.protocol, c.time, c.output};
 }
 
 }  // namespace lv::case_file

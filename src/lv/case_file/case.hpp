@@ -6,7 +6,7 @@
 #include "lv/circulation/parameters.hpp"
 #include "lv/geometry/ellipsoid.hpp"
 #include "lv/geometry/parameters.hpp"
-#include "lv/heartbeat/parameters.hpp"
+#include "lv/heartbeat/immersed_beat.hpp"
 #include "lv/image/sunnybrook.hpp"
 #include "lv/immersed/model.hpp"
 #include "lv/implicit/engine.hpp"
@@ -288,5 +288,8 @@ inline constexpr double systolic_share = 0.9;
 
 /// The immersed engine's parameters, with the box placed around the middle of the wall.
 [[nodiscard]] immersed::ModelParameters model_parameters(const Case& c, const mesh::Mesh& mesh);
+
+/// What the immersed engine runs of a case.
+[[nodiscard]] heartbeat::BeatSetup beat_setup(const Case& c, const mesh::Mesh& mesh);
 
 }  // namespace lv::case_file

@@ -55,13 +55,21 @@ LV_CONDITION(quadrature, c.coupling.kind == immersed::CouplingKind::quadrature,
 LV_CONDITION(heartbeats, is_cycle(c), "with protocol.kind = \"cycle\"")
 LV_CONDITION(paper_protocol, s == Stage::calibrate || !is_cycle(c),
              "with protocol.kind = \"paper\"")
+LV_CONDITION(filled_in_time, c.engine == Engine::immersed || !is_cycle(c),
+             "with engine = \"immersed\" or protocol.kind = \"paper\"")
 LV_CONDITION(calcium_in_time, c.engine == Engine::immersed || is_cycle(c),
              "with engine = \"immersed\" or protocol.kind = \"cycle\"")
-LV_CONDITION(rates, is_cycle(c) && s == Stage::beat,
+LV_CONDITION(
+    rates, (c.engine == Engine::immersed || is_cycle(c)) && s == Stage::beat,
+    "with engine = \"immersed\" or protocol.kind = \"cycle\", for without time nothing has "
+    "a rate")
+LV_CONDITION(static_rates, is_cycle(c) && s == Stage::beat,
              "with protocol.kind = \"cycle\", for without time nothing has a rate")
 LV_CONDITION(inertia, c.protocol.cycle.inertia, "with cycle.inertia = true")
 LV_CONDITION(elastic_base, c.base.kind == solid::BasalSupport::Kind::elastic,
              "with base.support = \"elastic\"")
+LV_CONDITION(rigid_base, c.base.kind != solid::BasalSupport::Kind::elastic,
+             "with base.support = \"sliding\" or \"fixed\"")
 LV_CONDITION(pericardium, !c.surroundings.epicardium.is_none(),
              "with springs or dashpots of the pericardium")
 LV_CONDITION(weighted_pericardium,

@@ -723,7 +723,7 @@ constexpr Group of_muscle[]{
                 "distortion per stretch"),
      }},
     {Stages(Stage::beat),
-     {&immersed_engine},
+     {&immersed_engine, &paper_protocol},
      {
          choice("calcium.mode", LV_AT(protocol.calcium.mode), "hold transient",
                 "calcium stays at its peak until the ventricle is steady, or decays as its shape "
@@ -773,7 +773,7 @@ constexpr Group of_blood_and_base[]{
                 "immersed engine"),
      }},
     {mechanics,
-     {&static_beat, &rates},
+     {&static_beat, &static_rates},
      {
          number("muscle.viscosity", LV_AT(viscosity.eta), "kPa s", not_negative,
                 "eta of the viscous stress S = eta dE/dt, E the Green-Lagrange strain"),
@@ -824,12 +824,11 @@ constexpr Group of_blood_and_base[]{
      {
          choice("base.support", LV_AT(base.kind), "sliding fixed elastic",
                 "the basal plane is held along the axis and around it and moves freely "
-                "outwards, or is held altogether; or springs and dashpots of the case hold it "
-                "(quasi-static engine)",
+                "outwards, or is held altogether; or springs and dashpots of the case hold it",
                 "2.4"),
      }},
     {Stages(Stage::beat),
-     {&immersed_engine},
+     {&immersed_engine, &rigid_base},
      {
          number("base.stiffness", LV_AT(base.stiffness), "kPa/mm", positive,
                 "springs per area that hold the basal plane (immersed engine; the quasi-static "
@@ -837,7 +836,7 @@ constexpr Group of_blood_and_base[]{
                 "2.4"),
      }},
     {mechanics,
-     {&static_beat, &elastic_base},
+     {&elastic_base},
      {
          number("base.normal_stiffness", LV_AT(surroundings.base.normal_stiffness), "kPa/mm",
                 not_negative, "springs per area along the normal of the undeformed base"),
@@ -845,7 +844,7 @@ constexpr Group of_blood_and_base[]{
                 "kPa/mm", not_negative, "springs per area in its plane"),
      }},
     {mechanics,
-     {&static_beat, &elastic_base, &rates},
+     {&elastic_base, &rates},
      {
          number("base.normal_viscosity", LV_AT(surroundings.base.normal_viscosity), "kPa s/mm",
                 not_negative, "dashpots per area along the normal of the undeformed base"),
@@ -853,7 +852,7 @@ constexpr Group of_blood_and_base[]{
                 "kPa s/mm", not_negative, "dashpots per area in its plane"),
      }},
     {mechanics,
-     {&static_beat},
+     {},
      {
          number("pericardium.normal_stiffness", LV_AT(surroundings.epicardium.normal_stiffness),
                 "kPa/mm", not_negative,
@@ -863,7 +862,7 @@ constexpr Group of_blood_and_base[]{
                 "springs per area in its tangential plane"),
      }},
     {mechanics,
-     {&static_beat, &rates},
+     {&rates},
      {
          number("pericardium.normal_viscosity", LV_AT(surroundings.epicardium.normal_viscosity),
                 "kPa s/mm", not_negative,
@@ -873,7 +872,7 @@ constexpr Group of_blood_and_base[]{
                 "dashpots per area in its tangential plane"),
      }},
     {mechanics,
-     {&static_beat, &pericardium},
+     {&pericardium},
      {
          choice("pericardium.weight", LV_AT(surroundings.epicardium.weight.shape),
                 "even linear sigmoid",
@@ -882,13 +881,13 @@ constexpr Group of_blood_and_base[]{
                 "or s = 1/(1 + exp(weight_steepness (h - weight_middle)))"),
      }},
     {mechanics,
-     {&static_beat, &pericardium, &weighted_pericardium},
+     {&pericardium, &weighted_pericardium},
      {
          number("pericardium.weight_base", LV_AT(surroundings.epicardium.weight.at_base), "",
                 not_negative, "see weight"),
      }},
     {mechanics,
-     {&static_beat, &pericardium, &sigmoid_pericardium},
+     {&pericardium, &sigmoid_pericardium},
      {
          number("pericardium.weight_middle", LV_AT(surroundings.epicardium.weight.middle), "",
                 between(0.0, 1.0), "see weight; the default is that of pyansys-heart"),
@@ -1102,7 +1101,7 @@ constexpr Group of_protocol[]{
      {
          choice("protocol.kind", LV_AT(protocol.kind), "paper cycle",
                 "filling and contraction as in the paper; or heartbeats of the wall joined to the "
-                "circulation, with engine = \"quasi_static\"",
+                "circulation",
                 "2.4"),
      }},
     {Stages(Stage::beat),
@@ -1112,6 +1111,10 @@ constexpr Group of_protocol[]{
          number("cycle.tolerance", LV_AT(protocol.cycle.tolerance), "", not_negative,
                 "beats end when the last has changed no state of the circuit, nor end-diastolic or "
                 "end-systolic volume, by more than this part of itself; 0: never"),
+     }},
+    {Stages(Stage::beat),
+     {&heartbeats, &static_beat},
+     {
          number("cycle.step", LV_AT(protocol.cycle.step), "s", above_up_to(0.0, 0.02),
                 "of time, at most; a step that fails is repeated shorter"),
          value("cycle.inertia", LV_AT(protocol.cycle.inertia),
@@ -1119,7 +1122,7 @@ constexpr Group of_protocol[]{
                "every time"),
      }},
     {Stages(Stage::beat),
-     {&heartbeats, &inertia},
+     {&heartbeats, &static_beat, &inertia},
      {
          number("cycle.spectral_radius", LV_AT(protocol.cycle.spectral_radius), "",
                 between(0.0, 1.0),
@@ -1127,14 +1130,14 @@ constexpr Group of_protocol[]{
                 "they vanish, 1 they stay"),
      }},
     {Stages(Stage::beat),
-     {&heartbeats},
+     {&heartbeats, &static_beat},
      {
          choice("activation.kind", LV_AT(activation.kind), "uniform eikonal file",
                 "calcium begins everywhere at once; where a front has come, which spreads by the "
                 "eikonal equation; or at times of a file"),
      }},
     {Stages(Stage::beat),
-     {&heartbeats, &eikonal},
+     {&heartbeats, &static_beat, &eikonal},
      {
          number("activation.v_f", LV_AT(activation.speeds.v_f), "m/s", positive,
                 "speed of the front along the fibres; the three defaults: Caldwell et al., Circ. "
@@ -1154,7 +1157,7 @@ constexpr Group of_protocol[]{
                      "default: Durrer et al., Circulation 41:899, 1970"),
      }},
     {Stages(Stage::beat),
-     {&heartbeats, &activation_file},
+     {&heartbeats, &static_beat, &activation_file},
      {
          path("activation.file", LV_AT(activation.file),
               "one time for each node or cell of 02_mesh/mesh.vtu, or each corner or element of a "
@@ -1177,7 +1180,7 @@ constexpr Group of_protocol[]{
                 "taken to be 0.9 of it (Kelly et al., Circulation 86:513, 1992); 0: none"),
      }},
     {Stages(Stage::beat),
-     {&paper_protocol},
+     {&filled_in_time},
      {
          number("protocol.filling_ramp", LV_AT(protocol.filling_ramp), "s", above_up_to(0.0, 100.0),
                 "time in which the pressure rises to ed_pressure"),
@@ -1206,7 +1209,7 @@ constexpr Group of_protocol[]{
                 "time in which the pressure rises from ed_pressure to es_pressure"),
      }},
     {Stages(Stage::beat),
-     {&immersed_engine, &held_calcium},
+     {&immersed_engine, &paper_protocol, &held_calcium},
      {
          number("protocol.contraction_tolerance", LV_AT(protocol.contraction_tolerance), "",
                 between(1e-6, 0.5),
@@ -1216,14 +1219,14 @@ constexpr Group of_protocol[]{
                 above_up_to(0.0, 100.0), "see contraction_tolerance"),
      }},
     {Stages(Stage::beat),
-     {&immersed_engine},
+     {&immersed_engine, &paper_protocol},
      {
          number("protocol.contraction_longest", LV_AT(protocol.contraction_longest), "s",
                 above_up_to(0.0, 100.0),
                 "contraction ends after this time at the latest, with a warning"),
      }},
     {Stages(Stage::beat),
-     {&immersed_engine, &held_calcium},
+     {&immersed_engine, &paper_protocol, &held_calcium},
      {
          number("protocol.contraction_drag", LV_AT(protocol.contraction_drag), "1/s", not_negative,
                 "like filling_drag, once pressure and calcium are constant"),

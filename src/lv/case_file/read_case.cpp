@@ -296,9 +296,6 @@ class CaseReader {
   void check_supports() {
     if (case_.base.kind != solid::BasalSupport::Kind::elastic)
       return;
-    rule(case_.engine == Engine::quasi_static, "base.support",
-         "is \"elastic\", which is not there yet for engine = \"immersed\": set engine = "
-         "\"quasi_static\", or another support");
     const solid::Support& base = case_.surroundings.base;
     const solid::Support& pericardium = case_.surroundings.epicardium;
     rule(base.tangential_stiffness > 0.0 || pericardium.tangential_stiffness > 0.0, "base.support",
@@ -328,9 +325,12 @@ class CaseReader {
     rule(case_.circulation.asked(), "protocol.kind",
          "is \"cycle\", which needs a circulation: set circulation.kind to \"windkessel\" or "
          "\"closed_loop\"");
-    rule(case_.engine == Engine::quasi_static, "protocol.kind",
-         "is \"cycle\", which is not there yet for engine = \"immersed\": set engine = "
-         "\"quasi_static\"");
+    rule(case_.engine == Engine::quasi_static ||
+             case_.base.kind != solid::BasalSupport::Kind::elastic,
+         "base.support",
+         "is \"elastic\", which heartbeats of engine = \"immersed\" do not take yet: their circuit "
+         "goes by what the endocardium sweeps, with a base that stays in its plane; take "
+         "\"sliding\" or \"fixed\", or engine = \"quasi_static\"");
     rule(case_.active_law == ActiveLaw::land2017 || case_.active_law == ActiveLaw::niederer,
          "active.law",
          "prescribes a tension, which knows no time: a cycle takes \"land2017\" (or \"niederer\")");

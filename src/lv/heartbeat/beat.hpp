@@ -67,6 +67,9 @@ struct EnergyBalance {
   double supports = 0.0;   ///< into springs and dashpots
   double viscosity = 0.0;  ///< int int P_viscous : dF dX
 
+  /// Whether it was kept: the immersed engine, whose blood moves and rubs too, keeps none.
+  [[nodiscard]] bool is_known() const { return muscle != 0.0; }
+
   /// What is missing, as a part of what the muscle does.
   [[nodiscard]] double error() const {
     return std::abs((pressure + muscle - stored - kinetic - supports - viscosity) / muscle);

@@ -26,17 +26,23 @@ std::size_t points(const fluid::Component& u) {
   return static_cast<std::size_t>(u.nx()) * u.ny() * u.nz();
 }
 
-/// A moment as an archive has it, in place of a state of the same model.
-Moment load_moment(const Archive& archive, const immersed::Model& model,
-                   const immersed::ModelState& like, const std::vector<Phase>& phases) {
-  const std::size_t nodes = like.positions.size();
+Moment load_moment(const Archive& archive, immersed::Model& model,
+                   const std::vector<Phase>& phases) {
+  immersed::ModelState state = load_model_state(archive, model);
+  const std::size_t nodes = state.positions.size();
+  return {std::move(state), load_run_state(archive, phases, nodes)};
+}
+
+}  // namespace
+
+immersed::ModelState load_model_state(const Archive& archive, immersed::Model& model) {
+  immersed::ModelState state = model.state();
+  const std::size_t nodes = state.positions.size();
   const auto at_nodes = [&](const char* name) { return vectors(archive.get_rows(name, 3, nodes)); };
-  Moment moment{like, load_run_state(archive, phases, nodes)};
-  immersed::ModelState& state = moment.model;
   state.positions = at_nodes("positions");
   state.node_velocities = at_nodes("node_velocities");
   state.velocity_change = at_nodes("velocity_change");
-  state.contraction = archive.get_rows("contraction", 1, like.contraction.size());
+  state.contraction = archive.get_rows("contraction", 1, state.contraction.size());
   const auto& steps = archive.get_rows(steps_name, 3, 1, not_negative);
   state.dt = steps[0];
   state.dt_before = steps[1];
@@ -52,15 +58,11 @@ Moment load_moment(const Archive& archive, const immersed::Model& model,
     fluid::scatter(archive.get_rows(convection_name(c), 1, of_all_ranks(points(convection))),
                    convection);
   }
-  return moment;
+  return state;
 }
 
-}  // namespace
-
-Archive archived(const immersed::ModelState& state, const RunState& run,
-                 const fluid::BoxTransform& transform) {
+Archive archived(const immersed::ModelState& state, const fluid::BoxTransform& transform) {
   Archive archive;
-  store(run, archive);
   archive.set("positions", flat(state.positions));
   archive.set("node_velocities", flat(state.node_velocities));
   archive.set("velocity_change", flat(state.velocity_change));
@@ -73,12 +75,18 @@ Archive archived(const immersed::ModelState& state, const RunState& run,
   return archive;
 }
 
+Archive archived(const immersed::ModelState& state, const RunState& run,
+                 const fluid::BoxTransform& transform) {
+  Archive archive = archived(state, transform);
+  store(run, archive);
+  return archive;
+}
+
 Checkpoint read_checkpoint(const std::filesystem::path& file, immersed::Model& model,
                            const std::vector<Phase>& phases) {
   Archive archive = Archive::read(file);
-  const immersed::ModelState& like = model.state();
-  Moment now = load_moment(archive.take("now"), model, like, phases);
-  return {std::move(now), load_moment(archive.take("kept"), model, like, phases)};
+  Moment now = load_moment(archive.take("now"), model, phases);
+  return {std::move(now), load_moment(archive.take("kept"), model, phases)};
 }
 
 }  // namespace lv::heartbeat

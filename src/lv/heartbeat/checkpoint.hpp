@@ -17,6 +17,13 @@ struct Checkpoint {
   Moment now, kept;
 };
 
+/// A model's state as named arrays, on the root; collective.
+[[nodiscard]] Archive archived(const immersed::ModelState& state,
+                               const fluid::BoxTransform& transform);
+
+/// The state of a model out of its archive; collective. Throws RunError as read_checkpoint.
+[[nodiscard]] immersed::ModelState load_model_state(const Archive& archive, immersed::Model& model);
+
 /// A moment as named arrays, on the root; collective.
 [[nodiscard]] Archive archived(const immersed::ModelState& state, const RunState& run,
                                const fluid::BoxTransform& transform);

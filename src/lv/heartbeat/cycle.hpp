@@ -1,7 +1,6 @@
 #pragma once
 
-#include "lv/circulation/parameters.hpp"
-#include "lv/heartbeat/observers.hpp"
+#include "lv/heartbeat/cycle_record.hpp"
 #include "lv/implicit/engine.hpp"
 
 #include <filesystem>
@@ -36,13 +35,5 @@ struct CycleSetup {
 /// valve does not open and close in the last. Collective.
 [[nodiscard]] Beat run_cycle(const CycleSetup& setup, const std::filesystem::path& folder,
                              const Observers& observers);
-
-/// Adds what a heartbeat's work was to an archive, and takes it out again.
-void store(const EnergyBalance& energy, Archive& archive);
-[[nodiscard]] EnergyBalance load_energy(const Archive& archive);
-
-/// Adds heartbeats to an archive, and takes them out again.
-void store(const circulation::Cycle& cycle, Archive& archive);
-[[nodiscard]] circulation::Cycle load_cycle(const Archive& archive);
 
 }  // namespace lv::heartbeat

@@ -7,40 +7,17 @@
 #include "lv/base/time_left.hpp"
 #include "lv/base/units.hpp"
 #include "lv/heartbeat/checkpoint.hpp"
+#include "lv/heartbeat/immersed_steps.hpp"
 #include "lv/heartbeat/settling.hpp"
+#include "lv/heartbeat/timer.hpp"
 
-#include <chrono>
 #include <cmath>
+#include <utility>
 
 namespace lv::heartbeat {
 namespace {
 
 using units::mmHg;
-
-double wall_clock() {
-  const auto now = std::chrono::steady_clock::now().time_since_epoch();
-  // one clock for all ranks: they must agree on what to do next
-  std::array<double, 1> seconds{std::chrono::duration<double>(now).count()};
-  parallel::broadcast(seconds);
-  return seconds[0];
-}
-
-/// Does things at regular wall-clock intervals.
-class Timer {
- public:
-  explicit Timer(double interval) : interval_(interval), last_(wall_clock()) {}
-
-  [[nodiscard]] bool due(double now) {
-    if (now - last_ < interval_)
-      return false;
-    last_ = now;
-    return true;
-  }
-
- private:
-  double interval_;
-  double last_;
-};
 
 class ImmersedRun {
  public:
@@ -50,6 +27,7 @@ class ImmersedRun {
         observers_(observers),
         phases_(phases(setup.protocol)),
         model_(setup.mesh, setup.heart, setup.model),
+        steps_(setup.control, model_, setup.model.blood.density),
         checkpoint_timer_(setup.output.checkpoint_interval) {}
 
   Beat run() {
@@ -88,8 +66,6 @@ class ImmersedRun {
   [[nodiscard]] bool advance();
   void keep_sometimes();
   void take_back(const std::string& why);
-  [[nodiscard]] double step_size() const;
-  [[nodiscard]] std::string what_is_wrong(const immersed::StepReport& report);
   void observe();
   void record_curve();
   void write_frame();
@@ -112,6 +88,7 @@ class ImmersedRun {
   const Observers& observers_;
   std::vector<Phase> phases_;
   immersed::Model model_;
+  ImmersedSteps steps_;
   RunState run_;
   immersed::StepReport last_;
   bool finished_ = false;
@@ -162,54 +139,17 @@ void ImmersedRun::keep() {
   kept_ = {model_.state(), run_};
 }
 
-/// The longest step divided by two as often as past failures and the Courant number ask. Powers of
-/// two, so that the step changes rarely.
-double ImmersedRun::step_size() const {
-  const StepControl& control = setup_.control;
-  const double h = setup_.model.grid.spacing.minCoeff();
-  const double courant = run_.largest_velocity * control.longest / (control.courant * h);
-  const int for_courant = courant > 1.0 ? static_cast<int>(std::ceil(std::log2(courant))) : 0;
-  return std::ldexp(control.longest, -std::max(run_.halvings, for_courant));
-}
-
-std::string ImmersedRun::what_is_wrong(const immersed::StepReport& report) {
-  if (!report.inside_box)
-    return "the wall reached the side of the box";
-  if (report.J.min_J <= 0.0)
-    return fmt::format("an element turned inside out (J = {:.3g})", report.J.min_J);
-  if (report.largest_node_speed > setup_.control.velocity_limit)
-    return fmt::format("the wall moved at {:.3g} m/s", 1e-3 * report.largest_node_speed);
-  if (run_.largest_velocity > setup_.control.velocity_limit)
-    return fmt::format("the blood moved at {:.3g} m/s", 1e-3 * run_.largest_velocity);
-  constexpr double visible = 5.0;  // [mm/s]
-  constexpr int patience = 20;     // steps
-  run_.flips = report.smoothness < -0.5 && report.velocity_change > visible ? run_.flips + 1 : 0;
-  return run_.flips >= patience ? "the wall's velocity flips from step to step" : "";
-}
-
 /// One step. False when it failed and the run went back.
 bool ImmersedRun::advance() {
-  const double dt = step_size();
+  const double dt = steps_.size(run_);
   volume_before_ = model_.cavity_volume();
   last_ = model_.step(loads_now(), dt, loads_are_final() ? phase().drag : 0.0);
   run_.time += dt;
-  ++run_.beat.steps;
-  if (run_.beat.steps % 10 == 0)
-    run_.largest_velocity =
-        fluid::motion(model_.velocity(), setup_.model.grid, setup_.model.blood.density)
-            .largest_velocity;
-
-  const std::string trouble = what_is_wrong(last_);
-  if (!trouble.empty()) {
-    take_back(trouble);
-    return false;
-  }
-  if (run_.halvings > 0 && ++run_.good_steps >= run_.patience) {
-    --run_.halvings;
-    run_.good_steps = 0;
-    log::info("the step may grow again, to {:.3g} s", step_size());
-  }
-  return true;
+  const std::string trouble = steps_.failure(last_, run_);
+  if (trouble.empty())
+    return true;
+  take_back(trouble);
+  return false;
 }
 
 void ImmersedRun::keep_sometimes() {
@@ -219,34 +159,18 @@ void ImmersedRun::keep_sometimes() {
 }
 
 void ImmersedRun::take_back(const std::string& why) {
-  const double failed_at = run_.time;
-  const int halvings = run_.halvings + 1;
-  constexpr int longest_patience = 100'000;  // steps
-  const int patience = std::min(2 * run_.patience, longest_patience);
-  const int retries = run_.beat.retries + 1;
   count_time();
-  const double spent = run_.beat.wall_clock;
+  const RunState failed = std::move(run_);
+  const std::string where = fmt::format("{:.4f} s of {}", failed.time, phases_[failed.phase].name);
   model_.restore(kept_->model);
   run_ = kept_->run;
-  run_.halvings = halvings;
-  run_.patience = patience;
-  run_.good_steps = 0;
-  run_.beat.retries = retries;
-  run_.beat.wall_clock = spent;
-  run_.flips = 0;
-  if (halvings > setup_.control.halvings) {
-    run_.halvings = 0;  // whoever resumes begins with the step of the case file
+  ImmersedSteps::go_back(failed, run_);
+  if (steps_.gives_up(run_)) {
     save();
-    throw RunError(
-        fmt::format("The run became unstable at {:.4f} s of {}: {}, even with steps of {:.2g} s",
-                    failed_at, phase().name, why,
-                    std::ldexp(setup_.control.longest, -setup_.control.halvings)),
-        "Look at the last frame: a wall at the side of the box needs a larger box.size, one that "
-        "folds a finer mesh or lower pressures; otherwise lower time.longest_step in the case "
-        "file. The checkpoint holds the last good state");
+    throw steps_.unstable(where, why);
   }
-  log::warn("at {:.4f} s {}; back to {:.4f} s with steps of {:.3g} s", failed_at, why, run_.time,
-            step_size());
+  log::warn("at {:.4f} s {}; back to {:.4f} s with steps of {:.3g} s", failed.time, why, run_.time,
+            steps_.size(run_));
 }
 
 Snapshot ImmersedRun::snapshot() const {
@@ -278,7 +202,8 @@ void ImmersedRun::record_curve() {
   const solid::Loads now = loads_now();
   run_.beat.curves.push_back({run_.time, phase().name, now.pressure, model_.cavity_volume(),
                               now.calcium, model_.mean_tension(), motion.kinetic_energy,
-                              motion.largest_velocity, last_.J.min_J, last_.J.max_J, step_size()});
+                              motion.largest_velocity, last_.J.min_J, last_.J.max_J,
+                              steps_.size(run_)});
   run_.next_curve = run_.time + setup_.output.curve_interval;
 }
 

@@ -4,6 +4,7 @@
 #include "lv/base/parallel.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace lv::immersed {
@@ -28,7 +29,9 @@ Model::Model(const mesh::Mesh& mesh, const solid::CardiacModel& heart,
       strength_(solid::strength(mesh, heart.myocardium.infarct)),
       contraction_(kinetics(active_), {mesh.nodes, wall_.nodal_volumes(), strength_},
                    parameters.blood.density, parameters.grid.spacing.minCoeff()),
-      base_(mesh, heart.base),
+      supports_(mesh, heart.base, heart.surroundings),
+      longest_step_(heart.surroundings.longest_step(parameters.blood.density *
+                                                    parameters.grid.spacing.minCoeff())),
       endocardium_(mesh),
       transfer_(parameters.grid, slab_, parameters.coupling.kernel),
       coupling_(make_coupling(parameters.coupling, mesh, parameters.grid, slab_)),
@@ -57,11 +60,36 @@ void Model::relax(double calcium) {
   state_.calcium = calcium;
 }
 
+void Model::balance(double calcium) {
+  slack_ = false;
+  wall_.nodal_stretch(state_.positions, stretch_);
+  contraction_.relax(calcium, stretch_);
+  state_.calcium = calcium;
+}
+
 StepReport Model::step(const solid::Loads& loads, double dt, double drag) {
   activate(loads);
   const solid::VolumeRange J = nodal_forces(loads.pressure);
   move_blood(drag, dt);
-  StepReport report = move_wall(dt);
+  return finished(move_wall(dt, [&] { return loads.pressure; }), J, loads, dt);
+}
+
+StepReport Model::step(const solid::Loads& loads, double dt, const PressureOfStep& pressure,
+                       bool anew) {
+  if (anew) {
+    response_.reset();
+    transform_.to_points(state_.velocity_modes, velocity_);
+    fluid::fill_ghosts(velocity_, slab_);
+  }
+  activate(loads);
+  const solid::VolumeRange J = nodal_forces(loads.pressure);
+  move_blood(0.0, dt);
+  const auto correct = [&] { return find_pressure(loads.pressure, dt, pressure); };
+  return finished(move_wall(dt, correct), J, loads, dt);
+}
+
+StepReport Model::finished(StepReport report, const solid::VolumeRange& J,
+                           const solid::Loads& loads, double dt) {
   report.J = {parallel::min(J.min_J), parallel::max(J.max_J)};
   state_.dt_before = state_.dt;
   state_.dt = dt;
@@ -70,7 +98,9 @@ StepReport Model::step(const solid::Loads& loads, double dt, double drag) {
 }
 
 void Model::activate(const solid::Loads& loads) {
-  if (const auto* prescribed = std::get_if<material::PrescribedTension>(&active_)) {
+  if (slack_) {
+    contraction_.prescribe(0.0);
+  } else if (const auto* prescribed = std::get_if<material::PrescribedTension>(&active_)) {
     contraction_.prescribe(loads.activation * prescribed->T_max);
   } else if (state_.dt > 0.0) {
     wall_.nodal_stretch(state_.positions, stretch_);
@@ -83,7 +113,7 @@ solid::VolumeRange Model::nodal_forces(double pressure) {
   const solid::VolumeRange J =
       wall_.add_elastic_forces(state_.positions, contraction_.tension(), node_forces_);
   endocardium_.add_gradient(pressure, state_.positions, node_forces_);
-  base_.add_forces(state_.positions, node_forces_);
+  supports_.add_forces(state_.positions, state_.node_velocities, node_forces_);
   parallel::sum({node_forces_.data()->data(), 3 * node_forces_.size()});
   return J;
 }
@@ -100,7 +130,9 @@ void Model::move_blood(double drag, double dt) {
   fluid::fill_ghosts(velocity_, slab_);
 }
 
-StepReport Model::move_wall(double dt) {
+/// `correct_velocities` may change what the blood's velocity makes of the nodes', and says under
+/// which pressure.
+StepReport Model::move_wall(double dt, const std::function<double()>& correct_velocities) {
   auto& x = state_.positions;
   auto& U = state_.node_velocities;
   for (std::size_t a = 0; a < x.size(); ++a)
@@ -111,6 +143,7 @@ StepReport Model::move_wall(double dt) {
     return report;
   const std::vector<Vec3> U_before = U;
   coupling_->interpolate(velocity_, midpoints_, U);
+  report.pressure = correct_velocities();
 
   double product = 0.0;
   double squares = 0.0;
@@ -133,6 +166,52 @@ StepReport Model::move_wall(double dt) {
   return report;
 }
 
+/// Adds the response to the pressure that is missing from the guess.
+double Model::find_pressure(double guess, double dt, const PressureOfStep& pressure) {
+  const double half_steps = 0.5 * (state_.dt + dt);
+  constexpr double rounding = 1e-9;  // of steps that share a duration evenly
+  if (!response_ || std::abs(half_steps - response_->half_steps) > rounding * half_steps)
+    find_response(half_steps);
+  auto& U = state_.node_velocities;
+  std::vector<Vec3> gradient(U.size(), Vec3::Zero());
+  endocardium_.add_gradient(1.0, midpoints_, gradient);
+  std::array<double, 2> flow{};  // under the guess, and of the response [mm^3/s]
+  for (std::size_t a = 0; a < U.size(); ++a) {
+    flow[0] += gradient[a].dot(U[a]);
+    flow[1] += gradient[a].dot(response_->nodes[a]);
+  }
+  parallel::sum(flow);
+  const double found = pressure({guess, cavity_volume() + dt * flow[0], dt * flow[1]});
+  const double dp = found - guess;
+  for (std::size_t a = 0; a < U.size(); ++a)
+    U[a] += dp * response_->nodes[a];
+  const auto add = [dp](const std::vector<double>& from, std::vector<double>& to) {
+    for (std::size_t i = 0; i < to.size(); ++i)
+      to[i] += dp * from[i];
+  };
+  for (int c = 0; c < 3; ++c) {
+    add(response_->velocity.component[c].values(), velocity_.component[c].values());
+    add(response_->modes[c], state_.velocity_modes[c]);
+    add(response_->force_modes[c], force_modes_[c]);
+  }
+  return found;
+}
+
+void Model::find_response(double half_steps) {
+  response_ = Response{half_steps, std::vector<Vec3>(state_.positions.size(), Vec3::Zero()),
+                       fluid::FaceField(parameters_.grid, slab_), transform_.zero_modes(),
+                       transform_.zero_modes()};
+  Response& r = *response_;
+  endocardium_.add_gradient(1.0, state_.positions, r.nodes);
+  parallel::sum({r.nodes.data()->data(), 3 * r.nodes.size()});
+  coupling_->spread(state_.positions, r.nodes, r.velocity);  // the force, to begin with
+  transform_.to_modes(r.velocity, r.force_modes);
+  stokes_.advance(r.modes, r.force_modes, half_steps, 0.0);
+  transform_.to_points(r.modes, r.velocity);
+  fluid::fill_ghosts(r.velocity, slab_);
+  coupling_->interpolate(r.velocity, midpoints_, r.nodes);
+}
+
 bool Model::inside_box(std::span<const Vec3> positions) const {
   return std::all_of(positions.begin(), positions.end(),
                      [&](const Vec3& x) { return transfer_.inside(x); });
@@ -140,6 +219,7 @@ bool Model::inside_box(std::span<const Vec3> positions) const {
 
 void Model::restore(const ModelState& state) {
   state_ = state;
+  response_.reset();
   contraction_.set_state(state.contraction);
   transform_.to_points(state_.velocity_modes, velocity_);
   fluid::fill_ghosts(velocity_, slab_);

@@ -7,9 +7,12 @@
 #include "lv/solid/contraction.hpp"
 #include "lv/solid/endocardial_surface.hpp"
 #include "lv/solid/loads.hpp"
+#include "lv/solid/support.hpp"
 #include "lv/solid/wall.hpp"
 
+#include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace lv::immersed {
@@ -41,13 +44,29 @@ struct StepReport {
   double smoothness = 1.0;
   double velocity_change = 0.0;  ///< rms of the last change of the nodes' velocities [mm/s]
   solid::VolumeRange J;          ///< at the start of the step, over all ranks
+  double pressure = 0.0;         ///< in the cavity, as it was given or found [kPa]
 };
+
+/// How the cavity's volume at the end of a step follows the pressure p during it,
+/// V + dV/dp (p - guess). V is that before the step and what the endocardium sweeps in it: the fan
+/// that closes the cavity at the base is held, since the pressure does not push it
+/// (solid::EndocardialSurface). A volume that followed the base's own vibration would give its edge
+/// a negative mass.
+struct StepVolume {
+  double guess = 0.0;         ///< [kPa]
+  double volume = 0.0;        ///< V [mm^3]
+  double per_pressure = 0.0;  ///< dV/dp [mm^3/kPa]
+};
+
+/// The pressure that a step should have [kPa]; not a number: there is none, and the step fails.
+using PressureOfStep = std::function<double(const StepVolume&)>;
 
 /// The wall immersed in blood (2.1)-(2.4), advanced by a staggered leapfrog: positions at whole
 /// steps, velocities at half steps. Second order in time:
 ///
 ///   T^n         from (A.2)-(A.11) with the stretch increment of the step that ended at t^n
 ///   F^n         = weak form of all stresses and loads at x^n                                   (2.9)-(2.10)
+///                 and the supports' forces at x^n; their dashpots see the velocity U^{n-1/2}
 ///   u^{n+1/2}   from u^{n-1/2}, the force at t^n and convection extrapolated to t^n            (2.1)-(2.2)
 ///   x^{n+1}     = x^n + dt U,  U = u^{n+1/2} interpolated at x^n + dt/2 U^{n-1/2}              (2.4)
 class Model {
@@ -61,6 +80,25 @@ class Model {
   /// resistance to the velocity, which moves no equilibrium.
   StepReport step(const solid::Loads& loads, double dt, double drag = 0.0);
 
+  /// The same under a pressure that is found within the step. The step is linear in the pressure:
+  /// with u_g under a guess, that of `loads`, and the response u_1 of wall and blood at rest to a
+  /// unit pressure over this step, another solve of the same equations,
+  ///
+  ///   u = u_g + (p - guess) u_1,   x^{n+1} = x^n + dt U,   dV = dt dV/dx(x^n + dt/2 U^{n-1/2}) . U
+  ///
+  /// u_1 changes as slowly as the wall's shape does: it is kept until `anew` asks for another or
+  /// dt changes. `anew` also makes the velocity anew from its modes, so that a restored model takes
+  /// the same steps from there on to the last bit.
+  StepReport step(const solid::Loads& loads, double dt, const PressureOfStep& pressure, bool anew);
+
+  /// The longest step that the supports of epicardium and base allow [s]: the springs move at least
+  /// the blood of one mesh width h with the wall, rho h per area (Surroundings::longest_step). The
+  /// 4-point kernel spreads a sheet's force over 8/3 h.
+  [[nodiscard]] double longest_step() const { return longest_step_; }
+
+  /// The forces on the nodes at the start of the last step [mN]; complete on every rank.
+  [[nodiscard]] std::span<const Vec3> node_forces() const { return node_forces_; }
+
   /// The model as it is now, and back to an earlier state: all steps after it come out the same to
   /// the last bit.
   [[nodiscard]] const ModelState& state();
@@ -72,6 +110,12 @@ class Model {
 
   /// Brings the muscle to its resting state at this calcium [uM].
   void relax(double calcium);
+
+  /// Muscle without any tension, whatever the calcium, until it is brought to a balance.
+  void slacken() { slack_ = true; }
+
+  /// Brings the muscle to its steady state at this calcium [uM] and the stretch that it now has.
+  void balance(double calcium);
 
   [[nodiscard]] std::span<const Vec3> positions() const { return state_.positions; }
   [[nodiscard]] std::span<const Vec3> node_velocities() const { return state_.node_velocities; }
@@ -94,7 +138,11 @@ class Model {
   void activate(const solid::Loads& loads);
   solid::VolumeRange nodal_forces(double pressure);
   void move_blood(double drag, double dt);
-  StepReport move_wall(double dt);
+  StepReport move_wall(double dt, const std::function<double()>& correct_velocities);
+  double find_pressure(double guess, double dt, const PressureOfStep& pressure);
+  void find_response(double half_steps);
+  StepReport finished(StepReport report, const solid::VolumeRange& J, const solid::Loads& loads,
+                      double dt);
 
   ModelParameters parameters_;
   fluid::Slab slab_;
@@ -102,7 +150,8 @@ class Model {
   material::ActiveLaw active_;
   std::vector<double> strength_;  ///< of contraction, per node
   solid::Contraction contraction_;
-  solid::BasalPenalty base_;
+  solid::Supports supports_;
+  double longest_step_;
   solid::EndocardialSurface endocardium_;
   Transfer transfer_;
   std::unique_ptr<Coupling> coupling_;
@@ -114,6 +163,16 @@ class Model {
   std::vector<Vec3> node_forces_, midpoints_;
   fluid::FaceField velocity_, force_;
   fluid::ModeField force_modes_;
+  bool slack_ = false;
+
+  /// What a unit pressure in the cavity does in a step.
+  struct Response {
+    double half_steps;  ///< of the last and this step, from middle to middle [s]
+    std::vector<Vec3> nodes;
+    fluid::FaceField velocity;
+    fluid::ModeField modes, force_modes;
+  };
+  std::optional<Response> response_;
 };
 
 }  // namespace lv::immersed

@@ -205,16 +205,12 @@ Equations::Equations(const mesh::Mesh& mesh, const StaticModel& model)
       wall_(reference_wall(mesh, model.heart.fibres)),
       endocardium_(mesh),
       model_(for_order(model, mesh.order)),
-      base_(mesh, model.heart.base),
-      epicardial_support_(mesh, mesh.epi, model.surroundings.epicardium),
-      basal_support_(mesh, mesh.base, model.surroundings.base),
+      supports_(mesh, model.heart.base, model.heart.surroundings),
       masses_(masses(mesh, wall_, model.density)) {}
 
 void Equations::set_model(const StaticModel& model) {
   model_ = for_order(model, mesh_.order);
-  base_ = solid::BasalPenalty(mesh_, model.heart.base);
-  epicardial_support_ = {mesh_, mesh_.epi, model.surroundings.epicardium};
-  basal_support_ = {mesh_, mesh_.base, model.surroundings.base};
+  supports_ = {mesh_, model.heart.base, model.heart.surroundings};
   masses_ = masses(mesh_, wall_, model.density);
 }
 
@@ -276,12 +272,6 @@ Equations::Inside Equations::inside(const State& state, const TensionAt& tension
   return result;
 }
 
-void Equations::add_supports(const Moving& at, std::span<Vec3> forces) const {
-  base_.add_forces(at.positions, forces);
-  epicardial_support_.add_forces(at.positions, at.velocities, forces);
-  basal_support_.add_forces(at.positions, at.velocities, forces);
-}
-
 std::vector<double> Equations::residual(const State& state, double pressure,
                                         const TensionAt& tension, const Motion* motion) const {
   auto [R, inverted] = inside(state, tension, motion);
@@ -291,7 +281,7 @@ std::vector<double> Equations::residual(const State& state, double pressure,
   endocardium_.add_gradient(pressure, state.positions, forces);
   const std::vector<Vec3> v =
       motion != nullptr ? motion->velocities(state.positions) : std::vector<Vec3>{};
-  add_supports({state.positions, v}, forces);
+  supports_.add_forces(state.positions, v, forces);
   for (std::size_t a = 0; a < forces.size(); ++a)
     for (int i = 0; i < 3; ++i)
       R[3 * a + i] -= forces[a][i];
@@ -367,12 +357,7 @@ void Equations::tangent(const State& state, double pressure, const TensionAt& te
   };
   endocardium_.add_hessian(-pressure, state.positions, add);
   const double slope = motion != nullptr ? motion->velocity_slope : 0.0;
-  epicardial_support_.add_stiffness(slope, add);
-  basal_support_.add_stiffness(slope, add);
-  if (parallel::is_root())
-    for (const auto& spring : base_.springs())
-      K.add(std::array{3 * spring.node, 3 * spring.node + 1, 3 * spring.node + 2},
-            spring.stiffness);
+  supports_.add_stiffness(slope, add);
   K.finish();
 }
 
@@ -428,8 +413,8 @@ double Equations::kinetic_energy(std::span<const Vec3> velocities) const {
 
 double Equations::support_work(const Moving& from, const Moving& to) const {
   std::vector<Vec3> forces(from.positions.size(), Vec3::Zero());
-  add_supports(from, forces);
-  add_supports(to, forces);
+  supports_.add_forces(from.positions, from.velocities, forces);
+  supports_.add_forces(to.positions, to.velocities, forces);
   double work = 0.0;
   for (std::size_t a = 0; a < forces.size(); ++a)
     work -= 0.5 * forces[a].dot(to.positions[a] - from.positions[a]);

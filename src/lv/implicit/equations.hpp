@@ -44,13 +44,12 @@ struct StaticModel {
   Contractility contractility;
   material::Volumetric stabilisation;
   material::Compressibility compressibility = {};
-  solid::Surroundings surroundings = {};
   material::Viscosity viscosity = {};
   double density = 0.0;  ///< of the wall [kg/mm^3]; 0: without inertia
 
   /// Whether its forces depend on rates.
   [[nodiscard]] bool has_rates() const {
-    return density > 0.0 || viscosity.eta > 0.0 || surroundings.has_dashpots();
+    return density > 0.0 || viscosity.eta > 0.0 || heart.surroundings.has_dashpots();
   }
 };
 
@@ -197,15 +196,13 @@ class Equations {
   };
   [[nodiscard]] Inside inside(const State& state, const TensionAt& tension,
                               const Motion* motion) const;
-  void add_supports(const Moving& at, std::span<Vec3> forces) const;
   [[nodiscard]] std::vector<double> summed(std::span<const Vec3> of_nodes) const;
 
   const mesh::Mesh& mesh_;
   ReferenceWall wall_;
   solid::EndocardialSurface endocardium_;
   StaticModel model_;
-  solid::BasalPenalty base_;
-  solid::SupportedSurface epicardial_support_, basal_support_;
+  solid::Supports supports_;
   std::vector<Eigen::MatrixXd> masses_;  ///< int rho phi phi^T dX of own elements; none: no inertia
 };
 

@@ -3,6 +3,7 @@
 #include "lv/base/log.hpp"
 #include "lv/circulation/cycle.hpp"
 #include "lv/heartbeat/cycle.hpp"
+#include "lv/heartbeat/immersed_cycle.hpp"
 #include "lv/report/cycle_tables.hpp"
 
 #include <fmt/format.h>
@@ -29,6 +30,9 @@ heartbeat::Beat make_cycle(const Case& c, const mesh::Mesh& mesh,
                            const heartbeat::Observers& observers) {
   if (const std::string slow = slow_relaxation(c); !slow.empty())
     log::warn("{}", slow);
+  if (c.engine == case_file::Engine::immersed)
+    return heartbeat::run_immersed_cycle(case_file::beat_setup(c, mesh), c.circulation, folder,
+                                         observers);
   return heartbeat::run_cycle(
       {mesh, case_file::static_model(c), c.quasi_static.solver, c.protocol.calcium, c.circulation,
        c.protocol.cycle, c.output.frame_interval, activation_times},
@@ -59,8 +63,8 @@ std::vector<std::string> cycle_warnings(const Case& c, const circulation::Cycle&
   std::vector<std::string> warnings;
   if (cycle.cut_short)
     warnings.push_back(
-        fmt::format("the heartbeats end after {} of them: in the next one no equilibrium of wall "
-                    "and circulation was found",
+        fmt::format("the heartbeats end after {} of them: in the next one a step of wall and "
+                    "circulation had no solution",
                     cycle.beats.size()));
   if (cycle.gave_way > 0)
     warnings.push_back(

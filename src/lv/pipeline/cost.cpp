@@ -36,6 +36,21 @@ struct Estimate {
   double step = 0.0;  ///< [s]
 };
 
+std::string beat_of_immersed(const Case& c, double step) {
+  const auto takes = [&](double simulated) {
+    return log::duration(simulated / c.time.longest * step);
+  };
+  const std::vector<heartbeat::Phase> phases = heartbeat::phases(c.protocol);
+  if (case_file::is_cycle(c))
+    return fmt::format("about {} to fill and {} a beat, of which {} at most",
+                       takes(phases.front().usual), takes(c.circulation.period),
+                       c.protocol.cycle.beats);
+  double simulated = 0.0;
+  for (const heartbeat::Phase& phase : phases)
+    simulated += phase.usual;
+  return fmt::format("about {}", takes(simulated));
+}
+
 Estimate of_immersed(const Case& c, const mesh::Mesh& mesh) {
   const immersed::ModelParameters p = case_file::model_parameters(c, mesh);
   immersed::Model model(mesh, case_file::cardiac_model(c), p);
@@ -47,13 +62,10 @@ Estimate of_immersed(const Case& c, const mesh::Mesh& mesh) {
           static_cast<void>(model.step({.calcium = c.protocol.calcium.Ca_0}, c.time.longest));
       }) /
       steps;
-  double simulated = 0.0;
-  for (const heartbeat::Phase& phase : heartbeat::phases(c.protocol))
-    simulated += phase.usual;
   return {
       fmt::format("  grid: {} x {} x {}, mesh width {:.3f} mm; {:.3g} s a step\n", p.grid.cells[0],
                   p.grid.cells[1], p.grid.cells[2], p.grid.spacing.minCoeff(), step),
-      fmt::format("about {}", log::duration(simulated / c.time.longest * step)), step};
+      beat_of_immersed(c, step), step};
 }
 
 std::string beat_in_words(const Case& c, double load_step) {
@@ -123,9 +135,7 @@ Cost cost_of(const Case& c, const anatomy::Shape& shape, const anatomy::MeshResu
     check_room(other, made.mesh);
     return made;
   };
-  const auto immersed = [&]() -> Estimate {
-    if (case_file::is_cycle(c))
-      return {"", "cannot run heartbeats", 0.0};
+  const auto immersed = [&] {
     return of_immersed(with_engine(c, case_file::Engine::immersed),
                        mesh_of(case_file::Engine::immersed).mesh);
   };

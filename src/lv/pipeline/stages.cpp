@@ -388,13 +388,7 @@ heartbeat::Beat make_beat(const Case& c, const anatomy::MeshResult& mesh,
         {mesh.mesh, case_file::static_model(c), c.quasi_static.solver, c.protocol,
          c.output.frame_interval},
         observers);
-  const heartbeat::BeatSetup setup{mesh.mesh,
-                                   case_file::cardiac_model(c),
-                                   case_file::model_parameters(c, mesh.mesh),
-                                   c.protocol,
-                                   c.time,
-                                   c.output};
-  return heartbeat::run_immersed_beat(setup, folder, observers);
+  return heartbeat::run_immersed_beat(case_file::beat_setup(c, mesh.mesh), folder, observers);
 }
 
 std::string make_results(const Case& c, const anatomy::MeshResult& mesh, const BeatResult& beat,

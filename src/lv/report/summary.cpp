@@ -247,6 +247,19 @@ Json latest_activation(const heartbeat::Beat& beat) {
   return times.empty() ? Json() : number(1e3 * *std::max_element(times.begin(), times.end()));
 }
 
+/// Null where none was kept.
+Json energy_json(const heartbeat::EnergyBalance& e) {
+  if (!e.is_known())
+    return {};
+  return {{"work_of_pressure_mJ", number(millijoule * e.pressure)},
+          {"work_of_muscle_mJ", number(millijoule * e.muscle)},
+          {"stored_mJ", number(millijoule * e.stored)},
+          {"kinetic_mJ", number(millijoule * e.kinetic)},
+          {"work_on_supports_mJ", number(millijoule * e.supports)},
+          {"viscous_mJ", number(millijoule * e.viscosity)},
+          {"missing_percent", number(100.0 * e.error())}};
+}
+
 Json cycle_json(const heartbeat::Beat& beat) {
   const circulation::Cycle& cycle = *beat.cycle;
   Json last = Json::object();
@@ -258,14 +271,8 @@ Json cycle_json(const heartbeat::Beat& beat) {
           {"largest_change_of_last_beat", number(cycle.change)},
           {"last_beat", std::move(last)},
           {"last_activation_ms", latest_activation(beat)},
-          {"energy_of_last_beat",
-           {{"work_of_pressure_mJ", number(millijoule * beat.energy.pressure)},
-            {"work_of_muscle_mJ", number(millijoule * beat.energy.muscle)},
-            {"stored_mJ", number(millijoule * beat.energy.stored)},
-            {"kinetic_mJ", number(millijoule * beat.energy.kinetic)},
-            {"work_on_supports_mJ", number(millijoule * beat.energy.supports)},
-            {"viscous_mJ", number(millijoule * beat.energy.viscosity)},
-            {"missing_percent", number(100.0 * beat.energy.error())}}}};
+          {"largest_volume_gap", number(cycle.volume_gap)},
+          {"energy_of_last_beat", energy_json(beat.energy)}};
 }
 
 /// How the phases, or the heartbeats, ended.
@@ -280,17 +287,22 @@ void add_ends(const heartbeat::Beat& beat, Json& json) {
 /// The last of several heartbeats.
 std::string cycle_text(const heartbeat::Beat& beat) {
   const heartbeat::EnergyBalance& e = beat.energy;
-  return fmt::format(
-      "  beat {}\n{}  {:<26} {:.4g} mJ, of the cavity's pressure {:.4g} mJ, stored {:.2g} mJ{}: "
-      "{:.2g}% "
-      "is missing\n\n",
-      beat.cycle->beats.size(), beat_text(beat.cycle->beats.back()), "work of the muscle",
-      millijoule * e.muscle, millijoule * e.pressure, millijoule * e.stored,
-      e.kinetic == 0.0 && e.viscosity == 0.0
-          ? ""
-          : fmt::format(", in motion {:.2g} mJ, supports {:.2g} mJ, viscosity {:.2g} mJ",
-                        millijoule * e.kinetic, millijoule * e.supports, millijoule * e.viscosity),
-      100.0 * e.error());
+  const std::string text =
+      fmt::format("  beat {}\n{}", beat.cycle->beats.size(), beat_text(beat.cycle->beats.back()));
+  if (!e.is_known())
+    return text + "\n";
+  return text +
+         fmt::format(
+             "  {:<26} {:.4g} mJ, of the cavity's pressure {:.4g} mJ, stored {:.2g} mJ{}: {:.2g}% "
+             "is missing\n\n",
+             "work of the muscle", millijoule * e.muscle, millijoule * e.pressure,
+             millijoule * e.stored,
+             e.kinetic == 0.0 && e.viscosity == 0.0
+                 ? ""
+                 : fmt::format(", in motion {:.2g} mJ, supports {:.2g} mJ, viscosity {:.2g} mJ",
+                               millijoule * e.kinetic, millijoule * e.supports,
+                               millijoule * e.viscosity),
+             100.0 * e.error());
 }
 
 Json pairs(const std::vector<std::pair<std::string, std::string>>& list) {

@@ -3,6 +3,7 @@
 #include "lv/material/myocardium.hpp"
 #include "lv/mesh/fibres.hpp"
 #include "lv/solid/boundary.hpp"
+#include "lv/solid/support.hpp"
 
 namespace lv::solid {
 
@@ -12,6 +13,7 @@ struct CardiacModel {
   mesh::FibreRule fibres{};
   material::Myocardium myocardium{};
   BasalSupport base{};
+  Surroundings surroundings{};
 };
 
 }  // namespace lv::solid

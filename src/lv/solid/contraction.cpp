@@ -84,6 +84,21 @@ void Contraction::relax(double Ca) {
   publish_tension();
 }
 
+void Contraction::relax(double Ca, std::span<const double> stretch) {
+  std::vector<double> numbers;
+  std::visit(
+      [&](const auto& muscle) {
+        for (const double s : stretch) {
+          auto rest = muscle.law.steady_state(Ca, s);
+          for (const double* field : rest.fields())
+            numbers.push_back(*field);
+        }
+      },
+      muscle_);
+  numbers.push_back(filter_width_);
+  set_state(numbers);
+}
+
 void Contraction::advance(std::span<const double> stretch, double Ca_before, double Ca_after,
                           double dt) {
   std::visit(

@@ -43,6 +43,9 @@ class Contraction {
   /// Brings every node to its steady state at this calcium [uM] and a stretch of 1.
   void relax(double Ca);
 
+  /// The same at a stretch of its own at each node.
+  void relax(double Ca, std::span<const double> stretch);
+
   /// Advances by dt [s] to the given nodal stretches, calcium going from Ca_before to Ca_after.
   void advance(std::span<const double> stretch, double Ca_before, double Ca_after, double dt);
 

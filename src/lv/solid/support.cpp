@@ -5,6 +5,7 @@
 #include "lv/solid/side_points.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -44,6 +45,19 @@ double AxialWeight::at(double h) const {
                    : shape == Shape::linear ? 1.0 - h
                                             : 1.0 / (1.0 + std::exp(steepness * (h - middle)));
   return at_base + (1.0 - at_base) * s;
+}
+
+double Surroundings::longest_step(double mass) const {
+  double k = 0.0;
+  double c = 0.0;
+  for (const Support* s : {&epicardium, &base}) {
+    const double most = std::max(1.0, s->weight.at_base);  // of the weight
+    k += most * std::max(s->normal_stiffness, s->tangential_stiffness) / mass;
+    c += most * std::max(s->normal_viscosity, s->tangential_viscosity) / mass;
+  }
+  if (k == 0.0 && c == 0.0)
+    return std::numeric_limits<double>::infinity();
+  return 4.0 / (c + std::sqrt(c * c + 4.0 * k));
 }
 
 SupportedSurface::SupportedSurface(const mesh::Mesh& mesh, const mesh::Surface& surface,
@@ -96,6 +110,27 @@ void SupportedSurface::add_forces(std::span<const Vec3> positions, std::span<con
 void SupportedSurface::add_stiffness(double slope, const EndocardialSurface::Block& add) const {
   for (const Side& side : sides_)
     add(side.nodes, side.stiffness + slope * side.viscosity);
+}
+
+Supports::Supports(const mesh::Mesh& mesh, const BasalSupport& base,
+                   const Surroundings& surroundings)
+    : springs_(mesh, base),
+      epicardium_(mesh, mesh.epi, surroundings.epicardium),
+      base_(mesh, mesh.base, surroundings.base) {}
+
+void Supports::add_forces(std::span<const Vec3> positions, std::span<const Vec3> velocities,
+                          std::span<Vec3> forces) const {
+  springs_.add_forces(positions, forces);
+  epicardium_.add_forces(positions, velocities, forces);
+  base_.add_forces(positions, velocities, forces);
+}
+
+void Supports::add_stiffness(double slope, const EndocardialSurface::Block& add) const {
+  epicardium_.add_stiffness(slope, add);
+  base_.add_stiffness(slope, add);
+  if (parallel::is_root())
+    for (const auto& spring : springs_.springs())
+      add(std::array{spring.node}, spring.stiffness);
 }
 
 }  // namespace lv::solid

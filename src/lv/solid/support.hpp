@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lv/mesh/quadratic.hpp"
+#include "lv/solid/boundary.hpp"
 #include "lv/solid/endocardial_surface.hpp"
 
 #include <functional>
@@ -53,11 +54,17 @@ struct Support {
 
 /// What holds a wall from outside, beside the springs at the base's nodes (BasalSupport).
 struct Surroundings {
-  Support epicardium, base;
+  Support epicardium = {}, base = {};
 
   [[nodiscard]] bool has_dashpots() const {
     return epicardium.has_dashpots() || base.has_dashpots();
   }
+
+  /// The longest step dt of a leapfrog whose dashpots see the velocity of half a step before,
+  /// around a mass m per area [kg/mm^2] that moves with the surfaces: (k/m) dt^2 + 2 (c/m) dt < 4
+  /// with the largest k and c of both surfaces, which meet at the edge of the base [s]; infinite
+  /// without supports.
+  [[nodiscard]] double longest_step(double mass) const;
 };
 
 /// A supported surface. With u = x - X and the velocity v of its points,
@@ -87,6 +94,25 @@ class SupportedSurface {
   };
 
   std::vector<Side> sides_;  ///< this rank's
+};
+
+/// All that holds a wall from outside, the same under both engines: the springs at the base's nodes
+/// and the supported surfaces.
+class Supports {
+ public:
+  Supports(const mesh::Mesh& mesh, const BasalSupport& base, const Surroundings& surroundings);
+
+  /// Adds the forces of this rank's share. Velocities [mm/s] may be empty: at rest.
+  void add_forces(std::span<const Vec3> positions, std::span<const Vec3> velocities,
+                  std::span<Vec3> forces) const;
+
+  /// -dF/dx where velocities change by `slope` [1/s] times positions: a block for each side and
+  /// node of this rank's share.
+  void add_stiffness(double slope, const EndocardialSurface::Block& add) const;
+
+ private:
+  BasalPenalty springs_;
+  SupportedSurface epicardium_, base_;
 };
 
 }  // namespace lv::solid

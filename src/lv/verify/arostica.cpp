@@ -153,13 +153,13 @@ implicit::StaticModel model_of(const ArosticaConstants& c) {
   heart.myocardium.active_form = material::ActiveForm::second_piola;
   implicit::StaticModel model(heart, {}, {.beta_s = 0.5 * c.share_at_points * c.kappa});
   model.compressibility.kappa = (1.0 - c.share_at_points) * c.kappa;
-  model.surroundings.epicardium = {.normal_stiffness = c.k_epi, .normal_viscosity = c.c_epi};
+  model.heart.surroundings.epicardium = {.normal_stiffness = c.k_epi, .normal_viscosity = c.c_epi};
   if (c.facet_edge > 0.0)
-    model.surroundings.epicardium.scatter = [edge = c.facet_edge](const Vec3& X) {
+    model.heart.surroundings.epicardium.scatter = [edge = c.facet_edge](const Vec3& X) {
       const ArosticaWall wall;
       return wall.facet_scatter(X, wall.facet_edge(X, edge), ArosticaWall::gmsh_tilt);
     };
-  model.surroundings.base = solid::Support::in_all_directions(c.k_base, c.c_base);
+  model.heart.surroundings.base = solid::Support::in_all_directions(c.k_base, c.c_base);
   model.viscosity.eta = c.eta;
   model.density = c.rho;
   return model;

@@ -21,6 +21,7 @@ void circulation_windkessel(Findings& found);
 void circulation_closed_loop(Findings& found);
 void cycle_default(Findings& found);
 void cycle_closed_loop(Findings& found);
+void cycle_engines(Findings& found);
 
 // activation
 void eikonal_point(Findings& found);

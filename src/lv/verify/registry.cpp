@@ -118,6 +118,8 @@ std::span<const Problem> problems() {
               "inflation of a ventricle: Land et al. 2015, problem 2 (immersed engine)", {2}),
       nightly("land2015_problem3_immersed", land2015_problem3_immersed,
               "inflation and contraction: Land et al. 2015, problem 3 (immersed engine)", {2}),
+      nightly("cycle_engines", cycle_engines,
+              "a heartbeat of the same ventricle in a circulation by both engines"),
       with_constants(nightly("arostica_0a", arostica_0a,
                              "a ventricle that contracts: Arostica et al. 2025, step 0, case A")),
       with_constants(nightly("arostica_0b", arostica_0b,

@@ -44,7 +44,7 @@ double error(int around, int layers) {
   s.tension.assign(mesh.nodes.size(), 0.0);
 
   const auto p =
-      analysis::wall_pressure(mesh, wall, solid::BasalPenalty(mesh, {.stiffness = 1.0}), s);
+      analysis::wall_pressure(mesh, wall, solid::Supports(mesh, {.stiffness = 1.0}, {}), s);
   double squares = 0.0;
   double scale = 0.0;
   for (int c = 0; c < mesh.cell_count(); ++c) {

@@ -56,6 +56,15 @@ Lines beating(Lines lines) {
     lines.emplace(name, value);
   return lines;
 }
+/// The same with the immersed engine.
+const Lines beating_immersed{{"protocol.kind", "\"cycle\""},
+                             {"circulation.kind", "\"windkessel\""}};
+/// The immersed engine's wall held by springs.
+const Lines held_immersed{{"base.support", "\"elastic\""},
+                          {"base.tangential_stiffness", "\"1 kPa/mm\""},
+                          {"base.normal_stiffness", "\"2 kPa/mm\""},
+                          {"pericardium.normal_stiffness", "\"3 kPa/mm\""},
+                          {"pericardium.weight", "\"sigmoid\""}};
 const Lines given_mesh{{"anatomy.source", "\"mesh\""}, {"anatomy.mesh.file", "\"wall.vtk\""}};
 const Lines labelled_scar{{"infarct.source", "\"labels\""},
                           {"infarct.labels.file", "\"scar.nii\""},
@@ -114,6 +123,8 @@ const std::vector<Lines>& bases() {
                {"cycle.inertia", "true"},
                {"activation.kind", "\"eikonal\""}}),
       beating({{"activation.kind", "\"file\""}, {"activation.file", "\"times.dat\""}}),
+      beating_immersed,
+      held_immersed,
       {{"circulation.kind", "\"closed_loop\""}, {"circulation.valves.law", "\"arctangent\""}},
       {{"strain.cine", "\"cine\""}, {"strain.contours", "\"loops.csv\""}},
       {{"strain.cine", "\"cine\""}, {"strain.long_axis_cine", "[\"view\"]"}},
@@ -272,7 +283,11 @@ TEST_CASE("what does nothing is named with what it counts with", "[unit][case_fi
       {static_engine, "pericardium.normal_viscosity", "\"1 kPa s/mm\"",
        "for without time nothing has a rate"},
       {static_engine, "base.normal_stiffness", "\"1 kPa/mm\"", "with base.support = \"elastic\""},
-      {{}, "pericardium.normal_stiffness", "\"1 kPa/mm\"", "with engine = \"quasi_static\""},
+      {held_immersed, "base.stiffness", "\"100 kPa/mm\"", "\"sliding\" or \"fixed\""},
+      {beating_immersed, "cycle.step", "\"1 ms\"", "with engine = \"quasi_static\""},
+      {beating_immersed, "activation.v_f", "\"1 m/s\"", "with engine = \"quasi_static\""},
+      {beating_immersed, "calcium.mode", "\"transient\"", "with protocol.kind = \"paper\""},
+      {beating({}), "protocol.filling_ramp", "\"0.2 s\"", "with engine = \"immersed\""},
       {static_engine, "activation.v_f", "\"1 m/s\"", "with protocol.kind = \"cycle\""},
       {beating({}), "activation.v_f", "\"1 m/s\"", "with activation.kind = \"eikonal\""},
       {beating({}), "cycle.spectral_radius", "0.8", "with cycle.inertia = true"},
@@ -449,6 +464,13 @@ void add_muscle(const Case& c, Numbers& numbers) {
   if (const auto* prescribed = std::get_if<material::PrescribedTension>(&wall.active))
     numbers.push_back(prescribed->T_max);
   numbers.push_back(static_cast<double>(c.base.kind));
+  const solid::Surroundings surroundings = case_file::cardiac_model(c).surroundings;
+  for (const solid::Support& s : {surroundings.epicardium, surroundings.base}) {
+    numbers.insert(numbers.end(), {s.normal_stiffness, s.tangential_stiffness, s.normal_viscosity,
+                                   s.tangential_viscosity});
+    for (const double h : {0.0, 0.1, 0.3, 1.0})
+      numbers.push_back(s.weight.at(h));
+  }
 }
 
 Numbers static_muscle_of(const Case& c) {
@@ -458,12 +480,6 @@ Numbers static_muscle_of(const Case& c) {
   for (const double stretch : {0.7, 0.9, 1.05, 1.2})
     for (const double activation : {0.0, 0.6})
       numbers.push_back(model.contractility.at(stretch, activation).value);
-  for (const solid::Support& s : {model.surroundings.epicardium, model.surroundings.base}) {
-    numbers.insert(numbers.end(), {s.normal_stiffness, s.tangential_stiffness, s.normal_viscosity,
-                                   s.tangential_viscosity});
-    for (const double h : {0.0, 0.1, 0.3, 1.0})
-      numbers.push_back(s.weight.at(h));
-  }
   numbers.insert(numbers.end(), {model.compressibility.kappa, model.viscosity.eta, model.density});
   const implicit::SolverParameters& solver = c.quasi_static.solver;
   numbers.insert(numbers.end(), {model.stabilisation.beta_s, solver.first_step,
@@ -590,6 +606,8 @@ std::vector<Lines> cases_without_files() {
                          {"cycle.inertia", "true"}}));
   all.push_back(
       with(with(static_engine, "quasi_static.order", "1"), "mesh.edge_length", "\"9 mm\""));
+  for (const Lines& immersed : {beating_immersed, held_immersed})
+    all.push_back(with(immersed, "mesh.edge_length", "\"9 mm\""));
   return all;
 }
 

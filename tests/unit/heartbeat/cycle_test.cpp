@@ -58,8 +58,8 @@ CycleSetup moving(const mesh::Mesh& mesh) {
   CycleSetup setup = quick(mesh);
   setup.cycle.step = 4e-3;
   setup.model.heart.base.kind = solid::BasalSupport::Kind::elastic;
-  setup.model.surroundings.base = {20.0, 5.0, 0.05, 0.05, {}};
-  setup.model.surroundings.epicardium = {
+  setup.model.heart.surroundings.base = {20.0, 5.0, 0.05, 0.05, {}};
+  setup.model.heart.surroundings.epicardium = {
       0.2, 0.0, 0.05, 0.0, {solid::AxialWeight::Shape::sigmoid, 0.3}};
   setup.model.viscosity.eta = 1.0;
   setup.model.density = 1.05e-6;

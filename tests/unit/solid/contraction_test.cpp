@@ -56,6 +56,15 @@ TEMPLATE_TEST_CASE("relaxed muscle has the steady tension of its calcium at ever
     CHECK(T == Approx(steady).epsilon(1e-12));
 }
 
+TEMPLATE_TEST_CASE("relaxed muscle has at every node the steady tension of its own stretch",
+                   "[unit][solid]", NiedererHunterSmith, Land2017) {
+  Contraction muscle = row_of_nodes(TestType{});
+  const std::vector<double> stretch = uneven_stretch(0.03);
+  muscle.relax(0.5, stretch);
+  for (std::size_t a = 0; a < count; ++a)
+    CHECK(muscle.tension()[a] == TestType{}.steady_state(0.5, stretch[a]).tension);
+}
+
 TEST_CASE("steady muscle stays steady: smoothing and damping see nothing", "[unit][solid]") {
   Contraction muscle = row_of_nodes();
   muscle.relax(1.0);

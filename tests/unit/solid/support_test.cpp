@@ -6,6 +6,7 @@
 #include "support/random_values.hpp"
 #include <catch2/catch.hpp>
 
+#include <array>
 #include <cmath>
 
 namespace {
@@ -98,6 +99,29 @@ TEST_CASE("a sigmoid of the long axis holds the apex and lets the base go", "[un
   weight.at_base = 0.2;
   CHECK(weight.at(1.0) == Approx(0.2));
   CHECK(weight.at(0.15) == Approx(0.6));
+}
+
+TEST_CASE("a leapfrog stays within the supports' longest step and grows beyond it",
+          "[unit][solid]") {
+  constexpr double mass = 2e-6;  // per area [kg/mm^2]
+  for (const auto& [k, c] :
+       {std::array{300.0, 0.0}, std::array{0.0, 0.02}, std::array{50.0, 0.01}}) {
+    solid::Surroundings held;
+    held.epicardium = {0.5 * k, 0.1 * k, 0.5 * c, c, {}};
+    held.base = {0.5 * k, 0.0, 0.0, 0.0, {}};
+    const auto grows = [&, k = k, c = c](double dt) {
+      double x = 1.0;
+      double v = 0.0;
+      for (int n = 0; n < 4000; ++n) {
+        v += dt * (-k * x - c * v) / mass;
+        x += dt * v;
+      }
+      return std::abs(x) + dt * std::abs(v) > 1e3;
+    };
+    CHECK(!grows(0.99 * held.longest_step(mass)));
+    CHECK(grows(1.01 * held.longest_step(mass)));
+  }
+  CHECK(std::isinf(solid::Surroundings{}.longest_step(mass)));
 }
 
 TEST_CASE("a support's stiffness is the derivative of its forces", "[unit][solid]") {

@@ -1,0 +1,159 @@
+#include "lv/heartbeat/immersed_cycle.hpp"
+
+#include "lv/base/check.hpp"
+#include "lv/verify/small_ventricle.hpp"
+
+#include "support/temporary_folder.hpp"
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+namespace {
+
+using namespace lv;
+using heartbeat::Beat;
+using heartbeat::BeatSetup;
+
+mesh::Mesh blood_sized_mesh() {
+  return verify::ideal_mesh({.edge_length = 9.0});
+}
+
+/// Human muscle on a coarse grid; a beat too short for a heart, after a filling too short for a
+/// wall to come to rest, for the test's sake.
+BeatSetup quick_immersed(const mesh::Mesh& mesh) {
+  BeatSetup setup = verify::default_beat(mesh, {20, 20, 27}, 4e-4);
+  setup.heart.myocardium.active = material::Land2017{};
+  setup.protocol.calcium = {.Ca_0 = 0.1,
+                            .Ca_max = 0.7,
+                            .shape = material::Calcium::Shape::double_exponential,
+                            .t_1 = 0.02,
+                            .t_2 = 0.08};
+  setup.protocol.filling_ramp = 0.1;
+  setup.protocol.filling_longest = 0.12;
+  setup.protocol.cycle = {.beats = 1, .tolerance = 0.0};
+  return setup;
+}
+
+circulation::Parameters windkessel() {
+  circulation::Parameters circuit;
+  circuit.kind = circulation::Kind::windkessel;
+  circuit.period = 0.4;
+  return circuit;
+}
+
+/// Ends a run in the middle of a step, as a kill would.
+struct Kill {};
+
+/// Killed at every frame once; a checkpoint is written every ten steps.
+Beat through_kills(BeatSetup setup, const circulation::Parameters& circuit) {
+  const test::TemporaryFolder folder;
+  setup.output.checkpoint_interval = 0.0;
+  double survived = 0.0;
+  int kills = 0;
+  heartbeat::Observers observers;
+  observers.frame = [&](const heartbeat::Frame& frame) {
+    if (frame.run.time <= survived)
+      return;
+    survived = frame.run.time;
+    ++kills;
+    throw Kill();
+  };
+  for (;;) {
+    try {
+      Beat beat = heartbeat::run_immersed_cycle(setup, circuit, folder / "", observers);
+      CHECK(kills > 3);
+      return beat;
+    } catch (const Kill&) {
+    }
+  }
+}
+
+void check_bitwise(const Beat& a, const Beat& b) {
+  REQUIRE(a.cycle->samples.size() == b.cycle->samples.size());
+  for (std::size_t i = 0; i < a.cycle->samples.size(); ++i) {
+    CHECK(a.cycle->samples[i].time == b.cycle->samples[i].time);
+    CHECK(a.cycle->samples[i].signals.pressure == b.cycle->samples[i].signals.pressure);
+    CHECK(a.cycle->samples[i].signals.volume == b.cycle->samples[i].signals.volume);
+  }
+  REQUIRE(a.moments.size() == b.moments.size());
+  for (std::size_t i = 0; i < a.moments.size(); ++i) {
+    CHECK(a.moments[i].wall.positions == b.moments[i].wall.positions);
+    CHECK(a.moments[i].wall.tension == b.moments[i].wall.tension);
+  }
+  REQUIRE(a.curves.size() == b.curves.size());
+  CHECK(a.curves.back().kinetic_energy == b.curves.back().kinetic_energy);
+}
+
+}  // namespace
+
+TEST_CASE("the pressure of a step is that at which wall and circuit agree", "[unit][heartbeat]") {
+  const immersed::StepVolume wall{1.0, 100.0, 0.25};
+  // a valve that opens at 2 kPa with a conductance hundreds of times the wall's
+  const auto valve = [](double p) -> circulation::VolumeAfter {
+    return p < 2.0 ? circulation::VolumeAfter{101.0, 0.0}
+                   : circulation::VolumeAfter{101.0 - 75.0 * (p - 2.0), -75.0};
+  };
+  const double p = heartbeat::matching_pressure(wall, valve);
+  CHECK(100.0 + 0.25 * (p - 1.0) == Approx(valve(p).volume).epsilon(1e-10));
+  CHECK(p > 2.0);
+  const auto closed = [](double) -> circulation::VolumeAfter { return {100.1, 0.0}; };
+  CHECK(heartbeat::matching_pressure(wall, closed) == Approx(1.4));
+  const auto broken = [](double) -> circulation::VolumeAfter { return {std::nan(""), 0.0}; };
+  CHECK(std::isnan(heartbeat::matching_pressure(wall, broken)));
+}
+
+TEST_CASE("the immersed wall beats in a circulation", "[unit][heartbeat]") {
+  const mesh::Mesh mesh = blood_sized_mesh();
+  const test::TemporaryFolder folder;
+  const Beat beat =
+      heartbeat::run_immersed_cycle(quick_immersed(mesh), windkessel(), folder / "", {});
+  REQUIRE(beat.cycle);
+  REQUIRE(beat.cycle->beats.size() == 1);
+  const circulation::BeatMeasures& m = beat.cycle->beats.back();
+  CHECK(beat.cycle->volume_gap < 0.01);  // of the fan at the base, which yields on its springs
+  CHECK(m.end_systolic_volume < 0.9 * m.end_diastolic_volume);
+  CHECK(m.peak_pressure > 80.0 * units::mmHg);
+  CHECK(m.aortic_opens > m.mitral_closes);
+  CHECK(m.aortic_closes > m.aortic_opens);
+  CHECK(beat.at(heartbeat::end_systole).volume ==
+        Approx(m.end_systolic_volume).epsilon(1e-3));  // a step is 0.4 ms, a sample 1 ms
+  CHECK(beat.at(heartbeat::end_systole).tension.size() == mesh.nodes.size());
+  CHECK(beat.curves.front().time == 0.0);
+  CHECK(beat.curves.back().time == Approx(0.4));
+}
+
+TEST_CASE("an immersed heartbeat that was killed goes on bit for bit", "[unit][heartbeat]") {
+  const mesh::Mesh mesh = blood_sized_mesh();
+  BeatSetup setup = quick_immersed(mesh);
+  setup.output.frame_interval = 0.05;
+  const test::TemporaryFolder folder;
+  heartbeat::Observers frames;
+  frames.frame = [](const heartbeat::Frame&) {};
+  const Beat undisturbed = heartbeat::run_immersed_cycle(setup, windkessel(), folder / "", frames);
+  check_bitwise(undisturbed, through_kills(setup, windkessel()));
+}
+
+TEST_CASE("steps that fail in an immersed heartbeat are taken back and repeated smaller",
+          "[unit][heartbeat]") {
+  const mesh::Mesh mesh = blood_sized_mesh();
+  BeatSetup setup = quick_immersed(mesh);
+  setup.control.longest = 2e-3;  // far too long
+  setup.output.frame_interval = 0.05;
+  circulation::Parameters circuit = windkessel();
+  const test::TemporaryFolder folder;
+  heartbeat::Observers frames;
+  frames.frame = [](const heartbeat::Frame&) {};
+  const Beat undisturbed = heartbeat::run_immersed_cycle(setup, circuit, folder / "", frames);
+  CHECK(undisturbed.retries > 0);
+  CHECK(undisturbed.cycle->samples.back().time == Approx(0.4));
+  for (std::size_t i = 1; i < undisturbed.cycle->samples.size(); ++i)
+    CHECK(undisturbed.cycle->samples[i].time > undisturbed.cycle->samples[i - 1].time);
+  check_bitwise(undisturbed, through_kills(setup, circuit));
+}
+
+TEST_CASE("immersed heartbeats without a circulation are refused", "[unit][heartbeat]") {
+  const mesh::Mesh mesh = blood_sized_mesh();
+  const test::TemporaryFolder folder;
+  CHECK_THROWS_AS(heartbeat::run_immersed_cycle(quick_immersed(mesh), {}, folder / "", {}),
+                  InputError);
+}
