@@ -89,13 +89,14 @@ class Unloader {
       forget();
       start = nullptr;
     }
-    if (start == nullptr || !try_from(as_vector(start->nodes), &start->loaded))
+    if (start == nullptr ||
+        !(try_from(as_vector(start->nodes), loaded_of(*start)) || is_near_enough()))
       approach();
     if (has_wall() && is_folded(now_.step.folds)) {
       log::info("the wall that is looked for is folded: {}", words(now_.step.folds));
       return smooth(target_ + smoothed(now_.X), smoothings);
     }
-    if (is_near() && now_.left <= parameters_.tolerance)
+    if (is_near_enough())
       return result();
     if (!is_near() || equilibria_ >= parameters_.iterations)
       return not_found();
@@ -104,7 +105,13 @@ class Unloader {
   }
 
  private:
+  static const State* loaded_of(const Unloaded& start) {
+    return start.loaded.positions.empty() ? nullptr : &start.loaded;
+  }
+
   Unloaded result() {
+    if (now_.left > parameters_.tolerance)
+      log::info("the search comes no nearer than {:.3g} mm, which is near enough", now_.left);
     return {as_nodes(now_.X), std::move(now_.loaded), std::move(steps_), smoothing_};
   }
 
@@ -123,6 +130,12 @@ class Unloader {
     return has_wall() && now_.pressure == parameters_.pressure && now_.left <= loose;
   }
 
+  /// Whether it is a result under the whole pressure, at least where no step leads nearer.
+  [[nodiscard]] bool is_near_enough() const {
+    return has_wall() && now_.pressure == parameters_.pressure && !is_folded(now_.step.folds) &&
+           now_.left <= std::max(parameters_.tolerance, parameters_.near_enough);
+  }
+
   /// P (X - x*)
   [[nodiscard]] Eigen::VectorXd smoothed(const Eigen::VectorXd& X) const {
     return SmoothFields(given_.nodes, smooth_degree).nearest(X - target_);
@@ -139,7 +152,7 @@ class Unloader {
                         parameters_.pressure / units::mmHg, now_.step.largest, now_.step.rms,
                         now_.pressure / units::mmHg, equilibria_),
             "Check unloaded.pressure (a soft wall may never have had so much), or raise "
-            "unloaded.tolerance or unloaded.iterations"};
+            "unloaded.near_enough or unloaded.iterations"};
   }
 
   /// Of a search that met a fold, with the nearest smooth wall, if there is one.
@@ -174,7 +187,8 @@ class Unloader {
     std::optional<Trial> best;
     for (const double alpha : alphas) {
       smoothing_ = alpha;
-      if (!begin(X, &now_.loaded) || !improve(parameters_.tolerance) || is_folded(now_.step.folds))
+      if (!begin(X, &now_.loaded) || !(improve(parameters_.tolerance) || is_near_enough()) ||
+          is_folded(now_.step.folds))
         break;
       best = now_;
       X = now_.X;
