@@ -7,6 +7,7 @@ import csv
 import json
 import os
 import pathlib
+import re
 import resource
 import signal
 import subprocess
@@ -40,6 +41,13 @@ def last_words(text):
     lines = [line.strip() for line in text.splitlines() if line.strip()]
     errors = [line for line in lines if "error" in line.lower()]
     return (errors or lines or [""])[-1]
+
+
+def stage_of(work):
+    """The last stage that began."""
+    log = work / "log.txt"
+    begun = re.findall(r"\b(\w+) \.\.\.$", log.read_text(), re.MULTILINE) if log.exists() else []
+    return begun[-1] if begun else ""
 
 
 def run(case):
@@ -80,8 +88,8 @@ def numbers(work):
 
 def main(folder):
     columns = ["person", "kind", "EDV", "ESV", "mmHg", "mesh EDV", "Klotz V0", "V0", "scale", "exponent", "T_scale", "EF%", "s", "outcome",
-               "last words"]
-    widths = [6, 13, 5, 5, 5, 8, 8, 5, 7, 8, 7, 5, 5, 9, 0]
+               "stage", "last words"]
+    widths = [6, 13, 5, 5, 5, 8, 8, 5, 7, 8, 7, 5, 5, 9, 9, 0]
     table = []
 
     def show(row):
@@ -92,12 +100,13 @@ def main(folder):
         case, truth = prepare(number, folder)
         outcome, seconds, words = run(case)
         row = [number, truth["kind"], f'{truth["edv_ml"]:.0f}', f'{truth["esv_ml"]:.0f}', f'{truth["ed_pressure_mmHg"]:.1f}',
-               *numbers(case.parent / "work"), f"{seconds:.0f}", outcome, words]
+               *numbers(case.parent / "work"), f"{seconds:.0f}", outcome,
+               "" if outcome == "done" else stage_of(case.parent / "work"), words]
         show(row)
         table.append(row)
     with (folder / "people.csv").open("w", newline="") as file:
         csv.writer(file).writerows([columns, *table])
-    done = sum(row[-2] == "done" for row in table)
+    done = sum(row[-3] == "done" for row in table)
     print(f"{done} of {len(table)} came to the end")
     return 0 if done >= wanted * len(table) else 1
 

@@ -52,7 +52,7 @@ class Search {
       step = std::min(step, way_from(a, away));
       const double b = std::clamp(a + away * step, low_, high_);
       if (std::abs(b - a) < shortest)
-        refuse({a, f_a});
+        refuse({a, f_a}, before, away > 0.0 ? high_ : low_);
       const Outcome<double> f_b = misfit(b);
       if (!f_b) {
         nowhere_ = {b, f_b.why().what};
@@ -159,22 +159,37 @@ class Search {
   }
 
   [[noreturn]] void refuse_beyond(double log_x, double f) const {
-    throw InputError(
+    throw OutOfReach(
         target_.origin,
         fmt::format("{:.2f} ml cannot be reached: the model's volume is largest near {} = {:.3g}, "
                     "about {:.2f} ml, and smaller on both sides",
                     1e-3 * target_.volume, unknown_.name, std::exp(log_x),
                     1e-3 * target_.volume * std::exp(f)),
         "Check this volume and its pressure, and unloaded.pressure; a muscle with other exponents "
-        "fills farther");
+        "fills farther",
+        std::abs(f));
   }
 
-  /// Of the point that is farthest on the way to the target: at the end of the range, or where
-  /// there is no equilibrium any farther, and why.
-  [[noreturn]] void refuse(const Point& farthest) const {
+  /// The misfit at the end of the range, on the line through two points; not known from one.
+  static std::optional<double> expected(const Point& farthest, const std::optional<Point>& before,
+                                        double end) {
+    if (std::abs(end - farthest.log_x) < shortest)
+      return farthest.f;
+    if (!before || before->log_x == farthest.log_x)
+      return {};
+    const double slope = (farthest.f - before->f) / (farthest.log_x - before->log_x);
+    return farthest.f + slope * (end - farthest.log_x);
+  }
+
+  /// Of the point that is farthest on the way to the target, towards `end`: at the end of the
+  /// range, or where there is no equilibrium any farther, and why.
+  [[noreturn]] void refuse(const Point& farthest, const std::optional<Point>& before,
+                           double end) const {
     const double x = std::exp(farthest.log_x);
     const bool at_end = farthest.log_x - low_ < shortest || high_ - farthest.log_x < shortest;
-    throw InputError(
+    const std::optional<double> f_end = expected(farthest, before, end);
+    const bool misses = f_end && *f_end * farthest.f > 0.0;
+    throw OutOfReach(
         target_.origin,
         fmt::format("{:.2f} ml cannot be reached: the model's volume is {:.2f} ml at {} = {:.3g}, "
                     "{}",
@@ -184,7 +199,8 @@ class Search {
                                         : "and no farther (" + nowhere_->why + ")"),
         fmt::format(
             "Check this volume and its pressure, and the shape that was seen{}",
-            at_end ? fmt::format("; or widen the range of {} in [calibrate]", unknown_.name) : ""));
+            at_end ? fmt::format("; or widen the range of {} in [calibrate]", unknown_.name) : ""),
+        misses ? std::abs(*f_end) : 0.0);
   }
 
   const std::function<Outcome<double>(double)>& volume_;

@@ -1,9 +1,11 @@
 #pragma once
 
+#include "lv/base/check.hpp"
 #include "lv/base/outcome.hpp"
 
 #include <functional>
 #include <string>
+#include <utility>
 
 namespace lv::calibrate {
 
@@ -27,6 +29,31 @@ struct Target {
   std::string origin;   ///< where it was set, for messages
 };
 
+/// No value of the unknown makes the target's volume.
+class OutOfReach : public InputError {
+ public:
+  /// `missing` as below.
+  OutOfReach(const std::string& where, std::string what, std::string what_to_do, double missing)
+      : InputError(where, what, what_to_do),
+        what_(std::move(what)),
+        what_to_do_(std::move(what_to_do)),
+        missing_(missing) {}
+
+  /// |ln(V/V_target)| at the end of the range: found there, or where there was no equilibrium that
+  /// far, on the straight line through the last two in the unknown's logarithm. Zero where that
+  /// line meets the target or only one was found: the target may be within reach then.
+  [[nodiscard]] double missing() const { return missing_; }
+
+  /// The same, with where it was found out.
+  [[nodiscard]] OutOfReach found(const std::string& how) const {
+    return {where(), what_ + how, what_to_do_, missing_};
+  }
+
+ private:
+  std::string what_, what_to_do_;
+  double missing_;
+};
+
 /// The value of the unknown at which a volume that falls with it is the target's, within
 /// `accuracy` as a fraction. A volume may have a maximum, and fall on both sides of it (that of a
 /// wall which is unloaded anew for every stiffness: very soft muscle is stretched to where it is
@@ -36,7 +63,7 @@ struct Target {
 /// both in the unknown's logarithm.
 ///
 /// There may be values without an equilibrium, which it keeps clear of; if the start is one, it
-/// starts from half, twice, a quarter or four times of it. Throws InputError with the
+/// starts from half, twice, a quarter or four times of it. Throws OutOfReach with the
 /// volume that is nearest to the target, at the end of the range or where there is no equilibrium
 /// any farther, when that does not reach it; Unsolved where there is none to start from.
 Outcome<double> find_root(const std::function<Outcome<double>(double)>& volume,

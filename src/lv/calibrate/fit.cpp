@@ -34,6 +34,7 @@ constexpr double weight_of_edv = 1e3;
 constexpr std::array<double, 2> ratios_below{0.25, 0.5};
 constexpr double weight_of_unloaded = 3.0;
 constexpr double rough = 0.03;                // a first V0, as a fraction
+constexpr double rough_esv = 0.02;            // of ln(V/V_target), with a first T_scale
 constexpr double first_stiffness = 2.0;       // stiff walls are unloaded more easily
 constexpr double shortest_step = 5e-3;        // of the logarithms of scale and exponent
 constexpr double unloaded_difference = 0.05;  // unloading leaves volumes scattered
@@ -60,9 +61,11 @@ std::vector<FitPart> parts_of(const Plan& plan) {
     if (curve)
       parts.push_back({FitEnd::open, true, {15.0, 0.0}});  // those of one correction
   };
-  fit_passive(false);
+  fit_passive(plan.starts_near);
+  if (plan.active && curve && !plan.starts_near)  // between the bracket and the curve
+    parts.insert(parts.begin() + 1, {FitEnd::by_misfit, false, {0.0, 4.0}});
   if (plan.active) {
-    parts.push_back({FitEnd::by_misfit, false, {0.0, 5.0}});
+    parts.push_back({FitEnd::by_misfit, curve || plan.starts_near, {0.0, 5.0}});
     fit_passive(true);
     parts.push_back({FitEnd::by_misfit, true, {0.0, 2.0}});
   }
@@ -114,10 +117,11 @@ class Fitter {
                            : Fitted{"scale", &FitParameters::scale});
     if (plan_.fits_exponent())
       fitted.push_back({"exponent", &FitParameters::exponent});
-    fit_passive(fitted, far);
+    fit_passive(fitted, plan_.starts_near ? near : far);
     if (plan_.active) {
-      fitted.push_back({"T_scale", &FitParameters::T_scale});
-      bracket(fitted.back(), plan_.T_scale, es_loads(), plan_.esv, far);
+      fitted.push_back(tension_);
+      bracket(tension_, plan_.T_scale, es_loads(), plan_.esv,
+              plan_.starts_near || has_tension_ ? near : far);
       // with the tension at rest, the end-diastolic volume has moved a little
       fit_passive(fitted, near);
       bracket(fitted.back(), plan_.T_scale, es_loads(), plan_.esv, near);
@@ -149,27 +153,51 @@ class Fitter {
     if (plan_.passive == FittedPassive::none)
       return;
     if (plan_.passive == FittedPassive::klotz) {
-      fit_klotz({fitted[0], fitted[1]}, first_factor == far && !plan_.parameters_alone);
+      fit_klotz({fitted[0], fitted[1]}, first_factor == far);
       return;
     }
     bracket(fitted.front(), plan_.stiffness, ed_loads(), plan_.edv, first_factor);
-    if (plan_.passive == FittedPassive::scale_and_exponent)
+    if (plan_.passive == FittedPassive::scale_and_exponent) {
+      if (first_factor == far)
+        try_contraction();
       fit_exponent(fitted[0], fitted[1]);
+    }
+  }
+
+  /// A first T_scale with the stiffness that is known so far. Throws OutOfReach where the
+  /// end-systolic volume is beyond what the muscle reaches by more than the margin.
+  void try_contraction() {
+    if (!plan_.active)
+      return;
+    begin("first T_scale");
+    const double start = fit_.parameters.T_scale;
+    try {
+      has_tension_ =
+          static_cast<bool>(solve(tension_, plan_.T_scale, es_loads(), plan_.esv, far, rough_esv));
+    } catch (const OutOfReach& failure) {
+      if (failure.missing() > reach_margin)
+        throw failure.found(
+            fmt::format(" (a first try, with the stiffness known roughly: at the end of the range "
+                        "{:.0f}% are missing, and the rest of the fit may gain {:.0f}%)",
+                        100.0 * failure.missing(), 100.0 * reach_margin));
+    }
+    if (!has_tension_)
+      fit_.parameters.T_scale = start;
   }
 
   void bracket(const Fitted& which, const Range& range, const Loads& loads, const Target& target,
                double first_factor) {
     begin(fmt::format("bracket of {}", which.name));
-    solve(which, range, loads, target, first_factor).value();
+    solve(which, range, loads, target, first_factor, accuracy()).value();
   }
 
   /// Brings the scale back to the measured end-diastolic volume after a small change.
   Outcome<double> keep_edv(const Fitted& scale) {
-    return solve(scale, plan_.stiffness, ed_loads(), plan_.edv, near);
+    return solve(scale, plan_.stiffness, ed_loads(), plan_.edv, near, accuracy());
   }
 
   Outcome<double> solve(const Fitted& which, const Range& range, const Loads& loads,
-                        const Target& target, double first_factor) {
+                        const Target& target, double first_factor, double accuracy) {
     FitParameters& p = fit_.parameters;
     const auto volume = [&](double x) {
       p.*which.member = x;
@@ -179,7 +207,7 @@ class Fitter {
       return found;
     };
     const auto root =
-        find_root(volume, {which.name, p.*which.member, range, first_factor}, target, accuracy());
+        find_root(volume, {which.name, p.*which.member, range, first_factor}, target, accuracy);
     if (root)
       p.*which.member = *root;
     return root;
@@ -189,8 +217,10 @@ class Fitter {
   void fit_klotz(const std::vector<Fitted>& fitted, bool first) {
     begin("unloaded volume");
     FitParameters& p = fit_.parameters;
-    if (first)
+    if (first || (plan_.starts_near && !model_.volume(p, {}))) {
       reach_unloaded_volume(first_stiffness * p.scale, rough);
+      try_contraction();
+    }
     begin("fit to the Klotz curve");
     const Logarithms logs = logarithms(fitted);
     const auto residuals = [&](const Eigen::VectorXd& x) -> Outcome<Eigen::VectorXd> {
@@ -475,7 +505,9 @@ class Fitter {
   Model model_;
   FitForecast forecast_;
   std::string purpose_;
-  double sought_ = 0.0;  ///< by the root that is sought, otherwise 0 [mm^3]
+  double sought_ = 0.0;       ///< by the root that is sought, otherwise 0 [mm^3]
+  bool has_tension_ = false;  ///< T_scale is near its end
+  Fitted tension_{"T_scale", &FitParameters::T_scale};
   Fit fit_;
 };
 

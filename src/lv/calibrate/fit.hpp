@@ -36,8 +36,8 @@ struct Plan {
   Range exponent, T_scale;
   std::vector<MeasuredStrain> strains;  ///< end-systolic; fitted to, besides the volumes, when any
   Errors errors;
-  /// Starts near the end and finds no sensitivities.
-  bool parameters_alone = false;
+  bool starts_near = false;       ///< the start is near the end
+  bool parameters_alone = false;  ///< finds no sensitivities
 
   [[nodiscard]] bool fits_exponent() const {
     return passive == FittedPassive::scale_and_exponent || passive == FittedPassive::klotz;
@@ -67,6 +67,10 @@ struct OtherPressure {
   double unloaded_volume = 0.0;             ///< [mm^3]
   std::string why_not;
 };
+
+/// By how much a volume may miss what is out of reach, as a fraction, before a rough model is
+/// believed: with the scale alone the volume without load is right to 3%.
+inline constexpr double reach_margin = 0.05;
 
 struct Fit {
   FitParameters parameters;
@@ -100,6 +104,10 @@ struct Fit {
 /// at p_k/p_ED = 1/4 and 1/2, V_k as above with this V_0; the scale alone then brings V(0) within
 /// the tolerance, if need be. V(0) is V(0) of the wall that is unloaded with these values.
 ///
+/// Before scale and exponent are sought T_scale is bracketed roughly, with the stiffness that is
+/// known by then: an end-systolic volume that is out of reach by more than reach_margin is refused
+/// before the fit takes its time. Every fit may start from that of a coarse wall (starts_near).
+///
 /// With measured strains those values are the start of a least-squares fit of all fitted
 /// parameters,
 ///
@@ -108,7 +116,7 @@ struct Fit {
 /// by Levenberg-Marquardt in their logarithms (the points of the Klotz curve count as volumes). It
 /// need not meet the volumes within the tolerance.
 ///
-/// Throws InputError for a volume out of reach and RunError when a fitted model misses the measured
+/// Throws OutOfReach for a volume out of reach and RunError when a fitted model misses the measured
 /// volumes, to which alone it was fitted, by more than the tolerance.
 [[nodiscard]] Fit fit(const Model& model, const FitParameters& start, const Plan& plan);
 

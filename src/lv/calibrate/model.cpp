@@ -28,6 +28,11 @@ Ventricle::Ventricle(const mesh::Mesh& mesh, ModelOf model_of,
       wall_(mesh),
       endocardium_(mesh) {}
 
+void Ventricle::begin_near(std::vector<Vec3> unloaded) {
+  unloaded_ = implicit::Unloaded{std::move(unloaded), {}, {}};
+  unloaded_with_ = {.C_a = 0.0};  // of no muscle: it is not yet found
+}
+
 Outcome<double> Ventricle::unloaded_volume(const FitParameters& parameters) {
   if (unloading_.pressure == 0.0 || (unloaded_ && unloaded_with_ == parameters))
     return endocardium_.volume(wall_.nodes);

@@ -44,6 +44,9 @@ class Ventricle {
   Ventricle(const mesh::Mesh& mesh, ModelOf model_of, const implicit::SolverParameters& solver,
             const implicit::UnloadParameters& unloading = {});
 
+  /// The first search for the wall without load begins with these nodes [mm].
+  void begin_near(std::vector<Vec3> unloaded);
+
   // Each is collective.
 
   /// Of the cavity [mm^3].

@@ -1001,6 +1001,10 @@ constexpr Group of_measurements[]{
      {
          number("unloaded.tolerance", LV_AT(unloaded.tolerance), "mm", above_up_to(0.0, 5.0),
                 "largest distance of a node of the wall, loaded again, from where it was seen"),
+         number(
+             "unloaded.near_enough", LV_AT(unloaded.near_enough), "mm", between(0.0, 2.0),
+             "the same where the search comes no nearer: a wall without folds is then taken with "
+             "a warning"),
          number("unloaded.iterations", LV_AT(unloaded.iterations), "", between(1, 1000),
                 "equilibria after which the search gives up"),
          number("unloaded.smooth_within", LV_AT(unloaded.smooth_within), "mm", between(0.0, 10.0),

@@ -25,6 +25,8 @@ constexpr double smallest_share = 1.0 / 64;  // of the pressure, before it gives
 constexpr double far_below = 0.02;
 constexpr double loose = 0.5;  // tolerance on the way to the whole pressure, and what is near [mm]
 
+constexpr double near_end = 2.0;  // distance below which no trial begins from no load [mm]
+
 constexpr int smooth_degree = 3;
 constexpr std::array<double, 6> smoothings{0.8, 0.4, 0.2, 0.1, 0.05, 0.025};  // alpha
 
@@ -89,13 +91,14 @@ class Unloader {
       forget();
       start = nullptr;
     }
-    if (start == nullptr || !try_from(as_vector(start->nodes), &start->loaded))
+    if (start == nullptr ||
+        !(try_from(as_vector(start->nodes), loaded_of(*start)) || is_near_enough()))
       approach();
     if (has_wall() && is_folded(now_.step.folds)) {
       log::info("the wall that is looked for is folded: {}", words(now_.step.folds));
       return smooth(target_ + smoothed(now_.X), smoothings);
     }
-    if (is_near() && now_.left <= parameters_.tolerance)
+    if (is_near_enough())
       return result();
     if (!is_near() || equilibria_ >= parameters_.iterations)
       return not_found();
@@ -104,7 +107,13 @@ class Unloader {
   }
 
  private:
+  static const State* loaded_of(const Unloaded& start) {
+    return start.loaded.positions.empty() ? nullptr : &start.loaded;
+  }
+
   Unloaded result() {
+    if (now_.left > parameters_.tolerance)
+      log::info("the search comes no nearer than {:.3g} mm, which is near enough", now_.left);
     return {as_nodes(now_.X), std::move(now_.loaded), std::move(steps_), smoothing_};
   }
 
@@ -123,6 +132,12 @@ class Unloader {
     return has_wall() && now_.pressure == parameters_.pressure && now_.left <= loose;
   }
 
+  /// Whether it is a result under the whole pressure, at least where no step leads nearer.
+  [[nodiscard]] bool is_near_enough() const {
+    return has_wall() && now_.pressure == parameters_.pressure && !is_folded(now_.step.folds) &&
+           now_.left <= std::max(parameters_.tolerance, parameters_.near_enough);
+  }
+
   /// P (X - x*)
   [[nodiscard]] Eigen::VectorXd smoothed(const Eigen::VectorXd& X) const {
     return SmoothFields(given_.nodes, smooth_degree).nearest(X - target_);
@@ -139,7 +154,7 @@ class Unloader {
                         parameters_.pressure / units::mmHg, now_.step.largest, now_.step.rms,
                         now_.pressure / units::mmHg, equilibria_),
             "Check unloaded.pressure (a soft wall may never have had so much), or raise "
-            "unloaded.tolerance or unloaded.iterations"};
+            "unloaded.near_enough or unloaded.iterations"};
   }
 
   /// Of a search that met a fold, with the nearest smooth wall, if there is one.
@@ -174,7 +189,8 @@ class Unloader {
     std::optional<Trial> best;
     for (const double alpha : alphas) {
       smoothing_ = alpha;
-      if (!begin(X, &now_.loaded) || !improve(parameters_.tolerance) || is_folded(now_.step.folds))
+      if (!begin(X, &now_.loaded) || !(improve(parameters_.tolerance) || is_near_enough()) ||
+          is_folded(now_.step.folds))
         break;
       best = now_;
       X = now_.X;
@@ -235,7 +251,7 @@ class Unloader {
       steps_.clear();
     history_.clear();
     forecast_.begin();
-    auto trial = load(X, loaded);
+    auto trial = load(X, loaded, true);
     if (!trial)
       return false;
     accept(std::move(*trial));
@@ -267,7 +283,7 @@ class Unloader {
     for (double damping = 1.0; damping >= least; damping *= 0.5) {
       if (equilibria_ >= parameters_.iterations)
         return false;
-      auto trial = load(now_.X + damping * direction, &now_.loaded);
+      auto trial = load(now_.X + damping * direction, &now_.loaded, now_.left > near_end);
       if (!trial || trial->R.norm() >= now_.R.norm())
         continue;
       trial->step.damping = damping;
@@ -293,11 +309,11 @@ class Unloader {
   }
 
   /// The equilibrium of X; nothing where the wall is turned inside out or has none.
-  std::optional<Trial> load(const Eigen::VectorXd& X, const State* near) {
+  std::optional<Trial> load(const Eigen::VectorXd& X, const State* near, bool from_rest) {
     const mesh::Mesh wall = mesh::with_nodes(given_, as_nodes(X));
     if (!is_sound(wall))
       return {};
-    std::optional<State> loaded = next_equilibrium(wall, near);
+    std::optional<State> loaded = next_equilibrium(wall, near, from_rest);
     if (!loaded)
       return {};
     Trial trial{X, {}, std::move(*loaded), {}};
@@ -326,11 +342,11 @@ class Unloader {
   }
 
   /// From the record, or found and put there.
-  std::optional<State> next_equilibrium(const mesh::Mesh& wall, const State* near) {
+  std::optional<State> next_equilibrium(const mesh::Mesh& wall, const State* near, bool from_rest) {
     const auto n = static_cast<std::size_t>(equilibria_++);
     if (n >= record_.known.size()) {
       const auto began = std::chrono::steady_clock::now();
-      record_.known.push_back(equilibrium(wall, near));
+      record_.known.push_back(equilibrium(wall, near, from_rest));
       const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - began;
       forecast_.sought(elapsed.count(), near != nullptr);
       if (record_.keep)
@@ -339,23 +355,35 @@ class Unloader {
     return record_.known[n];
   }
 
-  std::optional<State> equilibrium(const mesh::Mesh& wall, const State* near) {
+  /// From the guesses, then perhaps all the way from no load. Steps near the end of the search do
+  /// without: an equilibrium that no guess leads to is another one, if there is any, and dear.
+  std::optional<State> equilibrium(const mesh::Mesh& wall, const State* near, bool from_rest) {
     Engine engine(wall, model_, solver_);
-    if (near != nullptr)
-      engine.restore(guess(wall, *near), {pressure_, 0.0});
-    const auto volume = near != nullptr ? engine.set_model(model_) : engine.go_to({pressure_, 0.0});
+    if (near != nullptr) {
+      for (const State& guess : guesses(wall, *near))
+        if (engine.find(guess, {engine.equations().steady(0.0), pressure_}).converged)
+          return engine.state();
+      if (!from_rest)
+        return {};
+      engine.relax();
+    }
+    const auto volume = engine.go_to({pressure_, 0.0});
     if (volume)
       return engine.state();
     log::info("a wall that was tried without load has no equilibrium: {}", volume.why().what);
     return {};
   }
 
-  /// The given shape is near what is looked for, unless the wall is a smooth one: then the last
-  /// equilibrium, moved as the wall is.
-  [[nodiscard]] State guess(const mesh::Mesh& wall, const State& near) const {
+  /// The given shape, which is near what is looked for unless the wall is a smooth one; and the
+  /// last equilibrium, moved as the wall is.
+  [[nodiscard]] std::vector<State> guesses(const mesh::Mesh& wall, const State& near) const {
+    std::vector<State> all;
     if (!smooth_)
-      return {given_.nodes, near.pressures};
-    return {as_nodes(as_vector(near.positions) + as_vector(wall.nodes) - now_.X), near.pressures};
+      all.push_back({given_.nodes, near.pressures});
+    if (has_wall())
+      all.push_back(
+          {as_nodes(as_vector(near.positions) + as_vector(wall.nodes) - now_.X), near.pressures});
+    return all;
   }
 
   void accept(Trial&& trial) {

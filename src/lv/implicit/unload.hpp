@@ -17,6 +17,10 @@ struct UnloadParameters {
   /// Where the wall that is sought is folded: largest rms distance of a smooth one instead, loaded
   /// again, from the given shape [mm]
   double smooth_within = 1.5;
+  /// Where the search comes no nearer, or has no more equilibria: largest distance of a wall
+  /// without folds that is taken all the same [mm]. A border that follows pixels of 1.25 mm is off
+  /// by 1.25/sqrt(12) = 0.36 mm, rms: this is less everywhere.
+  double near_enough = 0.25;
 };
 
 /// One shape that was tried, loaded again.
@@ -34,7 +38,7 @@ struct Unloaded {
   std::vector<Vec3> nodes;        ///< X [mm]
   State loaded;                   ///< its equilibrium under the load
   std::vector<UnloadStep> steps;  ///< shapes that came nearer, in their order; the last is X
-  double smoothing = 0.0;         ///< alpha; 0: loaded again it is the given shape
+  double smoothing = 0.0;         ///< alpha; 0: loaded again it is the given shape, or near it
 };
 
 /// The equilibria of a search in the order in which they were sought, nothing where there was none.
@@ -71,9 +75,15 @@ struct UnloadRecord {
 /// the distance alpha that it leaves. Of falling alpha the last wall without folds is taken, if it
 /// comes near enough.
 ///
-/// `start` may be the result for other muscle, from where few steps are needed. Unsolved, with the
-/// distance that is left, when the tolerance is not met, or with the figures of the fold where no
-/// smooth wall comes near enough. Throws Interrupted. Collective.
+/// x(X) need not be smooth in X: where the wall is radial to the long axis, at the apex, fibres
+/// that follow a rule turn with it at once, and a wall of large elements may come to a place from
+/// which no step leads nearer. If it is near enough there, it is the result, and the last of
+/// `steps` says how near.
+///
+/// `start` may be the result for other muscle, from where few steps are needed, or a guess of the
+/// nodes alone. Unsolved, with the
+/// distance that is left, when the wall does not come near enough, or with the figures of the fold
+/// where no smooth wall does. Throws Interrupted. Collective.
 Outcome<Unloaded> unload(const mesh::Mesh& given, const StaticModel& model,
                          const UnloadParameters& parameters, const SolverParameters& solver,
                          const Unloaded* start = nullptr, UnloadRecord record = {});

@@ -29,7 +29,10 @@ using calibrate::FittedPassive;
 using case_file::Case;
 
 constexpr const char* answers_name = "answers.bin";
-constexpr std::size_t most_beats = 3;  // one, and two with corrected parameters
+constexpr const char* coarse_answers_name = "answers_coarse.bin";
+constexpr double coarse_edge = 13.0;         // [mm]
+constexpr double shortest_of_coarse = 10.0;  // edges that are not made coarser [mm]
+constexpr std::size_t most_beats = 3;        // one, and two with corrected parameters
 
 /// The case with other parameters; scale and exponent are factors of the case's.
 Case with(Case c, const FitParameters& p) {
@@ -108,6 +111,12 @@ FitParameters corrected(const calibrate::RecordedFit& fit, FitParameters paramet
   return parameters;
 }
 
+/// Where a fit begins.
+struct FitStart {
+  FitParameters parameters;
+  std::vector<Vec3> unloaded = {};  ///< nodes near those without load; may be empty [mm]
+};
+
 /// The fit of a case on a mesh, with the wall without load for the fitted parameters. Collective.
 struct FittedWall {
   calibrate::Fit fit;
@@ -116,10 +125,12 @@ struct FittedWall {
 
 FittedWall fit_wall(const Case& c, const anatomy::MeshResult& mesh,
                     const std::vector<cine::StrainTarget>& targets, const calibrate::Plan& task,
-                    const FitParameters& start, const std::filesystem::path& answers) {
+                    const FitStart& start, const std::filesystem::path& answers) {
   calibrate::Ventricle ventricle(
       mesh.mesh, [&](const FitParameters& p) { return case_file::static_model(with(c, p)); },
       c.quasi_static.solver, c.unloaded);
+  if (!start.unloaded.empty())
+    ventricle.begin_near(start.unloaded);
   using solid::Loads;
   using Numbers = std::vector<double>;
   AnswerRecord record(ventricle, mesh.mesh.nodes.size(), answers);
@@ -148,7 +159,7 @@ FittedWall fit_wall(const Case& c, const anatomy::MeshResult& mesh,
       [&](const FitParameters& p, const Loads& ed, const Loads& es) {
         return record.answer([&] { return strains(p, ed, es); });
       }};
-  calibrate::Fit fit = calibrate::fit(model, start, task);
+  calibrate::Fit fit = calibrate::fit(model, start.parameters, task);
   ventricle.unloaded_volume(fit.parameters).value();
   return {std::move(fit), ventricle.unloaded()};
 }
@@ -161,16 +172,54 @@ calibrate::OtherPressure fit_at(double pressure, Case c, const anatomy::MeshResu
   log::info("the same with {:.2f} mmHg at end-diastole", pressure / units::mmHg);
   start.scale *= pressure / c.unloaded.pressure;
   c.unloaded.pressure = c.protocol.ed_pressure = task.ed_pressure = pressure;
-  task.parameters_alone = true;
+  task.starts_near = task.parameters_alone = true;
   task.strains.clear();
   try {
-    const calibrate::Fit fit = fit_wall(c, mesh, {}, task, start, answers).fit;
+    const calibrate::Fit fit = fit_wall(c, mesh, {}, task, {start}, answers).fit;
     return {pressure, fit.parameters, fit.unloaded_volume, ""};
   } catch (const InputError& failure) {
     return {pressure, {}, 0.0, failure.what()};
   } catch (const RunError& failure) {
     return {pressure, {}, 0.0, failure.what()};
   }
+}
+
+/// Of the shape that fills to its own volume under its pressure.
+void set_seen_volume(const Case& c, const anatomy::MeshResult& mesh, calibrate::Plan& task) {
+  if (task.passive == FittedPassive::klotz)
+    task.edv = {solid::EndocardialSurface(mesh.mesh).volume(mesh.mesh.nodes),
+                case_file::place_of(c, "unloaded.pressure")};
+}
+
+/// Where the fit on a mesh begins: at the end of the one on a coarse wall. Nothing where that wall
+/// has none, which says nothing of the other. Throws OutOfReach where it misses a volume by more
+/// than walls differ.
+std::optional<FitStart> fit_coarse(const Case& c, const anatomy::MeshResult& coarse,
+                                   const anatomy::MeshResult& mesh, calibrate::Plan task,
+                                   const FitParameters& start,
+                                   const std::filesystem::path& answers) {
+  const int elements = coarse.mesh.cell_count() / 8;
+  log::info("the fit is made on a coarse wall first, of {} elements", elements);
+  set_seen_volume(c, coarse, task);
+  task.parameters_alone = true;
+  task.strains.clear();
+  try {
+    const auto [fit, unloaded] = fit_wall(c, coarse, {}, task, {start}, answers);
+    FitStart first{fit.parameters};
+    if (unloaded && unloaded->smoothing == 0.0)
+      first.unloaded = carried(coarse.mesh, unloaded->nodes, mesh.mesh);
+    return first;
+  } catch (const calibrate::OutOfReach& failure) {
+    if (failure.missing() > calibrate::reach_margin)
+      throw failure.found(fmt::format(" (on a coarse wall of {} elements)", elements));
+    log::info("{}", failure.what());
+  } catch (const InputError& failure) {
+    log::info("{}", failure.what());
+  } catch (const RunError& failure) {
+    log::info("{}", failure.what());
+  }
+  log::info("the coarse wall says nothing of this fit");
+  return {};
 }
 
 /// Pressures that a case leaves to the defaults or to a rule of thumb. In a heartbeat the
@@ -240,22 +289,33 @@ Case for_calibration(Case c) {
   return c;
 }
 
+std::optional<Case> on_coarse_wall(Case c) {
+  if (c.quasi_static.order != 2 || c.quasi_static.edge_length >= shortest_of_coarse)
+    return {};
+  c.quasi_static.edge_length = coarse_edge;
+  c.quasi_static.layers = 1;
+  return c;
+}
+
 void make_calibration(const Case& c, const anatomy::MeshResult& mesh,
+                      const std::optional<anatomy::MeshResult>& coarse,
                       const std::filesystem::path& folder) {
   const std::vector<cine::StrainTarget> targets = cine::strain_targets(c, mesh.regions);
   calibrate::Plan task = plan(c, targets);
   const bool klotz = task.passive == FittedPassive::klotz;
-  if (klotz)
-    task.edv = {solid::EndocardialSurface(mesh.mesh).volume(mesh.mesh.nodes),
-                case_file::place_of(c, "unloaded.pressure")};
-  auto [fit, unloaded] =
-      fit_wall(c, mesh, targets, task, {.C_a = c.passive.C_a, .T_scale = c.active.T_scale},
-               folder / answers_name);
-  std::vector<std::filesystem::path> records{folder / answers_name};
+  set_seen_volume(c, mesh, task);
+  FitStart start{{.C_a = c.passive.C_a, .T_scale = c.active.T_scale}};
+  std::vector<std::filesystem::path> records{folder / coarse_answers_name, folder / answers_name};
+  if (coarse)
+    if (auto first = fit_coarse(c, *coarse, mesh, task, start.parameters, records.front())) {
+      start = std::move(*first);
+      task.starts_near = true;
+    }
+  auto [fit, unloaded] = fit_wall(c, mesh, targets, task, start, records.back());
   const double error = c.calibration.pressure_error;
   if (klotz && error > 0.0)
     for (const double pressure : {task.ed_pressure - error, task.ed_pressure + error}) {
-      records.push_back(folder / fmt::format("answers_{}.bin", records.size()));
+      records.push_back(folder / fmt::format("answers_{}.bin", records.size() - 1));
       fit.other_pressures.push_back(
           fit_at(pressure, c, mesh, task, fit.parameters, records.back()));
     }

@@ -9,12 +9,19 @@ namespace lv::pipeline {
 /// The same case on the quasi-static engine, which calibrates whatever engine runs the beat.
 [[nodiscard]] case_file::Case for_calibration(case_file::Case c);
 
+/// The same case with one layer of long elements, on which a fit is tried first; nothing where its
+/// elements are hardly shorter.
+[[nodiscard]] std::optional<case_file::Case> on_coarse_wall(case_file::Case c);
+
 /// Fits what the case asks for, with the wall unloaded anew for all parameters where it was seen
 /// under load, and writes into `folder` calibration.json, calibration.txt,
 /// calibration.csv (every equilibrium of the search) and calibrated.toml (for a case file);
-/// collective. A fit that was stopped goes on from the answers that it left in `folder`. Throws
-/// InputError for a volume out of reach, with the volumes within reach.
+/// collective. A fit that was stopped goes on from the answers that it left in `folder`. With a
+/// `coarse` wall the fit is made there first, so that the one on `mesh` starts near its end, and a
+/// volume that is out of reach there by more than calibrate::reach_margin is refused within
+/// seconds. Throws InputError for a volume out of reach, with the volumes within reach.
 void make_calibration(const case_file::Case& c, const anatomy::MeshResult& mesh,
+                      const std::optional<anatomy::MeshResult>& coarse,
                       const std::filesystem::path& folder);
 
 /// The files with fitted parameters: of a calibration, and of a beat made with them.

@@ -203,12 +203,9 @@ class Pipeline {
         });
         show_mesh(anatomy::read_mesh_result(part), c, part);
         break;
-      case Stage::calibrate: {
-        const Case fitting = for_calibration(c);
-        on_root([&] { anatomy::write_mesh_result(make_mesh(fitting, shape()), part); });
-        make_calibration(fitting, anatomy::read_mesh_result(part), part);
+      case Stage::calibrate:
+        calibrate(for_calibration(c), part);
         break;
-      }
       case Stage::unload: {
         const auto elements = part / elements_name;
         on_root([&] {
@@ -240,6 +237,37 @@ class Pipeline {
         });
         break;
     }
+  }
+
+  void calibrate(const Case& fitting, const std::filesystem::path& part) {
+    on_root([&] { anatomy::write_mesh_result(make_mesh(fitting, shape()), part); });
+    make_calibration(fitting, anatomy::read_mesh_result(part), coarse_wall(fitting, part), part);
+    on_root([&] { std::filesystem::remove_all(part / coarse_name); });
+  }
+
+  /// Where a fit may be tried before; nothing where the mesh comes from elsewhere, or where a wall
+  /// so coarse cannot be made.
+  std::optional<anatomy::MeshResult> coarse_wall(const Case& fitting,
+                                                 const std::filesystem::path& part) {
+    const std::optional<Case> coarse = on_coarse_wall(fitting);
+    if (!coarse)
+      return {};
+    const auto elements = part / coarse_name;
+    on_root([&] {
+      std::filesystem::remove_all(elements);
+      if (shape().given)
+        return;
+      try {
+        const anatomy::MeshResult mesh = make_mesh(*coarse, shape());
+        std::filesystem::create_directories(elements);
+        anatomy::write_mesh_result(mesh, elements);
+      } catch (const InputError& failure) {
+        log::info("there is no coarse wall for a first fit: {}", failure.what());
+      }
+    });
+    if (!root_says(std::filesystem::exists(elements)))
+      return {};
+    return anatomy::read_mesh_result(elements);
   }
 
   void run_beat(const Case& c, const std::filesystem::path& part) {
@@ -327,6 +355,7 @@ class Pipeline {
   work::FileContents files_;
   std::string text_;
   std::optional<anatomy::Shape> shape_;
+  static constexpr const char* coarse_name = "coarse";  ///< folder of the mesh for a first fit
   static constexpr const char* elements_name = "quasi_static";  ///< folder of the mesh for fits
 };
 

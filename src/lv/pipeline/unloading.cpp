@@ -91,6 +91,13 @@ void warn(const case_file::Case& c, const mesh::Mesh& elements, const Unloaded& 
         "the wall without load would be folded: instead it is a smooth one, which loaded again is "
         "off by {:.2f} mm rms, {:.2f} mm at most (smoothing {:g})",
         last.rms, last.largest, unloaded.smoothing);
+  else if (last.largest > c.unloaded.tolerance)
+    log::warn(
+        "the wall without load was found up to {:.3f} mm: loaded again it is off by so much at "
+        "most "
+        "(rms {:.3f} mm; {:.2f} ml instead of {:.2f} ml), more than unloaded.tolerance and less "
+        "than unloaded.near_enough, and the search came no nearer",
+        last.largest, last.rms, 1e-3 * last.volume, 1e-3 * seen_volume(elements));
   const double expected = klotz_volume(c, elements);
   if (last.unloaded_volume < least_of_klotz * expected)
     log::warn(
@@ -115,18 +122,6 @@ Json summary(const case_file::Case& c, const mesh::Mesh& elements, const Unloade
           {"nearest_to_itself", last.folds.approach},
           {"largest_stretch", last.folds.stretch},
           {"steps", unloaded.steps.size()}};
-}
-
-/// The other mesh of the same wall, moved as this one was.
-std::vector<Vec3> carried(const mesh::Mesh& elements, const Unloaded& unloaded,
-                          const mesh::Mesh& other) {
-  std::vector<Vec3> displacement;
-  for (std::size_t a = 0; a < elements.nodes.size(); ++a)
-    displacement.push_back(unloaded.nodes[a] - elements.nodes[a]);
-  std::vector<Vec3> nodes = solid::interpolate(elements, displacement, other.nodes);
-  for (std::size_t a = 0; a < nodes.size(); ++a)
-    nodes[a] += other.nodes[a];
-  return nodes;
 }
 
 void check_elements(const mesh::Mesh& wall) {
@@ -158,7 +153,7 @@ void make_unloading(const case_file::Case& c, const anatomy::MeshResult& seen,
   anatomy::MeshResult result = seen;
   result.mesh = mesh::with_nodes(seen.mesh, c.engine == case_file::Engine::quasi_static
                                                 ? unloaded.nodes
-                                                : carried(elements, unloaded, seen.mesh));
+                                                : carried(elements, unloaded.nodes, seen.mesh));
   check_elements(result.mesh);
   if (parallel::is_root()) {
     anatomy::write_mesh_result(result, folder);
@@ -168,6 +163,17 @@ void make_unloading(const case_file::Case& c, const anatomy::MeshResult& seen,
     std::filesystem::remove(record);
   }
   show_mesh(result, c, folder);
+}
+
+std::vector<Vec3> carried(const mesh::Mesh& elements, std::span<const Vec3> unloaded,
+                          const mesh::Mesh& other) {
+  std::vector<Vec3> displacement;
+  for (std::size_t a = 0; a < elements.nodes.size(); ++a)
+    displacement.push_back(unloaded[a] - elements.nodes[a]);
+  std::vector<Vec3> nodes = solid::interpolate(elements, displacement, other.nodes);
+  for (std::size_t a = 0; a < nodes.size(); ++a)
+    nodes[a] += other.nodes[a];
+  return nodes;
 }
 
 void write_unloaded(const Unloaded& unloaded, const std::filesystem::path& file) {

@@ -5,6 +5,8 @@
 #include "lv/pipeline/stages.hpp"
 
 #include <optional>
+#include <span>
+#include <vector>
 
 namespace lv::pipeline {
 
@@ -17,6 +19,11 @@ namespace lv::pipeline {
 void make_unloading(const case_file::Case& c, const anatomy::MeshResult& seen,
                     const mesh::Mesh& elements, const std::filesystem::path& folder,
                     const std::filesystem::path& start);
+
+/// The nodes of another mesh of the same wall, moved as those of `elements` were moved to
+/// `unloaded`.
+[[nodiscard]] std::vector<Vec3> carried(const mesh::Mesh& elements, std::span<const Vec3> unloaded,
+                                        const mesh::Mesh& other);
 
 /// A wall without load as the start of a search, in a file and back.
 inline constexpr const char* unloaded_shape_name = "unloaded.bin";

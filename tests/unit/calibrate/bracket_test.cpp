@@ -124,3 +124,27 @@ TEST_CASE("a target beyond the range is refused with the volume at its end", "[c
   CHECK_THROWS_AS(find_root(never_at_the_other_end, {"scale", 1.0, {0.5, 1.2}}, target, accuracy),
                   InputError);
 }
+
+TEST_CASE("a target out of reach is told by how much it is missed at the end of the range",
+          "[calibrate]") {
+  const auto missing = [](const std::function<Outcome<double>(double)>& volume, double end) {
+    try {
+      static_cast<void>(find_root(volume, {"scale", 1.0, {0.5, end}}, target, accuracy));
+    } catch (const OutOfReach& failure) {
+      return failure.missing();
+    }
+    return -1.0;
+  };
+  CHECK(missing(falling, 1.2) == Approx(std::log(falling(1.2) / 80e3)));
+  const auto none_from = [](double last) {
+    return [last](double x) -> Outcome<double> {
+      if (x > last)
+        return Unsolved{"turns inside out", ""};
+      return falling(x);
+    };
+  };
+  // ln V is straight in ln x
+  CHECK(missing(none_from(1.25), 1.4) == Approx(std::log(falling(1.4) / 80e3)).epsilon(1e-6));
+  CHECK(missing(none_from(1.25), 3.0) == 0.0);   // the line meets the target
+  CHECK(missing(none_from(1.001), 1.4) == 0.0);  // one volume makes no line
+}

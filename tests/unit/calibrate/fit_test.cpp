@@ -271,6 +271,42 @@ TEST_CASE("contractility is fitted beside the Klotz curve", "[calibrate]") {
   CHECK(found.esv == Approx(p.esv.volume).epsilon(p.tolerance));
 }
 
+TEST_CASE("an end-systolic volume out of reach is refused before the curve is fitted",
+          "[calibrate]") {
+  using Catch::Matchers::Contains;
+  Plan p = klotz_plan();
+  p.active = true;
+  p.T_scale = {0.1, 4.0};
+  const Model wall = seen_wall(0.01);
+  int partly_filled = 0;
+  const Model counted{[&](const FitParameters& q, const Loads& loads) {
+                        partly_filled += loads.activation == 0.0 && loads.pressure > 0.0 ? 1 : 0;
+                        return wall.volume(q, loads);
+                      },
+                      wall.unloaded_volume,
+                      {}};
+  p.esv.volume = 20e3;
+  CHECK_THROWS_WITH(fit(counted, {}, p), Contains("case.toml:4: 20.00 ml cannot be reached") &&
+                                             Contains("at T_scale = 4, the end of its range") &&
+                                             Contains("first try"));
+  CHECK(partly_filled == 0);
+  // what is missed by less may yet be reached
+  const double least =
+      *wall.volume({.scale = 3.0, .exponent = 1.2, .T_scale = 4.0}, {p.es_pressure, 1.0});
+  p.esv.volume = 1.001 * least;
+  CHECK(fit(wall, {}, p).parameters.T_scale == Approx(4.0).epsilon(0.01));
+}
+
+TEST_CASE("a fit that starts near its end goes on from there, or begins anew", "[calibrate]") {
+  Plan p = klotz_plan();
+  p.starts_near = true;
+  const Fit near = fit(seen_wall(0.01), {.scale = 2.9, .exponent = 1.25}, p);
+  CHECK(near.parameters.scale == Approx(3.0).epsilon(0.01));
+  CHECK(near.history.size() < fit(seen_wall(0.01), {}, klotz_plan()).history.size());
+  const Fit anew = fit(seen_wall(2.5), {.scale = 2.0, .exponent = 1.25}, p);
+  CHECK(anew.parameters.scale == Approx(3.0).epsilon(0.01));
+}
+
 TEST_CASE("a V0 below what any wall without load holds is refused with what there is",
           "[calibrate]") {
   using Catch::Matchers::Contains;

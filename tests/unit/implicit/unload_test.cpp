@@ -92,6 +92,33 @@ TEST_CASE("unloading that does not come to its tolerance says what is left", "[i
   CHECK_THAT(unloaded.why().what_to_do, Contains("unloaded.iterations"));
 }
 
+TEST_CASE("a wall that comes no nearer is taken where it is near enough", "[implicit]") {
+  const mesh::Mesh seen =
+      mesh::wall_mesh([e = geometry::Ellipsoid{}](double u, double theta,
+                                                  double t) { return e.point(u, theta, t); },
+                      {.edge_length = 6.0, .layers = 2, .order = 2});
+  implicit::UnloadParameters parameters{.pressure = 8.0 * mmHg, .tolerance = 0.01};
+  const auto near = implicit::unload(seen, model(1.0), parameters, {});
+  REQUIRE(near);
+  CHECK(near->smoothing == 0.0);
+  CHECK(near->steps.back().largest > parameters.tolerance);
+  CHECK(near->steps.back().largest <= parameters.near_enough);
+  parameters.near_enough = 0.0;
+  const auto smooth = implicit::unload(seen, model(1.0), parameters, {});
+  CHECK((!smooth || smooth->smoothing > 0.0));
+}
+
+TEST_CASE("a guess of the nodes alone is a start", "[implicit]") {
+  const mesh::Mesh seen = coarse_ventricle();
+  const implicit::UnloadParameters parameters{.pressure = 3.0 * mmHg, .tolerance = 1e-3};
+  const auto found = implicit::unload(seen, model(1.0), parameters, {}).value();
+  const implicit::Unloaded guess{found.nodes, {}, {}};
+  const auto again = implicit::unload(seen, model(1.0), parameters, {}, &guess).value();
+  CHECK(again.steps.size() < found.steps.size());
+  CHECK(again.steps.back().unloaded_volume ==
+        Approx(found.steps.back().unloaded_volume).epsilon(1e-4));
+}
+
 TEST_CASE("a search that was stopped goes on to the same wall, bit for bit", "[implicit]") {
   const mesh::Mesh seen = coarse_ventricle();
   const implicit::UnloadParameters parameters{.pressure = 3.0 * mmHg, .tolerance = 1e-3};
