@@ -11,7 +11,7 @@ namespace lv::activation {
 enum class Kind { uniform, eikonal, file };
 
 /// When muscle is activated, after the calcium of a beat begins.
-struct Parameters {
+struct ActivationParameters {
   Kind kind = Kind::uniform;
   Speeds speeds;
   /// Where a front starts, in the words of Site. The first breakthroughs of a human ventricle: high

@@ -51,7 +51,7 @@ int nearest_of(const mesh::Mesh& mesh, const Nodes& nodes, const Vec3& x) {
   });
 }
 
-int node_of_segment(const Wall& wall, int segment) {
+int node_of_segment(const ActivatedWall& wall, int segment) {
   Vec3 sum = Vec3::Zero();
   double volume = 0.0;
   for (int c = 0; c < wall.mesh.cell_count(); ++c) {
@@ -70,7 +70,7 @@ int node_of_segment(const Wall& wall, int segment) {
   return nearest_of(wall.mesh, wall.mesh.endo.nodes, sum / volume);
 }
 
-int node_at_point(const Wall& wall, const Vec3& x) {
+int node_at_point(const ActivatedWall& wall, const Vec3& x) {
   const int node = nearest_of(wall.mesh, wall.mesh.cells, x);
   const double distance = (wall.mesh.nodes[node] - x).norm();
   if (distance > farthest_point)
@@ -86,13 +86,13 @@ int node_at_point(const Wall& wall, const Vec3& x) {
 }
 
 /// The metric of the first cell that has a node.
-const Mat3& metric_at(const Wall& wall, int node) {
+const Mat3& metric_at(const ActivatedWall& wall, int node) {
   const auto at = std::find(wall.mesh.cells.begin(), wall.mesh.cells.end(), node);
   const auto place = static_cast<std::size_t>(at - wall.mesh.cells.begin());
   return wall.metrics[place / static_cast<std::size_t>(mesh::nodes_per_cell(wall.mesh.kind))];
 }
 
-std::vector<Start> start_around_node(const Wall& wall, int node) {
+std::vector<Start> start_around_node(const ActivatedWall& wall, int node) {
   return starts_around(wall.mesh, wall.mesh.nodes[node], site_radius, metric_at(wall, node));
 }
 
@@ -138,7 +138,7 @@ std::vector<Mat3> cell_frames(const mesh::Mesh& mesh, const mesh::FibreRule& fib
   return frames;
 }
 
-std::vector<Start> starts_at(const Site& site, const Wall& wall) {
+std::vector<Start> starts_at(const Site& site, const ActivatedWall& wall) {
   if (const auto* segment = std::get_if<Segment>(&site))
     return start_around_node(wall, node_of_segment(wall, segment->number));
   if (const auto* point = std::get_if<Point>(&site))

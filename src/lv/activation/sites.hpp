@@ -32,7 +32,7 @@ using Site = std::variant<Segment, Point, Endocardium>;
 [[nodiscard]] std::vector<Mat3> cell_frames(const mesh::Mesh& mesh, const mesh::FibreRule& fibres);
 
 /// A wall that activation spreads in.
-struct Wall {
+struct ActivatedWall {
   const mesh::Mesh& mesh;
   const mesh::Regions& regions;
   std::vector<Mat3> metrics;  ///< travel_metric of every cell
@@ -42,6 +42,6 @@ struct Wall {
 /// The nodes that activation starts from at a site, at time 0: those of a ball of 2 mm, in which it
 /// spreads as in the muscle at its centre. Throws InputError for a point farther than 5 mm from
 /// every node, and a segment that has no part of the wall.
-[[nodiscard]] std::vector<Start> starts_at(const Site& site, const Wall& wall);
+[[nodiscard]] std::vector<Start> starts_at(const Site& site, const ActivatedWall& wall);
 
 }  // namespace lv::activation

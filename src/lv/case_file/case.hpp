@@ -228,13 +228,13 @@ struct Case {
   immersed::CouplingParameters coupling;
   solid::BasalSupport base;
   solid::Surroundings surroundings;
-  activation::Parameters activation;
+  activation::ActivationParameters activation;
   Engine engine = Engine::immersed;
   QuasiStatic quasi_static;
   implicit::UnloadParameters unloaded{.tolerance = 0.05};
   Calibration calibration;
   StrainStudy strain;
-  circulation::Parameters circulation;
+  circulation::CircuitParameters circulation;
   heartbeat::Protocol protocol;
   double cuff_systolic = 0.0;  ///< of a cuff on the arm; 0: not measured [kPa]
   heartbeat::StepControl time;

@@ -275,7 +275,7 @@ class CaseReader {
   }
 
   void check_circulation() {
-    const circulation::Parameters& p = case_.circulation;
+    const circulation::CircuitParameters& p = case_.circulation;
     rule(p.step <= 0.05 * p.period, "circulation.step",
          "must be at most a twentieth of the period");
     rule(p.valves.closed_resistance >=
@@ -307,7 +307,7 @@ class CaseReader {
   }
 
   void check_activation() {
-    const activation::Parameters& p = case_.activation;
+    const activation::ActivationParameters& p = case_.activation;
     rule(p.kind != activation::Kind::file || !p.file.empty(), "activation.kind",
          "is \"file\", but activation.file is not set");
     for (const std::string& words : p.sites)

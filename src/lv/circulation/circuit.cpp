@@ -15,7 +15,7 @@ auto stepped(const Part& part, double t, double dt, double p) {
 
 }  // namespace
 
-Circuit::Kinds Circuit::kind_of(const Parameters& p) {
+Circuit::Kinds Circuit::kind_of(const CircuitParameters& p) {
   if (p.kind == Kind::closed_loop)
     return Part<ClosedLoop>{{p.closed_loop, p.valves, p.period}, {ClosedLoop::start(p.start)}};
   if (p.kind == Kind::windkessel)
@@ -24,7 +24,7 @@ Circuit::Kinds Circuit::kind_of(const Parameters& p) {
                    "Set it to \"windkessel\" or \"closed_loop\"");
 }
 
-Circuit::Circuit(const Parameters& parameters) : kind_(kind_of(parameters)) {}
+Circuit::Circuit(const CircuitParameters& parameters) : kind_(kind_of(parameters)) {}
 
 void Circuit::start_around(double volume) {
   std::visit(

@@ -22,7 +22,7 @@ struct VolumeAfter {
 class Circuit {
  public:
   /// At the start that the parameters say. Throws InputError where they ask for no circulation.
-  explicit Circuit(const Parameters& parameters);
+  explicit Circuit(const CircuitParameters& parameters);
 
   /// Starts again around a ventricle of this volume [mm^3] instead of start.V_lv.
   void start_around(double volume);
@@ -59,7 +59,7 @@ class Circuit {
     History<C::size> history;
   };
   using Kinds = std::variant<Part<Windkessel>, Part<ClosedLoop>>;
-  static Kinds kind_of(const Parameters& parameters);
+  static Kinds kind_of(const CircuitParameters& parameters);
 
   Kinds kind_;
 };

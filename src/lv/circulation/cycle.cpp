@@ -17,7 +17,7 @@ class Alone {
  public:
   static constexpr int size = Circuit::size;
 
-  Alone(const Parameters& p, const Circuit& circuit)
+  Alone(const CircuitParameters& p, const Circuit& circuit)
       : p_(p),
         circuit_(circuit),
         ventricle_(p.left_ventricle, p.period),
@@ -66,7 +66,7 @@ class Alone {
     cycle_.samples.push_back({time_, circuit_.signals(time_, history_.now, p)});
   }
 
-  const Parameters& p_;
+  const CircuitParameters& p_;
   Circuit circuit_;
   Elastance ventricle_;
   History<size> history_;
@@ -74,7 +74,7 @@ class Alone {
   Cycle cycle_;
 };
 
-Cycle run_closed_loop(const Parameters& p) {
+Cycle run_closed_loop(const CircuitParameters& p) {
   const ClosedLoop circuit(p.closed_loop, p.valves, p.period);
   Alone<ClosedLoop> heart(p, circuit);
   Cycle cycle = heart.run();
@@ -103,7 +103,7 @@ std::span<const Sample> samples_of(const Cycle& cycle, int beat) {
   return {at(beat), end == cycle.samples.end() ? end : end + 1};
 }
 
-Cycle run_alone(const Parameters& p) {
+Cycle run_alone(const CircuitParameters& p) {
   if (p.kind == Kind::closed_loop)
     return run_closed_loop(p);
   return Alone<Windkessel>(p, Windkessel(p.windkessel, p.valves)).run();

@@ -28,7 +28,7 @@ struct Cycle {
 
 /// Runs a circulation whose left ventricle is an elastance, by implicit steps of second order.
 /// Throws RunError as implicit_step does, and Interrupted between beats.
-[[nodiscard]] Cycle run_alone(const Parameters& parameters);
+[[nodiscard]] Cycle run_alone(const CircuitParameters& parameters);
 
 /// The largest relative change of a state.
 [[nodiscard]] double largest_change(std::span<const double> before, std::span<const double> after);

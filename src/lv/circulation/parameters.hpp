@@ -79,7 +79,7 @@ struct Start {
 };
 
 /// A circulation and how it is run.
-struct Parameters {
+struct CircuitParameters {
   Kind kind = Kind::none;
   double period = 0.8;      ///< of a beat, RR [s]
   double step = 1e-3;       ///< of time [s]

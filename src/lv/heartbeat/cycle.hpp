@@ -12,7 +12,7 @@ struct CycleSetup {
   implicit::StaticModel model;
   implicit::SolverParameters solver;
   material::Calcium calcium;  ///< its transient begins anew in every beat, whatever its mode
-  circulation::Parameters circuit;
+  circulation::CircuitParameters circuit;
   CycleParameters cycle;
   double frame_interval = 0.1;  ///< between frames of a beat [s]; the valves' events have one each
   /// When each node is activated after the calcium of a beat begins [s]; empty: all at once.

@@ -37,7 +37,7 @@ inline constexpr std::array<ValveEvent, 4> valve_events{
 /// What heartbeats in a circulation go by, whichever engine moves the wall.
 struct CycleCourse {
   material::Calcium calcium;  ///< its transient begins anew in every beat, whatever its mode
-  circulation::Parameters circuit;
+  circulation::CircuitParameters circuit;
   CycleParameters cycle;
   double frame_interval = 0.1;  ///< between frames of a beat [s]
 };

@@ -44,7 +44,7 @@ Phase filling_to(double pressure, Protocol protocol) {
 
 class ImmersedCycleRun {
  public:
-  ImmersedCycleRun(const BeatSetup& setup, const circulation::Parameters& circuit,
+  ImmersedCycleRun(const BeatSetup& setup, const circulation::CircuitParameters& circuit,
                    std::filesystem::path folder, const Observers& observers)
       : setup_(setup),
         folder_(std::move(folder)),
@@ -355,7 +355,7 @@ bool ImmersedCycleRun::resume() {
 
 }  // namespace
 
-Beat run_immersed_cycle(const BeatSetup& setup, const circulation::Parameters& circuit,
+Beat run_immersed_cycle(const BeatSetup& setup, const circulation::CircuitParameters& circuit,
                         const std::filesystem::path& folder, const Observers& observers) {
   return ImmersedCycleRun(setup, circuit, folder, observers).run();
 }

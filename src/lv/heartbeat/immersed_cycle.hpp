@@ -23,7 +23,7 @@ namespace lv::heartbeat {
 /// when the first beat stays unstable at the smallest step, or when the aortic valve does not open
 /// and close in the last. Collective.
 [[nodiscard]] Beat run_immersed_cycle(const BeatSetup& setup,
-                                      const circulation::Parameters& circuit,
+                                      const circulation::CircuitParameters& circuit,
                                       const std::filesystem::path& folder,
                                       const Observers& observers);
 

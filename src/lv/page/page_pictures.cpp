@@ -72,7 +72,7 @@ std::string pictures_json(const std::filesystem::path& work) {
   const auto table = report::table_of(work, "results", "outlines.csv");
   if (!table)
     return "";
-  const auto pictures = drawing::read_pictures(report::stage_folder(work, "results") / "pictures");
+  const auto pictures = drawing::read_pictures(report::folder_of(work, "results") / "pictures");
   if (pictures.empty())
     return "";
   const auto outlines = read_outlines(*table);

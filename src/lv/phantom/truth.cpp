@@ -38,7 +38,7 @@ strain::SliceSeries series(const Ventricle& v, const Scan& scan, double Z) {
   const auto radius = [&v, Z](Side side) {
     return [R = std::sqrt(v.radius_squared(side, Z))](double) { return R; };
   };
-  const strain::Wall wall{radius(Side::endo), radius(Side::epi)};
+  const strain::SliceWall wall{radius(Side::endo), radius(Side::epi)};
   const std::vector<double> times = phase_times(scan);
   for (std::size_t k = 0; k < times.size(); ++k) {
     const Motion motion(v, contraction(times[k]));

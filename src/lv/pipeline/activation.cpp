@@ -16,7 +16,8 @@ using case_file::Case;
 
 std::vector<double> times_by_front(const Case& c, const anatomy::MeshResult& mesh) {
   const activation::Speeds& speeds = c.activation.speeds;
-  activation::Wall wall{mesh.mesh, mesh.regions, {}, case_file::place_of(c, "activation.sites")};
+  activation::ActivatedWall wall{
+      mesh.mesh, mesh.regions, {}, case_file::place_of(c, "activation.sites")};
   for (const Mat3& frame : activation::cell_frames(mesh.mesh, c.fibres))
     wall.metrics.push_back(activation::travel_metric(frame, speeds));
   std::vector<activation::Start> starts;

@@ -8,7 +8,7 @@ namespace lv::report {
 
 namespace fs = std::filesystem;
 
-fs::path stage_folder(const fs::path& work, const std::string& stage) {
+fs::path folder_of(const fs::path& work, const std::string& stage) {
   constexpr const char* digits = "0123456789";
   fs::path unfinished;
   for (const auto& entry : fs::directory_iterator(work)) {
@@ -25,7 +25,7 @@ fs::path stage_folder(const fs::path& work, const std::string& stage) {
 }
 
 fs::path file_of(const fs::path& work, const std::string& stage, const std::string& file) {
-  const fs::path folder = stage_folder(work, stage);
+  const fs::path folder = folder_of(work, stage);
   return !folder.empty() && fs::exists(folder / file) ? folder / file : fs::path();
 }
 

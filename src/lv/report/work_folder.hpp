@@ -10,8 +10,8 @@ namespace lv::report {
 
 /// The folder of a stage ("beat") in a case's work folder, or what there is of it before it is
 /// finished; empty if neither.
-[[nodiscard]] std::filesystem::path stage_folder(const std::filesystem::path& work,
-                                                 const std::string& stage);
+[[nodiscard]] std::filesystem::path folder_of(const std::filesystem::path& work,
+                                              const std::string& stage);
 
 /// A file of a stage; empty if it is not there.
 [[nodiscard]] std::filesystem::path file_of(const std::filesystem::path& work,

@@ -17,7 +17,7 @@ Vec2 direction(double angle) {
   return {std::cos(angle), std::sin(angle)};
 }
 
-Vec2 mid_wall(const Wall& wall, double angle) {
+Vec2 mid_wall(const SliceWall& wall, double angle) {
   return 0.5 * (wall.endo(angle) + wall.epi(angle)) * direction(angle);
 }
 
@@ -42,7 +42,7 @@ class Rotation {
   Mat2 product_ = Mat2::Zero();
 };
 
-Ray ray_at(const Wall& wall, const Deformation& motion, double angle, Rotation& rotation) {
+Ray ray_at(const SliceWall& wall, const Deformation& motion, double angle, Rotation& rotation) {
   const double inner = wall.endo(angle);
   const double outer = wall.epi(angle);
   const Vec2 out = direction(angle);
@@ -71,7 +71,7 @@ Ray ray_at(const Wall& wall, const Deformation& motion, double angle, Rotation& 
 
 }  // namespace
 
-SliceMotion follow(const Wall& wall, const Deformation& motion) {
+SliceMotion follow(const SliceWall& wall, const Deformation& motion) {
   SliceMotion slice;
   Rotation rotation;
   for (int k = 0; k < rays_around; ++k)

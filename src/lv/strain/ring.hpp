@@ -27,7 +27,7 @@ using Deformation = std::function<Moved(const Vec2&)>;
 using RadiusAt = std::function<double(double angle)>;
 
 /// The wall of a slice at end-diastole.
-struct Wall {
+struct SliceWall {
   RadiusAt endo, epi;
 };
 
@@ -57,7 +57,7 @@ struct Strain {
 
 /// Follows the wall of a slice. The rotation is that of the rigid motion that fits best to the wall
 /// by area, as analysis::rotation has it for the model.
-[[nodiscard]] SliceMotion follow(const Wall& wall, const Deformation& motion);
+[[nodiscard]] SliceMotion follow(const SliceWall& wall, const Deformation& motion);
 
 /// Strain of the given rays, of one slice or several. NaN without rays.
 [[nodiscard]] Strain strain_of(const std::vector<Ray>& rays);

@@ -161,7 +161,7 @@ Contour carried(const Contour& loop, const std::vector<Vec2>& points, const Trac
   return moved;
 }
 
-double smallest_determinant(const Wall& wall, const Deformation& motion) {
+double smallest_determinant(const SliceWall& wall, const Deformation& motion) {
   constexpr int around = 60;
   constexpr int layers = 4;
   double least = 1.0;
@@ -195,7 +195,7 @@ TrackedSlice track(const SliceTask& task, const Orientation& orientation,
   const std::vector<Vec2> endo = on_image(task.endo, plane);
   const std::vector<Vec2> epi = on_image(task.epi, plane);
   const SliceFrame frame = slice_frame(plane, centroid(endo), orientation);
-  const Wall wall{PolarLoop(endo, frame, task.endo), PolarLoop(epi, frame, task.epi)};
+  const SliceWall wall{PolarLoop(endo, frame, task.endo), PolarLoop(epi, frame, task.epi)};
   Tracker tracker(frames[task.drawn], epi, parameters);
   const Deformation motion = [&](const Vec2& X) {
     const Moved on_image = tracker(frame.to_image(X));

@@ -14,9 +14,9 @@ namespace lv::verify {
 namespace {
 
 using circulation::BeatMeasures;
+using circulation::CircuitParameters;
 using circulation::Cycle;
 using circulation::elastance;
-using circulation::Parameters;
 using circulation::Sample;
 using units::ml;
 using units::mmHg;
@@ -24,8 +24,8 @@ using units::mmHg;
 constexpr double of_reference = 1e-3;  ///< of the reference
 constexpr double moment = 0.15e-3;     ///< a step, and the last digit of a printed time [s]
 
-Parameters windkessel() {
-  Parameters p;
+CircuitParameters windkessel() {
+  CircuitParameters p;
   p.kind = circulation::Kind::windkessel;
   p.step = 1e-4;
   p.beats = 20;
@@ -37,8 +37,8 @@ Parameters windkessel() {
 }
 
 /// The atria contract with the ventricles there: 0.9 s is 0.1 s in a beat of 0.8 s.
-Parameters closed_loop(circulation::ValveLaw law) {
-  Parameters p;
+CircuitParameters closed_loop(circulation::ValveLaw law) {
+  CircuitParameters p;
   p.kind = circulation::Kind::closed_loop;
   p.step = 1e-4;
   p.beats = 10;
@@ -125,7 +125,7 @@ void circulation_windkessel(Findings& found) {
 
   // of valves that open over more pressure than changes in a step: an event meets a step anywhere
   const auto pressure = [](double step) {
-    Parameters p = windkessel();
+    CircuitParameters p = windkessel();
     p.beats = 1;
     p.step = step;
     p.valves.smoothing = 1.0 * mmHg;

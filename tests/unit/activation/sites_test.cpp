@@ -19,8 +19,8 @@ struct Ventricle {
   mesh::Mesh mesh = verify::ideal_mesh({.edge_length = 9.0});
   mesh::Regions regions = mesh::divide(mesh, {});
 
-  [[nodiscard]] activation::Wall wall() const {
-    activation::Wall wall{mesh, regions, {}, "case.toml:3"};
+  [[nodiscard]] activation::ActivatedWall wall() const {
+    activation::ActivatedWall wall{mesh, regions, {}, "case.toml:3"};
     for (const Mat3& frame : activation::cell_frames(mesh, {}))
       wall.metrics.push_back(activation::travel_metric(frame, {}));
     return wall;
@@ -42,7 +42,7 @@ TEST_CASE("sites are named in words", "[unit][activation]") {
 
 TEST_CASE("every segment has a site on the endocardium", "[unit][activation]") {
   const Ventricle ventricle;
-  const activation::Wall wall = ventricle.wall();
+  const activation::ActivatedWall wall = ventricle.wall();
   const std::vector<int> endo = mesh::surface_nodes(ventricle.mesh.endo);
   for (int s = 1; s <= 17; ++s) {
     const auto starts = activation::starts_at(activation::Segment{s}, wall);
@@ -64,7 +64,7 @@ TEST_CASE("a point far from the wall is refused with its distance", "[unit][acti
 TEST_CASE("a front from the endocardium crosses the wall in the time of its layers",
           "[unit][activation]") {
   const Ventricle ventricle;
-  const activation::Wall wall = ventricle.wall();
+  const activation::ActivatedWall wall = ventricle.wall();
   const auto times = activation::arrival_times(
       ventricle.mesh, wall.metrics, {}, activation::starts_at(activation::Endocardium{}, wall));
   for (const int node : ventricle.mesh.epi.nodes) {

@@ -14,8 +14,8 @@ namespace {
 using namespace lv::circulation;
 using lv::units::mmHg;
 
-Parameters quick(Kind kind) {
-  Parameters p;
+CircuitParameters quick(Kind kind) {
+  CircuitParameters p;
   p.kind = kind;
   p.step = 2e-3;
   return p;
@@ -88,7 +88,7 @@ TEST_CASE("a closed circulation keeps its blood", "[unit][circulation]") {
 
 TEST_CASE("what is ejected is what fills and what runs off in a limit cycle",
           "[unit][circulation]") {
-  Parameters p = quick(Kind::windkessel);
+  CircuitParameters p = quick(Kind::windkessel);
   p.tolerance = 1e-8;
   const Cycle cycle = run_alone(p);
   const BeatMeasures& m = cycle.beats.back();
@@ -98,7 +98,7 @@ TEST_CASE("what is ejected is what fills and what runs off in a limit cycle",
 
 TEST_CASE("the number of beats ends a circulation that has no limit cycle yet",
           "[unit][circulation]") {
-  Parameters p = quick(Kind::windkessel);
+  CircuitParameters p = quick(Kind::windkessel);
   p.beats = 2;
   const Cycle cycle = run_alone(p);
   CHECK(cycle.beats.size() == 2);
@@ -107,7 +107,7 @@ TEST_CASE("the number of beats ends a circulation that has no limit cycle yet",
 
 TEST_CASE("a ventricle too weak to open the aortic valve has no end-systole",
           "[unit][circulation]") {
-  Parameters p = quick(Kind::windkessel);
+  CircuitParameters p = quick(Kind::windkessel);
   p.beats = 1;
   p.left_ventricle.E_A = 0.1 * elastance;
   const BeatMeasures m = run_alone(p).beats.front();

@@ -13,7 +13,7 @@ using lv::units::mmHg;
 
 /// The last beat of the circulation alone under other loads.
 LoadedBeat beat_under(const Factors& factors) {
-  Parameters p;
+  CircuitParameters p;
   p.kind = Kind::windkessel;
   p.step = 1e-3;
   p.windkessel.p_ven *= factors.preload;

@@ -113,7 +113,7 @@ void check_same(const Beat& undisturbed, const Beat& resumed) {
 
 TEST_CASE("a circuit around an elastance beats as the circulation alone does",
           "[unit][circulation]") {
-  circulation::Parameters p;
+  circulation::CircuitParameters p;
   p.kind = circulation::Kind::closed_loop;
   p.beats = 1;
   p.step = 2e-3;
@@ -182,7 +182,7 @@ TEST_CASE("muscle that is activated later contracts later", "[unit][heartbeat]")
 }
 
 TEST_CASE("heartbeats in an archive are those that were put in", "[unit][heartbeat]") {
-  circulation::Parameters p;
+  circulation::CircuitParameters p;
   p.kind = circulation::Kind::windkessel;
   p.beats = 2;
   p.tolerance = 0.0;

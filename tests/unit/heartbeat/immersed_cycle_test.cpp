@@ -34,8 +34,8 @@ BeatSetup quick_immersed(const mesh::Mesh& mesh) {
   return setup;
 }
 
-circulation::Parameters windkessel() {
-  circulation::Parameters circuit;
+circulation::CircuitParameters windkessel() {
+  circulation::CircuitParameters circuit;
   circuit.kind = circulation::Kind::windkessel;
   circuit.period = 0.4;
   return circuit;
@@ -45,7 +45,7 @@ circulation::Parameters windkessel() {
 struct Kill {};
 
 /// Killed at every frame once; a checkpoint is written every ten steps.
-Beat through_kills(BeatSetup setup, const circulation::Parameters& circuit) {
+Beat through_kills(BeatSetup setup, const circulation::CircuitParameters& circuit) {
   const test::TemporaryFolder folder;
   setup.output.checkpoint_interval = 0.0;
   double survived = 0.0;
@@ -139,7 +139,7 @@ TEST_CASE("steps that fail in an immersed heartbeat are taken back and repeated 
   BeatSetup setup = quick_immersed(mesh);
   setup.control.longest = 2e-3;  // far too long
   setup.output.frame_interval = 0.05;
-  circulation::Parameters circuit = windkessel();
+  circulation::CircuitParameters circuit = windkessel();
   const test::TemporaryFolder folder;
   heartbeat::Observers frames;
   frames.frame = [](const heartbeat::Frame&) {};

@@ -11,7 +11,7 @@ namespace {
 using namespace lv;
 
 circulation::Cycle two_beats() {
-  circulation::Parameters p;
+  circulation::CircuitParameters p;
   p.kind = circulation::Kind::windkessel;
   p.step = 2e-3;
   p.beats = 2;

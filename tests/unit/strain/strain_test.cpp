@@ -21,7 +21,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-Wall ring(double inner, double outer) {
+SliceWall ring(double inner, double outer) {
   return {[inner](double) { return inner; }, [outer](double) { return outer; }};
 }
 
