@@ -1,6 +1,6 @@
 // `ventricle draw` in a real browser, on a phantom's cine.
-// node draw.mjs VENTRICLE [--case CASE.toml] [--screenshots FOLDER]   exit code 77: skipped
-// With --case only pictures are taken, of a case that is there.
+// node draw.mjs VENTRICLE [--case CASE.toml] [--scar] [--screenshots FOLDER]   exit code 77: skipped
+// With --case only pictures are taken, of a case that is there; with --scar the scar alone is tried.
 import { execFileSync, spawn } from "node:child_process";
 import { chmodSync, cpSync, existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
 import http from "node:http";
@@ -546,6 +546,190 @@ async function checkFiveCorrections() {
   await server.stop();
 }
 
+const scarStudy = join(study, "scar.toml");
+const millilitres = async (page) => parseFloat(/scar ([\d.]+) ml/.exec(await text(page, "#scar-where"))[1]);
+const thresholdOf = async (page) => parseFloat(/threshold ([\d.e+]+)/.exec(await text(page, "#scar-where"))[1]);
+
+/** The middle of the largest patch of reddish or greenish pixels: a row of the enhanced picture's canvas with the longest run of them. */
+const patch = (page, channel) => page.locator("canvas.enhanced").evaluate((canvas, wanted) => {
+  const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+  const coloured = (n) => data[4 * n + wanted] - Math.max(...[0, 1, 2].filter((c) => c !== wanted).map((c) => data[4 * n + c])) > 25;
+  let best = { length: 0, middle: 0 };
+  for (let n = 0, length = 0; n < canvas.width * canvas.height; ++n) {
+    length = coloured(n) && n % canvas.width ? length + 1 : 0;
+    if (length > best.length) best = { length, middle: n - Math.floor(length / 2) };
+  }
+  const box = canvas.getBoundingClientRect();
+  return best.length < 3 ? undefined : [box.left + (best.middle % canvas.width) * box.width / canvas.width, box.top + Math.floor(best.middle / canvas.width) * box.height / canvas.height];
+}, channel);
+const [red, green] = [0, 1];
+
+/** Rows of a map of scar. */
+function scarRows(file) {
+  const [head, ...rows] = readFileSync(file, "utf8").trim().split("\n").map((line) => line.split(","));
+  return rows.map((row) => Object.fromEntries(head.map((name, i) => [name, row[i]])));
+}
+const scarPixels = (rows) => rows.filter(({ tissue }) => tissue === "scar").reduce((sum, { first, last }) => sum + Number(last) - Number(first) + 1, 0);
+
+async function goEnhanced(page, slice) {
+  await page.getByLabel("enhanced slice", { exact: true }).evaluate((range, to) => { range.value = to; range.dispatchEvent(new Event("input")); }, String(slice));
+}
+
+async function showScar(page) {
+  await page.getByLabel("scar", { exact: true }).first().check();
+  await page.locator("canvas.enhanced").waitFor({ state: "visible" });
+  await goEnhanced(page, 7);
+  await page.locator("#scar-fit").click();
+}
+
+async function checkThreshold(page) {
+  const truth = JSON.parse(readFileSync(join(study, "truth.json"), "utf8"));
+  const proposed = await millilitres(page);
+  console.log(`scar proposed on the enhanced slices: ${proposed} ml; the phantom's: ${truth.scar_volume_ml} ml`);
+  check("the scar is proposed on the enhanced slices", /threshold .*half of the brightest in the wall/.test(await text(page, "#scar-where")), await text(page, "#scar-where"));
+  check("within a quarter of the phantom's", Math.abs(proposed / truth.scar_volume_ml - 1) < 0.25, `${proposed} ${truth.scar_volume_ml}`);
+  check("it is seen", (await patch(page, red)) !== undefined);
+  const range = page.getByLabel("threshold", { exact: true });
+  const before = await thresholdOf(page);
+  const times = [];
+  for (const factor of [1.1, 1.2, 1.3, 1.4, 1.5]) {
+    const began = performance.now();
+    await range.evaluate((input, value) => { input.value = value; input.dispatchEvent(new Event("input")); }, String(factor * before));
+    const at = Number(await range.evaluate((input) => input.value));
+    await page.waitForFunction((wanted) => Math.abs(parseFloat(/threshold ([\d.e+]+)/.exec(document.querySelector("#scar-where").textContent)[1]) / wanted - 1) < 2e-3, at);
+    times.push(performance.now() - began);
+  }
+  console.log(`between slider and scar: ${times.map((t) => t.toFixed(0)).join(", ")} ms`);
+  check("the slider changes the scar in well under a second", times.sort((a, b) => a - b)[2] < 500, times.join());
+  check("a higher threshold finds less", (await millilitres(page)) < proposed && (await text(page, "#scar-where")).includes("(chosen)"), await text(page, "#scar-where"));
+  await page.locator("#scar-undo").click();
+  check("the slider is one change, and undone", (await millilitres(page)) === proposed && (await thresholdOf(page)) === before, await text(page, "#scar-where"));
+  await page.getByLabel("half of the brightest").check();
+  await page.waitForFunction((wanted) => document.querySelector("#scar-where").textContent.includes("half of the brightest") &&
+    Math.abs(parseFloat(/scar ([\d.]+) ml/.exec(document.querySelector("#scar-where").textContent)[1]) - wanted) < 0.01, proposed);
+  return proposed;
+}
+
+async function checkBrush(page, proposed) {
+  await page.getByLabel("muscle (erases)").check();
+  const at = await patch(page, red);
+  await drag(page, at, [12, 0]);
+  const erased = await millilitres(page);
+  check("the brush erases scar", erased < proposed && (await text(page, "#scar-where")).includes("corrected by KL"), await text(page, "#scar-where"));
+  await page.locator("#scar-undo").click();
+  check("undo brings it back", (await millilitres(page)) === proposed);
+  await page.locator("#scar-redo").click();
+  check("redo erases it again", (await millilitres(page)) === erased);
+  await page.getByLabel("scar", { exact: true }).nth(1).check();
+  await drag(page, at, [12, 0]);
+  check("the brush adds scar", (await millilitres(page)) > erased);
+  await page.locator("#scar-undo").click();
+}
+
+/** Opposite of the scar, mirrored in the middle of the picture: the wall is round there. */
+async function checkRemote(page) {
+  const box = await page.locator("canvas.enhanced").boundingBox();
+  const at = await patch(page, red);
+  await page.getByLabel("remote muscle", { exact: true }).check();
+  const middle = [box.x + box.width / 2, box.y + box.height / 2];
+  const opposite = [2 * middle[0] - at[0], 2 * middle[1] - at[1]];
+  await page.getByLabel("above remote muscle").check();
+  await waitFor(page, "#said", "no remote muscle is shown");
+  await drag(page, [opposite[0] - 40, opposite[1] - 40], [80, 80]);
+  await drag(page, [opposite[0] - 40, opposite[1] + 40], [80, -80]);
+  check("remote muscle is painted", (await patch(page, green)) !== undefined);
+  await waitFor(page, "#scar-where", "deviations above remote muscle");
+  check("the threshold follows it", /threshold/.test(await text(page, "#scar-where")) && !(await text(page, "#said")).includes("no remote"), await text(page, "#said"));
+  await shot(page, "scar");
+}
+
+async function checkScarSaved(page, own) {
+  await page.locator("#save").click();
+  await waitFor(page, "#said", "Saved in");
+  const [drawn, proposed] = ["scar.csv", "scar_proposed.csv"].map((name) => scarRows(join(own, name)));
+  const seventh = drawn.find(({ slice, tissue }) => slice === "7" && tissue === "scar");
+  check("scar is kept as corrected, with who and when", seventh?.how === "corrected" && seventh.by === "KL" && /^20\d\d-/.test(seventh.when), JSON.stringify(seventh));
+  check("untouched slices as proposed", drawn.find(({ slice, tissue }) => slice === "5" && tissue === "scar")?.how === "proposed");
+  check("the proposal is kept beside it", proposed.every(({ how }) => how === "proposed") && scarPixels(proposed) > scarPixels(drawn), `${scarPixels(proposed)} ${scarPixels(drawn)}`);
+  check("remote muscle is kept", drawn.some(({ tissue }) => tissue === "remote"));
+  const before = await millilitres(page);
+  const level = await thresholdOf(page);
+  await page.reload();
+  await page.waitForFunction(() => document.body.dataset.ready);
+  await showScar(page);
+  check("what was saved is there after a reload", (await millilitres(page)) === before && (await thresholdOf(page)) === level, await text(page, "#scar-where"));
+  check("with who corrected it", (await text(page, "#scar-where")).includes("corrected by KL"), await text(page, "#scar-where"));
+}
+
+async function checkScarKeys(page) {
+  const before = await millilitres(page);
+  await page.locator("canvas.enhanced").focus();
+  const press = async (...keys) => { for (const key of keys) await page.keyboard.press(key); };
+  await press("PageDown", "PageUp", "e", "h", "h", "+", "-", "0", "i", "k", "j", "l", ...Array(20).fill("]"));
+  for (const [there, back] of [["ArrowLeft", "ArrowRight"], ["ArrowUp", "ArrowDown"], ["ArrowRight", "ArrowLeft"], ["ArrowDown", "ArrowUp"]])
+    await press(...Array(13).fill(`Shift+${there}`), "x", ...Array(13).fill(`Shift+${back}`));
+  check("keys move the brush and erase scar", (await millilitres(page)) < before, await text(page, "#scar-where"));
+  await press("t");
+  await waitFor(page, "#scar-where", "(chosen)");
+  await press("Control+z");
+  const axe = await page.evaluate(`${readFileSync(require.resolve("axe-core"), "utf8")}; axe.run(document, { runOnly: ["wcag2a", "wcag2aa"] })`);
+  check("axe finds nothing on the scar", axe.violations.length === 0, JSON.stringify(axe.violations.map(({ id, nodes }) => [id, nodes[0].html])));
+}
+
+/** The wall from another phase, whose cavity is another. */
+async function checkWallTaken(page) {
+  const before = await text(page, "#scar-where");
+  await page.getByLabel("wall of phase", { exact: true }).evaluate((range) => { range.value = "1"; range.dispatchEvent(new Event("input")); });
+  await page.locator("#take-wall").click();
+  await waitFor(page, "#said", "The wall is that of phase 1 now");
+  check("the wall is taken from another phase", (await text(page, "#scar-where")).includes("wall of phase 1") && !before.includes("wall of phase 1"), await text(page, "#scar-where"));
+  await page.locator("#scar-undo").click();
+  check("and undone", (await text(page, "#scar-where")).includes(/wall of phase \d+/.exec(before)[0]));
+}
+
+async function checkScarExport() {
+  const file = join(folder, "scar.html");
+  execFileSync(program, ["draw", scarStudy, "--to", join(folder, "scar_fresh"), "--export", file]);
+  const context = await browser.newContext({ viewport: { width: 1400, height: 950 }, acceptDownloads: true, offline: true });
+  const { page, said } = await open(pathToFileURL(file).href, context);
+  await showScar(page);
+  check("the exported page shows the scar", said.length === 0 && (await patch(page, red)) !== undefined, said.join("\n"));
+  check("its threshold needs the program, and says so", await page.getByLabel("threshold", { exact: true }).isDisabled() && (await page.content()).includes("The threshold needs ventricle draw itself"));
+  await page.getByLabel("muscle (erases)").check();
+  const before = await millilitres(page);
+  await drag(page, await patch(page, red), [12, 0]);
+  check("its brush works", (await millilitres(page)) < before);
+  const [download] = await Promise.all([page.waitForEvent("download"), page.locator("#save").click()]);
+  const result = join(folder, "scar.json");
+  await download.saveAs(result);
+  const own = join(folder, "scar_imported");
+  execFileSync(program, ["draw", scarStudy, "--to", own, "--import", result]);
+  check("what it lets download comes back", scarRows(join(own, "scar.csv")).some(({ how, slice }) => how === "corrected" && slice === "7"));
+  await context.close();
+}
+
+async function checkScar() {
+  writeFileSync(scarStudy, readFileSync(caseFile, "utf8") + '[infarct]\nsource = "lge"\n[infarct.lge]\nimage = "nifti/late_enhancement.nii.gz"\nthreshold = "fwhm"\n');
+  cpSync(join(study, "heart.segment"), join(study, "scar.segment"), { recursive: true });
+  const own = join(folder, "scar");
+  const server = await start(scarStudy, { more: ["--no-browser", "--to", own] });
+  const { page, said, context } = await open(server.url);
+  await page.getByLabel("drawn by (initials)").fill("KL");
+  await showScar(page);
+  const proposed = await checkThreshold(page);
+  await checkBrush(page, proposed);
+  await checkRemote(page);
+  await checkScarSaved(page, own);
+  await checkWallTaken(page);
+  await checkScarKeys(page);
+  const told = await (await fetch(`${server.url}study`)).text();
+  check("no path of the image stands in the page", ![await page.content(), told].some((all) => all.includes("nifti") || all.includes(folder)));
+  check("nothing went wrong with the scar", said.filter((line) => !line.includes("400")).length === 0, said.join("\n"));
+  await context.close();
+  await server.stop();
+  await checkScarExport();
+}
+
 async function takePictures(file) {
   const server = await start(file, { more: ["--no-browser", "--to", join(folder, "pictures")] });
   const { page, said } = await open(server.url);
@@ -569,6 +753,11 @@ async function timed(part, ...given) {
   return result;
 }
 
+async function onScar() {
+  makeStudy();
+  await checkScar();
+}
+
 async function checkAll() {
   await timed(makeStudy);
   const server = await timed(start, caseFile);
@@ -587,13 +776,15 @@ async function checkAll() {
   check("nothing went wrong on the way", one.said.filter((line) => !line.includes("409")).length === 0, one.said.join("\n"));
   await timed(checkStopped, one.page, server);
   await one.context.close();
-  for (const part of [checkReadOnly, checkKeyboard, checkBrowserFile, checkExport, checkFiveCorrections]) await timed(part);
+  for (const part of [checkReadOnly, checkKeyboard, checkBrowserFile, checkExport, checkFiveCorrections, checkScar]) await timed(part);
   console.log(`seconds: ${seconds.join(", ")}`);
 }
 
 try {
   const given = option("--case");
-  await (given ? takePictures(given) : checkAll());
+  if (given) await takePictures(given);
+  else if (process.argv.includes("--scar")) await onScar();
+  else await checkAll();
 } finally {
   await browser.close();
   rmSync(folder, { recursive: true, force: true });

@@ -501,6 +501,10 @@ constexpr Group of_infarct[]{
     {meshing,
      {&infarct_of_lge},
      {
+         path(
+             "infarct.lge.drawn", LV_AT(scar.lge.drawn),
+             "CSV of the scar's pixels on this image, as ventricle draw saves it (scar.csv): taken "
+             "instead of what a threshold finds"),
          choice("infarct.lge.threshold", LV_AT(scar.lge.threshold), "sd fwhm",
                 "scar is brighter than remote muscle by so many standard deviations, or than half "
                 "way from no signal to the brightest in the wall"),
@@ -1540,7 +1544,8 @@ const std::vector<Section>& sections() {
       {"infarct.elements", "Elements of an imported mesh (source = \"elements\")"},
       {"infarct.surface", "What a closed surface encloses (source = \"surface\")"},
       {"infarct.labels", "Voxels of a segmented image (source = \"labels\")"},
-      {"infarct.lge", "A late-enhancement image with a threshold (source = \"lge\")"},
+      {"infarct.lge",
+       "A late-enhancement image, with a threshold or with scar drawn on it (source = \"lge\")"},
       {"active",
        "Active tension; all but law and tension belong to the law of Niederer, Hunter and Smith"},
       {"active.land2017",

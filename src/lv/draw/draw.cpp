@@ -9,6 +9,7 @@
 #include "lv/base/table.hpp"
 #include "lv/draw/browser.hpp"
 #include "lv/draw/bundle.hpp"
+#include "lv/draw/enhancement_json.hpp"
 #include "lv/draw/server.hpp"
 #include "lv/draw/study.hpp"
 #include "lv/draw/study_json.hpp"
@@ -34,16 +35,29 @@ Answer keep(Study& study, const std::string& body, bool whatever_stands) {
   Kept kept = read_kept(body, study);
   if (kept.revision != study.revision && !whatever_stands)
     return refused(409, "another tab has saved since this one was opened");
-  save(study, std::move(kept.drawing));
+  save(study, std::move(kept.drawing), std::move(kept.scar));
   return {200, "application/json", nlohmann::json{{"revision", study.revision}}.dump()};
 }
 
-Answer slice_of(const Study& study, std::string_view number) {
+Answer slice_of(const image::Cine& stack, const Greys& greys, std::string_view number) {
   const auto slice = number_of<int>(number);
-  if (!slice || *slice < 1 || *slice > static_cast<int>(study.cine.slices.size()))
+  if (!slice || *slice < 1 || *slice > static_cast<int>(stack.slices.size()))
     return refused(404, "there is no such slice");
   return {200, "application/octet-stream",
-          slice_bytes(study, static_cast<std::size_t>(*slice - 1))};
+          grey_bytes(stack.slices[static_cast<std::size_t>(*slice - 1)], greys)};
+}
+
+/// Where the wall lies on the enhanced slices, and the scar in it.
+std::optional<std::string> of_scar(const Study& study, const Request& request) {
+  if (!study.enhancement)
+    return std::nullopt;
+  const image::Cine& image = study.enhancement->image;
+  if (request.place == "wall")
+    return walls_text(walls_on(study.settings, image, read_wall_lines(request.body, study)));
+  if (request.place == "scar")
+    return scar_map_text(propose_scar(study.settings, image, read_scar_wish(request.body, study)),
+                         image);
+  return std::nullopt;
 }
 
 std::string redrawn(const Study& study, const std::string& body) {
@@ -53,27 +67,36 @@ std::string redrawn(const Study& study, const std::string& body) {
                                      "what the page sent"));
 }
 
+Answer shown(const Study& study, const std::string& place) {
+  constexpr std::string_view slices = "slice/";
+  constexpr std::string_view enhanced = "enhanced/";
+  if (place.empty())
+    return {200, "text/html; charset=utf-8", std::string(page_bundle())};
+  if (place == "study")
+    return {200, "application/json", study_json(study)};
+  if (place == "alive")
+    return {200, "application/json", nlohmann::json{{"revision", study.revision}}.dump()};
+  if (place.starts_with(slices))
+    return slice_of(study.cine, study.greys, std::string_view(place).substr(slices.size()));
+  if (place.starts_with(enhanced) && study.enhancement)
+    return slice_of(study.enhancement->image, study.enhancement->greys,
+                    std::string_view(place).substr(enhanced.size()));
+  return refused(404, "there is nothing of this name");
+}
+
 /// All that the page asks for.
 Answer answer(Study& study, const Request& request) {
-  constexpr std::string_view slices = "slice/";
   const std::string& place = request.place;
-  if (request.method == "GET") {
-    if (place.empty())
-      return {200, "text/html; charset=utf-8", std::string(page_bundle())};
-    if (place == "study")
-      return {200, "application/json", study_json(study)};
-    if (place == "alive")
-      return {200, "application/json", nlohmann::json{{"revision", study.revision}}.dump()};
-    if (place.starts_with(slices))
-      return slice_of(study, std::string_view(place).substr(slices.size()));
-    return refused(404, "there is nothing of this name");
-  }
+  if (request.method == "GET")
+    return shown(study, place);
   if (place == "save" || place == "overwrite")
     return keep(study, request.body, place == "overwrite");
   if (place == "segment")
     return {200, "application/json", proposal_json(propose(study, read_centre(request.body)))};
   if (place == "redraw")
     return {200, "application/json", redrawn(study, request.body)};
+  if (auto text = of_scar(study, request))
+    return {200, "application/json", std::move(*text)};
   return refused(404, "there is nothing of this name");
 }
 
@@ -105,6 +128,11 @@ std::string page_with(const Study& study) {
   for (std::size_t s = 0; s < study.cine.slices.size(); ++s)
     page += fmt::format("<script type=\"text/plain\" id=\"slice-{}\">{}</script>\n", s + 1,
                         packed(slice_bytes(study, s)));
+  if (study.enhancement)
+    for (std::size_t s = 0; s < study.enhancement->image.slices.size(); ++s)
+      page += fmt::format(
+          "<script type=\"text/plain\" id=\"enhanced-{}\">{}</script>\n", s + 1,
+          packed(grey_bytes(study.enhancement->image.slices[s], study.enhancement->greys)));
   page += bundle.substr(at + mark.size());
   return page;
 }
@@ -141,7 +169,8 @@ void run(const case_file::Case& c, const Options& options) {
   Study study = open_study(c, folder);
   if (!options.drawing.empty()) {
     require_readable(options.drawing, "Name what the page let you download");
-    save(study, read_kept(read_file(options.drawing), study).drawing);
+    Kept kept = read_kept(read_file(options.drawing), study);
+    save(study, std::move(kept.drawing), std::move(kept.scar));
     print(fmt::format("wrote {}\n", folder.string()));
   } else if (!options.page.empty()) {
     write_file(options.page, page_with(study));

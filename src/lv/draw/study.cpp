@@ -5,6 +5,7 @@
 #include "lv/base/table.hpp"
 #include "lv/geometry/contour_measures.hpp"
 #include "lv/geometry/contour_table.hpp"
+#include "lv/image/label_contours.hpp"
 #include "lv/image/volume.hpp"
 
 #include <fmt/format.h>
@@ -155,23 +156,6 @@ Proposal find_proposal(const case_file::Case& c, const image::Cine& cine) {
           read_doubts(folder / "segmentation.txt")};
 }
 
-Greys grey_range(const image::Cine& cine) {
-  constexpr std::size_t step = 17;  // of the pixels that are looked at
-  std::vector<float> some;
-  for (const image::CineSlice& slice : cine.slices)
-    for (const image::Picture& frame : slice.frames)
-      for (std::size_t i = 0; i < frame.values.size(); i += step)
-        if (std::isfinite(frame.values[i]))
-          some.push_back(frame.values[i]);
-  if (some.empty())
-    return {0.0F, 1.0F};
-  std::sort(some.begin(), some.end());
-  const std::size_t out = some.size() / 1000;
-  const float low = some[out];
-  const float high = some[some.size() - 1 - out];
-  return {low, high > low ? high : low + 1.0F};
-}
-
 void write_phase(const fs::path& file, const std::vector<Contour>& lines) {
   if (!lines.empty())
     geometry::contour_table(lines).write_csv(file);
@@ -241,9 +225,21 @@ Study open_study(const case_file::Case& c, const fs::path& folder) {
                      read_confidence(folder / "quality.csv")};
   else
     study.drawing = {study.proposal.lines, {}, study.proposal.confidence};
+  const int phase = shape_phase(study);
+  study.enhancement = open_enhancement(c, folder, phase, study.drawing.lines.at(phase - 1));
   if (!may_write(folder))
     study.hindrance = fmt::format("{} may not be written", folder.filename().string());
   return study;
+}
+
+int shape_phase(const Study& study) {
+  std::vector<double> volumes;
+  for (const std::vector<Contour>& lines : study.drawing.lines)
+    volumes.push_back(within(lines, Side::endo, study.spacing));
+  const image::Phases phases = image::propose_phases(volumes);
+  return 1 + (study.settings.anatomy.cine.moment == case_file::ShapeMoment::end_diastole
+                  ? phases.end_diastole
+                  : phases.early_diastole);
 }
 
 Proposal propose(const Study& study, const Vec3& centre) {
@@ -252,7 +248,7 @@ Proposal propose(const Study& study, const Vec3& centre) {
   return proposal_of(study.cine, segment::segment(study.cine, parameters, "segment.centre"));
 }
 
-void save(Study& study, Drawing drawing) {
+void save(Study& study, Drawing drawing, std::optional<ScarDrawing> scar) {
   if (!may_write(study.folder))
     throw RunError(fmt::format("{} may not be written", study.folder.filename().string()),
                    "Allow it, or download the drawing");
@@ -262,6 +258,8 @@ void save(Study& study, Drawing drawing) {
   write_marks(drawing, study.folder);
   write_quality(drawing, study.folder);
   write_volumes(drawing, study.spacing, study.folder);
+  if (scar && study.enhancement)
+    save_scar(*study.enhancement, std::move(*scar), study.folder);
   study.drawing = std::move(drawing);
   study.saved = true;
   ++study.revision;

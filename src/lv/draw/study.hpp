@@ -1,11 +1,14 @@
 #pragma once
 
 #include "lv/case_file/case.hpp"
+#include "lv/draw/enhancement.hpp"
+#include "lv/draw/greys.hpp"
 #include "lv/geometry/contours.hpp"
 #include "lv/geometry/landmarks.hpp"
 #include "lv/segment/segment.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,11 +37,6 @@ struct Drawing {
   std::vector<Confidence> confidence;
 };
 
-/// The grey values that are shown black and white.
-struct Greys {
-  float low = 0.0F, high = 1.0F;
-};
-
 /// A cine with its borders, and where they are kept.
 struct Study {
   std::string name;  ///< of the case
@@ -49,6 +47,7 @@ struct Study {
   double spacing = 0.0;  ///< between slices [mm]
   Proposal proposal;
   Drawing drawing;
+  std::optional<Enhancement> enhancement;
   bool saved = false;     ///< the drawing comes from its folder
   std::string hindrance;  ///< why nothing can be saved; empty if it can
   int revision = 0;       ///< grows with each time it is saved
@@ -62,6 +61,9 @@ struct Study {
 /// InputError where the case does not name the cine, or a folder holds borders of another one.
 [[nodiscard]] Study open_study(const case_file::Case& c, const std::filesystem::path& folder);
 
+/// The phase, from 1, of segment.moment by the volumes of the drawing (areas times spacing).
+[[nodiscard]] int shape_phase(const Study& study);
+
 /// Segments again, round a point of the ventricle's blood [image space, mm].
 [[nodiscard]] Proposal propose(const Study& study, const Vec3& centre);
 
@@ -73,7 +75,8 @@ struct Study {
 ///   quality.csv            confidence of the proposal that the drawing started from
 ///   volumes.csv            cavity and muscle per phase, areas times spacing
 ///
-/// and takes them for the study's. Throws RunError when a file cannot be written.
-void save(Study& study, Drawing drawing);
+/// and the scar, if there is one to keep (see save_scar), and takes them for the study's. Throws
+/// RunError when a file cannot be written.
+void save(Study& study, Drawing drawing, std::optional<ScarDrawing> scar = {});
 
 }  // namespace lv::draw

@@ -2,6 +2,8 @@
 
 #include "lv/base/check.hpp"
 #include "lv/base/json_file.hpp"
+#include "lv/draw/enhancement_json.hpp"
+#include "lv/draw/said.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -18,9 +20,6 @@ using geometry::Contour;
 using geometry::Landmark;
 using geometry::Side;
 using nlohmann::json;
-
-constexpr const char* what_page = "what the page sent";
-constexpr const char* reload = "Reload the page, and draw again what is wrong";
 
 json numbers(const Vec3& x) {
   const auto rounded = [](double v) { return std::round(1e3 * v) / 1e3; };
@@ -67,118 +66,35 @@ json landmarks_json(const std::vector<Landmark>& landmarks) {
   return all;
 }
 
-json planes_json(const image::Cine& cine) {
-  json all = json::array();
-  for (const image::CineSlice& slice : cine.slices) {
-    const image::Plane& plane = slice.frames.front().plane;
-    const auto exact = [](const Vec3& x) { return json{x.x(), x.y(), x.z()}; };
-    all.push_back({{"columns", plane.columns},
-                   {"rows", plane.rows},
-                   {"origin", exact(plane.origin)},
-                   {"along_row", exact(plane.along_row)},
-                   {"along_column", exact(plane.along_column)},
-                   {"spacing", {plane.spacing_i, plane.spacing_j}}});
-  }
-  return all;
-}
-
 /// Beats do not last alike on all slices: times of the middle one.
 json times_json(const image::Cine& cine) {
   return cine.slices[cine.slices.size() / 2].times;
 }
 
-Vec3 point(const json& x) {
-  if (!x.is_array() || x.size() != 3)
-    throw InputError(what_page, "a point has not three coordinates", reload);
-  const Vec3 p(x[0].get<double>(), x[1].get<double>(), x[2].get<double>());
-  if (!p.allFinite())
-    throw InputError(what_page, "a coordinate is no number", reload);
-  return p;
-}
-
-/// A number from 1 to `most`.
-int counted(const json& object, const char* name, std::size_t most) {
-  const int n = object.at(name).get<int>();
-  if (n < 1 || n > static_cast<int>(most))
-    throw InputError(what_page, fmt::format("there is no {} {}", name, n), reload);
-  return n;
-}
-
-/// A word that an observer typed: one line that is short.
-std::string word(const json& object, const char* name) {
-  constexpr std::size_t longest = 60;
-  return printable(object.at(name).get<std::string>()).substr(0, longest);
-}
-
-void check_plane(const Vec3& x, int slice, const Study& study) {
-  constexpr double farthest = 1.0;  // [mm]
-  const image::Plane& plane = study.cine.slices[slice - 1].frames.front().plane;
-  const Vec3 pixel = plane.pixel(x);
-  if (std::abs(pixel.z()) > farthest || pixel.x() < -plane.columns ||
-      pixel.x() > 2 * plane.columns || pixel.y() < -plane.rows || pixel.y() > 2 * plane.rows)
-    throw InputError(what_page, fmt::format("a point lies off slice {}", slice), reload);
-}
-
-/// So many points of a slice.
-std::vector<Vec3> points_of(const json& said, int slice, const Study& study, std::size_t fewest,
-                            std::size_t most) {
-  if (said.size() < fewest || said.size() > most)
-    throw InputError(what_page, fmt::format("a line of slice {} has {} points", slice, said.size()),
-                     reload);
-  std::vector<Vec3> points;
-  for (const json& x : said) {
-    points.push_back(point(x));
-    check_plane(points.back(), slice, study);
-  }
-  return points;
-}
-
-constexpr std::size_t fewest_of_line = 3;
-constexpr std::size_t most_of_line = 2000;
-
-Side side_of(const json& said) {
-  const std::string side = said.at("side").get<std::string>();
-  if (side != "endo" && side != "epi")
-    throw InputError(what_page, "a line is neither endo nor epi", reload);
-  return side == "endo" ? Side::endo : Side::epi;
-}
-
-Contour line_of(const json& said, const Study& study) {
-  Contour line;
-  line.slice = counted(said, "slice", study.cine.slices.size());
-  line.side = side_of(said);
-  const std::string how = said.at("how").get<std::string>();
-  if (how != "proposed" && how != "corrected" && how != "drawn")
-    throw InputError(what_page, "a line does not say how it was drawn", reload);
-  line.drawn = {how, word(said, "by"), word(said, "when")};
-  line.points = points_of(said.at("points"), line.slice, study, fewest_of_line, most_of_line);
-  return line;
-}
-
 Redrawn wish_of(const json& said, const Study& study) {
   constexpr std::size_t most_points = 100;
-  const int slice = counted(said, "slice", study.cine.slices.size());
+  const int slice = said_number(said, "slice", study.cine.slices.size());
   const auto line = [&](const char* name) {
     return said.at(name).empty()
                ? std::vector<Vec3>()
-               : points_of(said.at(name), slice, study, fewest_of_line, most_of_line);
+               : said_points(said.at(name), slice, study, fewest_of_line, most_of_line);
   };
   return {static_cast<std::size_t>(slice - 1),
-          {.side = side_of(said),
-           .frame = static_cast<std::size_t>(counted(said, "phase", study.phases()) - 1),
-           .points = points_of(said.at("points"), slice, study, 1, most_points),
+          {.side = said_side(said),
+           .frame = static_cast<std::size_t>(said_number(said, "phase", study.phases()) - 1),
+           .points = said_points(said.at("points"), slice, study, 1, most_points),
            .endo = line("endo"),
            .epi = line("epi")}};
 }
 
 Landmark landmark_of(const json& said, const Study& study) {
   Landmark mark{said.at("name").get<std::string>(),
-                counted(said, "slice", study.cine.slices.size()), point(said.at("at")),
-                word(said, "by"), word(said, "when")};
+                said_number(said, "slice", study.cine.slices.size()), said_point(said.at("at")),
+                said_word(said, "by"), said_word(said, "when")};
   const auto& names = geometry::landmark_names;
   if (std::find(names.begin(), names.end(), mark.name) == names.end())
     throw InputError(what_page, "a landmark has an unknown name", reload);
-  check_plane(mark.at, mark.slice, study);
+  check_on_slice(mark.at, mark.slice, study);
   return mark;
 }
 
@@ -188,8 +104,8 @@ Kept kept_of(const json& said, const Study& study) {
   kept.drawing.lines.resize(study.phases());
   std::set<std::tuple<int, int, Side>> there;
   for (const json& line : said.at("contours")) {
-    const int phase = counted(line, "phase", study.phases());
-    Contour read = line_of(line, study);
+    const int phase = said_number(line, "phase", study.phases());
+    Contour read = said_line(line, study);
     if (!there.emplace(phase, read.slice, read.side).second)
       throw InputError(what_page, fmt::format("slice {} has a border twice", read.slice), reload);
     kept.drawing.lines[phase - 1].push_back(std::move(read));
@@ -205,19 +121,13 @@ Kept kept_of(const json& said, const Study& study) {
     kept.drawing.landmarks.push_back(std::move(read));
   }
   for (const json& sure : said.at("confidence"))
-    kept.drawing.confidence.push_back(
-        {counted(sure, "slice", study.cine.slices.size()), counted(sure, "phase", study.phases()),
-         sure.at("endo").get<double>(), sure.at("epi").get<double>()});
+    kept.drawing.confidence.push_back({said_number(sure, "slice", study.cine.slices.size()),
+                                       said_number(sure, "phase", study.phases()),
+                                       sure.at("endo").get<double>(),
+                                       sure.at("epi").get<double>()});
+  if (said.contains("scar"))
+    kept.scar = said_scar(said.at("scar"), study);
   return kept;
-}
-
-template <class Use>
-auto from_text(const std::string& text, const Use& use) {
-  try {
-    return use(json::parse(text));
-  } catch (const json::exception&) {
-    throw InputError(what_page, "is no drawing", reload);
-  }
 }
 
 }  // namespace
@@ -235,6 +145,7 @@ std::string study_json(const Study& study) {
                  {"confidence", confidence_json(study.drawing.confidence)},
                  {"proposal", lines_json(study.proposal.lines)},
                  {"doubts", study.proposal.doubts},
+                 {"scar", enhancement_json(study)},
                  {"saved", study.saved},
                  {"hindrance", study.hindrance},
                  {"revision", study.revision}};
@@ -253,7 +164,7 @@ Kept read_kept(const std::string& text, const Study& study) {
 }
 
 Vec3 read_centre(const std::string& text) {
-  return from_text(text, [](const json& said) { return point(said.at("centre")); });
+  return from_text(text, [](const json& said) { return said_point(said.at("centre")); });
 }
 
 Redrawn read_wish(const std::string& text, const Study& study) {
@@ -265,15 +176,7 @@ std::string points_json(const std::vector<Vec3>& points) {
 }
 
 std::string slice_bytes(const Study& study, std::size_t slice) {
-  const auto [low, high] = study.greys;
-  std::string bytes;
-  for (const image::Picture& frame : study.cine.slices[slice].frames)
-    for (const float v : frame.values) {
-      const float part = std::isfinite(v) ? (v - low) / (high - low) : 0.0F;
-      bytes.push_back(
-          static_cast<char>(static_cast<unsigned char>(std::clamp(255.0F * part, 0.0F, 255.0F))));
-    }
-  return bytes;
+  return grey_bytes(study.cine.slices[slice], study.greys);
 }
 
 }  // namespace lv::draw

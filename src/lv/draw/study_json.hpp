@@ -3,6 +3,7 @@
 #include "lv/draw/study.hpp"
 #include "lv/segment/redraw.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,7 @@ namespace lv::draw {
 struct Kept {
   int revision = 0;  ///< of the study that the page started from
   Drawing drawing;
+  std::optional<ScarDrawing> scar;  ///< where the page has changed it, or it was kept before
 };
 
 /// Reads and checks it: slices and phases of this study, lines in their planes, of three to 2000

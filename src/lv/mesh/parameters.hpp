@@ -90,6 +90,7 @@ enum class ScarThreshold {
 struct LateEnhancement {
   std::string image;                ///< NIfTI file, or folder of DICOM files
   std::vector<std::string> series;  ///< of the DICOM files; empty: the only one
+  std::string drawn;                ///< CSV of the scar's pixels, instead of a threshold; or empty
   ScarThreshold threshold = ScarThreshold::sd;
   double deviations = 5.0;    ///< above the mean of remote muscle
   std::vector<int> remote;    ///< AHA segments of remote muscle; empty: not said

@@ -11,6 +11,8 @@
 #include "lv/mesh/surface.hpp"
 #include "lv/mesh_io/closed_surface.hpp"
 #include "lv/mesh_io/label_volume.hpp"
+#include "lv/scar/late_enhancement.hpp"
+#include "lv/scar/scar_map.hpp"
 #include "lv/scar/scar_threshold.hpp"
 #include "lv/scar/slice_moves.hpp"
 
@@ -188,23 +190,6 @@ std::vector<double> brightness(const Case& c, const anatomy::Shape& shape, const
   return values;
 }
 
-image::Cine read_lge(const Case& c) {
-  const mesh::LateEnhancement& lge = c.scar.lge;
-  const std::string file = case_file::beside(c, lge.image).string();
-  image::Cine image = image::is_volume_name(file)
-                          ? image::read_volume_cine(file)
-                          : image::read_dicom_cine(std::array{std::filesystem::path(file)},
-                                                   lge.series, "infarct.lge.series");
-  for (const image::CineSlice& slice : image.slices)
-    if (slice.frames.size() != 1)
-      throw InputError(
-          file, fmt::format("{} has {} images of different times", slice.name, slice.frames.size()),
-          "A late-enhancement image has one for each slice: choose the series");
-  for (const std::string& note : image.notes)
-    log::warn("late enhancement: {}", note);
-  return image;
-}
-
 /// A side of the wall as the shifted images have it.
 Triangles in_images(const Case& c, const anatomy::Shape& shape, const Mesh& mesh,
                     const mesh::Surface& side) {
@@ -267,8 +252,27 @@ Infarct with_dark_core(const Mesh& mesh, Infarct infarct) {
   return infarct;
 }
 
+/// What an observer drew on the image, or left as it was proposed.
+Infarct as_drawn(const Case& c, const anatomy::Shape& shape, const Mesh& mesh) {
+  const image::Cine lge = read_late_enhancement(c);
+  const std::string file = case_file::beside(c, c.scar.lge.drawn).string();
+  image::Cine scar = scar_stack(read_scar_map(file, lge), lge);
+  std::optional<Table> slice_moves;
+  if (c.scar.lge.in_plane) {
+    const std::vector<SliceMove> moves = moves_onto_wall(c, shape, mesh, lge);
+    move_slices(scar, moves);
+    slice_moves = table_of(lge, moves);
+  }
+  Infarct infarct = within(
+      c, shape, mesh,
+      [&](const Vec3& X, double) { return image::sample(scar, in_images(c, shape, X)) > 0.5; },
+      fmt::format("drawn in {}", file));
+  infarct.slice_moves = std::move(slice_moves);
+  return infarct;
+}
+
 Infarct by_brightness(const Case& c, const anatomy::Shape& shape, const Mesh& mesh) {
-  image::Cine lge = read_lge(c);
+  image::Cine lge = read_late_enhancement(c);
   std::optional<Table> slice_moves;
   if (c.scar.lge.in_plane) {
     const std::vector<SliceMove> moves = moves_onto_wall(c, shape, mesh, lge);
@@ -319,8 +323,9 @@ Infarct of_elements(const Case& c, const anatomy::Shape& shape, const Mesh& mesh
 /// Files may mean something else than was thought; who describes an infarct knows its size.
 void ask_if_large(const Case& c, const Mesh& mesh, const Infarct& infarct) {
   constexpr double large = 0.5;
-  const bool from_file = c.scar.source != InfarctSource::described &&
-                         c.scar.source != InfarctSource::lge;  // see check_extent
+  const bool by_threshold =  // see check_extent
+      c.scar.source == InfarctSource::lge && c.scar.lge.drawn.empty();
+  const bool from_file = c.scar.source != InfarctSource::described && !by_threshold;
   const double part = part_of_wall(mesh, infarct.part);
   if (from_file && part > large)
     log::warn("the infarct is {:.1f}% of the wall: is so large a scar meant?", 100.0 * part);
@@ -335,7 +340,7 @@ Infarct infarcted(const Case& c, const anatomy::Shape& shape, const Mesh& mesh) 
     case InfarctSource::labels:
       return within_labels(c, shape, mesh);
     case InfarctSource::lge:
-      return by_brightness(c, shape, mesh);
+      return c.scar.lge.drawn.empty() ? by_brightness(c, shape, mesh) : as_drawn(c, shape, mesh);
     default:
       return of_elements(c, shape, mesh);
   }
@@ -360,7 +365,8 @@ case_file::Missing missing_of_lge(const Case& c, std::string& found) {
       found = fmt::format("{} holds{}", lge.image, image::choices(study));
     }
   }
-  if (!missing.empty() && lge.remote.empty() && lge.threshold == mesh::ScarThreshold::sd)
+  if (!missing.empty() && lge.drawn.empty() && lge.remote.empty() &&
+      lge.threshold == mesh::ScarThreshold::sd)
     missing.add({"infarct.lge.remote", case_file::fill_in,
                  "AHA segments (1 to 17) of remote, healthy muscle, such as [4, 5]; not needed "
                  "with threshold = \"fwhm\""});

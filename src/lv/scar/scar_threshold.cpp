@@ -19,38 +19,25 @@ namespace {
 
 using case_file::Case;
 
-/// The wall as an image shows it, per element.
-struct WallGreys {
-  std::vector<double> greys, volumes;
+/// The wall's elements as an image shows them.
+struct Elements {
+  WallGreys wall;
   std::vector<int> segments;  ///< AHA, 1 to 17
 };
 
-WallGreys wall_greys(const Case& c, const mesh::Mesh& mesh, const std::vector<double>& greys) {
-  WallGreys wall{greys, {}, mesh::divide(mesh, c.regions).aha};
+Elements elements_of(const Case& c, const mesh::Mesh& mesh, const std::vector<double>& greys) {
+  Elements all{{greys, {}}, mesh::divide(mesh, c.regions).aha};
   for (int cell = 0; cell < mesh.cell_count(); ++cell)
-    wall.volumes.push_back(mesh::cell_volume(mesh, cell));
-  return wall;
+    all.wall.volumes.push_back(mesh::cell_volume(mesh, cell));
+  return all;
 }
 
-/// Mean and some standard deviations of the segments; none if the image shows nothing of them.
-std::optional<double> threshold_of(const WallGreys& wall, const std::vector<int>& remote,
+std::optional<double> threshold_of(const Elements& all, const std::vector<int>& remote,
                                    double deviations) {
-  double V = 0.0;
-  double first = 0.0;
-  double second = 0.0;
-  for (std::size_t e = 0; e < wall.greys.size(); ++e) {
-    const double grey = wall.greys[e];
-    if (std::isnan(grey) ||
-        std::find(remote.begin(), remote.end(), wall.segments[e]) == remote.end())
-      continue;
-    V += wall.volumes[e];
-    first += wall.volumes[e] * grey;
-    second += wall.volumes[e] * grey * grey;
-  }
-  if (V == 0.0)
-    return std::nullopt;
-  const double mean = first / V;
-  return mean + deviations * std::sqrt(std::max(0.0, second / V - mean * mean));
+  std::vector<char> chosen;
+  for (const int segment : all.segments)
+    chosen.push_back(std::find(remote.begin(), remote.end(), segment) != remote.end() ? 1 : 0);
+  return above_remote(all.wall, chosen, deviations);
 }
 
 /// Volume of the elements whose centre is brighter [ml].
@@ -62,17 +49,17 @@ double scar_above(const WallGreys& wall, double threshold) {
 }
 
 /// "1: 24.1, 2: 20.3 and so on ml".
-std::string scar_by_segment(const WallGreys& wall, double deviations) {
+std::string scar_by_segment(const Elements& all, double deviations) {
   std::vector<std::string> each;
-  for (const int segment : std::set<int>(wall.segments.begin(), wall.segments.end()))
-    if (const auto threshold = threshold_of(wall, {segment}, deviations))
-      each.push_back(fmt::format("{}: {:.1f}", segment, scar_above(wall, *threshold)));
+  for (const int segment : std::set<int>(all.segments.begin(), all.segments.end()))
+    if (const auto threshold = threshold_of(all, {segment}, deviations))
+      each.push_back(fmt::format("{}: {:.1f}", segment, scar_above(all.wall, *threshold)));
   return fmt::format("{} ml", fmt::join(each, ", "));
 }
 
-double by_deviations(const Case& c, const WallGreys& wall) {
+double by_deviations(const Case& c, const Elements& all) {
   const mesh::LateEnhancement& lge = c.scar.lge;
-  const std::string each = scar_by_segment(wall, lge.deviations);
+  const std::string each = scar_by_segment(all, lge.deviations);
   if (lge.remote.empty())
     throw InputError(
         case_file::place_of(c, "infarct.source"),
@@ -80,13 +67,13 @@ double by_deviations(const Case& c, const WallGreys& wall) {
                     "is {}",
                     each),
         "Name the AHA segments of remote, healthy muscle, or set threshold = \"fwhm\"");
-  const auto threshold = threshold_of(wall, lge.remote, lge.deviations);
+  const auto threshold = threshold_of(all, lge.remote, lge.deviations);
   if (!threshold)
     throw InputError(case_file::place_of(c, "infarct.lge.remote"),
                      "the image shows nothing of the remote segments",
                      "Name segments between 1 and 17 that the image covers");
   log::info("late enhancement: {:.1f} ml of scar by the remote segments {}; by one alone, {}",
-            scar_above(wall, *threshold), fmt::join(lge.remote, ", "), each);
+            scar_above(all.wall, *threshold), fmt::join(lge.remote, ", "), each);
   return *threshold;
 }
 
@@ -124,6 +111,27 @@ double zero_level(const Case& c, const image::Cine& image, double brightest) {
                   quantile(image, true, 0.5)));
 }
 
+}  // namespace
+
+std::optional<double> above_remote(const WallGreys& wall, const std::vector<char>& remote,
+                                   double deviations) {
+  double V = 0.0;
+  double first = 0.0;
+  double second = 0.0;
+  for (std::size_t e = 0; e < wall.greys.size(); ++e) {
+    const double grey = wall.greys[e];
+    if (std::isnan(grey) || remote[e] == 0)
+      continue;
+    V += wall.volumes[e];
+    first += wall.volumes[e] * grey;
+    second += wall.volumes[e] * grey * grey;
+  }
+  if (V == 0.0)
+    return std::nullopt;
+  const double mean = first / V;
+  return mean + deviations * std::sqrt(std::max(0.0, second / V - mean * mean));
+}
+
 double half_of_brightest(const Case& c, const image::Cine& image,
                          const std::vector<double>& greys) {
   double brightest = -std::numeric_limits<double>::infinity();
@@ -140,13 +148,11 @@ double half_of_brightest(const Case& c, const image::Cine& image,
   return zero + 0.5 * (brightest - zero);
 }
 
-}  // namespace
-
 double scar_threshold(const Case& c, const mesh::Mesh& mesh, const image::Cine& image,
                       const std::vector<double>& greys) {
   return c.scar.lge.threshold == mesh::ScarThreshold::fwhm
              ? half_of_brightest(c, image, greys)
-             : by_deviations(c, wall_greys(c, mesh, greys));
+             : by_deviations(c, elements_of(c, mesh, greys));
 }
 
 }  // namespace lv::scar

@@ -2,55 +2,17 @@
 
 #include "lv/base/log.hpp"
 #include "lv/base/time_left.hpp"
-#include "lv/geometry/polygon.hpp"
 #include "lv/image/slice_registration.hpp"
-#include "lv/strain/measures.hpp"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace lv::scar {
 namespace {
 
-using geometry::Polygon;
-
-/// The lines in which a plane cuts a side, in mm along the plane's rows and columns.
-std::vector<Polygon> lines_in(const Triangles& side, const image::Plane& plane) {
-  std::vector<Polygon> lines;
-  for (const auto& line : strain::cut(side, plane.origin, plane.normal())) {
-    Polygon& flat = lines.emplace_back();
-    for (const Vec3& x : line)
-      flat.emplace_back((x - plane.origin).dot(plane.along_row),
-                        (x - plane.origin).dot(plane.along_column));
-  }
-  return lines;
-}
-
-bool is_closed(const Polygon& line) {
-  constexpr double same = 1e-6;  // [mm]
-  return (line.front() - line.back()).norm() < same;
-}
-
-/// The wall's outlines in a plane; `endo` is empty below the cavity.
-struct WallOutlines {
-  Polygon endo, epi;
-};
-
-/// None where the plane misses the wall or cuts it open, at the base.
-std::optional<WallOutlines> outlines(const Triangles& endo, const Triangles& epi,
-                                     const image::Plane& plane) {
-  const std::vector<Polygon> inner = lines_in(endo, plane);
-  const std::vector<Polygon> outer = lines_in(epi, plane);
-  if (outer.size() != 1 || inner.size() > 1 || !is_closed(outer.front()) ||
-      (!inner.empty() && !is_closed(inner.front())))
-    return {};
-  return WallOutlines{inner.empty() ? Polygon{} : inner.front(), outer.front()};
-}
-
-/// The same through the slab of a slice, from `below` to `above` its plane.
+/// The wall's outlines through the slab of a slice, from `below` to `above` its plane.
 std::vector<WallOutlines> outlines_in_slab(const Triangles& endo, const Triangles& epi,
                                            const image::Plane& plane, double below, double above) {
   constexpr int levels = 6;
@@ -58,17 +20,10 @@ std::vector<WallOutlines> outlines_in_slab(const Triangles& endo, const Triangle
   for (int k = 0; k < levels; ++k) {
     image::Plane level = plane;
     level.origin += (-below + (k + 0.5) / levels * (below + above)) * plane.normal();
-    if (const auto found = outlines(endo, epi, level))
+    if (const auto found = wall_outlines(endo, epi, level))
       all.push_back(*found);
   }
   return all;
-}
-
-/// 0 cavity, 1 wall, 2 surroundings.
-int tissue_at(const WallOutlines& lines, const Eigen::Vector2d& x) {
-  if (!geometry::encloses(lines.epi, x))
-    return 2;
-  return !lines.endo.empty() && geometry::encloses(lines.endo, x) ? 0 : 1;
 }
 
 /// What the wall says of a slice, up to 10 mm around it, on points half a pixel apart.
@@ -87,7 +42,7 @@ image::SliceTissue tissue_of(const std::vector<WallOutlines>& slab, const image:
       image::SliceTissue::Point point{plane.origin + x * plane.along_row + y * plane.along_column,
                                       {}};
       for (const WallOutlines& level : slab)
-        point.parts[tissue_at(level, {x, y})] += 1.0 / static_cast<double>(slab.size());
+        point.parts[part_at(level, {x, y})] += 1.0 / static_cast<double>(slab.size());
       tissue.points.push_back(point);
     }
   return tissue;

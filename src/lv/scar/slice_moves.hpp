@@ -2,14 +2,11 @@
 
 #include "lv/base/table.hpp"
 #include "lv/image/picture.hpp"
+#include "lv/scar/wall_outlines.hpp"
 
-#include <array>
 #include <vector>
 
 namespace lv::scar {
-
-/// Corners of the triangles of a surface.
-using Triangles = std::vector<std::array<Vec3, 3>>;
 
 /// Whether a slice shows where the wall lies in it.
 enum class Evidence {

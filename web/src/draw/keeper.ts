@@ -1,5 +1,6 @@
 // Where the study comes from and where the drawing goes: the program that serves the page, or the page itself.
 import { save as download } from "../dom.ts";
+import type { SaidMap, Wall } from "./scar.ts";
 import type { Place, Point, SaidProposal, SaidStudy, Side } from "./study.ts";
 
 /** One border and the points through which it is wanted; lines that do not stand are empty. */
@@ -17,11 +18,17 @@ export interface Keeper {
   study(): Promise<SaidStudy>;
   /** Grey values of a slice, phase by phase. */
   slice(number: number): Promise<Uint8Array<ArrayBuffer>>;
+  /** Those of an enhanced slice. */
+  enhanced(number: number): Promise<Uint8Array<ArrayBuffer>>;
   /** Keeps a drawing and says the new revision; none where it was downloaded. */
   save?(drawing: string, whateverStands: boolean): Promise<number>;
   propose?(centre: Point): Promise<SaidProposal>;
   /** A border anew through points of it. */
   redraw?(wish: Wish): Promise<Point[]>;
+  /** Where the wall within borders of the cine lies on the enhanced slices. */
+  wall?(lines: string): Promise<(Wall | null)[]>;
+  /** The scar that a threshold finds. */
+  scar?(wish: string): Promise<SaidMap>;
   /** The revision that stands. */
   alive?(): Promise<number>;
 }
@@ -41,21 +48,26 @@ async function ask(place: string, body?: string): Promise<Response> {
 const served: Keeper = {
   study: async () => (await ask("study")).json(),
   slice: async (number) => new Uint8Array(await (await ask(`slice/${number}`)).arrayBuffer()),
+  enhanced: async (number) => new Uint8Array(await (await ask(`enhanced/${number}`)).arrayBuffer()),
   save: async (drawing, whateverStands) => (await (await ask(whateverStands ? "overwrite" : "save", drawing)).json()).revision,
   propose: async (centre) => (await ask("segment", JSON.stringify({ centre }))).json(),
   redraw: async (wish) => (await (await ask("redraw", JSON.stringify(wish))).json()).points,
+  wall: async (lines) => (await (await ask("wall", lines)).json()).walls,
+  scar: async (wish) => (await ask("scar", wish)).json(),
   alive: async () => (await (await ask("alive")).json()).revision,
 };
 
 const inside = (id: string) => document.getElementById(id)?.textContent ?? "";
 
+async function unpacked(id: string): Promise<Uint8Array<ArrayBuffer>> {
+  const bytes = Uint8Array.from(atob(inside(id)), (letter) => letter.charCodeAt(0));
+  return new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"))).arrayBuffer());
+}
+
 const alone: Keeper = {
   study: async () => JSON.parse(inside("study")),
-  slice: async (number) => {
-    const bytes = Uint8Array.from(atob(inside(`slice-${number}`)), (letter) => letter.charCodeAt(0));
-    const unpacked = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
-    return new Uint8Array(await new Response(unpacked).arrayBuffer());
-  },
+  slice: (number) => unpacked(`slice-${number}`),
+  enhanced: (number) => unpacked(`enhanced-${number}`),
 };
 
 export const keeper = (): Keeper => (document.getElementById("study") ? alone : served);

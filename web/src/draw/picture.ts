@@ -14,20 +14,24 @@ export interface Scene {
   doubtful: Partial<Record<Side, boolean>>;
   original: Partial<Record<Side, Line>>;  ///< dashed
   marks: Landmark[];
-  side: Side;
+  side: Side | undefined;  ///< whose points are marked
   point: number | undefined;  ///< of that side that is selected
   wanted: Place[];  ///< points of that side that the hand set
   stroke: Place[];
+  brush?: { at: Place; radius: number };  ///< in mm
+  tint?: (pixel: number) => readonly [number, number, number, number] | undefined;  ///< over the grey of a pixel
 }
 
 export class Picture {
-  readonly canvas = el("canvas", { class: "slice", tabindex: 0, width: 800, height: 800 });
+  readonly canvas: HTMLCanvasElement;
   level = 0.5;
   width = 1;
   private middle: Place = [0, 0];
   private scale = 3;  // CSS pixels per mm
   private scene: Scene | undefined;
   private readonly pixels = el("canvas");
+
+  constructor(name = "slice") { this.canvas = el("canvas", { class: name, tabindex: 0, width: 800, height: 800 }); }
 
   get size(): [number, number] { return [this.canvas.clientWidth || 1, this.canvas.clientHeight || 1]; }
 
@@ -93,6 +97,7 @@ export class Picture {
     for (const place of this.scene.wanted) this.drawWanted(context, place);
     if (this.scene.stroke.length > 1) this.drawLine(context, this.scene.stroke, "#fff", 2, [], false);
     for (const mark of this.scene.marks) this.drawMark(context, mark);
+    this.drawBrush(context);
   }
 
   private drawGreys(context: CanvasRenderingContext2D): void {
@@ -107,10 +112,35 @@ export class Picture {
       image.data[4 * i + 3] = 255;
     }
     this.pixels.getContext("2d")!.putImageData(image, 0, 0);
-    const [si, sj] = plane.spacing;
+    this.lay(context, true);
+    this.drawTint(context, image);
+  }
+
+  /** The pixels on the canvas, smoothed or as squares. */
+  private lay(context: CanvasRenderingContext2D, smooth: boolean): void {
+    const { columns, rows, spacing: [si, sj] } = this.scene!.plane;
     const [x, y] = this.at([-si / 2, -sj / 2]);
-    context.imageSmoothingEnabled = true;
-    context.drawImage(this.pixels, x, y, plane.columns * si * this.scale, plane.rows * sj * this.scale);
+    context.imageSmoothingEnabled = smooth;
+    context.drawImage(this.pixels, x, y, columns * si * this.scale, rows * sj * this.scale);
+  }
+
+  private drawTint(context: CanvasRenderingContext2D, image: ImageData): void {
+    const { tint } = this.scene!;
+    if (!tint) return;
+    for (let n = 0; 4 * n < image.data.length; ++n) image.data.set(tint(n) ?? [0, 0, 0, 0], 4 * n);
+    this.pixels.getContext("2d")!.putImageData(image, 0, 0);
+    this.lay(context, false);
+  }
+
+  private drawBrush(context: CanvasRenderingContext2D): void {
+    const { brush } = this.scene!;
+    if (!brush) return;
+    const [x, y] = this.at(brush.at);
+    context.beginPath();
+    context.arc(x, y, brush.radius * this.scale, 0, 2 * Math.PI);
+    context.lineWidth = 1.5;
+    context.strokeStyle = "#fff";
+    context.stroke();
   }
 
   private drawLine(context: CanvasRenderingContext2D, points: Place[], colour: string, width: number, dash: number[], closed = true): void {
@@ -129,6 +159,7 @@ export class Picture {
 
   private drawPoints(context: CanvasRenderingContext2D): void {
     const { lines, side, point } = this.scene!;
+    if (!side) return;
     lines[side]?.points.forEach((p, i) => {
       if (i !== point && i % handleStep !== 0) return;
       const [x, y] = this.at(p);

@@ -2,6 +2,7 @@
 import { el } from "../dom.ts";
 import type { Editor } from "./editor.ts";
 import { Refused, Stopped, downloadDrawing, type Keeper } from "./keeper.ts";
+import { toldScar } from "./scar.ts";
 import { inSpace, keyOf, linesOf, placeOn, said, sideNames, toldPoints, type SaidStudy, type Side } from "./study.ts";
 
 const asking = 3000;  // ms between two questions whether the program still runs
@@ -37,8 +38,9 @@ export class Saving {
   redo(): void { const what = this.editor.drawing.redo(); this.say(what ? `done again: ${what}` : "nothing to do again"); }
 
   private text(): string {
-    const { lines, landmarks, confidence } = this.editor.drawing;
-    return said(lines, landmarks, confidence, this.study.slices, this.revision);
+    const { lines, landmarks, confidence, keptScar } = this.editor.drawing;
+    return JSON.stringify({ revision: this.revision, ...said(lines, landmarks, confidence, this.study.slices),
+      ...(keptScar ? { scar: toldScar(keptScar, this.study.scar!.slices) } : {}) });
   }
 
   private downloadButton(): HTMLElement {

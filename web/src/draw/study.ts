@@ -1,5 +1,7 @@
 // A cine with its borders, as the program hands it over, and what can be measured on it.
 
+import type { SaidScar } from "./scar.ts";
+
 export type Side = "endo" | "epi";
 export type How = "proposed" | "corrected" | "drawn";
 /** A place in a slice: millimetres along its rows and its columns from the middle of the first pixel. */
@@ -18,7 +20,7 @@ export interface SaidProposal { contours: SaidLine[]; confidence: Confidence[]; 
 /** What the program hands over; slices and phases count from 1. */
 export interface SaidStudy extends SaidProposal {
   name: string; folder: string; phases: number; times: number[]; spacing: number; slices: Plane[]; doubtful: number;
-  landmarks: SaidLandmark[]; proposal: SaidLine[]; saved: boolean; hindrance: string; revision: number;
+  landmarks: SaidLandmark[]; proposal: SaidLine[]; saved: boolean; hindrance: string; revision: number; scar: SaidScar | null;
 }
 
 export const sides: Side[] = ["endo", "epi"];
@@ -58,11 +60,11 @@ export const landmarksOf = (said: SaidLandmark[], slices: Plane[]): Map<string, 
   new Map(said.map((mark) => [mark.name, { ...mark, at: placeOn(slices[mark.slice - 1], mark.at) }]));
 
 /** The drawing as the program takes it. */
-export function said(lines: Map<string, Line>, landmarks: Map<string, Landmark>, confidence: Confidence[], slices: Plane[], revision: number): string {
+export function said(lines: Map<string, Line>, landmarks: Map<string, Landmark>, confidence: Confidence[], slices: Plane[]) {
   const contours = [...lines].map(([key, line]) =>
     ({ ...ofKey(key), ...line, points: toldPoints(slices[ofKey(key).slice - 1], line.points) }));
   const marks = [...landmarks.values()].map((mark) => ({ ...mark, at: rounded(inSpace(slices[mark.slice - 1], mark.at)) }));
-  return JSON.stringify({ revision, contours, landmarks: marks, confidence });
+  return { contours, landmarks: marks, confidence };
 }
 
 /** The area that a closed line encloses [mm²]. */

@@ -3,6 +3,8 @@ import { el } from "../dom.ts";
 import type { Editor } from "./editor.ts";
 import type { Player } from "./player.ts";
 import type { Saving } from "./saving.ts";
+import type { Brush, Rule } from "./scar.ts";
+import type { ScarEditor } from "./scar_editor.ts";
 import { landmarkNames, sideNames, sides, type Side } from "./study.ts";
 
 export interface Bar { element: HTMLElement; show(): void }
@@ -69,4 +71,57 @@ export function contrastBar(editor: Editor): Bar {
   const element = el("div", { class: "toolbar" }, level.element, width.element, button("+", () => picture.zoom(1.25)), button("−", () => picture.zoom(0.8)), button("Fit", () => editor.fit()),
     el("label", {}, lines, "borders"), el("label", {}, original, "what was proposed, dashed"));
   return { element, show: () => { lines.checked = editor.showsLines; } };
+}
+
+/** Slices and brush of the enhanced picture. */
+export function brushBar(scar: ScarEditor, saving: Saving): Bar {
+  const slice = slider("enhanced slice", 1, scar.planes.length, 1, scar.slice, (value) => scar.go(value));
+  const brush = radios<Brush>("brush", [["scar", "scar"], ["muscle", "muscle (erases)"], ["remote", "remote muscle"]], scar.brush, (value) => { scar.brush = value; });
+  const size = slider("brush", 0.5, 12, 0.5, scar.radius, (value) => { scar.radius = value; scar.show(); shown.textContent = `${value} mm`; });
+  const shown = el("span", {}, `${scar.radius} mm`);
+  const undo = button("Undo", () => saving.undo(), "scar-undo");
+  const redo = button("Redo", () => saving.redo(), "scar-redo");
+  const tint = el("input", { type: "checkbox", checked: true, change: () => { scar.showsScar = tint.checked; scar.show(); } });
+  const element = el("div", { class: "toolbar" }, slice.element, group("Brush", ...brush.labels), size.element, shown, undo, redo, el("label", {}, tint, "colours"),
+    button("+", () => scar.picture.zoom(1.25)), button("−", () => scar.picture.zoom(0.8)), button("Fit", () => scar.fit(), "scar-fit"));
+  return { element, show: () => {
+    [slice.range.value, size.range.value, shown.textContent] = [String(scar.slice), String(scar.radius), `${scar.radius} mm`];
+    brush.set(scar.brush);
+    tint.checked = scar.showsScar;
+    [undo.disabled, redo.disabled] = [!scar.drawing.canUndo, !scar.drawing.canRedo];
+  } };
+}
+
+/** What the threshold is taken from, and whose borders are the wall. */
+export function thresholdBar(scar: ScarEditor): Bar {
+  const { low, high } = scar.said;
+  const rule = radios<Rule>("rule", [["brightest", "half of the brightest"], ["remote", "above remote muscle"], ["level", "chosen"]], scar.rule, (value) => scar.setRule(value));
+  const deviations = slider("deviations above it", 1, 10, 0.5, scar.deviations, (value) => { scar.setDeviations(value); many.textContent = String(value); });
+  const many = el("span", {}, String(scar.deviations));
+  const level = slider("threshold", low, high, (high - low) / 400, scar.scar.threshold, (value) => scar.setLevel(value));
+  const phase = slider("wall of phase", 1, scar.study.phases, 1, scar.scar.phase, (value) => { chosen.textContent = String(value); });
+  const chosen = el("span", {}, String(scar.scar.phase));
+  const take = button(scar.asks ? "Take its borders as they are drawn now" : "Take its borders (needs ventricle draw itself)", () => scar.takeWall(Number(phase.range.value)), "take-wall");
+  const element = el("div", { class: "toolbar" }, group("Scar is brighter than", ...rule.labels), deviations.element, many, level.element, phase.element, chosen, take,
+    ...(scar.asks ? [] : [el("span", { class: "help" }, "The threshold needs ventricle draw itself; the brush works.")]));
+  for (const input of element.querySelectorAll("input")) input.disabled = !scar.asks;
+  take.disabled = !scar.asks;
+  return { element, show: () => {
+    rule.set(scar.rule);
+    level.range.value = String(scar.scar.threshold);
+    deviations.range.disabled = !scar.asks || scar.rule !== "remote";
+  } };
+}
+
+export function greyBar(scar: ScarEditor): Bar {
+  const { picture } = scar;
+  const level = slider("brightness", 0, 1, 0.01, 0.5, (value) => { picture.level = 1 - value; picture.draw(); });
+  const width = slider("contrast", 0, 0.95, 0.01, 0, (value) => { picture.width = 1 - value; picture.draw(); });
+  return { element: el("div", { class: "toolbar" }, level.element, width.element), show: () => {} };
+}
+
+/** Borders or scar. */
+export function viewSwitch(show: (scar: boolean) => void): HTMLElement {
+  const { labels } = radios<string>("view", [["borders", "borders"], ["scar", "scar"]], "borders", (value) => show(value === "scar"));
+  return el("div", { class: "toolbar" }, group("Show", ...labels));
 }
