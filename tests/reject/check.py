@@ -9,7 +9,7 @@ here = pathlib.Path(__file__).parent
 program = pathlib.Path(sys.argv[1]).resolve()
 wrong = 0
 for case in sorted(here.glob("*.toml")):
-    expected = case.read_text().splitlines()[0].removeprefix("# expect: ")
+    expected = case.read_text(errors="replace").splitlines()[0].removeprefix("# expect: ")
     run = subprocess.run([program, "validate", case.name], cwd=here, capture_output=True, text=True)
     if not expected or run.returncode != 1 or expected not in run.stderr:
         wrong += 1

@@ -20,7 +20,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -51,6 +50,15 @@ geometry::ContourFiles contour_files(const Case& c) {
   const case_file::ContourAnatomy& a = c.anatomy.contours;
   require_names(
       c, {{"anatomy.contours.short_axis", a.short_axis, "the CSV file of the short-axis loops"}});
+  const std::pair<const char*, const std::string&> named[] = {
+      {"anatomy.contours.short_axis", a.short_axis},
+      {"anatomy.contours.long_axis", a.long_axis},
+      {"anatomy.contours.apex_endo", a.apex_endo},
+      {"anatomy.contours.apex_epi", a.apex_epi},
+      {"anatomy.contours.es_short_axis", a.es_short_axis}};
+  for (const auto& [parameter, file] : named)
+    if (!file.empty())
+      case_file::require_readable(c, parameter, file);
   geometry::ContourFiles files{
       .short_axis = case_file::beside(c, a.short_axis), .long_axis = {}, .apex = {}};
   if (!a.long_axis.empty())
@@ -144,12 +152,17 @@ Drawn from_labels(const Case& c) {
   check_meaning(c);
   require_choices(c, volume);
   const int frame = std::max(a.frame, 1) - 1;
-  const auto require = [&](const char* parameter, const std::vector<int>& labels) {
-    image::require_labels(volume, frame, labels, case_file::place_of(c, parameter), parameter);
+  const auto require = [&](const char* parameter, const std::vector<int>& labels,
+                           const char* remedy) {
+    image::require_labels(volume, frame, labels, case_file::place_of(c, parameter), parameter,
+                          remedy);
   };
-  require("anatomy.labels.cavity", a.cavity);
-  require("anatomy.labels.muscle", a.muscle);
-  require("anatomy.labels.right_ventricle", a.right_ventricle);
+  constexpr const char* as_there = "Name the labels as this file has them";
+  require("anatomy.labels.cavity", a.cavity, as_there);
+  require("anatomy.labels.muscle", a.muscle, as_there);
+  require("anatomy.labels.right_ventricle", a.right_ventricle,
+          "Name the labels as this file has them, or leave this line out and set "
+          "anatomy.contours.septum_point");
   image::LabelContours traced =
       image::trace_labels(volume, {a.cavity, a.muscle, a.right_ventricle}, frame);
   Drawn drawn;
@@ -383,32 +396,6 @@ Drawn read_source(const Case& c) {
   }
 }
 
-/// Slices that lie much farther apart than others: some between them may be missing.
-void note_gaps(const geometry::Contours& contours, std::vector<std::string>& notes) {
-  constexpr double wide = 1.6;  // of the least spacing
-  std::vector<std::pair<Vec3, int>> slices;
-  for (const geometry::Contour& loop : contours.short_axis)
-    if (loop.side == geometry::Side::endo && !loop.points.empty())
-      slices.emplace_back(std::accumulate(loop.points.begin(), loop.points.end(), Vec3(0, 0, 0)) /
-                              static_cast<double>(loop.points.size()),
-                          loop.slice);
-  if (slices.size() < 3)
-    return;
-  const Vec3 axis = (slices.back().first - slices.front().first).normalized();
-  const auto step = [&](std::size_t i) {
-    return std::abs(axis.dot(slices[i].first - slices[i - 1].first));
-  };
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 1; i < slices.size(); ++i)
-    least = std::min(least, step(i));
-  for (std::size_t i = 1; i < slices.size(); ++i)
-    if (const double gap = step(i); gap > wide * least)
-      notes.push_back(fmt::format(
-          "slices {} and {} lie {:.1f} mm apart, others {:.1f} mm: the wall between them is "
-          "interpolated; if slices are missing, draw them",
-          slices[i - 1].second, slices[i].second, gap, least));
-}
-
 }  // namespace
 
 double volume_of(const geometry::Contours& contours) {
@@ -429,7 +416,8 @@ Drawn read_drawn(const Case& c) {
   if (mended)
     image::close_walls(drawn.contours, thinnest, drawn.notes);
   geometry::check_contours(drawn.contours);
-  note_gaps(drawn.contours, drawn.notes);
+  const std::vector<std::string> of_slices = geometry::notes_on_spacing(drawn.contours);
+  drawn.notes.insert(drawn.notes.end(), of_slices.begin(), of_slices.end());
   if (drawn.end_systole) {
     std::vector<std::string> of_comparison;  // says nothing of the wall
     if (mended)

@@ -108,7 +108,7 @@ SunnybrookChoice sunnybrook_choice(const fs::path& contours, const image::DicomS
   for (const std::vector<std::string>& series : candidates) {
     try {
       choice_made.stack =
-          image::choose_stack(study, series, contours.string(), "anatomy.sunnybrook.series");
+          image::choose_stack(study, series, study.where, "anatomy.sunnybrook.series");
       choice_made.read =
           image::read_sunnybrook(contours, choice_made.stack, said.pixel_origin, said.drawn_by);
     } catch (const InputError&) {

@@ -1,6 +1,7 @@
 #include "lv/base/lines.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/ending.hpp"
 #include "lv/base/files.hpp"
 #include "lv/base/table.hpp"
 
@@ -50,13 +51,18 @@ std::string without_fortran(std::string_view text) {
   return number;
 }
 
-[[noreturn]] void fail_encoding(const std::string& where, const std::string& what) {
-  throw InputError(where, what, "Save it as UTF-8 (a spreadsheet calls this \"CSV UTF-8\")");
+/// `where` is the file, or a line of it.
+[[noreturn]] void fail_encoding(const std::filesystem::path& file, const std::string& where,
+                                const std::string& what) {
+  throw InputError(where, what,
+                   ending_of(file) == ".csv"
+                       ? "Save it as UTF-8 (a spreadsheet calls this \"CSV UTF-8\")"
+                       : "Save it as UTF-8");
 }
 
 void check_mark(const std::string& file, std::string_view text) {
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
-    fail_encoding(file, "is not UTF-8 text but UTF-16 or UTF-32");
+    fail_encoding(file, file, "is not UTF-8 text but UTF-16 or UTF-32");
 }
 
 /// The lines of Windows (CR LF) and of old Macs (CR) end as those of Unix.
@@ -136,7 +142,7 @@ std::string read_text(const std::filesystem::path& file) {
   if (const auto nul = text.find('\0'); nul != std::string::npos) {
     const auto line =
         1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(nul), '\n');
-    fail_encoding(fmt::format("{}:{}", file.string(), line),
+    fail_encoding(file, fmt::format("{}:{}", file.string(), line),
                   "is not UTF-8 text: it holds characters NUL, as UTF-16 and damaged files do");
   }
   return text;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
@@ -34,6 +35,8 @@ const std::map<std::string, Unit, std::less<>>& table() {
                                                               {"cm", {10.0, length}},
                                                               {"mm", {1.0, length}},
                                                               {"um", {1e-3, length}},
+                                                              {"\u00b5m", {1e-3, length}},
+                                                              {"\u03bcm", {1e-3, length}},
                                                               {"kg", {1.0, mass}},
                                                               {"g", {1e-3, mass}},
                                                               {"mg", {1e-6, mass}},
@@ -50,13 +53,17 @@ const std::map<std::string, Unit, std::less<>>& table() {
                                                               {"MPa", {1e3, pressure}},
                                                               {"bar", {100.0, pressure}},
                                                               {"mmHg", {mmHg, pressure}},
+                                                              {"cmH2O", {cmH2O, pressure}},
                                                               {"P", {1e-4, viscosity}},
                                                               {"cP", {1e-6, viscosity}},
                                                               {"uM", {1.0, concentration}},
+                                                              {"\u00b5M", {1.0, concentration}},
+                                                              {"\u03bcM", {1.0, concentration}},
                                                               {"mM", {1e3, concentration}},
                                                               {"nM", {1e-3, concentration}},
                                                               {"rad", {1.0, angle}},
                                                               {"deg", {degree, angle}},
+                                                              {"\u00b0", {degree, angle}},
                                                               {"Hz", {1.0, {0, 0, -1, 0, 0}}},
                                                               {"%", {0.01, none}}};
   return units;
@@ -77,7 +84,8 @@ Unit product(Unit a, const Unit& b) {
 }
 
 /// Recursive descent over  product := factor (('*' | '/' | ' ') factor)*,
-/// factor := name ['^' whole] | '1' | '(' product ')'.
+/// factor := name ['^' whole] | '1' | '(' product ')',
+/// name := a letter, '%' or a character beyond ASCII, and any of these and digits.
 class UnitParser {
  public:
   explicit UnitParser(std::string_view text) : text_(text) {}
@@ -132,8 +140,11 @@ class UnitParser {
 
   Unit parse_named() {
     const std::size_t begin = at_;
-    while (at_ < text_.size() &&
-           (std::isalpha(static_cast<unsigned char>(text_[at_])) != 0 || ahead('%')))
+    const auto in_name = [&] {
+      const auto c = static_cast<unsigned char>(text_[at_]);
+      return std::isalpha(c) != 0 || c == '%' || c >= 0x80 || (at_ > begin && std::isdigit(c) != 0);
+    };
+    while (at_ < text_.size() && in_name())
       ++at_;
     const std::string_view name = text_.substr(begin, at_ - begin);
     if (name.empty())
@@ -142,7 +153,8 @@ class UnitParser {
     if (found == table().end()) {
       std::vector<std::string> known;
       for (const auto& entry : table())
-        known.push_back(entry.first);
+        if (static_cast<unsigned char>(entry.first.front()) < 0x80)  // as one types it
+          known.push_back(entry.first);
       const std::string nearest = nearest_name(std::string(name), known);
       throw std::invalid_argument(
           fmt::format("'{}' is not a unit{}", name,
@@ -184,6 +196,10 @@ Quantity parse_quantity(std::string_view text) {
   if (!std::isfinite(number))
     throw std::invalid_argument(fmt::format("'{}' is not a finite number", text));
   const std::string_view unit_text = trimmed(std::string_view(whole).substr(end - whole.c_str()));
+  if (unit_text.size() > 1 && unit_text[0] == ',' &&
+      std::isdigit(static_cast<unsigned char>(unit_text[1])) != 0)
+    throw std::invalid_argument(
+        fmt::format("'{}' has a decimal comma; write a decimal point", text));
   const Unit unit = parse_unit(unit_text);
   return {number * unit.factor, unit, !unit_text.empty()};
 }

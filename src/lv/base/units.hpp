@@ -10,6 +10,7 @@
 namespace lv::units {
 
 inline constexpr double mmHg = 0.133322387415;          ///< [kPa]
+inline constexpr double cmH2O = 0.0980665;              ///< by convention, 98.0665 Pa [kPa]
 inline constexpr double ml = 1e3;                       ///< [mm^3]
 inline constexpr double degree = 0.017453292519943295;  ///< [rad]
 
@@ -21,7 +22,8 @@ struct Unit {
   Dimension dimension{};
 };
 
-/// A product of units: "kPa", "g/ml", "Pa s", "1/(uM s)", "mm^2". Empty text is dimensionless.
+/// A product of units: "kPa", "g/ml", "Pa s", "1/(uM s)", "mm^2". Empty text is dimensionless; the
+/// micro sign and the Greek letter mu stand for u, the sign of degrees for deg.
 /// Throws std::invalid_argument that says which part is no unit and what unit it may have meant.
 [[nodiscard]] Unit parse_unit(std::string_view text);
 

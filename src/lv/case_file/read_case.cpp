@@ -64,6 +64,10 @@ class CaseReader {
         set(*parameter, node, line);
       else if (node.is_table() && is_section(name))
         walk(*node.as_table(), name);
+      else if (node.is_array_of_tables() && is_section(name))
+        mistakes_.emplace_back(line, fmt::format("[[{0}]] has double brackets, which begin one of "
+                                                 "several tables: there is one, [{0}]",
+                                                 name));
       else
         mistakes_.emplace_back(line, unknown(name, node.is_table()));
     }
@@ -150,35 +154,43 @@ class CaseReader {
     check_pressures();
     limit_pressure_error();
     const geometry::Ellipsoid& e = case_.anatomy.ellipsoid;
-    rule(e.epi_radius > e.endo_radius, "anatomy.ellipsoid.epi_radius",
-         "must be larger than endo_radius");
-    rule(e.epi_length > e.endo_length, "anatomy.ellipsoid.epi_length",
-         "must be larger than endo_length");
-    rule(std::abs(e.base_height) < e.endo_length, "anatomy.ellipsoid.base_height",
-         "must be between -endo_length and endo_length");
+    together(e.epi_radius > e.endo_radius,
+             {"anatomy.ellipsoid.epi_radius", "anatomy.ellipsoid.endo_radius"},
+             "must be larger than endo_radius");
+    together(e.epi_length > e.endo_length,
+             {"anatomy.ellipsoid.epi_length", "anatomy.ellipsoid.endo_length"},
+             "must be larger than endo_length");
+    together(std::abs(e.base_height) < e.endo_length,
+             {"anatomy.ellipsoid.base_height", "anatomy.ellipsoid.endo_length"},
+             "must be between -endo_length and endo_length");
     const mesh::InfarctParameters& scar = case_.scar;
-    rule(scar.described.bottom <= scar.described.top, "infarct.described.bottom",
-         "must not be larger than top");
+    together(scar.described.bottom <= scar.described.top,
+             {"infarct.described.bottom", "infarct.described.top"}, "must not be larger than top");
     const bool elements = scar.source == mesh::InfarctSource::elements;
     rule(!elements || case_.anatomy.source == AnatomySource::mesh, "infarct.source",
          "can be \"elements\" only with anatomy.source = \"mesh\"");
     rule(!elements || !scar.set.empty(), "infarct.source",
          "is \"elements\", but infarct.elements.set is not set");
     const auto& A = case_.active.A;
-    rule(A[0] + A[1] + A[2] > 0.0, "active.A_1", "and A_2 and A_3 must have a positive sum");
+    together(A[0] + A[1] + A[2] > 0.0, {"active.A_1", "active.A_2", "active.A_3"},
+             "and A_2 and A_3 must have a positive sum");
     const heartbeat::Protocol& p = case_.protocol;
-    rule(p.filling_longest >= p.filling_ramp + p.filling_window, "protocol.filling_longest",
-         "must leave time for filling_ramp and filling_window");
-    rule(p.contraction_longest >= p.contraction_ramp + p.contraction_window,
-         "protocol.contraction_longest",
-         "must leave time for contraction_ramp and contraction_window");
+    together(p.filling_longest >= p.filling_ramp + p.filling_window,
+             {"protocol.filling_longest", "protocol.filling_ramp", "protocol.filling_window"},
+             "must leave time for filling_ramp and filling_window");
+    together(p.contraction_longest >= p.contraction_ramp + p.contraction_window,
+             {"protocol.contraction_longest", "protocol.contraction_ramp",
+              "protocol.contraction_window"},
+             "must leave time for contraction_ramp and contraction_window");
     const auto& q = case_.quasi_static;
     rule(
         q.order == 2 || q.solver.newton.linear.method == implicit::LinearMethod::direct,
         "quasi_static.linear_solver",
         "is iterative, which does not converge with the linear elements of quasi_static.order = 1");
-    rule(p.calcium.Ca_max > p.calcium.Ca_0, "calcium.Ca_max", "must be larger than Ca_0");
-    rule(p.calcium.t_2 > p.calcium.t_1, "calcium.t_2", "must be longer than t_1");
+    together(p.calcium.Ca_max > p.calcium.Ca_0, {"calcium.Ca_max", "calcium.Ca_0"},
+             "must be larger than Ca_0");
+    together(p.calcium.t_2 > p.calcium.t_1, {"calcium.t_2", "calcium.t_1"},
+             "must be longer than t_1");
     check_land2017();
     check_calibration();
     check_circulation();
@@ -193,13 +205,15 @@ class CaseReader {
 
   void check_land2017() {
     const material::Land2017& law = case_.land2017;
-    rule(
-        law.k_uw * (1.0 / law.r_w - 1.0) >= law.k_ws, "active.land2017.k_ws",
+    together(
+        law.k_uw * (1.0 / law.r_w - 1.0) >= law.k_ws,
+        {"active.land2017.k_ws", "active.land2017.k_uw", "active.land2017.r_w"},
         "must not be larger than k_uw (1/r_w - 1), the rate at which cross-bridges leave the state "
         "W: some must go back");
-    rule(law.Ca_50ref + law.beta_1 * (law.longest - 1.0) > 0.0, "active.land2017.beta_1",
-         "must leave a calcium at half activation above zero at a stretch of 1.2: Ca_50ref + 0.2 "
-         "beta_1 > 0");
+    together(law.Ca_50ref + law.beta_1 * (law.longest - 1.0) > 0.0,
+             {"active.land2017.beta_1", "active.land2017.Ca_50ref"},
+             "must leave a calcium at half activation above zero at a stretch of 1.2: Ca_50ref + "
+             "0.2 beta_1 > 0");
   }
 
   /// What is set and does nothing would be taken for something that it is not. The mesh is told
@@ -266,26 +280,31 @@ class CaseReader {
         "is (nearly) protocol.ed_pressure: the wall then fills to the shape that was seen whatever "
         "its stiffness, and edv says nothing about calibrate.passive; set calibrate.passive = "
         "\"klotz\" for a shape of end-diastole, or give that of early diastole with its pressure");
-    rule(k.stiffness.low < k.stiffness.high, "calibrate.stiffness_max",
-         "must be larger than stiffness_min");
-    rule(k.exponent.low < k.exponent.high, "calibrate.exponent_max",
-         "must be larger than exponent_min");
-    rule(k.T_scale.low < k.T_scale.high, "calibrate.T_scale_max",
-         "must be larger than T_scale_min");
+    together(k.stiffness.low < k.stiffness.high,
+             {"calibrate.stiffness_max", "calibrate.stiffness_min"},
+             "must be larger than stiffness_min");
+    together(k.exponent.low < k.exponent.high, {"calibrate.exponent_max", "calibrate.exponent_min"},
+             "must be larger than exponent_min");
+    together(k.T_scale.low < k.T_scale.high, {"calibrate.T_scale_max", "calibrate.T_scale_min"},
+             "must be larger than T_scale_min");
   }
 
   void check_circulation() {
     const circulation::CircuitParameters& p = case_.circulation;
-    rule(p.step <= 0.05 * p.period, "circulation.step",
-         "must be at most a twentieth of the period");
-    rule(p.valves.closed_resistance >=
-             100.0 * std::max({p.windkessel.R_mv, p.windkessel.R_ao + p.windkessel.R_c,
-                               p.closed_loop.valve_resistance}),
-         "circulation.valves.closed_resistance",
-         "must be at least a hundred times that of every open valve");
+    together(p.step <= 0.05 * p.period, {"circulation.step", "circulation.period"},
+             "must be at most a twentieth of the period");
+    together(p.valves.closed_resistance >=
+                 100.0 * std::max({p.windkessel.R_mv, p.windkessel.R_ao + p.windkessel.R_c,
+                                   p.closed_loop.valve_resistance}),
+             {"circulation.valves.closed_resistance", "circulation.windkessel.R_mv",
+              "circulation.windkessel.R_ao", "circulation.windkessel.R_c",
+              "circulation.closed_loop.valve_resistance"},
+             "must be at least a hundred times that of every open valve");
     const auto fits = [&](const circulation::ElastanceParameters& e, const std::string& chamber) {
-      rule(e.T_C + e.T_R <= p.period, "circulation." + chamber + ".T_R",
-           "and T_C take longer together than a beat (circulation.period)");
+      together(e.T_C + e.T_R <= p.period,
+               {"circulation." + chamber + ".T_R", "circulation." + chamber + ".T_C",
+                "circulation.period"},
+               "and T_C take longer together than a beat (circulation.period)");
     };
     fits(p.left_ventricle, "left_ventricle");
     fits(p.closed_loop.left_atrium, "closed_loop.left_atrium");
@@ -334,11 +353,12 @@ class CaseReader {
     rule(case_.active_law == ActiveLaw::land2017 || case_.active_law == ActiveLaw::niederer,
          "active.law",
          "prescribes a tension, which knows no time: a cycle takes \"land2017\" (or \"niederer\")");
-    rule(p.cycle.step <= 0.05 * case_.circulation.period, "cycle.step",
-         "must be at most a twentieth of circulation.period");
-    rule(case_.circulation.kind != circulation::Kind::closed_loop ||
-             case_.circulation.left_ventricle.t_C < case_.circulation.period,
-         "circulation.left_ventricle.t_C", "must lie within a beat (circulation.period)");
+    together(p.cycle.step <= 0.05 * case_.circulation.period, {"cycle.step", "circulation.period"},
+             "must be at most a twentieth of circulation.period");
+    together(case_.circulation.kind != circulation::Kind::closed_loop ||
+                 case_.circulation.left_ventricle.t_C < case_.circulation.period,
+             {"circulation.left_ventricle.t_C", "circulation.period"},
+             "must lie within a beat (circulation.period)");
     material::Calcium calcium = p.calcium;
     calcium.mode = material::Calcium::Mode::transient;
     constexpr double most = 0.25;  // of its rise, when the next beat begins it anew
@@ -371,6 +391,27 @@ class CaseReader {
   void rule(bool holds, const std::string& name, const std::string& what) {
     if (!holds && counts_only(*find_parameter(name), case_).empty())
       mistakes_.emplace_back(place_of(case_, name), fmt::format("{} {}", name, what));
+  }
+
+  /// A rule of the first parameter that also depends on the others: told at the first of them that
+  /// the case sets, with the values of all that count.
+  void together(bool holds, const std::vector<std::string>& names, const std::string& what) {
+    if (holds || !counts_only(*find_parameter(names.front()), case_).empty())
+      return;
+    std::string where = case_.file.string();
+    std::vector<std::string> values;
+    for (const std::string& name : names) {
+      const Parameter& parameter = *find_parameter(name);
+      if (!counts_only(parameter, case_).empty())
+        continue;
+      const bool is_set = case_.origin.contains(name);
+      if (is_set && where == case_.file.string())
+        where = place_of(case_, name);
+      values.push_back(fmt::format("{} = {}{}", key_of(name), parameter.get(case_),
+                                   is_set ? "" : " by default"));
+    }
+    mistakes_.emplace_back(
+        where, fmt::format("{} {}; here {}", names.front(), what, fmt::join(values, ", ")));
   }
 
   /// In the order of the file's lines, which is not that of the parsed table; what has no line is
@@ -460,6 +501,18 @@ void require_files(const Case& c) {
   throw InputError(absent.front().first, text, "Check the names; they are read beside the case");
 }
 
+/// What to do about a mistake of the parser of TOML.
+std::string remedy_of(const std::string& what) {
+  if (contains(what, "utf-8"))
+    return "Save the file as UTF-8";
+  // not of a table's or a parameter's name, nor of what is too deep or too large
+  for (const char* other :
+       {"table header", "redefine", "parsing key:", "expected '='", "nested", "representable"})
+    if (contains(what, other))
+      return "";
+  return "Texts and quantities stand in quotation marks: key = \"8 mmHg\"";
+}
+
 }  // namespace
 
 Case parse_case(const std::string& text, const std::filesystem::path& file) {
@@ -467,9 +520,9 @@ Case parse_case(const std::string& text, const std::filesystem::path& file) {
   try {
     root = toml::parse(text, file.string());
   } catch (const toml::parse_error& error) {
-    throw InputError(fmt::format("{}:{}", file.string(), error.source().begin.line),
-                     std::string(error.description()),
-                     "Texts and quantities stand in quotation marks: key = \"8 mmHg\"");
+    const std::string what(error.description());
+    throw InputError(fmt::format("{}:{}", file.string(), error.source().begin.line), what,
+                     remedy_of(what));
   }
   return CaseReader(file).read(root);
 }

@@ -4,6 +4,7 @@
 #include "lv/anatomy/proposals.hpp"
 #include "lv/base/check.hpp"
 #include "lv/base/formats.hpp"
+#include "lv/case_file/case_lines.hpp"
 #include "lv/case_file/parameters.hpp"
 #include "lv/geometry/contour_checks.hpp"
 #include "lv/geometry/contour_measures.hpp"
@@ -63,6 +64,7 @@ void read_sunnybrook(const Case& c, const image::DicomStack& stack, CineStudy& s
 
 geometry::Contours read_drawn(const Case& c, const std::string& parameter,
                               const std::string& file) {
+  case_file::require_readable(c, parameter, file);
   geometry::ContourFiles files{
       .short_axis = case_file::beside(c, file), .long_axis = {}, .apex = {}};
   if (!c.strain.long_axis.empty() && parameter == "strain.contours")

@@ -3,6 +3,7 @@
 #include "lv/analysis/regional.hpp"
 #include "lv/base/check.hpp"
 #include "lv/base/ending.hpp"
+#include "lv/base/files.hpp"
 #include "lv/base/lines.hpp"
 #include "lv/base/parallel.hpp"
 
@@ -33,7 +34,7 @@ class StrainFile {
         lines_(file_) {
     if (!lines_.is_open())
       throw InputError(case_file::place_of(c, "calibrate.strains"),
-                       fmt::format("{} cannot be opened", file_),
+                       fmt::format("{} cannot be opened: {}", file_, unreadable(file_)),
                        "Check the name; it is relative to the case file");
   }
 

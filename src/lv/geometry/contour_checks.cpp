@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -146,17 +147,60 @@ void check_units(const Contours& contours) {
         likely_unit(diameter));
 }
 
+[[noreturn]] void fail_flat(const Contour& loop, std::size_t i, double height, double tolerance,
+                            const char* remedy) {
+  throw InputError(
+      loop.where(i),
+      fmt::format("{}: the point {} lies {:.2f} mm out of the slice's plane; at most {:g} mm "
+                  "is accepted",
+                  label(loop), place(loop.points[i]), height, tolerance),
+      remedy);
+}
+
 void check_flat(const Contour& loop, const Frame& plane, double tolerance, const char* remedy) {
   for (std::size_t i = 0; i < loop.points.size(); ++i) {
     const double height = plane.to_model(loop.points[i]).z();
     if (std::abs(height) > tolerance)
-      throw InputError(
-          loop.where(i),
-          fmt::format("{}: the point {} lies {:.2f} mm out of the slice's plane; at most {:g} mm "
-                      "is accepted",
-                      label(loop), place(loop.points[i]), std::abs(height), tolerance),
-          remedy);
+      fail_flat(loop, i, std::abs(height), tolerance, remedy);
   }
+}
+
+/// A point, and its distance from the plane of the others [mm].
+struct Stray {
+  std::size_t point = 0;
+  double height = 0.0;
+};
+
+/// The point without which the others are flattest: one that is far off tilts the plane of all, out
+/// of which others then seem to lie.
+Stray stray_of(const Contour& loop) {
+  Stray stray;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < loop.points.size(); ++i) {
+    std::vector<Vec3> others = loop.points;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    const Frame plane = plane_of(others);
+    double sum = 0.0;
+    for (const Vec3& x : others)
+      sum += std::pow(plane.to_model(x).z(), 2);
+    if (sum < least) {
+      least = sum;
+      stray = {i, std::abs(plane.to_model(loop.points[i]).z())};
+    }
+  }
+  return stray;
+}
+
+void check_own_plane(const Contour& loop, const Frame& plane) {
+  const char* remedy = "A short-axis loop is drawn on one image: check the point";
+  const bool flat = std::all_of(loop.points.begin(), loop.points.end(), [&](const Vec3& x) {
+    return std::abs(plane.to_model(x).z()) <= flatness;
+  });
+  if (flat)
+    return;
+  if (const Stray stray = stray_of(loop); stray.height > flatness)
+    fail_flat(loop, stray.point, stray.height, flatness, remedy);
+  check_flat(loop, plane, flatness, remedy);
 }
 
 void check_closed(const Contour& loop) {
@@ -356,7 +400,7 @@ void check_contours(const Contours& contours) {
   check_units(contours);
   for (const Contour& loop : contours.short_axis) {
     const Frame plane = plane_of(loop.points);
-    check_flat(loop, plane, flatness, "A short-axis loop is drawn on one image: check the point");
+    check_own_plane(loop, plane);
     check_closed(loop);
     check_simple(loop, plane);
   }
@@ -377,6 +421,49 @@ void check_contours(const Contours& contours) {
   check_nearby(contours, stack);
   check_lone_epicardium(contours);
   check_enough_epicardium(contours);
+}
+
+std::vector<std::string> notes_on_spacing(const Contours& contours) {
+  constexpr double wide = 1.6;            // of the usual step
+  constexpr double uneven = 0.3;          // by which the steps beside a misplaced slice are off
+  constexpr double two_steps = 0.1;       // relative: of a slice between its neighbours
+  constexpr std::size_t least_known = 3;  // steps that tell what is usual beside two wrong ones
+  std::vector<std::pair<Vec3, int>> slices;
+  for (const Contour& loop : contours.short_axis)
+    if (loop.side == Side::endo && !loop.points.empty())
+      slices.emplace_back(mean_of(loop.points), loop.slice);
+  if (slices.size() < 3)
+    return {};
+  const Vec3 axis = (slices.back().first - slices.front().first).normalized();
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < slices.size(); ++i)
+    steps.push_back(std::abs(axis.dot(slices[i].first - slices[i - 1].first)));
+  std::vector<double> sorted = steps;
+  std::sort(sorted.begin(), sorted.end());
+  const double usual = sorted[(sorted.size() - 1) / 2];  // the lower of two
+  const auto misplaced = [&](std::size_t i) {            // between the steps i and i + 1
+    return i + 1 < steps.size() && steps.size() >= least_known &&
+           std::max(steps[i], steps[i + 1]) > (1.0 + uneven) * usual &&
+           std::min(steps[i], steps[i + 1]) < (1.0 - uneven) * usual &&
+           std::abs(steps[i] + steps[i + 1] - 2.0 * usual) < two_steps * 2.0 * usual;
+  };
+  std::vector<std::string> notes;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    if (misplaced(i)) {
+      notes.push_back(fmt::format(
+          "slice {} lies {:.1f} mm from slice {} and {:.1f} mm from slice {}, where others lie "
+          "{:.1f} mm apart: it seems misplaced; check its position",
+          slices[i + 1].second, steps[i], slices[i].second, steps[i + 1], slices[i + 2].second,
+          usual));
+      ++i;  // both steps are told
+    } else if (steps[i] > wide * usual) {
+      notes.push_back(fmt::format(
+          "slices {} and {} lie {:.1f} mm apart, others {:.1f} mm: the wall between them is "
+          "interpolated; if slices are missing, draw them",
+          slices[i].second, slices[i + 1].second, steps[i], usual));
+    }
+  }
+  return notes;
 }
 
 }  // namespace lv::geometry

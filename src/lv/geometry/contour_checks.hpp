@@ -2,6 +2,9 @@
 
 #include "lv/geometry/contours.hpp"
 
+#include <string>
+#include <vector>
+
 namespace lv::geometry {
 
 /// Refuses contours that cannot be borders of one left ventricle, by file and line: fewer than 8
@@ -12,5 +15,10 @@ namespace lv::geometry {
 /// epicardium; slices that are not parallel, not in order, or share a plane; long-axis curves or
 /// apex points far from the slices. A slice without epicardium is accepted. @throws InputError
 void check_contours(const Contours& contours);
+
+/// Slices (of endocardial loops) that lie much farther apart than usual, the usual distance being
+/// the median: some between them may be missing. Where a wide step and a narrow one beside it are
+/// together two usual ones, the slice between both seems misplaced.
+[[nodiscard]] std::vector<std::string> notes_on_spacing(const Contours& contours);
 
 }  // namespace lv::geometry

@@ -1,6 +1,7 @@
 #include "lv/geometry/contours.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/files.hpp"
 #include "lv/base/lines.hpp"
 #include "lv/geometry/contour_checks.hpp"
 
@@ -38,7 +39,7 @@ class RowReader {
  public:
   explicit RowReader(const std::filesystem::path& path) : file_(path.string()), lines_(path) {
     if (!lines_.is_open())
-      throw InputError(file_, "the contour file cannot be opened",
+      throw InputError(file_, "the contour file cannot be opened: " + unreadable(path),
                        "Check the name and that it can be read");
     read_header();
   }

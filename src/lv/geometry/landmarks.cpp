@@ -1,6 +1,7 @@
 #include "lv/geometry/landmarks.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/files.hpp"
 #include "lv/base/lines.hpp"
 #include "lv/base/table.hpp"
 #include "lv/geometry/long_axis.hpp"
@@ -58,7 +59,7 @@ Vec3 across(const LongAxis& axis, const Vec3& x) {
 std::vector<Landmark> read_landmarks(const std::filesystem::path& file) {
   LineReader lines(file);
   if (!lines.is_open())
-    throw InputError(file.string(), "the file of landmarks cannot be opened",
+    throw InputError(file.string(), "the file of landmarks cannot be opened: " + unreadable(file),
                      "Check the name and that it can be read");
   if (!lines.next() || !std::ranges::equal(csv_fields(lines.text()), landmark_columns))
     throw InputError(file.string(), "is no table of landmarks", landmark_rule);

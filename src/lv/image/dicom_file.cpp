@@ -2,6 +2,7 @@
 
 #include "lv/base/check.hpp"
 #include "lv/base/files.hpp"
+#include "lv/base/lines.hpp"
 #include "lv/base/memory.hpp"
 #include "lv/base/trial.hpp"
 #include "lv/image/dicom_stream.hpp"
@@ -18,6 +19,7 @@
 #include <exception>
 #include <fstream>
 #include <new>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -71,6 +73,8 @@ DicomImage common(const fs::path& file, const DicomValues& values) {
   image.instance_uid = values.text(Tag(0x0008, 0x0018));
   image.kind = kind_of(values, Tag(0x0008, 0x0008));
   image.modality = values.text(Tag(0x0008, 0x0060));
+  image.patient_id = values.text(Tag(0x0010, 0x0020));
+  image.patient_name = values.text(Tag(0x0010, 0x0010));
   image.series_number = values.whole(Tag(0x0020, 0x0011));
   image.instance = values.whole(Tag(0x0020, 0x0013));
   image.rr = cycle_length(values);
@@ -135,7 +139,10 @@ std::string read_frame(FrameGroups groups, DicomImage& image) {
 DicomFile read_frames(const DicomValues& values, const DicomImage& shared_header, int frames) {
   const auto per_frame = values.sequence(Tag(0x5200, 0x9230));
   if (per_frame == nullptr || static_cast<int>(per_frame->GetNumberOfItems()) != frames)
-    return {{}, "it has several frames, but not the position of each (no enhanced MR)"};
+    return {{},
+            "it has several frames, but not the position of each (no enhanced MR)",
+            true,
+            shared_header.instance};
   const auto shared = values.sequence(Tag(0x5200, 0x9229));
   std::optional<DicomValues> shared_values;
   if (shared != nullptr && shared->GetNumberOfItems() > 0)
@@ -148,7 +155,7 @@ DicomFile read_frames(const DicomValues& values, const DicomImage& shared_header
       image.instance = f + 1;
     const DicomValues own(per_frame->GetItem(f + 1).GetNestedDataSet());
     if (std::string wrong = read_frame(FrameGroups(own, shared_values), image); !wrong.empty())
-      return {{}, fmt::format("frame {}: {}", f + 1, wrong)};
+      return {{}, fmt::format("frame {}: {}", f + 1, wrong), true, shared_header.instance};
     found.images.push_back(std::move(image));
   }
   return found;
@@ -195,13 +202,16 @@ DicomFile read_parsed(const fs::path& file, const ParsedFile& parsed) {
     return {{}, without_image(image)};
   if (image.modality == "SEG")
     return {{}, "it is a DICOM segmentation: name the file itself as a map of labels"};
+  const auto lost = [&](std::string reason) {
+    return DicomFile{{}, std::move(reason), true, image.instance};
+  };
   if (image.plane.rows > largest_side || image.plane.columns > largest_side)
-    return {{}, fmt::format("it claims {} x {} pixels", image.plane.columns, image.plane.rows)};
+    return lost(fmt::format("it claims {} x {} pixels", image.plane.columns, image.plane.rows));
   if (values.binary<std::uint16_t>(Tag(0x0028, 0x0002)).value_or(1) != 1)
-    return {{}, "it is an image of colours, not of grey values"};
+    return lost("it is an image of colours, not of grey values");
   const int frames = values.whole(Tag(0x0028, 0x0008)).value_or(1);
   if (frames < 1 || frames > most_frames)
-    return {{}, fmt::format("it claims {} frames", frames)};
+    return lost(fmt::format("it claims {} frames", frames));
   image.damage = damage_of(parsed, values, image, frames);
   image.file_bytes = pixel_bytes(values, image, frames);
   // Some scanners add an empty per-frame sequence to images of one frame.
@@ -209,7 +219,7 @@ DicomFile read_parsed(const fs::path& file, const ParsedFile& parsed) {
     if (frames > 1 || values.sequence(Tag(0x5200, 0x9230)) != nullptr)
       return read_frames(values, image, frames);
   if (std::string wrong = read_single(values, image); !wrong.empty())
-    return {{}, wrong};
+    return lost(std::move(wrong));
   return {{image}, ""};
 }
 
@@ -316,7 +326,7 @@ DicomFile read_headers(const fs::path& file) {
     parsed.reader.SetStream(*stream.bytes);
     const Tag pixels(0x7fe0, 0x0010);
     if (!parsed.reader.ReadUpToTag(pixels, {pixels}))  // and no further
-      return {{}, "its DICOM header is truncated or damaged"};
+      return {{}, "its DICOM header is truncated or damaged", true};
     parsed.size = stream.size;
     parsed.ends_early = stream.ends_early;
     const std::streamoff at = stream.bytes->tellg();
@@ -325,8 +335,16 @@ DicomFile read_headers(const fs::path& file) {
   } catch (const std::bad_alloc&) {
     throw;  // ends the trial in the child
   } catch (const std::exception& error) {
-    return {{}, fmt::format("its DICOM header is damaged: {}", error.what())};
+    return {{}, fmt::format("its DICOM header is damaged: {}", error.what()), true};
   }
+}
+
+/// How a child that tries a file says that its image is lost: by the InstanceNumber, or a word
+/// where there is none; empty for a file that holds no image anyway.
+std::string lost_as(const DicomFile& read) {
+  if (!read.lost)
+    return "";
+  return read.instance ? std::to_string(*read.instance) : "unnumbered";
 }
 
 }  // namespace
@@ -367,15 +385,15 @@ DicomFile read_dicom_headers(const fs::path& file) {
     return {{}, "it is not DICOM"};
   const Trial trial = tried([&] {
     if (const DicomFile read = read_headers(file); !read.reason.empty())
-      throw InputError(file.string(), read.reason, "");
+      throw InputError(lost_as(read), read.reason, "");
   });
   switch (trial.ending) {
     case Trial::Ending::well:
       return read_headers(file);
     case Trial::Ending::refused:
-      return {{}, trial.what};
+      return {{}, trial.what, !trial.where.empty(), number_of<int>(trial.where)};
     default:
-      return {{}, "its DICOM header is truncated or damaged"};
+      return {{}, "its DICOM header is truncated or damaged", true};
   }
 }
 

@@ -20,6 +20,7 @@ struct DicomImage {
   std::string kind;          ///< ImageType (of a frame FrameType) from its third value on, and
                              ///< ComplexImageComponent: magnitude, phase, ...
   std::string modality;
+  std::string patient_id, patient_name;  ///< to tell patients apart: never shown
   std::optional<int> series_number;
   std::optional<int> instance;  ///< InstanceNumber; of a file of several frames the frame from 1
   std::optional<int> temporal_position;  ///< TemporalPositionIdentifier or -Index
@@ -37,6 +38,8 @@ struct DicomImage {
 struct DicomFile {
   std::vector<DicomImage> images;
   std::string reason;  ///< empty if there are images
+  bool lost = false;   ///< whether it would be an image but for the reason, or is damaged
+  std::optional<int> instance{};  ///< InstanceNumber of a lost image, if it says one
 };
 
 /// Whether a file begins as DICOM files do: "DICM" after the preamble, or for old files without one

@@ -235,36 +235,87 @@ std::string time_text(const DicomImage& image, Order order) {
   }
 }
 
-/// Why two images that follow each other in a slice cannot both be of it; empty if they can.
-std::string clash(const DicomImage& a, const DicomImage& b, Order order) {
-  if ((a.plane.origin - b.plane.origin).norm() > same_plane || a.plane.columns != b.plane.columns ||
-      a.plane.rows != b.plane.rows)
-    return fmt::format("has images of different places or sizes: {} and {}", name_of(a),
-                       name_of(b));
-  if (a.series_uid != b.series_uid)
-    return fmt::format("is there more than once: {} (series \"{}\") and {} (series \"{}\")",
-                       name_of(a), a.description, name_of(b), b.description);
-  if (same_time(a, b, order))
-    return fmt::format("is there more than once{}: {} and {}", time_text(a, order), name_of(a),
-                       name_of(b));
-  return "";
+/// Why the images of a slice cannot be used together.
+struct Clash {
+  std::string what;
+  bool untimed = false;  ///< for want of what orders them, not as there are too many
+};
+
+/// Why a value of the images does not order them: "no TriggerTime" and the like.
+template <class Value>
+std::string lack(const std::vector<DicomImage>& images, const char* name, const Value& value) {
+  const auto with = std::count_if(images.begin(), images.end(),
+                                  [&](const DicomImage& i) { return value(i).has_value(); });
+  if (with == 0)
+    return fmt::format("no {}", name);
+  return with < static_cast<std::ptrdiff_t>(images.size())
+             ? fmt::format("{} in {} of {} alone", name, with, images.size())
+             : fmt::format("the same {}", name);
 }
 
-/// Why the images of a slice are not those of one heart's cycle; empty if they may be.
-std::string clash_in(const DicomSlice& slice) {
+/// What the images of a slice lack that would order them in time.
+std::string lacks_of(const std::vector<DicomImage>& images) {
+  return fmt::format(
+      "{}, {} and {}",
+      lack(images, "TriggerTime", [](const DicomImage& i) { return i.trigger_time; }),
+      lack(images, "TemporalPositionIdentifier",
+           [](const DicomImage& i) { return i.temporal_position; }),
+      lack(images, "InstanceNumber", [](const DicomImage& i) { return i.instance; }));
+}
+
+/// Why two images that follow each other in a slice cannot both be of it.
+std::optional<Clash> clash(const DicomImage& a, const DicomImage& b, const DicomSlice& slice,
+                           Order order) {
+  if ((a.plane.origin - b.plane.origin).norm() > same_plane || a.plane.columns != b.plane.columns ||
+      a.plane.rows != b.plane.rows)
+    return Clash{
+        fmt::format("has images of different places or sizes: {} and {}", name_of(a), name_of(b))};
+  if (a.series_uid != b.series_uid)
+    return Clash{fmt::format("is there more than once: {} (series \"{}\") and {} (series \"{}\")",
+                             name_of(a), a.description, name_of(b), b.description)};
+  if (!same_time(a, b, order))
+    return std::nullopt;
+  if (order == Order::instance)
+    return Clash{fmt::format("has {} images whose phases cannot be told apart, {} and {} among "
+                             "them: they have {}",
+                             slice.images.size(), name_of(a), name_of(b), lacks_of(slice.images)),
+                 true};
+  return Clash{fmt::format("is there more than once{}: {} and {}", time_text(a, order), name_of(a),
+                           name_of(b))};
+}
+
+/// Why the images of a slice are not those of one heart's cycle, if they cannot be.
+std::optional<Clash> clash_in(const DicomSlice& slice) {
   const Order order = order_of(slice.images);
   const DicomImage& first = slice.images.front();
   for (std::size_t i = 1; i < slice.images.size(); ++i)
-    if (std::string found = clash(slice.images[i - 1], slice.images[i], order); !found.empty())
-      return fmt::format("{} {}", place_text(slice), found);
+    if (auto found = clash(slice.images[i - 1], slice.images[i], slice, order)) {
+      found->what = fmt::format("{} {}", place_text(slice), found->what);
+      return found;
+    }
   const auto announced = static_cast<std::size_t>(std::max(first.phases_announced, 0));
   if (announced > 1 && slice.images.size() > announced && slice.images.size() % announced == 0)
-    return fmt::format(
+    return Clash{fmt::format(
         "{} has {} images where the headers announce {} phases, so it seems to be there more than "
         "once: {} and {} follow each other",
         place_text(slice), slice.images.size(), announced, name_of(first),
-        name_of(slice.images[1]));
-  return "";
+        name_of(slice.images[1]))};
+  return std::nullopt;
+}
+
+/// How many patients the images of a stack name: by their identifiers, or by their names where
+/// these are more.
+std::size_t patients_of(const DicomStack& stack) {
+  std::set<std::string> ids;
+  std::set<std::string> names;
+  for (const DicomSlice& slice : stack.slices)
+    for (const DicomImage& image : slice.images) {
+      ids.insert(image.patient_id);
+      names.insert(image.patient_name);
+    }
+  ids.erase("");
+  names.erase("");
+  return std::max(ids.size(), names.size());
 }
 
 [[noreturn]] void fail_choice(const DicomStudy& study, const std::string& where,
@@ -319,6 +370,8 @@ class Copies {
 /// Sorts images that are read one after the other into stacks.
 class Collector {
  public:
+  explicit Collector(std::string where) { study_.where = std::move(where); }
+
   void read(const fs::path& place) {
     std::error_code failed;
     if (!fs::is_directory(place, failed)) {
@@ -327,6 +380,8 @@ class Collector {
       return;
     }
     FolderFiles folder = files_in(place, true);
+    for (const LeftOut& unreadable_file : folder.left_out)
+      study_.lost.push_back({unreadable_file, std::nullopt});
     std::move(folder.left_out.begin(), folder.left_out.end(), std::back_inserter(study_.skipped));
     Progress progress("reading DICOM files", folder.files.size());
     for (const fs::path& file : folder.files) {
@@ -359,6 +414,8 @@ class Collector {
     DicomFile read = read_dicom_headers(file);
     if (!read.reason.empty())
       study_.skipped.push_back({file, read.reason});
+    if (read.lost)
+      study_.lost.push_back({study_.skipped.back(), read.instance});
     for (DicomImage& image : read.images) {
       if (const DicomImage* same = copies_.of(image)) {
         study_.skipped.push_back({file, fmt::format("the same image as {}", same->file.string())});
@@ -378,13 +435,8 @@ class Collector {
     for (auto& group : by_orientation(images)) {
       const DicomImage first = group.front();
       const Vec3 normal = first.plane.normal();
-      study_.stacks.push_back({"",
-                               first.series_uid,
-                               first.description,
-                               first.kind,
-                               normal,
-                               slices_of(std::move(group), normal),
-                               {}});
+      study_.stacks.push_back({"", first.series_uid, first.description, first.kind, normal,
+                               slices_of(std::move(group), normal)});
     }
   }
 
@@ -398,7 +450,7 @@ class Collector {
 }  // namespace
 
 DicomStudy read_dicom_study(std::span<const fs::path> where) {
-  Collector found;
+  Collector found(where.empty() ? "no files" : where.front().string());
   for (const fs::path& place : where)
     found.read(place);
   return found.study();
@@ -467,7 +519,7 @@ DicomStack choose_stack(const DicomStudy& study, std::span<const std::string> se
     if (!series.empty() && std::none_of(series.begin(), series.end(), named))
       continue;
     if (joined.key.empty())
-      joined = {stack.key, stack.series_uid, stack.description, stack.kind, stack.normal, {}, {}};
+      joined = {stack.key, stack.series_uid, stack.description, stack.kind, stack.normal, {}};
     else if (std::abs(joined.normal.dot(stack.normal)) < parallel)
       fail_choice(study, where,
                   fmt::format("the series \"{}\" and \"{}\" that were chosen are not parallel",
@@ -478,13 +530,17 @@ DicomStack choose_stack(const DicomStudy& study, std::span<const std::string> se
   }
   joined.slices = slices_of(std::move(images), joined.normal);
   for (const DicomSlice& slice : joined.slices)
-    if (const std::string wrong = clash_in(slice); !wrong.empty())
+    if (const auto wrong = clash_in(slice))
       throw InputError(
-          where, wrong,
-          fmt::format("Choose one of the acquisitions with {}, or give the files of one "
-                      "in a folder of their own",
-                      parameter));
+          where, wrong->what,
+          wrong->untimed
+              ? "Export the images with their times or InstanceNumbers, or give one image of each "
+                "slice in a folder of their own"
+              : fmt::format("Choose one of the acquisitions with {}, or give the files of one "
+                            "in a folder of their own",
+                            parameter));
   joined.notes = study.notes;
+  joined.lost = study.lost;
   for (std::string& sentence : summary(study.skipped))
     joined.notes.push_back(std::move(sentence));
   return joined;
@@ -493,9 +549,14 @@ DicomStack choose_stack(const DicomStudy& study, std::span<const std::string> se
 std::vector<std::string> remarks(const DicomStack& stack) {
   std::vector<std::string> notes = stack.notes;
   const auto unusable = std::find_if(stack.slices.begin(), stack.slices.end(),
-                                     [](const DicomSlice& s) { return !clash_in(s).empty(); });
+                                     [](const DicomSlice& s) { return clash_in(s).has_value(); });
   if (unusable != stack.slices.end())
-    notes.push_back("cannot be used as it is: " + clash_in(*unusable));
+    notes.push_back("cannot be used as it is: " + clash_in(*unusable)->what);
+  if (const std::size_t patients = patients_of(stack); patients > 1)
+    notes.push_back(
+        fmt::format("its images are files of {} patients, by PatientID and PatientName: if these "
+                    "are not of one person, give those of each in a folder of their own",
+                    patients));
   const auto [least, most] = images_per_slice(stack);
   if (least != most)
     for (const DicomSlice& slice : stack.slices)
@@ -547,8 +608,7 @@ Cine read_pixels(const DicomStack& stack) {
 Cine read_dicom_cine(std::span<const fs::path> where, std::span<const std::string> series,
                      const std::string& parameter) {
   const DicomStudy study = read_dicom_study(where);
-  const std::string place = where.empty() ? "no files" : where.front().string();
-  return read_pixels(choose_stack(study, series, place, parameter));
+  return read_pixels(choose_stack(study, series, study.where, parameter));
 }
 
 }  // namespace lv::image

@@ -5,6 +5,7 @@
 #include "lv/image/picture.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,6 +18,12 @@ struct DicomSlice {
   std::vector<DicomImage> images;
 };
 
+/// A file that would be an image but is left out.
+struct LostImage {
+  LeftOut file;
+  std::optional<int> instance;  ///< its InstanceNumber, if it could be read
+};
+
 /// Parallel slices of one series with one kind of image: what a user chooses from. A series with
 /// several orientations is several stacks.
 struct DicomStack {
@@ -24,14 +31,17 @@ struct DicomStack {
                     ///< a series; the SeriesInstanceUID where numbers are missing or repeated
   std::string series_uid, description, kind;
   Vec3 normal = Vec3::UnitZ();
-  std::vector<DicomSlice> slices;  ///< along the normal
-  std::vector<std::string> notes;  ///< of a chosen stack: what of the study a user should know
+  std::vector<DicomSlice> slices;    ///< along the normal
+  std::vector<std::string> notes{};  ///< of a chosen stack: what of the study a user should know
+  std::vector<LostImage> lost{};     ///< of a chosen stack: images of the study, whatever series
 };
 
 /// All that some files hold.
 struct DicomStudy {
+  std::string where;               ///< the first of the files and folders, for messages
   std::vector<DicomStack> stacks;  ///< by series number, UID and orientation
   std::vector<LeftOut> skipped;    ///< files that are not used
+  std::vector<LostImage> lost;     ///< those of them that would be images
   std::vector<std::string> notes;  ///< what a user should know of its files
 };
 
@@ -57,13 +67,14 @@ void require_images(const DicomStudy& study, const std::string& where);
 /// SeriesInstanceUID or a description (then all series that bear it). Without names there must be
 /// one stack only. `where` and `parameter` are for messages. Throws InputError with the list of
 /// stacks where a name fits none, where there are several to choose from, where the chosen ones are
-/// not parallel, or where two images show the same slice at the same time or a slice has several
-/// times as many as the headers announce.
+/// not parallel, or where two images show the same slice at the same time, nothing orders the
+/// images of a slice in time, or a slice has several times as many as the headers announce.
 [[nodiscard]] DicomStack choose_stack(const DicomStudy& study, std::span<const std::string> series,
                                       const std::string& where, const std::string& parameter);
 
-/// What a user should know of a stack: files left out, slices that cannot be used as they are, gaps
-/// and steps between slices, differing heart rates, differing numbers of images, damaged files.
+/// What a user should know of a stack: files left out, several patients, slices that cannot be used
+/// as they are, gaps and steps between slices, differing heart rates, differing numbers of images,
+/// damaged files.
 [[nodiscard]] std::vector<std::string> remarks(const DicomStack& stack);
 
 /// The images of a stack with their pixels.

@@ -1,6 +1,7 @@
 #include "lv/image/guide_point_list.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/files.hpp"
 #include "lv/base/lines.hpp"
 
 #include <fmt/format.h>
@@ -46,7 +47,7 @@ class List {
  public:
   explicit List(const fs::path& file) : file_(file.string()), lines_(file) {
     if (!lines_.is_open())
-      throw InputError(file_, "the list of points cannot be opened",
+      throw InputError(file_, "the list of points cannot be opened: " + unreadable(file),
                        "Check the name and that it can be read");
     read_header();
   }

@@ -8,11 +8,31 @@
 namespace lv::image {
 namespace {
 
-constexpr int label_count = 256;
-constexpr double touching = 0.05;  ///< the least share of a border by which labels lie together
+constexpr int label_count = 256;      ///< of labels from 0 to 255
+constexpr int largest_label = 65535;  ///< of few
+constexpr int few = 64;               ///< different labels
+constexpr double touching = 0.05;     ///< the least share of a border by which labels lie together
+
+/// The labels of a map in order, with 0 whether it occurs or not; empty if its values seem to be
+/// none.
+std::vector<int> labels_of(const Volume& volume) {
+  std::vector<bool> seen(largest_label + 1);
+  seen[0] = true;
+  for (const float x : volume.values) {
+    if (!(x >= 0.0F && x <= static_cast<float>(largest_label)) || x != std::round(x))
+      return {};
+    seen[static_cast<std::size_t>(x)] = true;
+  }
+  std::vector<int> labels;
+  for (int label = 0; label <= largest_label; ++label)
+    if (seen[static_cast<std::size_t>(label)])
+      labels.push_back(label);
+  const bool small = labels.back() < label_count;
+  return small || labels.size() <= few ? labels : std::vector<int>{};
+}
 
 /// How long the border of each label with each other one is, in edges of pixels, and how many
-/// pixels it has.
+/// pixels it has. Labels are counted: the k-th of labels_of is k.
 struct Borders {
   std::vector<std::array<double, label_count>> with{label_count};
   std::array<double, label_count> pixels{};
@@ -34,11 +54,12 @@ struct Borders {
   }
 };
 
-void count_plane(const Picture& picture, Borders& borders) {
+void count_plane(const Picture& picture, const std::vector<int>& labels, Borders& borders) {
   const int columns = picture.plane.columns;
   const int rows = picture.plane.rows;
   const auto label = [&](int i, int j) {
-    return static_cast<int>(picture.values[static_cast<std::size_t>(j) * columns + i]);
+    const int value = static_cast<int>(picture.values[static_cast<std::size_t>(j) * columns + i]);
+    return static_cast<int>(std::lower_bound(labels.begin(), labels.end(), value) - labels.begin());
   };
   const auto meet = [&](int a, int b) {
     if (a == b)
@@ -56,11 +77,11 @@ void count_plane(const Picture& picture, Borders& borders) {
     }
 }
 
-Borders borders_of(const Volume& volume) {
+Borders borders_of(const Volume& volume, const std::vector<int>& labels) {
   Borders borders;
   for (int f = 0; f < volume.frames; ++f)
     for (const Picture& picture : slices(volume, slice_axis(volume), f))
-      count_plane(picture, borders);
+      count_plane(picture, labels, borders);
   return borders;
 }
 
@@ -107,15 +128,14 @@ void add_scar(const Borders& borders, int cavity, std::vector<int>& muscle) {
 }  // namespace
 
 bool seems_labels(const Volume& v) {
-  return std::all_of(v.values.begin(), v.values.end(), [](float x) {
-    return x == std::round(x) && x >= 0.0F && x < static_cast<float>(label_count);
-  });
+  return !labels_of(v).empty();
 }
 
 LabelMeaning propose_meaning(const Volume& volume) {
-  if (!seems_labels(volume))
+  const std::vector<int> labels = labels_of(volume);
+  if (labels.empty())
     return {};
-  const Borders borders = borders_of(volume);
+  const Borders borders = borders_of(volume, labels);
   const int cavity = largest(borders, [&](int label) {
     return borders.share(label, {0}) < 1.0 / 3.0 &&
            borders.share(label, {borders.neighbour(label)}) >= 0.5;
@@ -130,6 +150,9 @@ LabelMeaning propose_meaning(const Volume& volume) {
   });
   if (right != 0)
     meaning.right_ventricle = {right};
+  for (auto* places : {&meaning.cavity, &meaning.muscle, &meaning.right_ventricle})
+    for (int& label : *places)
+      label = labels[static_cast<std::size_t>(label)];
   return meaning;
 }
 

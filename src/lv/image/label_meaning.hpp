@@ -7,7 +7,8 @@
 
 namespace lv::image {
 
-/// Whether all values are whole numbers from 0 to 255, as labels are.
+/// Whether all values are whole numbers from 0 to 255, as labels are, or at most 64 different ones
+/// from 0 to 65535: labels may be of hundreds (205, 420, 500), and grey images have more values.
 [[nodiscard]] bool seems_labels(const Volume& volume);
 
 /// What the labels of a map seem to mean, from what lies beside what on the slices of all frames:

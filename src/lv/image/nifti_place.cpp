@@ -124,6 +124,17 @@ void check_finite(const NiftiHeader& header, const Volume& volume) {
     check("the sform", header.rows.reshaped());
 }
 
+/// Sizes have no sign: some programs mean a mirrored axis by one, which the standard leaves to the
+/// sform and the qform.
+void note_negative_sizes(const NiftiHeader& header, Volume& volume) {
+  const Vec3 sizes(header.pixdim[1], header.pixdim[2], header.pixdim[3]);
+  if (sizes.minCoeff() < 0.0)
+    volume.notes.push_back(
+        fmt::format("{}: of its voxel sizes (pixdim) {} some are negative: they are taken without "
+                    "the sign, which mirrors nothing; check the orientation",
+                    volume.file, three(sizes)));
+}
+
 /// Of an affine map that says nothing.
 void note_nothing_said(Volume& volume) {
   if (volume.spacing.isOnes() && volume.origin.isZero() && volume.directions.isApprox(to_lps()))
@@ -140,6 +151,7 @@ void lay_by_header(const NiftiHeader& header, Volume& volume) {
   check_finite(header, volume);
   const Unit unit = length_unit(header, volume);
   const Vec3 sizes = Vec3(header.pixdim[1], header.pixdim[2], header.pixdim[3]).cwiseAbs();
+  note_negative_sizes(header, volume);
   const bool has_sform = header.sform_code > 0 && !header.rows.leftCols<3>().isZero();
   const auto in_space = [&](const Affine& map) -> Affine { return unit.mm * to_lps() * map; };
   if (has_sform) {

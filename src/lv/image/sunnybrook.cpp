@@ -53,13 +53,31 @@ std::multimap<int, Place> images_by_instance(const DicomStack& stack) {
   return places;
 }
 
-Place place_of(const std::multimap<int, Place>& places, int instance, const fs::path& file) {
+/// Images that are there but left out, in words to end a sentence: those of an InstanceNumber if
+/// there are such, else all of them; empty if there are none.
+std::string lost_text(const DicomStack& stack, std::optional<int> instance) {
+  std::vector<LeftOut> exact;
+  std::vector<LeftOut> all;
+  for (const LostImage& image : stack.lost) {
+    all.push_back(image.file);
+    if (instance && image.instance == instance)
+      exact.push_back(image.file);
+  }
+  const std::vector<std::string> sentences = summary(exact.empty() ? all : exact);
+  return sentences.empty() ? "" : fmt::format("; {}", fmt::join(sentences, "; "));
+}
+
+Place place_of(const std::multimap<int, Place>& places, int instance, const DicomStack& stack,
+               const fs::path& file) {
   const auto [first, last] = places.equal_range(instance);
   if (first == last)
-    throw InputError(
-        file.string(),
-        fmt::format("no image of the DICOM series has the InstanceNumber {}", instance),
-        "Give the DICOM files that the contours were drawn on");
+    throw InputError(file.string(),
+                     fmt::format("no image of the DICOM series has the InstanceNumber {}{}",
+                                 instance, lost_text(stack, instance)),
+                     stack.lost.empty()
+                         ? "Give the DICOM files that the contours were drawn on"
+                         : "Export the files that are left out again, or give those that the "
+                           "contours were drawn on");
   if (std::next(first) != last)
     throw InputError(file.string(),
                      fmt::format("the InstanceNumber {} is that of {} and of {}", instance,
@@ -89,7 +107,7 @@ std::optional<Eigen::Vector2d> parse_point(std::string_view line) {
 Contour read_contour(const fs::path& file, const Place& place, Side side, PixelOrigin origin) {
   LineReader lines(file);
   if (!lines.is_open())
-    throw InputError(file.string(), "the contour file cannot be opened",
+    throw InputError(file.string(), "the contour file cannot be opened: " + unreadable(file),
                      "Check that it can be read");
   const Plane& plane = place.image->plane;
   const double shift = origin == PixelOrigin::corner ? 0.5 : 0.0;
@@ -140,9 +158,9 @@ void check_phases(const DicomStack& stack, const std::map<int, fs::path>& drawn)
     throw InputError(
         fewest->second.string(),
         fmt::format("its slice {} has {} image{} where slice {} has {}: the phases of the contours "
-                    "cannot be told by order of time",
+                    "cannot be told by order of time{}",
                     fewest->first, images(*fewest), images(*fewest) == 1 ? "" : "s", most->first,
-                    images(*most)),
+                    images(*most), lost_text(stack, std::nullopt)),
         "Give the missing images, or leave out the contours of this slice");
 }
 
@@ -175,7 +193,7 @@ DrawnPhases read_sunnybrook(const fs::path& folder, const DicomStack& stack, Pix
     } else if (name->border != "i" && name->border != "o") {
       ++papillary;
     } else {
-      const Place place = place_of(places, name->instance, file);
+      const Place place = place_of(places, name->instance, stack, file);
       drawn_on.emplace(place.slice, file);
       const Side side = name->border == "i" ? Side::endo : Side::epi;
       std::vector<Contour>& loops = drawn.phases[place.phase].short_axis;

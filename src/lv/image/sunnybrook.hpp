@@ -34,8 +34,9 @@ struct DrawnPhases {
 /// folder and its subfolders (i-contours, o-contours). NNNN is the InstanceNumber of the DICOM
 /// image, whose header says slice, plane and time. Contours of papillary muscles (p1contour,
 /// p2contour) and of the other observer are counted in a note. Throws InputError naming the file,
-/// and the line, where an image is missing or not unique, a border is drawn twice, or a point is no
-/// two numbers or lies outside its image, or slices with contours have different numbers of images.
+/// and the line, where an image is missing (and which files were left out) or not unique, a border
+/// is drawn twice, or a point is no two numbers or lies outside its image, or slices with contours
+/// have different numbers of images.
 [[nodiscard]] DrawnPhases read_sunnybrook(const std::filesystem::path& folder,
                                           const DicomStack& stack, PixelOrigin origin,
                                           DrawnBy drawn_by);

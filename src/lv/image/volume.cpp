@@ -166,7 +166,8 @@ std::string describe(const std::map<int, double>& label_volumes,
 }
 
 void require_labels(const Volume& volume, int frame, const std::vector<int>& labels,
-                    const std::string& where, const std::string& parameter) {
+                    const std::string& where, const std::string& parameter,
+                    const std::string& remedy) {
   require_frame(volume, frame + 1, where);
   const auto present = label_volumes(volume, frame);
   for (const int label : labels)
@@ -176,7 +177,7 @@ void require_labels(const Volume& volume, int frame, const std::vector<int>& lab
           fmt::format("no voxel of {}{} has the label {} of {}; it has {}", volume.file,
                       volume.frames > 1 ? fmt::format(", frame {},", frame + 1) : "", label,
                       parameter, describe(present, volume.names)),
-          "Name the labels as this file has them");
+          remedy);
 }
 
 }  // namespace lv::image

@@ -69,8 +69,10 @@ std::string list_volume(const fs::path& file, const ListOptions& options) {
     text += fmt::format("  note: {}\n", note);
   if (!image::seems_labels(v)) {
     if (!options.cavity.empty())
-      throw InputError(v.file, "holds values that are no labels (whole numbers from 0 to 255)",
-                       "Leave --cavity out, or give a label map");
+      throw InputError(
+          v.file,
+          "holds values that are no labels (whole numbers from 0 to 255, or few up to 65535)",
+          "Leave --cavity out, or give a label map");
     return text + describe_values(v);
   }
   text += describe_labels(v);
@@ -140,9 +142,9 @@ std::string list_dicom(const ListOptions& options) {
   if (study.stacks.empty())
     if (std::string text = list_volume_among(study, options); !text.empty())
       return text;
-  return list_study(study, options) +
-         for_a_case(options, propose(study, options.where.string(), options.contours,
-                                     options.contours.string()));
+  const std::string list = list_study(study, options);  // first, with the messages of its own
+  return list + for_a_case(options, propose(study, options.where.string(), options.contours,
+                                            options.contours.string()));
 }
 
 }  // namespace

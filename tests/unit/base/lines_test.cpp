@@ -90,7 +90,9 @@ TEST_CASE("text in another encoding is refused in words, not read as garbage", "
   CHECK_THAT(refusal("\xFF\xFEx\0,\0y\0"s),
              Contains("list.txt: is not UTF-8 text but UTF-16") && remedy);
   CHECK_THAT(refusal("\xFE\xFF\0x\0,"s), Contains("UTF-16") && remedy);
-  CHECK_THAT(refusal("\xFF\xFE\0\0x\0\0\0"s), Contains("UTF-32") && remedy);
+  CHECK_THAT(refusal("\xFF\xFE\0\0x\0\0\0"s), Contains("UTF-32") && remedy && !Contains("CSV"));
+  test::write_bytes(folder / "table.csv", "\xFF\xFEx\0"s);
+  CHECK_THROWS_WITH(read_text(folder / "table.csv"), Contains("(a spreadsheet calls this"));
   CHECK_THAT(refusal("x\0,\0y\0\n\0"s), Contains("list.txt:1: is not UTF-8 text") && remedy);
   CHECK_THAT(refusal("x,y\r\n1,2\r\n\0\0"s), Contains("list.txt:3: is not UTF-8 text"));
   CHECK(refusal("Gr\xFC\xDF,y\n") == "no error");  // Latin-1 has all of ASCII

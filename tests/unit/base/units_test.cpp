@@ -37,6 +37,10 @@ const KnownUnit known_units[] = {{"m", 1e3, "length"},
                                  {"MPa", 1e3, "pressure"},
                                  {"bar", 100, "pressure"},
                                  {"mmHg", 0.133322387415, "pressure"},
+                                 {"cmH2O", 0.0980665, "pressure"},
+                                 {"\u00b5m", 1e-3, "length"},
+                                 {"\u03bcm", 1e-3, "length"},
+                                 {"\u00b0", 0.017453292519943295, "angle"},
                                  {"P", 1e-4, "viscosity"},
                                  {"cP", 1e-6, "viscosity"},
                                  {"uM", 1, "concentration"},
@@ -82,6 +86,8 @@ TEST_CASE("products of units mean the same however they are written", "[unit][ba
   check_same("1 (mm)", "1 mm");
   check_same("1 kPa/mm", "1e6 N/m^3");
   check_same("50%", "0.5");
+  check_same("10 cmH2O", "0.980665 kPa");
+  check_same("10 mmHg/\u00b5m^2", "10 mmHg/um^2");
   check_same("180 deg", "3.141592653589793 rad");
   check_same(" 8\tmmHg ", "8 mmHg");
 }
@@ -112,6 +118,8 @@ TEST_CASE("text that is no quantity is refused with what is wrong", "[unit][base
   CHECK_THROWS_WITH(parse_quantity("8 mmhg"), Contains("'mmhg'") && Contains("'mmHg'"));
   CHECK_THROWS_WITH(parse_quantity("8 kpa"), Contains("'kpa'") && Contains("'kPa'"));
   CHECK_THROWS_WITH(parse_quantity("8 degrees"), Contains("'degrees'"));
+  CHECK_THROWS_WITH(parse_quantity("8 cmH20"), Contains("'cmH20'") && Contains("'cmH2O'"));
+  CHECK_THROWS_WITH(parse_quantity("8,5 mmHg"), Contains("write a decimal point"));
   CHECK_THROWS_WITH(parse_quantity("mmHg"), Contains("does not begin with a number"));
   CHECK_THROWS_WITH(parse_quantity(""), Contains("does not begin with a number"));
   CHECK_THROWS_WITH(parse_quantity("nan mm"), Contains("not a finite number"));

@@ -219,6 +219,32 @@ TEST_CASE("a point out of its slice's plane is refused", "[unit][geometry]") {
       Contains("file:6: slice 1, endo: the point (") && Contains("out of the slice's plane"));
 }
 
+TEST_CASE("the one point that is far off is named, not those that it tilts the plane from",
+          "[unit][geometry]") {
+  CHECK_THAT(
+      complaint_after([](Contours& c) { loop(c, 1, Side::endo).points[30].x() += 120.0; }),
+      Contains("file:32: slice 1, endo: the point (") && Contains("out of the slice's plane"));
+}
+
+TEST_CASE("a slice that is missing and one that is misplaced are told apart", "[unit][geometry]") {
+  using lv::geometry::notes_on_spacing;
+  const Contours drawn_well = draw(in_scanner());
+  CHECK(notes_on_spacing(drawn_well).empty());
+  Contours missing = drawn_well;
+  std::erase_if(missing.short_axis, [](const Contour& c) { return c.slice == 3; });
+  REQUIRE(notes_on_spacing(missing).size() == 1);
+  CHECK_THAT(notes_on_spacing(missing).front(),
+             Contains("slices 2 and 4 lie 20.0 mm apart, others 10.0 mm"));
+  Contours misplaced = drawn_well;
+  for (Contour& c : misplaced.short_axis)
+    if (c.slice == 4)
+      for (Vec3& x : c.points)
+        x += 6.5 * oblique_frame().axes.col(2);
+  REQUIRE(notes_on_spacing(misplaced).size() == 1);
+  CHECK_THAT(notes_on_spacing(misplaced).front(),
+             Contains("slice 4 lies ") && Contains("it seems misplaced"));
+}
+
 TEST_CASE("an open loop is refused with its gap", "[unit][geometry]") {
   CHECK_THAT(complaint_after([](Contours& c) { loop(c, 1, Side::endo).points.resize(33); }),
              Contains("file:34: slice 1, endo: the loop is open") &&

@@ -185,6 +185,46 @@ TEST_CASE("twice as many images as phases are announced are refused, whatever th
   CHECK_THAT(complaint(folder), Contains("has 4 images where the headers announce 2 phases"));
 }
 
+TEST_CASE("phases that nothing tells apart are refused with the tags that are lacking",
+          "[unit][image]") {
+  const test::TemporaryFolder folder;
+  for (int p = 0; p < 2; ++p) {
+    DicomSpec spec = oblique(0, p);
+    spec.trigger_ms.reset();
+    spec.numbered = false;
+    test::write_bytes(folder / fmt::format("{}", p), test::dicom_bytes(spec));
+  }
+  const std::string message = complaint(folder);
+  CHECK_THAT(message, Contains("has 2 images whose phases cannot be told apart"));
+  CHECK_THAT(message, Contains("they have no TriggerTime, no TemporalPositionIdentifier and no "
+                               "InstanceNumber. Export the images with their times"));
+}
+
+TEST_CASE("files of several patients are told, and not by name", "[unit][image]") {
+  const test::TemporaryFolder folder;
+  for (int s = 0; s < 3; ++s) {
+    DicomSpec spec = oblique(s, 0);
+    spec.patient = s == 1 ? "SECRET2" : "SECRET1";
+    test::write_bytes(folder / fmt::format("{}", s), test::dicom_bytes(spec));
+  }
+  const std::string notes = fmt::format("{}", fmt::join(read(folder).notes, "|"));
+  CHECK_THAT(notes, Contains("files of 2 patients") && !Contains("SECRET"));
+}
+
+TEST_CASE("images that are left out are kept with their instance numbers", "[unit][image]") {
+  const test::TemporaryFolder folder;
+  write_stack(folder);
+  DicomSpec spec = oblique(3, 0);
+  spec.plane.spacing_i = 0.0;
+  test::write_bytes(folder / "lost", test::dicom_bytes(spec));
+  test::write_bytes(folder / "notes.txt", "no image");
+  const DicomStack stack =
+      choose_stack(read_dicom_study(std::array{folder / ""}), {}, "study", "series");
+  REQUIRE(stack.lost.size() == 1);
+  CHECK(stack.lost.front().instance == 31);
+  CHECK_THAT(stack.lost.front().file.reason, Contains("PixelSpacing"));
+}
+
 TEST_CASE("magnitude and phase frames of one enhanced file are two stacks", "[unit][image]") {
   for (const bool by_component : {false, true}) {
     std::vector<DicomSpec> frames;

@@ -128,7 +128,13 @@ TEST_CASE("contours without an image, broken lines and points outside are refuse
   std::filesystem::remove(file);
   test::write_bytes(folder / "IM-0001-0099-icontour-manual.txt", circle(8.0));
   CHECK_THAT(complaint_of_sunnybrook(folder),
-             Contains("no image of the DICOM series has the InstanceNumber 99"));
+             Contains("no image of the DICOM series has the InstanceNumber 99. Give"));
+  DicomStack with_lost = stack();
+  with_lost.lost = {{{"98.dcm", "it is damaged"}, 98}, {{"99.dcm", "it has no PixelSpacing"}, 99}};
+  CHECK_THROWS_WITH(
+      read_sunnybrook(folder / "", with_lost, PixelOrigin::corner, DrawnBy::manual),
+      Contains("has the InstanceNumber 99; 99.dcm is left out: it has no PixelSpacing. Export") &&
+          !Contains("98.dcm"));
 }
 
 TEST_CASE("guide points in any order become the wall that they were taken from", "[unit][image]") {

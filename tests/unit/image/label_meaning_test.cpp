@@ -54,8 +54,8 @@ Labels sorted(Labels labels) {
 }  // namespace
 
 TEST_CASE("cavity, muscle and right ventricle are found whatever their numbers", "[unit][image]") {
-  const std::array<std::array<int, 3>, 4> conventions{
-      {{3, 2, 1}, {1, 2, 3}, {7, 40, 200}, {2, 3, 1}}};
+  const std::array<std::array<int, 3>, 5> conventions{
+      {{3, 2, 1}, {1, 2, 3}, {7, 40, 200}, {2, 3, 1}, {500, 205, 600}}};
   for (const auto& [cavity, muscle, right] : conventions) {
     const auto meaning = image::propose_meaning(map_of({cavity, muscle, right, muscle, muscle}));
     CHECK(meaning.cavity == Labels{cavity});
@@ -84,4 +84,15 @@ TEST_CASE("nothing is proposed where no label lies inside another", "[unit][imag
   grey.values[17] = 0.5F;
   CHECK_FALSE(image::seems_labels(grey));
   CHECK(image::propose_meaning(grey).cavity.empty());
+}
+
+TEST_CASE("few whole values are labels, however large; many beyond 255 are an image",
+          "[unit][image]") {
+  image::Volume map = map_of({500, 205, 600, 205, 205});
+  CHECK(image::seems_labels(map));
+  for (int k = 0; k < 100; ++k)
+    map.values[k] = static_cast<float>(3 * k);
+  CHECK_FALSE(image::seems_labels(map));
+  map.values.assign(map.values.size(), -1.0F);
+  CHECK_FALSE(image::seems_labels(map));
 }

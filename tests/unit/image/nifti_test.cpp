@@ -150,6 +150,15 @@ TEST_CASE("axes a little off right angles, by rounding, become orthonormal", "[u
   }
 }
 
+TEST_CASE("negative sizes of voxels are told, and mirror nothing", "[unit][image]") {
+  test::NiftiSpec spec = small(oblique());
+  spec.pixdim = {-1.0, 2.0, 8.0};
+  const Volume v = read_back(spec);
+  CHECK((v.directions - oblique()).norm() < 1e-5);
+  REQUIRE(v.notes.size() == 1);
+  CHECK_THAT(v.notes.front(), Contains("(pixdim) (-1, 2, 8) some are negative"));
+}
+
 TEST_CASE("lengths of the sform that are not the sizes of voxels are told apart and told",
           "[unit][image]") {
   test::NiftiSpec directions = test::label_map({3, 4, 5}, oblique(), Vec3::Ones(), Vec3(1, 2, 3),

@@ -34,6 +34,20 @@ test::NiftiSpec map_of_frames(int frames, const std::vector<int>& labelled) {
 
 }  // namespace
 
+TEST_CASE("a folder without images is named itself, not the contours that are given with it",
+          "[unit][proposal]") {
+  const test::TemporaryFolder dicom;
+  const test::TemporaryFolder contours;
+  test::write_bytes(dicom / "notes.txt", "no image");
+  try {
+    static_cast<void>(proposal::list_images({dicom / "", contours / "", {}, {}}));
+    FAIL("is not refused");
+  } catch (const InputError& error) {
+    CHECK(error.where() == (dicom / "").string());
+    CHECK_THAT(error.what(), Contains("holds no DICOM image"));
+  }
+}
+
 TEST_CASE("any file is answered with what it is and with what is read", "[unit][proposal]") {
   const test::TemporaryFolder folder;
   const auto answer = [&](const std::string& name, const std::string& bytes) {

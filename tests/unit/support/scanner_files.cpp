@@ -64,6 +64,8 @@ std::string dicom_begin(const char* storage, const DicomSpec& s) {
   text(bytes, 8, 0x18, "UI", s.instance_uid);
   text(bytes, 8, 0x60, "CS", "MR");
   text(bytes, 8, 0x103e, "LO", s.description);
+  if (!s.patient.empty())
+    text(bytes, 0x10, 0x20, "LO", s.patient);
   return bytes;
 }
 
@@ -71,7 +73,8 @@ void series(std::string& bytes, const DicomSpec& s) {
   text(bytes, 0x20, 0x0d, "UI", "1.2.3");
   text(bytes, 0x20, 0x0e, "UI", s.series_uid);
   text(bytes, 0x20, 0x11, "IS", fmt::format("{}", s.series_number));
-  text(bytes, 0x20, 0x13, "IS", fmt::format("{}", s.instance));
+  if (s.numbered)
+    text(bytes, 0x20, 0x13, "IS", fmt::format("{}", s.instance));
 }
 
 void position(std::string& bytes, const image::Plane& plane) {

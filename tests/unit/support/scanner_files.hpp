@@ -24,6 +24,8 @@ struct DicomSpec {
   int phases = 0;          ///< CardiacNumberOfImages; not written if 0
   int series_number = 1;
   int instance = 1;
+  bool numbered = true;  ///< whether the InstanceNumber is written
+  std::string patient;   ///< PatientID; not written if empty
   std::optional<double> trigger_ms;
   int rr_ms = 800;
   double slope = 1.0, intercept = 0.0;
