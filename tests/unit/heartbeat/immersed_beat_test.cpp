@@ -69,7 +69,7 @@ TEST_CASE("springs around the wall keep it from filling and hold its base", "[he
   const mesh::Mesh mesh = coarse_mesh();
   BeatSetup setup = twitch(mesh);
   setup.protocol.filling_ramp = 0.1;
-  setup.protocol.filling_longest = 0.15;
+  setup.protocol.filling_longest = 0.3;
   const test::TemporaryFolder folder, other;
   const Beat sliding = heartbeat::run_immersed_beat(setup, folder / "", {});
   setup.heart.base.kind = solid::BasalSupport::Kind::elastic;

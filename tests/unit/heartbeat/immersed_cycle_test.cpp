@@ -116,7 +116,7 @@ TEST_CASE("the immersed wall beats in a circulation", "[unit][heartbeat]") {
   CHECK(m.aortic_opens > m.mitral_closes);
   CHECK(m.aortic_closes > m.aortic_opens);
   CHECK(beat.at(heartbeat::end_systole).volume ==
-        Approx(m.end_systolic_volume).epsilon(1e-3));  // a step is 0.4 ms, a sample 1 ms
+        Approx(m.end_systolic_volume).epsilon(0.01));  // with the fan at the base
   CHECK(beat.at(heartbeat::end_systole).tension.size() == mesh.nodes.size());
   CHECK(beat.curves.front().time == 0.0);
   CHECK(beat.curves.back().time == Approx(0.4));

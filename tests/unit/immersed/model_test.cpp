@@ -72,6 +72,19 @@ Model under_way(const mesh::Mesh& mesh) {
   return model;
 }
 
+/// What the endocardium sweeps on a straight way [mm^3].
+double swept(const mesh::Mesh& mesh, const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
+  std::vector<Vec3> middle(from.size());
+  for (std::size_t a = 0; a < from.size(); ++a)
+    middle[a] = 0.5 * (from[a] + to[a]);
+  std::vector<Vec3> gradient(from.size(), Vec3::Zero());
+  solid::EndocardialSurface(mesh).add_gradient(1.0, middle, gradient);
+  double sum = 0.0;
+  for (std::size_t a = 0; a < from.size(); ++a)
+    sum += gradient[a].dot(to[a] - from[a]);
+  return sum;
+}
+
 }  // namespace
 
 TEST_CASE("supports hold the immersed wall as they hold the implicit one", "[unit][immersed]") {
@@ -104,23 +117,26 @@ TEST_CASE("supports limit the step of the immersed engine", "[unit][immersed]") 
   CHECK(held.longest_step() == springs_and_dashpots().longest_step(mass));
 }
 
-TEST_CASE("a step finds the pressure that brings the cavity to a volume", "[unit][immersed]") {
+TEST_CASE("a step finds the pressure by which the endocardium sweeps a volume",
+          "[unit][immersed]") {
   const mesh::Mesh mesh = coarse_mesh();
   Model model = under_way(mesh);
-  const double wanted = model.cavity_volume() + 3.0;
+  const std::vector<Vec3> before = model.state().positions;
+  constexpr double wanted = 3.0;  // [mm^3]
+  const double volume = model.cavity_volume() + wanted;
   immersed::StepVolume seen;
   const auto report = model.step(
       {0.4, 0.0, 0.3}, 2e-4,
       [&](const immersed::StepVolume& v) {
         seen = v;
-        return v.guess + (wanted - v.volume) / v.per_pressure;
+        return v.guess + (volume - v.volume) / v.per_pressure;
       },
       true);
   CHECK(seen.guess == 0.4);
   CHECK(seen.per_pressure > 0.0);
   CHECK(std::abs(report.pressure - 0.4) > 0.01);
-  // the fan at the base, which yields by micrometres, is not in what the endocardium sweeps
-  CHECK(model.cavity_volume() == Approx(wanted).epsilon(1e-4));
+  // the middle of the step is predicted with the velocity before it
+  CHECK(swept(mesh, before, model.state().positions) == Approx(wanted).epsilon(1e-3));
 
   Model given = under_way(mesh);
   static_cast<void>(given.step({report.pressure, 0.0, 0.3}, 2e-4));
@@ -132,25 +148,24 @@ TEST_CASE("a step finds the pressure that brings the cavity to a volume", "[unit
 
 TEST_CASE("a closed valve is held over many steps with an old response", "[unit][immersed]") {
   const mesh::Mesh mesh = coarse_mesh();
-  Model model = under_way(mesh);
-  const double volume = model.cavity_volume();
-  double pressure = 0.4;
+  Model model(mesh, {}, verify::in_default_box(mesh, cells));
+  model.relax(0.01);
+  double pressure = 0.0;
   double largest_jump = 0.0;
   for (int n = 0; n < 200; ++n) {
-    const double calcium = 0.3 + 0.003 * n;
+    const std::vector<Vec3> before = model.state().positions;
     const auto report = model.step(
-        {pressure, 0.0, calcium}, 2e-4,
+        {pressure, 0.0, 0.01 + 0.005 * n}, 2e-4,
         [&](const immersed::StepVolume& v) {
           return v.guess - (v.volume - model.cavity_volume()) / v.per_pressure;
         },
         n % 10 == 0);
-    if (n > 0)
-      largest_jump = std::max(largest_jump, std::abs(report.pressure - pressure));
+    largest_jump = std::max(largest_jump, std::abs(report.pressure - pressure));
     pressure = report.pressure;
-    CHECK(model.cavity_volume() == Approx(volume).epsilon(1e-3));  // of the fan, see above
+    CHECK(std::abs(swept(mesh, before, model.state().positions)) < 1e-3);  // [mm^3]
   }
-  CHECK(pressure > 0.4);      // it contracts against the closed valve
-  CHECK(largest_jump < 0.1);  // [kPa] smoothly
+  CHECK(pressure > 1.0);      // it contracts against the closed valve
+  CHECK(largest_jump < 0.5);  // [kPa]
 }
 
 TEST_CASE("slack muscle has no tension until it is balanced at its stretch", "[unit][immersed]") {
