@@ -180,6 +180,7 @@ export class ScarEditor {
     this.ask(async () => {
       const map = await this.source.scar!(this.wish(this.scar.walls, level));
       this.drawing.change({ what: "set the threshold", scar: proposedAgain(this.scar, this.planes, map) }, goesOn);
+      this.say(`Scar is brighter than ${map.threshold.toPrecision(4)} now.`);
     });
   }
 
