@@ -32,12 +32,6 @@ inline bool has_alpha_function(const Case& c) {
   return c.protocol.calcium.shape == material::Calcium::Shape::alpha_function;
 }
 
-/// Dashpots alone are none where nothing has a rate.
-inline bool has_pericardium(const solid::Support& p, bool with_rates) {
-  return p.normal_stiffness != 0.0 || p.tangential_stiffness != 0.0 ||
-         (with_rates && p.has_dashpots());
-}
-
 #define LV_DRAWN                                                                          \
   "for a wall that is drawn (anatomy.source = \"contours\", \"labels\", \"sunnybrook\", " \
   "\"guide_points\", \"cine\", \"contour_file\" or \"surfaces\")"
@@ -76,7 +70,10 @@ LV_CONDITION(elastic_base, c.base.kind == solid::BasalSupport::Kind::elastic,
              "with base.support = \"elastic\"")
 LV_CONDITION(rigid_base, c.base.kind != solid::BasalSupport::Kind::elastic,
              "with base.support = \"sliding\" or \"fixed\"")
-LV_CONDITION(pericardium, has_pericardium(c.surroundings.epicardium, rates.holds(c, s)),
+// dashpots alone are none where nothing has a rate
+LV_CONDITION(pericardium,
+             c.surroundings.epicardium.has_springs() ||
+                 (rates.holds(c, s) && c.surroundings.epicardium.has_dashpots()),
              "with springs or dashpots of the pericardium")
 LV_CONDITION(weighted_pericardium,
              c.surroundings.epicardium.weight.shape != solid::AxialWeight::Shape::even,

@@ -17,8 +17,8 @@ bool encloses(const Polygon& polygon, const Eigen::Vector2d& point) {
 }
 
 double farthest_crossing(const Polygon& polygon, const Eigen::Vector2d& ray) {
-  constexpr double slack =
-      1e-9;  // of a side: a ray through a corner must not miss both sides there
+  // of a side: a ray through a corner must not miss both sides there
+  constexpr double slack = 1e-9;
   double farthest = 0.0;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Eigen::Vector2d& a = polygon[i];

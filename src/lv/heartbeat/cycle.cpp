@@ -244,17 +244,12 @@ void CycleRun::stop_early(const std::string& why) {
       "at {:.4f} s of beat {} no equilibrium of wall and circuit was found, even with a step of "
       "{:.2g} s: {}",
       record_.since(), record_.beat() + 1, std::ldexp(setup_.cycle.step, -most_step_halvings), why);
-  if (record_.beat() == 0) {
-    record_.show_progress(observers_);
-    throw RunError(what,
-                   "Look at cycle.csv up to there: a circuit that empties the heart, or overfills "
-                   "it, has other resistances, pressures or contractility than meant; a thin or "
-                   "scarred wall may need what holds muscle back (muscle.viscosity = \"100 Pa "
-                   "s\"); else try a finer mesh");
-  }
-  record_.cut_short();
-  log::warn("{}; what follows is of the {} whole beat{} before it", what, record_.beat(),
-            record_.beat() == 1 ? "" : "s");
+  const RunError error(
+      what,
+      "Look at cycle.csv up to there: a circuit that empties the heart, or overfills it, has other "
+      "resistances, pressures or contractility than meant; a thin or scarred wall may need what "
+      "holds muscle back (muscle.viscosity = \"100 Pa s\"); else try a finer mesh");
+  record_.stop_early(error, what, observers_);
 }
 
 void CycleRun::end_beat() {

@@ -1,11 +1,13 @@
 #pragma once
 
+#include "lv/base/check.hpp"
 #include "lv/circulation/circuit.hpp"
 #include "lv/heartbeat/observers.hpp"
 
 #include <array>
 #include <limits>
 #include <optional>
+#include <string>
 
 namespace lv::heartbeat {
 
@@ -100,8 +102,9 @@ class CycleRecord {
 
   /// The beat is whole: measures it and logs them.
   void end_beat();
-  /// The beat underway finds no solution: what whole ones were reached stays.
-  void cut_short();
+  /// The beat underway finds no solution: what whole ones were reached stays, and a warning says
+  /// why in `words`. Throws `error` where there is none.
+  void stop_early(const RunError& error, const std::string& words, const Observers& observers);
   void gave_way() { ++cycle_.gave_way; }
   [[nodiscard]] bool done() const;
   /// Beats after the one underway, if changes go on falling as they did.
