@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """A synthetic study through the program to the mesh or to strain, compared with what is true of it.
-Usage: phantom.py VENTRICLE [strain] [OPTION OF `ventricle phantom` ...]; without options, the studies of the lists below."""
+Usage: phantom.py VENTRICLE [all | strain] [OPTION OF `ventricle phantom` ...]; without options, the studies of the lists below,
+of which the everyday ones without `all`."""
 import base64
 import csv
 import json
@@ -16,23 +17,22 @@ import zlib
 program = pathlib.Path(sys.argv[1]).resolve()
 small = ["--phases", "10", "--field-of-view", "150"]
 noisy = ["--snr", "20", "--shift", "3"]
-studies = [
-    [*small, "--dicom", "false"],
+everyday = [
     [*small, "--dicom", "false", *noisy, "--seed", "2"],
+    [*small, "--nifti", "false", "--snr", "20", "--seed", "2"],
+    [*small, "--nifti", "false", *noisy, "--seed", "3", "--thickness", "10"],
+]
+others = [
+    [*small, "--dicom", "false"],
     [*small, "--dicom", "false", *noisy, "--seed", "3", "--thickness", "10"],
     [*small, "--nifti", "false"],
-    [*small, "--nifti", "false", "--snr", "20", "--seed", "2"],
     [*small, "--nifti", "false", *noisy, "--seed", "3"],
-    [*small, "--nifti", "false", *noisy, "--seed", "3", "--thickness", "10"],
 ]
 # Physiological shortening, noise and breath-holds; 14 phases, of which the sixth is end-systole.
 moving = ["--phases", "14", "--field-of-view", "150", "--nifti", "false", "--shortening", "0.12", "--snr", "20", "--shift", "3"]
-of_strain = sys.argv[2:3] == ["strain"]
-options = sys.argv[3 if of_strain else 2:]
-if of_strain:
-    studies = [[*moving, "--seed", "3"]]
-if options:
-    studies = [options]
+of_strain, of_all = (sys.argv[2:3] == [word] for word in ("strain", "all"))
+options = sys.argv[3 if of_strain or of_all else 2:]
+studies = [options] if options else [[*moving, "--seed", "3"]] if of_strain else everyday + others if of_all else everyday
 rows, columns = 61, 90  # of points on each surface in surfaces.vtu
 failures = []
 

@@ -50,15 +50,6 @@ geometry::ContourFiles contour_files(const Case& c) {
   const case_file::ContourAnatomy& a = c.anatomy.contours;
   require_names(
       c, {{"anatomy.contours.short_axis", a.short_axis, "the CSV file of the short-axis loops"}});
-  const std::pair<const char*, const std::string&> named[] = {
-      {"anatomy.contours.short_axis", a.short_axis},
-      {"anatomy.contours.long_axis", a.long_axis},
-      {"anatomy.contours.apex_endo", a.apex_endo},
-      {"anatomy.contours.apex_epi", a.apex_epi},
-      {"anatomy.contours.es_short_axis", a.es_short_axis}};
-  for (const auto& [parameter, file] : named)
-    if (!file.empty())
-      case_file::require_readable(c, parameter, file);
   geometry::ContourFiles files{
       .short_axis = case_file::beside(c, a.short_axis), .long_axis = {}, .apex = {}};
   if (!a.long_axis.empty())

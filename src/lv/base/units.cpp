@@ -83,6 +83,19 @@ Unit product(Unit a, const Unit& b) {
   return a;
 }
 
+/// The unit that is perhaps meant by a name that is none: a power written without ^, else the name
+/// nearest to it.
+std::string meant_by(std::string_view name) {
+  const std::string_view letters = name.substr(0, name.find_last_not_of("0123456789") + 1);
+  if (letters != name && table().count(letters) > 0)
+    return fmt::format("{}^{}", letters, name.substr(letters.size()));
+  std::vector<std::string> known;
+  for (const auto& entry : table())
+    if (static_cast<unsigned char>(entry.first.front()) < 0x80)  // as one types it
+      known.push_back(entry.first);
+  return nearest_name(std::string(name), known);
+}
+
 /// Recursive descent over  product := factor (('*' | '/' | ' ') factor)*,
 /// factor := name ['^' whole] | '1' | '(' product ')',
 /// name := a letter, '%' or a character beyond ASCII, and any of these and digits.
@@ -151,14 +164,10 @@ class UnitParser {
       fail();
     const auto found = table().find(name);
     if (found == table().end()) {
-      std::vector<std::string> known;
-      for (const auto& entry : table())
-        if (static_cast<unsigned char>(entry.first.front()) < 0x80)  // as one types it
-          known.push_back(entry.first);
-      const std::string nearest = nearest_name(std::string(name), known);
+      const std::string meant = meant_by(name);
       throw std::invalid_argument(
           fmt::format("'{}' is not a unit{}", name,
-                      nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest)));
+                      meant.empty() ? "" : fmt::format(" (did you mean '{}'?)", meant)));
     }
     if (!ahead('^'))
       return found->second;

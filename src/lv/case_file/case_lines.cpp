@@ -1,7 +1,6 @@
 #include "lv/case_file/case_lines.hpp"
 
 #include "lv/base/check.hpp"
-#include "lv/base/files.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -104,14 +103,6 @@ std::string lines_to_add(const Case& c, const std::vector<CaseLine>& lines) {
     text += text_of(of_table);
   }
   return text;
-}
-
-void require_readable(const Case& c, const std::string& parameter, const std::string& file) {
-  const std::filesystem::path path = beside(c, file);
-  if (const std::string reason = unreadable(path); !reason.empty())
-    throw InputError(place_of(c, parameter),
-                     fmt::format("{}: {}: {}", parameter, path.string(), reason),
-                     "Check the name; it is read beside the case");
 }
 
 void Missing::raise(const Case& c, const std::string& where, const std::string& found) const {

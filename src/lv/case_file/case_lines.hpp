@@ -38,10 +38,6 @@ inline constexpr const char* fill_in = "\"FILL IN\"";
 /// heading may stand in a file only once.
 [[nodiscard]] std::string lines_to_add(const Case& c, const std::vector<CaseLine>& lines);
 
-/// Throws InputError, with the line of the case that names a file and the reason, unless it can be
-/// read.
-void require_readable(const Case& c, const std::string& parameter, const std::string& file);
-
 /// What a case does not say and must. Tells all of it at once, with lines to paste.
 class Missing {
  public:

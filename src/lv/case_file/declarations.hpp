@@ -57,6 +57,13 @@ constexpr Parameter filled_list(const char* name, Place at, const char* help) {
   return p;
 }
 
+/// A file.
+constexpr Parameter file(const char* name, Place at, const char* help) {
+  Parameter p = value(name, at, help);
+  p.text = Text::file;
+  return p;
+}
+
 /// A file or folder.
 constexpr Parameter path(const char* name, Place at, const char* help) {
   Parameter p = value(name, at, help);

@@ -294,8 +294,9 @@ std::string Parameter::shown(const Case& c) const {
 
 bool names_file(const Parameter& p, const Case& c, const std::string& text) {
   std::error_code failed;
-  return p.text == Text::path || (p.text == Text::perhaps_path &&
-                                  std::filesystem::is_regular_file(beside(c, text), failed));
+  return p.text == Text::file || p.text == Text::path ||
+         (p.text == Text::perhaps_path &&
+          std::filesystem::is_regular_file(beside(c, text), failed));
 }
 
 std::vector<std::string> paths(const Parameter& p, const Case& c) {

@@ -55,16 +55,16 @@ constexpr Group of_anatomy[]{
     {Stages(Stage::anatomy),
      {&from_contours},
      {
-         path("anatomy.contours.short_axis", LV_AT(anatomy.contours.short_axis),
+         file("anatomy.contours.short_axis", LV_AT(anatomy.contours.short_axis),
               "CSV of short-axis loops with columns slice, contour (endo or epi), point, x_mm, "
               "y_mm, z_mm in scanner coordinates; names are relative to the case file"),
-         path("anatomy.contours.long_axis", LV_AT(anatomy.contours.long_axis),
+         file("anatomy.contours.long_axis", LV_AT(anatomy.contours.long_axis),
               "CSV of open curves on long-axis images, same columns; may be left out"),
-         path("anatomy.contours.apex_endo", LV_AT(anatomy.contours.apex_endo),
+         file("anatomy.contours.apex_endo", LV_AT(anatomy.contours.apex_endo),
               "CSV of points at the tip of the endocardium, same columns; may be left out"),
-         path("anatomy.contours.apex_epi", LV_AT(anatomy.contours.apex_epi),
+         file("anatomy.contours.apex_epi", LV_AT(anatomy.contours.apex_epi),
               "CSV of points at the tip of the epicardium, same columns; may be left out"),
-         path("anatomy.contours.es_short_axis", LV_AT(anatomy.contours.es_short_axis),
+         file("anatomy.contours.es_short_axis", LV_AT(anatomy.contours.es_short_axis),
               "CSV of short-axis loops at end-systole on the same slices, same columns, from which "
               "the distance of the model's end-systolic surfaces is reported; may be left out"),
      }},
@@ -91,7 +91,7 @@ constexpr Group of_anatomy[]{
     {Stages(Stage::strain, Stage::anatomy),
      {&septum_shown},
      {
-         path("anatomy.contours.landmarks", LV_AT(anatomy.contours.landmarks),
+         file("anatomy.contours.landmarks", LV_AT(anatomy.contours.landmarks),
               "CSV of landmarks as ventricle draw saves it (landmark, slice, x_mm, y_mm, z_mm, by, "
               "when): insertions of the septum, tips of both surfaces, points of the mitral "
               "annulus, "
@@ -136,7 +136,7 @@ constexpr Group of_anatomy[]{
     {Stages(Stage::anatomy),
      {&from_labels},
      {
-         path("anatomy.labels.file", LV_AT(anatomy.labels.file),
+         file("anatomy.labels.file", LV_AT(anatomy.labels.file),
               "label map (NIfTI, NRRD, MetaImage, DICOM SEG), of one or more times; names are "
               "relative to the "
               "case file"),
@@ -209,10 +209,10 @@ constexpr Group of_anatomy[]{
     {Stages(Stage::anatomy),
      {&from_surfaces},
      {
-         path("anatomy.surfaces.endo", LV_AT(anatomy.surfaces.endo),
+         file("anatomy.surfaces.endo", LV_AT(anatomy.surfaces.endo),
               "surface of the endocardium, open at the base or closed there by a flat lid: .stl, "
               ".ply, .obj, .vtp or .vtk; names are relative to the case file"),
-         path("anatomy.surfaces.epi", LV_AT(anatomy.surfaces.epi),
+         file("anatomy.surfaces.epi", LV_AT(anatomy.surfaces.epi),
               "surface of the epicardium, likewise"),
          number("anatomy.surfaces.length_unit", LV_AT(anatomy.surfaces.unit), "mm",
                 between(0.0, 1000.0), "length of the files' unit, which they do not state"),
@@ -223,7 +223,7 @@ constexpr Group of_anatomy[]{
     {Stages(Stage::anatomy),
      {&from_guide_points},
      {
-         path("anatomy.guide_points.file", LV_AT(anatomy.guide_points.file),
+         file("anatomy.guide_points.file", LV_AT(anatomy.guide_points.file),
               "tab-separated list with columns x, y, z, contour type, slice and time frame"),
          number("anatomy.guide_points.frame", LV_AT(anatomy.guide_points.frame), "",
                 between(-1, 100000), "time frame to use; -1: the only one"),
@@ -233,7 +233,7 @@ constexpr Group of_anatomy[]{
     {Stages(Stage::anatomy),
      {&from_mesh},
      {
-         path("anatomy.mesh.file", LV_AT(anatomy.mesh.import.file),
+         file("anatomy.mesh.file", LV_AT(anatomy.mesh.import.file),
               "mesh of hexahedra or tetrahedra: ABAQUS .inp, Gmsh .msh, .vtk or .vtu; names are "
               "relative to the case file"),
          number("anatomy.mesh.length_unit", LV_AT(anatomy.mesh.import.unit), "mm", positive,
@@ -434,14 +434,14 @@ constexpr Group of_infarct[]{
     {meshing,
      {&infarct_of_surface},
      {
-         path("infarct.surface.file", LV_AT(scar.surface),
+         file("infarct.surface.file", LV_AT(scar.surface),
               "closed surface in image space (a mesh's own coordinates): .stl, .ply, .obj, .vtp or "
               ".vtk; names are relative to the case file"),
      }},
     {meshing,
      {&infarct_of_labels},
      {
-         path("infarct.labels.file", LV_AT(scar.labels),
+         file("infarct.labels.file", LV_AT(scar.labels),
               "labelled volume in image space: NIfTI (.nii, .nii.gz, .hdr with .img), NRRD, "
               "MetaImage, .vti or .vtk "
               "(structured points)"),
@@ -501,7 +501,7 @@ constexpr Group of_infarct[]{
     {meshing,
      {&infarct_of_lge},
      {
-         path(
+         file(
              "infarct.lge.drawn", LV_AT(scar.lge.drawn),
              "CSV of the scar's pixels on this image, as ventricle draw saves it (scar.csv): taken "
              "instead of what a threshold finds"),
@@ -966,7 +966,7 @@ constexpr Group of_measurements[]{
                 "least T_scale"),
          number("calibrate.T_scale_max", LV_AT(calibration.T_scale.high), "", positive,
                 "largest T_scale"),
-         path("calibrate.strains", LV_AT(calibration.strains),
+         file("calibrate.strains", LV_AT(calibration.strains),
               "CSV of circumferential strains at end-systole from end-diastole, fitted to "
               "besides the volumes, with columns slice (1 at the base to 7, or aha), segment "
               "(ant, antsept, ..., or 1 to 17) and strain; empty: none"),
@@ -1033,14 +1033,14 @@ constexpr Group of_measurements[]{
               "loops of endocardium and epicardium drawn on the cine at "
               "end-diastole: a CSV file in the form of anatomy.contours.short_axis, "
               "or a folder of text contours in the Sunnybrook form"),
-         path("strain.long_axis", LV_AT(strain.long_axis),
+         file("strain.long_axis", LV_AT(strain.long_axis),
               "CSV of curves on long-axis images at end-diastole, for the place of "
               "the apex and to follow long_axis_cine; may be left out"),
          perhaps_path("strain.long_axis_cine", LV_AT(strain.long_axis_cine),
                       "long-axis cines that show how far muscle moves through the short-axis "
                       "planes, with the curves of long_axis: files of images, or series of the "
                       "DICOM folder cine; [] leaves that motion unseen"),
-         path("strain.es_contours", LV_AT(strain.es_contours),
+         file("strain.es_contours", LV_AT(strain.es_contours),
               "CSV of loops drawn at end-systole, which the carried contours are "
               "compared with; may be left out"),
          number("strain.end_diastole", LV_AT(strain.end_diastole), "", between(1, 1000),
@@ -1064,7 +1064,7 @@ constexpr Group of_measurements[]{
     {Stages(Stage::results),
      {},
      {
-         path("strain.measured", LV_AT(strain.measured),
+         file("strain.measured", LV_AT(strain.measured),
               "CSV of measured strains to compare with, instead of images: slice (1 at the "
               "base, one per slice of the model), component (cir or rad), segment, and a column "
               "per image"),
@@ -1167,7 +1167,7 @@ constexpr Group of_protocol[]{
     {Stages(Stage::beat),
      {&heartbeats, &static_beat, &activation_file},
      {
-         path("activation.file", LV_AT(activation.file),
+         file("activation.file", LV_AT(activation.file),
               "one time for each node or cell of 02_mesh/mesh.vtu, or each corner or element of a "
               "mesh that became quadratic: an array of a .vtu or .vtk file, or a text with one a "
               "line, as openCARP writes them; names are relative to the case file"),

@@ -70,7 +70,8 @@ using Slot = std::variant<double*, int*, bool*, std::string*, Choice, std::array
 /// How the text of a parameter is meant.
 enum class Text {
   words,        ///< as it is
-  path,         ///< a file or folder: its contents count, not its name
+  file,         ///< a file: its contents count, not its name
+  path,         ///< a file or folder, likewise
   perhaps_path  ///< a file where there is one of that name, else words
 };
 

@@ -2,6 +2,7 @@
 
 #include "lv/activation/sites.hpp"
 #include "lv/base/check.hpp"
+#include "lv/base/files.hpp"
 #include "lv/base/lines.hpp"
 #include "lv/base/nearest.hpp"
 #include "lv/base/printable.hpp"
@@ -482,23 +483,28 @@ std::string meaning(const Parameter& p) {
                             : fmt::format("{} (only {})", p.help, fmt::join(conditions, " and "));
 }
 
-/// Tells of all files and folders that a case names and that are not there, if they are several:
-/// of a single one its reader tells.
+/// Tells of all files and folders that a case names and that are not there or cannot be read.
 void require_files(const Case& c) {
-  std::vector<std::pair<std::string, std::string>> absent;  // place, what
+  std::string first, text;  // place, what
   std::error_code failed;
-  for (const Parameter& p : parameters())
-    if (p.text == Text::path && counts_only(p, c).empty())
-      for (const std::string& name : paths(p, c))
-        if (!std::filesystem::exists(beside(c, name), failed) && !failed)
-          absent.emplace_back(place_of(c, p.name),
-                              fmt::format("{}: there is no {}", p.name, beside(c, name).string()));
-  if (absent.size() < 2)
-    return;
-  std::string text = absent.front().second;
-  for (std::size_t i = 1; i < absent.size(); ++i)
-    text += fmt::format("\n{}: {}", absent[i].first, absent[i].second);
-  throw InputError(absent.front().first, text, "Check the names; they are read beside the case");
+  for (const Parameter& p : parameters()) {
+    if ((p.text != Text::file && p.text != Text::path) || !counts_only(p, c).empty())
+      continue;
+    for (const std::string& name : paths(p, c)) {
+      const std::filesystem::path path = beside(c, name);
+      const bool is_folder = p.text == Text::path && std::filesystem::is_directory(path, failed);
+      const std::string reason = is_folder ? "" : unreadable(path);
+      if (reason.empty())
+        continue;
+      const std::string place = place_of(c, p.name);
+      text += first.empty() ? "" : fmt::format("\n{}: ", place);
+      text += fmt::format("{}: {}: {}", p.name, path.string(), reason);
+      if (first.empty())
+        first = place;
+    }
+  }
+  if (!text.empty())
+    throw InputError(first, text, "Check the name; it is read beside the case");
 }
 
 /// What to do about a mistake of the parser of TOML.

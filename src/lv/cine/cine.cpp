@@ -64,7 +64,6 @@ void read_sunnybrook(const Case& c, const image::DicomStack& stack, CineStudy& s
 
 geometry::Contours read_drawn(const Case& c, const std::string& parameter,
                               const std::string& file) {
-  case_file::require_readable(c, parameter, file);
   geometry::ContourFiles files{
       .short_axis = case_file::beside(c, file), .long_axis = {}, .apex = {}};
   if (!c.strain.long_axis.empty() && parameter == "strain.contours")

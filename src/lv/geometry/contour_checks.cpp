@@ -424,7 +424,7 @@ void check_contours(const Contours& contours) {
 }
 
 std::vector<std::string> notes_on_spacing(const Contours& contours) {
-  constexpr double wide = 1.6;            // of the usual step
+  constexpr double wide = 1.5;            // of the usual step
   constexpr double uneven = 0.3;          // by which the steps beside a misplaced slice are off
   constexpr double two_steps = 0.1;       // relative: of a slice between its neighbours
   constexpr std::size_t least_known = 3;  // steps that tell what is usual beside two wrong ones

@@ -306,26 +306,6 @@ void note_extrapolated_base(const Contours& contours, const Frame& frame, FitRep
     }
 }
 
-void note_wide_gaps(const Contours& contours, const Frame& frame, std::vector<std::string>& notes) {
-  const std::vector<int> slices = slices_from_base(contours);
-  std::vector<double> gaps;
-  for (std::size_t k = 0; k + 1 < slices.size(); ++k) {
-    const auto height = [&](std::size_t i) {
-      return frame.to_model(mean_of(find(contours.short_axis, slices[i], Side::endo)->points)).z();
-    };
-    gaps.push_back(height(k) - height(k + 1));
-  }
-  std::vector<double> sorted = gaps;
-  std::sort(sorted.begin(), sorted.end());
-  const double usual = sorted[sorted.size() / 2];
-  for (std::size_t k = 0; k < gaps.size(); ++k)
-    if (gaps[k] > 1.5 * usual)
-      notes.push_back(
-          fmt::format("slices {} and {} are {:.1f} mm apart where others are {:.1f}: "
-                      "the wall between them is interpolated",
-                      slices[k], slices[k + 1], gaps[k], usual));
-}
-
 }  // namespace
 
 SplineWall::SplineWall(const Frame& frame, MeridianMaps maps, FitReport report)
@@ -377,7 +357,6 @@ SplineWall fit_spline_wall(const Contours& contours, const SplineFitParameters& 
   sampler.add_assumed_apexes(said);
   note_missing_epicardium(placed, said.notes);
   note_extrapolated_base(placed, frame, said);
-  note_wide_gaps(placed, frame, said.notes);
 
   const FittedSurfaces fit = fit_surfaces(sampler.data(), parameters);
   check_surfaces(placed, fit);

@@ -305,7 +305,8 @@ CutSurfaces cut_across(const Triangles& endo, const Triangles& epi) {
   const double tip = lowest_height(used, up);
   if (!(lowest_height(used_nodes(outer.triangles), up) < tip && tip < base))
     fail_surface(epi, "does not reach below the endocardium at the apex",
-                 "Give endocardium and epicardium of one ventricle, in one unit and space");
+                 "Exchange anatomy.surfaces.endo and anatomy.surfaces.epi if this is the "
+                 "endocardium; else give both surfaces of one ventricle, in one unit and space");
   const int count = std::clamp(static_cast<int>((base - tip) / usual_step), fewest, most);
   const double step = (base - tip) / count;
   CutSurfaces cut;

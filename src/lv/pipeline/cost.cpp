@@ -20,7 +20,8 @@ using case_file::Case;
 constexpr double steps_of_beat = 45.0;
 constexpr double steps_of_unloading = 25.0;
 constexpr double steps_of_fit = 45.0;
-constexpr double steps_of_time_step = 0.04;  // in a heartbeat, which keeps its tangents
+constexpr double steps_of_time_step = 0.04;     // in a heartbeat, which keeps its tangents
+constexpr int many_unknowns = 100'000;  // whose load step takes longer than some seconds
 
 template <class Work>
 double seconds(const Work& work) {
@@ -82,6 +83,10 @@ Estimate of_quasi_static(const Case& c, const mesh::Mesh& mesh) {
   const double share = solver.first_step;
   solver.first_step = 1.0;
   implicit::Engine engine(mesh, case_file::static_model(c), solver);
+  if (engine.equations().size() > many_unknowns)
+    log::info(
+        "a load step of {} unknowns is solved to tell what the case costs; it may take minutes",
+        engine.equations().size());
   const double step = seconds([&] { engine.go_to({share * c.protocol.ed_pressure, 0.0}).value(); });
   return {fmt::format("  quasi-static: {} finite elements of order {}, {} unknowns; {:.3g} s a "
                       "load step\n",

@@ -119,6 +119,7 @@ TEST_CASE("text that is no quantity is refused with what is wrong", "[unit][base
   CHECK_THROWS_WITH(parse_quantity("8 kpa"), Contains("'kpa'") && Contains("'kPa'"));
   CHECK_THROWS_WITH(parse_quantity("8 degrees"), Contains("'degrees'"));
   CHECK_THROWS_WITH(parse_quantity("8 cmH20"), Contains("'cmH20'") && Contains("'cmH2O'"));
+  CHECK_THROWS_WITH(parse_quantity("3 kPa/mm2"), Contains("'mm2'") && Contains("'mm^2'"));
   CHECK_THROWS_WITH(parse_quantity("8,5 mmHg"), Contains("write a decimal point"));
   CHECK_THROWS_WITH(parse_quantity("mmHg"), Contains("does not begin with a number"));
   CHECK_THROWS_WITH(parse_quantity(""), Contains("does not begin with a number"));

@@ -71,7 +71,8 @@ TEST_CASE("coordinates in RAS are turned to LPS", "[unit][mesh_io]") {
 TEST_CASE("surfaces that show no base, or no wall, are refused", "[unit][mesh_io]") {
   const Triangles endo = written(bowl(25.0, 60.0, false));
   const Triangles epi = written(bowl(35.0, 70.0, false));
-  CHECK_THROWS_WITH(mesh_io::cut_across(epi, endo), Contains("does not reach below"));
+  CHECK_THROWS_WITH(mesh_io::cut_across(epi, endo),
+                    Contains("does not reach below") && Contains("Exchange anatomy.surfaces.endo"));
   Triangles holed = epi;
   holed.faces.nodes.erase(holed.faces.nodes.begin() + 900, holed.faces.nodes.begin() + 903);
   CHECK_THROWS_WITH(mesh_io::cut_across(endo, holed),
