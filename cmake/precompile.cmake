@@ -8,3 +8,9 @@ function(lv_precompile target)
   # compiler caches look through a precompiled header only with it
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
 endfunction()
+
+# The same headers as another target, not parsed again: its options are the same but for those of the optimiser.
+function(lv_precompile_as target other)
+  target_precompile_headers(${target} REUSE_FROM ${other})
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
+endfunction()

@@ -1,12 +1,12 @@
 #include "lv/anatomy/proposals.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/ending.hpp"
 #include "lv/image/label_meaning.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <regex>
 #include <set>
 
 namespace lv::anatomy {
@@ -74,13 +74,12 @@ std::vector<CaseLine> contour_file_lines(const image::ForeignContours& drawn,
                                          const case_file::ContourFileAnatomy& said) {
   std::vector<CaseLine> lines;
   const auto name_line = [&](const char* parameter, const std::string& fixed,
-                             const std::string& chosen, const char* pattern) {
+                             const std::string& chosen, const char* part) {
     if (!fixed.empty() || !chosen.empty())
       return;
-    const std::regex seems(pattern, std::regex::icase);
     std::string value = case_file::fill_in;
     for (const auto& [name, count] : image::structures(drawn))
-      if (value == case_file::fill_in && std::regex_search(name, seems))
+      if (value == case_file::fill_in && lower_case(name).find(part) != std::string::npos)
         value = case_file::quoted(name);
     lines.push_back({parameter, value,
                      value == case_file::fill_in ? "the name of its contours in the file"

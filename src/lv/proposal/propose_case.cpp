@@ -24,7 +24,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <regex>
 
 namespace lv::proposal {
 namespace {
@@ -149,9 +148,12 @@ Proposal of_contours(const fs::path& source, const std::string& name) {
   Proposal p{
       fmt::format("{}: short-axis contours, {} loops", source.string(), drawn.short_axis.size()),
       {source_line("contours"), {"anatomy.contours.short_axis", case_file::quoted(name), ""}}};
+  constexpr std::string_view shown = "short_axis";
   for (const char* other : {"long_axis", "apex_endo", "apex_epi"}) {
-    const auto beside = [&](const std::string& text) {
-      return std::regex_replace(text, std::regex("short_axis"), other);
+    const auto beside = [&](std::string text) {
+      if (const auto at = text.find(shown); at != std::string::npos)
+        text.replace(at, shown.size(), other);
+      return text;
     };
     const std::string file = source.filename().string();
     if (beside(file) != file && fs::is_regular_file(source.parent_path() / beside(file)))
@@ -236,10 +238,12 @@ Proposal of_surface(const fs::path& source, const std::string& name) {
 
 /// The series with a name of late enhancement.
 const image::DicomStack* late_enhancement(const image::DicomStudy& study) {
-  static const std::regex names("late|lge|psir|delayed|enhanc|viab|tfi_de|_de_", std::regex::icase);
+  constexpr std::array names{"late", "lge", "psir", "delayed", "enhanc", "viab", "tfi_de", "_de_"};
   for (const image::DicomStack& stack : study.stacks)
     if (stack.slices.size() > 2 && stack.slices.front().images.size() == 1 &&
-        std::regex_search(stack.description, names))
+        std::any_of(names.begin(), names.end(), [&](const char* name) {
+          return lower_case(stack.description).find(name) != std::string::npos;
+        }))
       return &stack;
   return nullptr;
 }

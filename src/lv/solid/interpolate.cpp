@@ -5,8 +5,10 @@
 #include "lv/mesh/shapes.hpp"
 
 #include <Eigen/LU>
-#include <boost/geometry.hpp>
+#include <boost/geometry/geometries/box.hpp>
+#include <boost/geometry/geometries/point.hpp>
 #include <boost/geometry/index/rtree.hpp>
+#include <boost/geometry/strategies/strategies.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
