@@ -30,6 +30,10 @@ if(LV_COVERAGE)
   target_compile_options(lv_options INTERFACE --coverage)
   target_link_options(lv_options INTERFACE --coverage)
 endif()
+find_program(LV_GOLD ld.gold)  # of the same package as ld, and links in a tenth of its time
+if(LV_GOLD)
+  target_link_options(lv_options INTERFACE -fuse-ld=gold)
+endif()
 set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
 set(CMAKE_CXX_FLAGS_DEBUG "-O1 -g")
 

@@ -95,6 +95,23 @@ Archive archived(const TimeEngine::Moment& moment) {
   return archive;
 }
 
+implicit::State load_state(const Archive& archive, const std::string& name) {
+  return {vectors(archive.get_rows(name + ".positions", 3)),
+          archive.get_rows(name + ".pressures", 1), archive.number(name + ".cavity_pressure")};
+}
+
+TimeEngine::Moment load_moment(const Archive& archive) {
+  TimeEngine::Moment moment;
+  moment.dt_before = archive.number("dt_before");
+  moment.rates.velocity = vectors(archive.get_rows("velocity", 3));
+  moment.rates.acceleration = vectors(archive.get_rows("acceleration", 3));
+  moment.muscle = archive.get_rows("muscle", 1);
+  moment.now = load_state(archive, "now");
+  if (moment.dt_before > 0.0)  // else there is none
+    moment.before = load_state(archive, "before");
+  return moment;
+}
+
 Archive archived(const Beat& beat) {
   Archive archive;
   store(beat.curves, archive);
@@ -108,11 +125,15 @@ class CycleRun {
   CycleRun(const CycleSetup& setup, std::filesystem::path folder, const Observers& observers);
 
   Beat run();
+  Outcome<MeasuredBeats> measure(const BeatBegin* from);
 
  private:
   using Passed = TimeEngine::Passed;
 
+  void begin(const BeatBegin* from);
+  void beats();
   void start();
+  void start_from(const BeatBegin& from);
   void beat();
   void begin_beat();
   void step();
@@ -134,8 +155,7 @@ class CycleRun {
 
   void save();
   void resume(Archive archive);
-  [[nodiscard]] implicit::State load_state(const Archive& archive) const;
-  [[nodiscard]] TimeEngine::Moment load_engine(Archive archive) const;
+  [[nodiscard]] TimeEngine::Moment load_engine(const Archive& archive) const;
   void load_part(const Archive& archive, Beat& beat) const;
 
   [[nodiscard]] Snapshot snapshot(const Passed& at, const Sample& sample) const;
@@ -157,10 +177,13 @@ class CycleRun {
   std::vector<double> delays_;  ///< of this rank's points [s]; a single one: of all
   Circuit circuit_;
   Cycle cycle_;
-  RunState run_;        ///< of the beat underway; its phase is the number of the next event
-  Beat whole_;          ///< the last whole beat: curves and moments
-  int beat_ = 0;        ///< whole ones so far
-  double since_ = 0.0;  ///< the beat began [s]
+  RunState run_;           ///< of the beat underway; its phase is the number of the next event
+  Beat whole_;             ///< the last whole beat: curves and moments
+  int beat_ = 0;           ///< whole ones so far
+  int beats_before_ = 0;   ///< of the same kind, before the first; as many as calcium lasts
+  bool may_stop_ = false;  ///< without a single whole beat
+  std::string why_stopped_;
+  double since_ = 0.0;                 ///< the beat began [s]
   std::vector<std::size_t> begins_;    ///< the samples that beats begin with
   std::vector<double> states_before_;  ///< of the circuit when the beat began
   double change_before_ =
@@ -188,11 +211,33 @@ CycleRun::CycleRun(const CycleSetup& setup, std::filesystem::path folder,
 }
 
 Beat CycleRun::run() {
+  begin(nullptr);
+  beats();
+  return result();
+}
+
+Outcome<MeasuredBeats> CycleRun::measure(const BeatBegin* from) {
+  may_stop_ = true;
+  beats_before_ = from == nullptr ? 0 : 1;
+  begin(from);
+  beats();
+  if (cycle_.cut_short)
+    return Unsolved{why_stopped_, ""};
+  const auto states = circuit_.states();
+  return MeasuredBeats{std::move(cycle_), {engine_.moment(), {states.begin(), states.end()}}};
+}
+
+void CycleRun::begin(const BeatBegin* from) {
   const std::filesystem::path checkpoint = folder_ / checkpoint_name;
   if (parallel::root_says(std::filesystem::exists(checkpoint)))
     resume(Archive::read(checkpoint));
+  else if (from != nullptr)
+    start_from(*from);
   else
     start();
+}
+
+void CycleRun::beats() {
   try {
     while (!done())
       beat();
@@ -201,7 +246,6 @@ Beat CycleRun::run() {
     throw Interrupted(fmt::format(
         "stopped at {:.3f} s of beat {}; run the same command again to go on", since_, beat_ + 1));
   }
-  return result();
 }
 
 /// Fills the wall to the pressure before the mitral valve, so that it is neither open nor closed.
@@ -213,6 +257,14 @@ void CycleRun::start() {
   cycle_.samples.push_back({0.0, circuit_.signals(0.0, pressure)});
   log::info("filled to {:.2f} mmHg, the pressure before the mitral valve: {:.2f} ml",
             pressure / mmHg, 1e-3 * volume);
+  begin_beat();
+}
+
+void CycleRun::start_from(const BeatBegin& from) {
+  engine_.restore(from.wall);
+  circuit_.start_from(from.circuit);
+  blood_at_start_ = circuit_.blood();
+  cycle_.samples.push_back({0.0, circuit_.signals(0.0, engine_.pressure())});
   begin_beat();
 }
 
@@ -322,7 +374,7 @@ void CycleRun::stop_early(const std::string& why) {
       "at {:.4f} s of beat {} no equilibrium of wall and circuit was found, even with a step of "
       "{:.2g} s: {}",
       since_, beat_ + 1, std::ldexp(setup_.cycle.step, -most_step_halvings), why);
-  if (beat_ == 0) {
+  if (beat_ == 0 && !may_stop_) {
     show_progress();
     throw RunError(what,
                    "Look at cycle.csv up to there: a circuit that empties the heart, or overfills "
@@ -332,6 +384,9 @@ void CycleRun::stop_early(const std::string& why) {
   }
   cycle_.cut_short = true;
   cycle_.samples.resize(begins_.back() + 1);
+  why_stopped_ = what;
+  if (may_stop_)
+    return;
   log::warn("{}; what follows is of the {} whole beat{} before it", what, beat_,
             beat_ == 1 ? "" : "s");
 }
@@ -458,7 +513,7 @@ Snapshot CycleRun::snapshot(const Passed& at, const Sample& sample) const {
 double CycleRun::calcium(double since, double delay) const {
   const bool is_loop = setup_.circuit.kind == circulation::Kind::closed_loop;
   double s = since - delay - (is_loop ? setup_.circuit.left_ventricle.t_C : 0.0);
-  for (int b = beat_; s < 0.0 && b > 0; --b)
+  for (int b = beat_ + beats_before_; s < 0.0 && b > 0; --b)
     s += cycle_.period;
   material::Calcium transient = setup_.calcium;
   transient.mode = material::Calcium::Mode::transient;
@@ -589,25 +644,17 @@ void CycleRun::resume(Archive archive) {
   log::info("going on from {:.4f} s of beat {}", since_, beat_ + 1);
 }
 
-implicit::State CycleRun::load_state(const Archive& archive) const {
-  const implicit::State& like = engine_.state();
-  return {vectors(archive.get_rows("positions", 3, like.positions.size())),
-          archive.get_rows("pressures", 1, like.pressures.size()),
-          archive.number("cavity_pressure")};
-}
-
-TimeEngine::Moment CycleRun::load_engine(Archive archive) const {
-  TimeEngine::Moment moment;
-  moment.dt_before = archive.number("dt_before");
-  const implicit::Rates& like = engine_.rates();
-  moment.rates.velocity = vectors(archive.get_rows("velocity", 3, like.velocity.size()));
-  moment.rates.acceleration =
-      vectors(archive.get_rows("acceleration", 3, like.acceleration.size()));
-  moment.muscle = archive.get_rows("muscle", 1, engine_.muscle_numbers());
-  moment.now = load_state(archive.take("now"));
-  const Archive before = archive.take("before");
-  if (moment.dt_before > 0.0)  // else there is none
-    moment.before = load_state(before);
+TimeEngine::Moment CycleRun::load_engine(const Archive& archive) const {
+  const implicit::Rates& rates = engine_.rates();
+  const implicit::State& state = engine_.state();
+  archive.get_rows("velocity", 3, rates.velocity.size());
+  archive.get_rows("acceleration", 3, rates.acceleration.size());
+  archive.get_rows("muscle", 1, engine_.muscle_numbers());
+  archive.get_rows("now.positions", 3, state.positions.size());
+  archive.get_rows("now.pressures", 1, state.pressures.size());
+  TimeEngine::Moment moment = load_moment(archive);
+  if (moment.dt_before > 0.0)
+    archive.get_rows("before.positions", 3, state.positions.size());
   return moment;
 }
 
@@ -622,6 +669,20 @@ void CycleRun::load_part(const Archive& archive, Beat& beat) const {
 Beat run_cycle(const CycleSetup& setup, const std::filesystem::path& folder,
                const Observers& observers) {
   return CycleRun(setup, folder, observers).run();
+}
+
+Outcome<MeasuredBeats> measure_beats(const CycleSetup& setup, const BeatBegin* begin,
+                                     const std::filesystem::path& folder) {
+  return CycleRun(setup, folder, {}).measure(begin);
+}
+
+void store(const BeatBegin& begin, Archive& archive) {
+  archive.add("wall", archived(begin.wall));
+  archive.set("circuit", begin.circuit);
+}
+
+BeatBegin load_begin(Archive archive) {
+  return {load_moment(archive.take("wall")), archive.get("circuit")};
 }
 
 void store(const circulation::Cycle& cycle, Archive& archive) {

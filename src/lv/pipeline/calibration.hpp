@@ -9,9 +9,10 @@ namespace lv::pipeline {
 /// The same case on the quasi-static engine, which calibrates whatever engine runs the beat.
 [[nodiscard]] case_file::Case for_calibration(case_file::Case c);
 
-/// Fits what the case asks for, with the wall unloaded anew for all parameters where it was seen
-/// under load, and writes into `folder` calibration.json, calibration.txt,
-/// calibration.csv (every equilibrium of the search) and calibrated.toml (for a case file);
+/// Fits what the case asks for: the muscle at given pressures, with the wall unloaded anew for all
+/// parameters where it was seen under load, and then heartbeats (fit_heartbeats). Writes into
+/// `folder` calibration.json and calibration.csv of the muscle (every equilibrium of the search),
+/// the files of fit_heartbeats, calibration.txt of both and calibrated.toml (for a case file);
 /// collective. A fit that was stopped goes on from the answers that it left in `folder`. Throws
 /// InputError for a volume out of reach, with the volumes within reach.
 void make_calibration(const case_file::Case& c, const anatomy::MeshResult& mesh,
@@ -22,10 +23,16 @@ inline constexpr const char* calibration_name = "calibration.json";
 inline constexpr const char* confirmation_name = "confirmation.json";
 
 /// Names of the parameters that a calibration changes.
-[[nodiscard]] std::vector<std::string> fitted_names(const case_file::Calibration& k);
+[[nodiscard]] std::vector<std::string> fitted_names(const case_file::Case& c);
 
-/// The case with the parameters of such a file.
+/// The case with the muscle's parameters of such a file.
 [[nodiscard]] case_file::Case calibrated(case_file::Case c, const std::filesystem::path& file);
+
+/// The case with the muscle's parameters in use, without what is fitted to heartbeats: those of its
+/// wall without load, which is found before.
+[[nodiscard]] case_file::Case with_muscle(const case_file::Case& c,
+                                          const std::filesystem::path& calibration,
+                                          const std::filesystem::path& beat = {});
 
 /// The case with the parameters in use: its own, those of the calibration's folder, or those of a
 /// beat in whose folder they were corrected.

@@ -13,6 +13,7 @@
 #include "lv/page/page.hpp"
 #include "lv/pipeline/calibration.hpp"
 #include "lv/pipeline/circulation.hpp"
+#include "lv/pipeline/heartbeat_fit.hpp"
 #include "lv/pipeline/measured_volumes.hpp"
 #include "lv/pipeline/stages.hpp"
 #include "lv/pipeline/unloading.hpp"
@@ -136,7 +137,8 @@ class Pipeline {
                        "Name them with strain.cine, and the contours with strain.contours");
     if (*options_.until == "calibrate" && !case_.calibration.asked())
       throw InputError(case_.file.string(), "asks for no calibration",
-                       "Set calibrate.passive or calibrate.active, and the measured volumes");
+                       "Set calibrate.passive, calibrate.active or calibrate.cycle, and what was "
+                       "measured");
     if (*options_.until == "unload" && !case_file::is_loaded(case_))
       throw InputError(case_.file.string(), "takes the shape of its anatomy as free of stress",
                        "Set unloaded.pressure to the pressure under which it was seen");
@@ -203,12 +205,9 @@ class Pipeline {
         });
         show_mesh(anatomy::read_mesh_result(part), c, part);
         break;
-      case Stage::calibrate: {
-        const Case fitting = for_calibration(c);
-        on_root([&] { anatomy::write_mesh_result(make_mesh(fitting, shape()), part); });
-        make_calibration(fitting, anatomy::read_mesh_result(part), part);
+      case Stage::calibrate:
+        fit(for_calibration(c), part);
         break;
-      }
       case Stage::unload: {
         const auto elements = part / elements_name;
         on_root([&] {
@@ -242,6 +241,17 @@ class Pipeline {
     }
   }
 
+  void fit(const Case& c, const std::filesystem::path& part) {
+    on_root([&] {
+      anatomy::write_mesh_result(make_mesh(c, shape()), part);
+      if (const auto coarse = with_coarse_wall(c)) {
+        std::filesystem::create_directories(part / coarse_wall_name);
+        anatomy::write_mesh_result(make_mesh(*coarse, shape()), part / coarse_wall_name);
+      }
+    });
+    make_calibration(c, anatomy::read_mesh_result(part), part);
+  }
+
   void run_beat(const Case& c, const std::filesystem::path& part) {
     if (root_says(std::filesystem::exists(part / beat_name))) {
       // finished, but the folder had not got its name yet
@@ -262,7 +272,7 @@ class Pipeline {
       beat = make_beat(fitted(c, calibration(), part), mesh, part);
       log::info("beat: {} steps in {}", beat.steps, log::duration(beat.wall_clock));
       on_root([&] {
-        again = c.calibration.asked() && correct(c, calibration(), beat, part);
+        again = c.calibration.fits_muscle() && correct(c, calibration(), beat, part);
         if (again)
           std::filesystem::remove_all(part / "fields");  // the next beat may have fewer
       });
@@ -276,7 +286,7 @@ class Pipeline {
   /// The wall without load for the parameters in use, into a folder.
   void unload(const std::filesystem::path& part, const std::filesystem::path& elements) const {
     make_unloading(
-        fitted(work::stage_view(case_, Stage::unload), calibration(), part),
+        with_muscle(work::stage_view(case_, Stage::unload), calibration(), part),
         anatomy::read_mesh_result(folder(Stage::mesh)), anatomy::read_mesh_result(elements).mesh,
         part,
         case_.calibration.asked() ? calibration() / unloaded_shape_name : std::filesystem::path());
