@@ -14,9 +14,11 @@ enum class Kind { uniform, eikonal, file };
 struct ActivationParameters {
   Kind kind = Kind::uniform;
   Speeds speeds;
-  /// Where a front starts, in the words of Site. The first breakthroughs of a human ventricle: high
-  /// on the anterior wall, in the middle of the septum, and inferior (D. Durrer et al., Circulation
-  /// 41:899, 1970).
+  /// Where a front starts, in the words of Site: the segments nearest to where seven isolated human
+  /// hearts were excited first, within 5 ms (D. Durrer et al., Circulation 41:899, 1970). These
+  /// areas are high on the anterior wall beside the septum, just below the mitral valve; in the
+  /// middle of the septum, somewhat anterior; and on the posterior wall beside the septum, a third
+  /// of the way from apex to base, which is lower than the middle of the segment taken for it.
   std::vector<std::string> sites{"basal anterior", "mid anteroseptal", "mid inferior"};
   std::string file;         ///< of times, one for each node or element; as the case file names it
   std::string array;        ///< of a VTK file; empty: the only one

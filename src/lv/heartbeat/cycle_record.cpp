@@ -55,6 +55,14 @@ void CycleRecord::start(double volume, double pressure) {
             pressure / mmHg, 1e-3 * volume);
 }
 
+void CycleRecord::start_from(const std::vector<double>& states, double pressure) {
+  circuit_.start_from(states);
+  blood_at_start_ = circuit_.blood();
+  run_.time = 0.0;
+  now_ = {0.0, circuit_.signals(0.0, pressure)};
+  cycle_.samples.push_back(now_);
+}
+
 void CycleRecord::begin_beat() {
   since_ = 0.0;
   begins_.push_back(cycle_.samples.size() - 1);
@@ -81,7 +89,7 @@ double CycleRecord::after(double dt) const {
 double CycleRecord::calcium(double since, double delay) const {
   const bool is_loop = course_.circuit.kind == circulation::Kind::closed_loop;
   double s = since - delay - (is_loop ? course_.circuit.left_ventricle.t_C : 0.0);
-  for (int b = beat_; s < 0.0 && b > 0; --b)
+  for (int b = beat_ + beats_before_; s < 0.0 && b > 0; --b)
     s += period();
   return course_.calcium.at(s);
 }
