@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <fstream>
 #include <set>
 #include <system_error>
 #include <utility>
@@ -111,6 +112,14 @@ std::string unreadable(const fs::path& file) {
 void require_readable(const fs::path& file, const std::string& remedy) {
   if (const std::string reason = unreadable(file); !reason.empty())
     throw InputError(file.string(), reason, remedy);
+}
+
+std::string first_bytes(const std::filesystem::path& file, std::size_t count) {
+  std::string bytes(count, '\0');
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(bytes.data(), static_cast<std::streamsize>(count));
+  bytes.resize(static_cast<std::size_t>(stream.gcount()));
+  return bytes;
 }
 
 FolderFiles files_in(const fs::path& folder, bool below) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -14,6 +15,10 @@ namespace lv {
 
 /// Throws InputError with the reason unless a file can be read.
 void require_readable(const std::filesystem::path& file, const std::string& remedy);
+
+/// So many bytes of a file, by which its format is known; fewer if it is shorter, none if it cannot
+/// be read.
+[[nodiscard]] std::string first_bytes(const std::filesystem::path& file, std::size_t count);
 
 /// A file or folder that is not used, and why.
 struct LeftOut {

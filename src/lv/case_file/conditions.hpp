@@ -77,7 +77,10 @@ LV_CONDITION(elastic_base, c.base.kind == solid::BasalSupport::Kind::elastic,
              "with base.support = \"elastic\"")
 LV_CONDITION(rigid_base, c.base.kind != solid::BasalSupport::Kind::elastic,
              "with base.support = \"sliding\" or \"fixed\"")
-LV_CONDITION(pericardium, !c.surroundings.epicardium.is_none(),
+// dashpots alone are none where nothing has a rate
+LV_CONDITION(pericardium,
+             c.surroundings.epicardium.has_springs() ||
+                 (rates.holds(c, s) && c.surroundings.epicardium.has_dashpots()),
              "with springs or dashpots of the pericardium")
 LV_CONDITION(weighted_pericardium,
              c.surroundings.epicardium.weight.shape != solid::AxialWeight::Shape::even,

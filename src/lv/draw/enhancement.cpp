@@ -36,14 +36,6 @@ std::vector<Vec3> in_space(const geometry::Polygon& line, const image::Plane& pl
   return points;
 }
 
-geometry::Polygon in_plane(const std::vector<Vec3>& line, const image::Plane& plane) {
-  geometry::Polygon points;
-  for (const Vec3& x : line)
-    points.emplace_back((x - plane.origin).dot(plane.along_row),
-                        (x - plane.origin).dot(plane.along_column));
-  return points;
-}
-
 void write_walls(const Walls& walls, const image::Cine& image, const fs::path& file) {
   std::vector<Contour> lines;
   for (std::size_t s = 0; s < walls.size(); ++s)
@@ -69,7 +61,8 @@ Walls read_walls(const fs::path& file, const image::Cine& image) {
                        "It belongs to another image: move its folder away");
     const auto s = static_cast<std::size_t>(line.slice - 1);
     WallOutlines& wall = walls[s] ? *walls[s] : walls[s].emplace();
-    (line.side == Side::endo ? wall.endo : wall.epi) = in_plane(line.points, plane_of(image, s));
+    (line.side == Side::endo ? wall.endo : wall.epi) =
+        scar::in_plane(line.points, plane_of(image, s));
   }
   for (auto& wall : walls)
     if (wall && wall->epi.empty())

@@ -21,6 +21,12 @@ using scar::Tissue;
 constexpr std::array<std::pair<Tissue, const char*>, 3> tissues{
     {{Tissue::muscle, "muscle"}, {Tissue::remote, "remote"}, {Tissue::scar, "scar"}}};
 
+const char* name_of(Tissue tissue) {
+  return std::find_if(tissues.begin(), tissues.end(),
+                      [tissue](const auto& named) { return named.first == tissue; })
+      ->second;
+}
+
 json outline_json(const geometry::Polygon& line) {
   const auto rounded = [](double v) { return std::round(1e3 * v) / 1e3; };
   json all = json::array();
@@ -37,29 +43,15 @@ json walls_json(const Walls& walls) {
   return all;
 }
 
-/// The runs of one tissue.
-json runs_json(const SliceMap& slice, int columns, Tissue tissue) {
-  json runs = json::array();
-  const auto n = static_cast<int>(slice.pixels.size());
-  for (int at = 0; at < n; ++at) {
-    if (slice.pixels[static_cast<std::size_t>(at)] != tissue)
-      continue;
-    const int row = at / columns;
-    const int first = at % columns;
-    while (at + 1 < (row + 1) * columns && slice.pixels[static_cast<std::size_t>(at + 1)] == tissue)
-      ++at;
-    runs.push_back({row, first, at % columns});
-  }
-  return runs;
-}
-
 json map_json(const ScarMap& map, const image::Cine& image) {
   json slices = json::array();
   for (std::size_t s = 0; s < map.slices.size(); ++s) {
     const SliceMap& slice = map.slices[s];
     json told{{"how", slice.drawn.how}, {"by", slice.drawn.by}, {"when", slice.drawn.when}};
     for (const auto& [tissue, name] : tissues)
-      told[name] = runs_json(slice, image.slices[s].frames.front().plane.columns, tissue);
+      told[name] = json::array();
+    for (const scar::Run& run : scar::runs_of(slice.pixels, image.slices[s].frames.front().plane))
+      told[name_of(run.tissue)].push_back({run.row, run.first, run.last});
     slices.push_back(std::move(told));
   }
   return {{"threshold", map.threshold}, {"phase", map.phase}, {"slices", std::move(slices)}};

@@ -17,6 +17,8 @@ bool encloses(const Polygon& polygon, const Eigen::Vector2d& point) {
 }
 
 double farthest_crossing(const Polygon& polygon, const Eigen::Vector2d& ray) {
+  // of a side: a ray through a corner must not miss both sides there
+  constexpr double slack = 1e-9;
   double farthest = 0.0;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Eigen::Vector2d& a = polygon[i];
@@ -25,7 +27,7 @@ double farthest_crossing(const Polygon& polygon, const Eigen::Vector2d& ray) {
     if (det == 0.0)
       continue;
     const double s = (ray.x() * a.y() - ray.y() * a.x()) / det;
-    if (s >= 0.0 && s <= 1.0)
+    if (s >= -slack && s <= 1.0 + slack)
       farthest = std::max(farthest, (a.y() * e.x() - a.x() * e.y()) / det);
   }
   return farthest;

@@ -134,7 +134,7 @@ class CycleRun {
   TimeEngine engine_;
   std::vector<double> delays_;  ///< of this rank's points [s]; a single one: of all
   CycleRecord record_;
-  bool may_stop_ = false;  ///< without a single whole beat
+  bool is_measured_ = false;  ///< for its measures alone: beats without a solution are an answer
   std::string why_stopped_;
   double stored_before_ = 0.0, kinetic_before_ = 0.0;  ///< energy when the beat began [mN mm]
   TimeLeft reports_;
@@ -164,7 +164,7 @@ Beat CycleRun::run() {
 }
 
 Outcome<MeasuredBeats> CycleRun::measure(const BeatBegin* from) {
-  may_stop_ = true;
+  is_measured_ = true;
   if (from != nullptr)
     record_.goes_on();
   begin(from);
@@ -300,20 +300,17 @@ void CycleRun::stop_early(const std::string& why) {
       "at {:.4f} s of beat {} no equilibrium of wall and circuit was found, even with a step of "
       "{:.2g} s: {}",
       record_.since(), record_.beat() + 1, std::ldexp(setup_.cycle.step, -most_step_halvings), why);
-  if (record_.beat() == 0 && !may_stop_) {
-    record_.show_progress(observers_);
-    throw RunError(what,
-                   "Look at cycle.csv up to there: a circuit that empties the heart, or overfills "
-                   "it, has other resistances, pressures or contractility than meant; a thin or "
-                   "scarred wall may need what holds muscle back (muscle.viscosity = \"100 Pa "
-                   "s\"); else try a finer mesh");
-  }
-  record_.cut_short();
-  why_stopped_ = what;
-  if (may_stop_)
+  if (is_measured_) {
+    why_stopped_ = what;
+    record_.cut_short();
     return;
-  log::warn("{}; what follows is of the {} whole beat{} before it", what, record_.beat(),
-            record_.beat() == 1 ? "" : "s");
+  }
+  const RunError error(
+      what,
+      "Look at cycle.csv up to there: a circuit that empties the heart, or overfills it, has other "
+      "resistances, pressures or contractility than meant; a thin or scarred wall may need what "
+      "holds muscle back (muscle.viscosity = \"100 Pa s\"); else try a finer mesh");
+  record_.stop_early(error, what, observers_);
 }
 
 void CycleRun::end_beat() {

@@ -177,6 +177,17 @@ void CycleRecord::end_beat() {
       now.peak_pressure / mmHg, cycle_.change);
 }
 
+void CycleRecord::stop_early(const RunError& error, const std::string& words,
+                             const Observers& observers) {
+  if (beat_ == 0) {
+    show_progress(observers);
+    throw error;
+  }
+  cut_short();
+  log::warn("{}; what follows is of the {} whole beat{} before it", words, beat_,
+            beat_ == 1 ? "" : "s");
+}
+
 void CycleRecord::cut_short() {
   cycle_.cut_short = true;
   cycle_.samples.resize(begins_.back() + 1);

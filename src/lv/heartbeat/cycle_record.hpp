@@ -1,5 +1,6 @@
 #pragma once
 
+#include "lv/base/check.hpp"
 #include "lv/circulation/circuit.hpp"
 #include "lv/heartbeat/observers.hpp"
 
@@ -7,6 +8,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace lv::heartbeat {
@@ -107,7 +109,10 @@ class CycleRecord {
 
   /// The beat is whole: measures it and logs them.
   void end_beat();
-  /// The beat underway finds no solution: what whole ones were reached stays.
+  /// The beat underway finds no solution: what whole ones were reached stays, and a warning says
+  /// why in `words`. Throws `error` where there is none.
+  void stop_early(const RunError& error, const std::string& words, const Observers& observers);
+  /// Drops the beat underway and ends the beats, without a word.
   void cut_short();
   void gave_way() { ++cycle_.gave_way; }
   [[nodiscard]] bool done() const;

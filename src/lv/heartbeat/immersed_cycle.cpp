@@ -223,13 +223,7 @@ void ImmersedCycleRun::take_back(const std::string& where, const std::string& wh
     return;
   }
   const RunError unstable = steps_.unstable(where, why);
-  if (record_.beat() == 0) {
-    record_.show_progress(observers_);
-    throw unstable;
-  }
-  record_.cut_short();
-  log::warn("{}; what follows is of the {} whole beat{} before it", unstable.what(), record_.beat(),
-            record_.beat() == 1 ? "" : "s");
+  record_.stop_early(unstable, unstable.what(), observers_);
 }
 
 void ImmersedCycleRun::observe() {

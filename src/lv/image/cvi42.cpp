@@ -1,10 +1,10 @@
 #include "lv/image/cvi42.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/files.hpp"
 #include "lv/base/lines.hpp"
 #include "lv/base/printable.hpp"
 #include "lv/base/table.hpp"
-#include "lv/image/first_bytes.hpp"
 
 #include <fmt/format.h>
 #include <minizip/unzip.h>

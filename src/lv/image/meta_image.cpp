@@ -5,7 +5,6 @@
 #include "lv/base/lines.hpp"
 #include "lv/base/memory.hpp"
 #include "lv/base/trial.hpp"
-#include "lv/image/first_bytes.hpp"
 #include "lv/image/place.hpp"
 
 #include <fmt/format.h>

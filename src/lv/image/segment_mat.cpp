@@ -1,8 +1,8 @@
 #include "lv/image/segment_mat.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/files.hpp"
 #include "lv/base/trial.hpp"
-#include "lv/image/first_bytes.hpp"
 
 #include <fmt/format.h>
 #include <matio.h>

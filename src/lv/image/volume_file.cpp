@@ -6,7 +6,6 @@
 #include "lv/base/formats.hpp"
 #include "lv/base/lines.hpp"
 #include "lv/image/dicom_segmentation.hpp"
-#include "lv/image/first_bytes.hpp"
 #include "lv/image/meta_image.hpp"
 #include "lv/image/nifti.hpp"
 #include "lv/image/nrrd.hpp"

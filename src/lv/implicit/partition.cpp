@@ -10,8 +10,8 @@
 namespace lv::implicit {
 namespace {
 
-constexpr int most_by_halves =
-    8;  // ranks; METIS divides among few better by halves, again and again
+// ranks; METIS divides among few better by halves, again and again
+constexpr int most_by_halves = 8;
 
 /// The elements at each node.
 std::vector<std::vector<int>> elements_of_nodes(const mesh::ElementNodes& elements) {

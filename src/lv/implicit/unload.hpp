@@ -81,9 +81,8 @@ struct UnloadRecord {
 /// `steps` says how near.
 ///
 /// `start` may be the result for other muscle, from where few steps are needed, or a guess of the
-/// nodes alone. Unsolved, with the
-/// distance that is left, when the wall does not come near enough, or with the figures of the fold
-/// where no smooth wall does. Throws Interrupted. Collective.
+/// nodes alone. Unsolved, with the distance that is left, when the wall does not come near enough,
+/// or with the figures of the fold where no smooth wall does. Throws Interrupted. Collective.
 Outcome<Unloaded> unload(const mesh::Mesh& given, const StaticModel& model,
                          const UnloadParameters& parameters, const SolverParameters& solver,
                          const Unloaded* start = nullptr, UnloadRecord record = {});

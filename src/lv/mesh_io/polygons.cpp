@@ -16,12 +16,9 @@
 #include <vtkSTLReader.h>
 #include <vtkXMLPolyDataReader.h>
 
-#include <array>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <string_view>
 
 namespace lv::mesh_io {
 namespace {
@@ -39,11 +36,9 @@ vtkSmartPointer<vtkPolyData> read_with(const std::string& file) {
 void check_stl_length(const std::string& file) {
   constexpr std::uintmax_t before_triangles = 84;
   constexpr std::uintmax_t per_triangle = 50;
-  std::array<char, 1024> first{};
-  std::ifstream in(file, std::ios::binary);
-  in.read(first.data(), first.size());
-  const std::string_view beginning(first.data(), static_cast<std::size_t>(in.gcount()));
-  const bool is_text = beginning.starts_with("solid") && beginning.find("facet") != beginning.npos;
+  constexpr std::size_t enough = 1024;
+  const std::string first = first_bytes(file, enough);
+  const bool is_text = first.starts_with("solid") && first.find("facet") != std::string::npos;
   const std::uintmax_t there = std::filesystem::file_size(file);
   if (is_text || there < before_triangles)
     return;

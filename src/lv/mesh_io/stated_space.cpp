@@ -1,6 +1,7 @@
 #include "lv/mesh_io/stated_space.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/files.hpp"
 #include "lv/base/lines.hpp"
 
 #include <fmt/format.h>
@@ -9,7 +10,6 @@
 #include <vtkStringArray.h>
 
 #include <algorithm>
-#include <fstream>
 #include <vector>
 
 namespace lv::mesh_io {
@@ -17,15 +17,7 @@ namespace {
 
 constexpr std::string_view key = "SPACE";
 
-/// The beginning of a file, which holds the header of any format.
-std::string beginning_of(const std::string& file) {
-  constexpr std::streamsize enough = 16384;
-  std::string text(enough, '\0');
-  std::ifstream stream(file, std::ios::binary);
-  stream.read(text.data(), enough);
-  text.resize(static_cast<std::size_t>(stream.gcount()));
-  return text;
-}
+constexpr std::size_t longest_header = 16384;  // of any format [bytes]
 
 bool is_letter(char c) {
   return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
@@ -65,14 +57,14 @@ std::string known(const std::string& file, const std::string& space) {
 }  // namespace
 
 bool says_ras(const std::string& file) {
-  return known(file, space_in(beginning_of(file))) == "RAS";
+  return known(file, space_in(first_bytes(file, longest_header))) == "RAS";
 }
 
 std::string space_of(const std::string& file, vtkDataObject& data) {
   vtkStringArray* array = vtkStringArray::SafeDownCast(
       data.GetFieldData() == nullptr ? nullptr : data.GetFieldData()->GetAbstractArray(key.data()));
   if (array == nullptr || array->GetNumberOfValues() == 0)
-    return known(file, space_in(beginning_of(file)));
+    return known(file, space_in(first_bytes(file, longest_header)));
   const std::string said = array->GetValue(0);
   return known(file, space_in(fmt::format("{}={}", key, said)));
 }

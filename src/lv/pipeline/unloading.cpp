@@ -93,8 +93,8 @@ void warn(const case_file::Case& c, const mesh::Mesh& elements, const Unloaded& 
   else if (last.largest > c.unloaded.tolerance)
     log::warn(
         "the wall without load was found up to {:.3f} mm: loaded again it is off by so much at "
-        "most "
-        "(rms {:.3f} mm; {:.2f} ml instead of {:.2f} ml), more than unloaded.tolerance and less "
+        "most (rms {:.3f} mm; {:.2f} ml instead of {:.2f} ml), more than unloaded.tolerance and "
+        "less "
         "than unloaded.near_enough, and the search came no nearer",
         last.largest, last.rms, 1e-3 * last.volume, 1e-3 * seen_volume(elements));
   const double expected = klotz_volume(c, elements);

@@ -1,12 +1,12 @@
 #include "lv/proposal/what_file.hpp"
 
 #include "lv/base/ending.hpp"
+#include "lv/base/files.hpp"
 #include "lv/image/nifti.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <fstream>
 #include <span>
 #include <string_view>
 
@@ -52,12 +52,7 @@ constexpr std::array marks{
     Mark{Mark::anywhere, "x_mm"sv, "a table of contours (anatomy.contours.short_axis, long_axis)"},
 };
 
-std::string beginning_of(const std::filesystem::path& file) {
-  std::array<char, 1024> bytes{};
-  std::ifstream stream(file, std::ios::binary);
-  stream.read(bytes.data(), bytes.size());
-  return {bytes.data(), static_cast<std::size_t>(stream.gcount())};
-}
+constexpr std::size_t telling = 1024;  // bytes at a file's beginning
 
 bool is_text(std::string_view bytes) {
   return std::none_of(bytes.begin(), bytes.end(), [](unsigned char c) {
@@ -68,7 +63,7 @@ bool is_text(std::string_view bytes) {
 }  // namespace
 
 std::string what_is(const std::filesystem::path& file) {
-  const std::string begin = beginning_of(file);
+  const std::string begin = first_bytes(file, telling);
   if (begin.empty())
     return "an empty file";
   if (image::holds_nifti(file))
@@ -84,7 +79,7 @@ std::string what_is(const std::filesystem::path& file) {
 }
 
 bool begins_as_text(const std::filesystem::path& file) {
-  return is_text(beginning_of(file));
+  return is_text(first_bytes(file, telling));
 }
 
 }  // namespace lv::proposal

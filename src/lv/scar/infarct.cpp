@@ -224,6 +224,17 @@ void move_slices(image::Cine& image, const std::vector<SliceMove>& moves) {
     image.slices[s].frames.front().plane.origin += moves[s].move;
 }
 
+/// Moves the slices of `stack` onto the wall as an image shows it, if the case asks for it, and
+/// tells how.
+std::optional<Table> settle(const Case& c, const anatomy::Shape& shape, const Mesh& mesh,
+                            const image::Cine& image, image::Cine& stack) {
+  if (!c.scar.lge.in_plane)
+    return {};
+  const std::vector<SliceMove> moves = moves_onto_wall(c, shape, mesh, image);
+  move_slices(stack, moves);
+  return table_of(image, moves);
+}
+
 /// The part of the wall's volume that is infarcted.
 double part_of_wall(const Mesh& mesh, const std::vector<double>& part) {
   const mesh::InfarctVolumes volumes = mesh::infarct_volumes(mesh, part);
@@ -257,12 +268,7 @@ Infarct as_drawn(const Case& c, const anatomy::Shape& shape, const Mesh& mesh) {
   const image::Cine lge = read_late_enhancement(c);
   const std::string file = case_file::beside(c, c.scar.lge.drawn).string();
   image::Cine scar = scar_stack(read_scar_map(file, lge), lge);
-  std::optional<Table> slice_moves;
-  if (c.scar.lge.in_plane) {
-    const std::vector<SliceMove> moves = moves_onto_wall(c, shape, mesh, lge);
-    move_slices(scar, moves);
-    slice_moves = table_of(lge, moves);
-  }
+  std::optional<Table> slice_moves = settle(c, shape, mesh, lge, scar);
   Infarct infarct = within(
       c, shape, mesh,
       [&](const Vec3& X, double) { return image::sample(scar, in_images(c, shape, X)) > 0.5; },
@@ -273,12 +279,7 @@ Infarct as_drawn(const Case& c, const anatomy::Shape& shape, const Mesh& mesh) {
 
 Infarct by_brightness(const Case& c, const anatomy::Shape& shape, const Mesh& mesh) {
   image::Cine lge = read_late_enhancement(c);
-  std::optional<Table> slice_moves;
-  if (c.scar.lge.in_plane) {
-    const std::vector<SliceMove> moves = moves_onto_wall(c, shape, mesh, lge);
-    move_slices(lge, moves);
-    slice_moves = table_of(lge, moves);
-  }
+  std::optional<Table> slice_moves = settle(c, shape, mesh, lge, lge);
   const std::vector<double> values = brightness(c, shape, mesh, lge);
   if (std::all_of(values.begin(), values.end(), [](double v) { return std::isnan(v); }))
     throw InputError(case_file::place_of(c, "infarct.lge.image"),

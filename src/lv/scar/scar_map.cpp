@@ -35,29 +35,6 @@ constexpr std::array<std::string_view, map_columns> map_column_names{
     "slice", "tissue", "row",       "first", "last", "x_mm", "y_mm",
     "z_mm",  "phase",  "threshold", "how",   "by",   "when"};
 
-/// A piece of a row of pixels, counted from 0.
-struct Run {
-  int row, first, last;
-};
-
-/// The runs of alike pixels of the wall in a row.
-std::vector<Run> runs_in(const std::vector<Tissue>& pixels, const image::Plane& plane, int row) {
-  std::vector<Run> runs;
-  const auto at = [&](int i) {
-    return pixels[static_cast<std::size_t>(row) * static_cast<std::size_t>(plane.columns) +
-                  static_cast<std::size_t>(i)];
-  };
-  for (int i = 0; i < plane.columns;) {
-    int end = i + 1;
-    while (end < plane.columns && at(end) == at(i))
-      ++end;
-    if (at(i) != Tissue::outside)
-      runs.push_back({row, i, end - 1});
-    i = end;
-  }
-  return runs;
-}
-
 /// Reads the rows of a map's table.
 class MapReader {
  public:
@@ -98,10 +75,11 @@ class MapReader {
       refuse(fmt::format("{} values in a table of {} columns", fields_.size(), width_));
     const auto s = static_cast<std::size_t>(number(slice_number, image_.slices.size()) - 1);
     const image::Plane& plane = image_.slices[s].frames.front().plane;
-    const Run run{number(row_number, static_cast<std::size_t>(plane.rows)) - 1,
-                  number(first_pixel, static_cast<std::size_t>(plane.columns)) - 1,
-                  number(last_pixel, static_cast<std::size_t>(plane.columns)) - 1};
+    Run run{number(row_number, static_cast<std::size_t>(plane.rows)) - 1,
+            number(first_pixel, static_cast<std::size_t>(plane.columns)) - 1,
+            number(last_pixel, static_cast<std::size_t>(plane.columns)) - 1, Tissue::outside};
     check_place(plane, run);
+    run.tissue = tissue();
     paint(map_.slices[s], plane, run);
     map_.slices[s].drawn = {field(how_drawn), field(drawn_by), field(drawn_when)};
     map_.threshold = real(grey_threshold);
@@ -117,15 +95,19 @@ class MapReader {
              "It belongs to another image: name the one on which the scar was drawn");
   }
 
-  void paint(SliceMap& slice, const image::Plane& plane, const Run& run) const {
+  [[nodiscard]] Tissue tissue() const {
     const auto name = std::find(tissue_names.begin() + 1, tissue_names.end(), field(tissue_name));
     if (name == tissue_names.end())
       refuse(fmt::format("unknown tissue \"{}\"", field(tissue_name)));
+    return static_cast<Tissue>(name - tissue_names.begin());
+  }
+
+  void paint(SliceMap& slice, const image::Plane& plane, const Run& run) const {
     for (int i = run.first; i <= run.last; ++i) {
       Tissue& pixel = slice.pixels[static_cast<std::size_t>(run.row * plane.columns + i)];
       if (pixel != Tissue::outside)
         refuse(fmt::format("pixel {} of row {} stands there twice", i + 1, run.row + 1));
-      pixel = static_cast<Tissue>(name - tissue_names.begin());
+      pixel = run.tissue;
     }
   }
 
@@ -270,23 +252,39 @@ std::vector<char> brighter(const image::Picture& picture, const std::vector<char
   return scar;
 }
 
+std::vector<Run> runs_of(const std::vector<Tissue>& pixels, const image::Plane& plane) {
+  std::vector<Run> runs;
+  for (int row = 0; row < plane.rows; ++row) {
+    const auto at = [&](int i) {
+      return pixels[static_cast<std::size_t>(row) * static_cast<std::size_t>(plane.columns) +
+                    static_cast<std::size_t>(i)];
+    };
+    for (int i = 0; i < plane.columns;) {
+      int end = i + 1;
+      while (end < plane.columns && at(end) == at(i))
+        ++end;
+      if (at(i) != Tissue::outside)
+        runs.push_back({row, i, end - 1, at(i)});
+      i = end;
+    }
+  }
+  return runs;
+}
+
 Table table_of(const ScarMap& map, const image::Cine& image) {
   Table table(std::vector<std::string>(map_column_names.begin(), map_column_names.end()));
   for (std::size_t s = 0; s < map.slices.size(); ++s) {
     const SliceMap& slice = map.slices[s];
     const image::Plane& plane = image.slices[s].frames.front().plane;
-    for (int row = 0; row < plane.rows; ++row)
-      for (const Run& run : runs_in(slice.pixels, plane, row)) {
-        const auto tissue = static_cast<std::size_t>(
-            slice.pixels[static_cast<std::size_t>(row * plane.columns + run.first)]);
-        const Vec3 x = plane.point(run.first, row);
-        table.add_row({std::to_string(s + 1), tissue_names.at(tissue), std::to_string(row + 1),
-                       std::to_string(run.first + 1), std::to_string(run.last + 1),
-                       fmt::format("{:.3f}", x.x()), fmt::format("{:.3f}", x.y()),
-                       fmt::format("{:.3f}", x.z()), std::to_string(map.phase),
-                       Table::number(map.threshold), slice.drawn.how, slice.drawn.by,
-                       slice.drawn.when});
-      }
+    for (const Run& run : runs_of(slice.pixels, plane)) {
+      const Vec3 x = plane.point(run.first, run.row);
+      table.add_row({std::to_string(s + 1), tissue_names.at(static_cast<std::size_t>(run.tissue)),
+                     std::to_string(run.row + 1), std::to_string(run.first + 1),
+                     std::to_string(run.last + 1), fmt::format("{:.3f}", x.x()),
+                     fmt::format("{:.3f}", x.y()), fmt::format("{:.3f}", x.z()),
+                     std::to_string(map.phase), Table::number(map.threshold), slice.drawn.how,
+                     slice.drawn.by, slice.drawn.when});
+    }
   }
   return table;
 }

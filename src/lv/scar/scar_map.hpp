@@ -28,6 +28,16 @@ struct ScarMap {
   int phase = 0;           ///< of the cine, from 1, whose borders show the wall
 };
 
+/// A piece of a row of alike pixels, counted from 0.
+struct Run {
+  int row, first, last;
+  Tissue tissue;
+};
+
+/// The runs of the wall's pixels, row by row.
+[[nodiscard]] std::vector<Run> runs_of(const std::vector<Tissue>& pixels,
+                                       const image::Plane& plane);
+
 /// part_at of the middle of every pixel, row by row; without outlines all are surroundings.
 [[nodiscard]] std::vector<char> parts_of(const image::Plane& plane,
                                          const std::optional<WallOutlines>& lines);

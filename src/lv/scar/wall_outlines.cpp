@@ -13,15 +13,11 @@ namespace {
 using geometry::Contour;
 using geometry::Polygon;
 
-/// The lines in which a plane cuts a side, in mm along the plane's rows and columns.
+/// The lines in which a plane cuts a side, in the plane.
 std::vector<Polygon> lines_in(const Triangles& side, const image::Plane& plane) {
   std::vector<Polygon> lines;
-  for (const auto& line : strain::cut(side, plane.origin, plane.normal())) {
-    Polygon& flat = lines.emplace_back();
-    for (const Vec3& x : line)
-      flat.emplace_back((x - plane.origin).dot(plane.along_row),
-                        (x - plane.origin).dot(plane.along_column));
-  }
+  for (const auto& line : strain::cut(side, plane.origin, plane.normal()))
+    lines.push_back(in_plane(line, plane));
   return lines;
 }
 
@@ -79,6 +75,14 @@ std::vector<Ring> with_ends(std::vector<Ring> rings, const Vec3& normal) {
 }
 
 }  // namespace
+
+Polygon in_plane(const std::vector<Vec3>& line, const image::Plane& plane) {
+  Polygon points;
+  for (const Vec3& x : line)
+    points.emplace_back((x - plane.origin).dot(plane.along_row),
+                        (x - plane.origin).dot(plane.along_column));
+  return points;
+}
 
 std::optional<WallOutlines> wall_outlines(const Triangles& endo, const Triangles& epi,
                                           const image::Plane& plane) {

@@ -19,6 +19,9 @@ struct WallOutlines {
   geometry::Polygon endo, epi;
 };
 
+/// A line in mm along a plane's rows and columns from its first pixel.
+[[nodiscard]] geometry::Polygon in_plane(const std::vector<Vec3>& line, const image::Plane& plane);
+
 /// The outlines in which a plane cuts both sides of a wall. None where it misses the wall or cuts
 /// it open, at the base.
 [[nodiscard]] std::optional<WallOutlines> wall_outlines(const Triangles& endo, const Triangles& epi,

@@ -2,8 +2,6 @@
 
 #include "lv/base/check.hpp"
 
-#include <span>
-
 namespace lv::solid {
 namespace {
 
@@ -86,20 +84,18 @@ Points3 tetrahedron_of_degree_5() {
 
 }  // namespace
 
-template <>
-std::vector<QuadraturePoint<2>> quadrature<2>(mesh::CellKind kind, int order) {
+template <int Dim>
+std::vector<QuadraturePoint<Dim>> quadrature(mesh::CellKind kind, int order) {
   if (kind == mesh::CellKind::hexahedron)
-    return product<2>(gauss(order + 1));
+    return product<Dim>(gauss(order + 1));
   LV_CHECK(order == 1 || order == 2);
-  return order == 1 ? triangle_of_degree_3 : triangle_of_degree_5();
+  if constexpr (Dim == 2)
+    return order == 1 ? triangle_of_degree_3 : triangle_of_degree_5();
+  else
+    return order == 1 ? tetrahedron_of_degree_3 : tetrahedron_of_degree_5();
 }
 
-template <>
-std::vector<QuadraturePoint<3>> quadrature<3>(mesh::CellKind kind, int order) {
-  if (kind == mesh::CellKind::hexahedron)
-    return product<3>(gauss(order + 1));
-  LV_CHECK(order == 1 || order == 2);
-  return order == 1 ? tetrahedron_of_degree_3 : tetrahedron_of_degree_5();
-}
+template std::vector<QuadraturePoint<2>> quadrature<2>(mesh::CellKind kind, int order);
+template std::vector<QuadraturePoint<3>> quadrature<3>(mesh::CellKind kind, int order);
 
 }  // namespace lv::solid

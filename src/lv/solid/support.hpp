@@ -44,8 +44,9 @@ struct Support {
     return {stiffness, stiffness, viscosity, viscosity, {}, {}};
   }
 
-  [[nodiscard]] bool is_none() const {
-    return normal_stiffness == 0.0 && tangential_stiffness == 0.0 && !has_dashpots();
+  [[nodiscard]] bool is_none() const { return !has_springs() && !has_dashpots(); }
+  [[nodiscard]] bool has_springs() const {
+    return normal_stiffness != 0.0 || tangential_stiffness != 0.0;
   }
   [[nodiscard]] bool has_dashpots() const {
     return normal_viscosity != 0.0 || tangential_viscosity != 0.0;

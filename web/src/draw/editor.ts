@@ -28,15 +28,7 @@ export class Editor {
   private moved: () => void = () => {};
 
   constructor(readonly study: SaidStudy, readonly drawing: Drawing, readonly proposal: Map<string, Line>, readonly say: (words: string) => void) {
-    const { canvas } = this.picture;
-    canvas.addEventListener("pointerdown", (event) => this.press(event));
-    canvas.addEventListener("pointermove", (event) => this.held?.(this.placeOf(event)));
-    for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, () => this.release());
-    canvas.addEventListener("wheel", (event) => {
-      event.preventDefault();
-      this.picture.zoom(Math.exp(-event.deltaY / 500), this.spot(event));
-    }, { passive: false });
-    new ResizeObserver(() => this.picture.draw()).observe(canvas);
+    this.picture.listen((event) => this.press(event), (at) => this.held?.(at), () => this.release());
   }
 
   /** Is told of every move to another slice, phase, side or point. */
@@ -87,12 +79,6 @@ export class Editor {
     this.picture.fit([a - 25, b - 25], [c + 25, d + 25]);
   }
 
-  private spot(event: MouseEvent): [number, number] {
-    const box = this.picture.canvas.getBoundingClientRect();
-    return [event.clientX - box.left, event.clientY - box.top];
-  }
-  private placeOf(event: MouseEvent): Place { return this.picture.placeAt(this.spot(event)); }
-
   private stamp(how: How): Omit<Line, "points"> {
     return { how, by: this.observer, when: new Date().toISOString().replace(/\.\d+/, "") };
   }
@@ -114,9 +100,7 @@ export class Editor {
   private corrected(): How { return this.line?.how === "drawn" ? "drawn" : "corrected"; }
 
   private press(event: PointerEvent): void {
-    if (event.button > 1) return;
-    this.picture.canvas.setPointerCapture(event.pointerId);
-    const at = this.placeOf(event);
+    const at = this.picture.placeOf(event);
     if (event.button === 1) return this.pan(event);
     if (this.tool in landmarkNames) return this.mark(this.tool, at);
     if (this.tool === "redraw") return this.startStroke(at);
@@ -139,16 +123,7 @@ export class Editor {
     return within.sort((a, b) => away(a) - away(b))[0];
   }
 
-  private pan(event: PointerEvent): void {
-    let last = this.spot(event);
-    const follow = (next: PointerEvent) => {
-      const now = this.spot(next);
-      this.picture.pan(now[0] - last[0], now[1] - last[1]);
-      last = now;
-    };
-    this.picture.canvas.addEventListener("pointermove", follow);
-    this.letGo = () => this.picture.canvas.removeEventListener("pointermove", follow);
-  }
+  private pan(event: PointerEvent): void { this.letGo = this.picture.panWith(event); }
 
   private startPull(from: Place): void {
     const before = this.line!;

@@ -56,6 +56,41 @@ export class Picture {
     this.draw();
   }
 
+  /** Follows the hand: what it presses, what it moves to, when it lets go; the wheel magnifies. */
+  listen(press: (event: PointerEvent) => void, follow: (at: Place) => void, release: () => void): void {
+    const { canvas } = this;
+    canvas.addEventListener("pointerdown", (event) => {
+      if (event.button > 1) return;
+      canvas.setPointerCapture(event.pointerId);
+      press(event);
+    });
+    canvas.addEventListener("pointermove", (event) => follow(this.placeOf(event)));
+    for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, () => release());
+    canvas.addEventListener("wheel", (event) => {
+      event.preventDefault();
+      this.zoom(Math.exp(-event.deltaY / 500), this.spot(event));
+    }, { passive: false });
+    new ResizeObserver(() => this.draw()).observe(canvas);
+  }
+
+  /** Moves with the hand until the function that it returns is called. */
+  panWith(event: PointerEvent): () => void {
+    let last = this.spot(event);
+    const follow = (next: PointerEvent) => {
+      const now = this.spot(next);
+      this.pan(now[0] - last[0], now[1] - last[1]);
+      last = now;
+    };
+    this.canvas.addEventListener("pointermove", follow);
+    return () => this.canvas.removeEventListener("pointermove", follow);
+  }
+
+  private spot(event: MouseEvent): [number, number] {
+    const box = this.canvas.getBoundingClientRect();
+    return [event.clientX - box.left, event.clientY - box.top];
+  }
+  placeOf(event: MouseEvent): Place { return this.placeAt(this.spot(event)); }
+
   get centre(): Place { return this.middle; }
   mm(pixels: number): number { return pixels / this.scale; }
 

@@ -33,16 +33,8 @@ export class ScarEditor {
     this.rule = said.saved ? "level" : said.rule;
     this.deviations = said.deviations;
     this.taken.set(this.scar.walls, this.linesOfPhase(this.scar.phase));
-    const { canvas } = this.picture;
-    canvas.addEventListener("pointerdown", (event) => this.press(event));
-    canvas.addEventListener("pointermove", (event) => this.follow(this.placeOf(event)));
-    canvas.addEventListener("pointerleave", () => { this.at = undefined; this.show(); });
-    for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, () => this.release());
-    canvas.addEventListener("wheel", (event) => {
-      event.preventDefault();
-      this.picture.zoom(Math.exp(-event.deltaY / 500), this.spot(event));
-    }, { passive: false });
-    new ResizeObserver(() => this.picture.draw()).observe(canvas);
+    this.picture.listen((event) => this.press(event), (at) => this.follow(at), () => this.release());
+    this.picture.canvas.addEventListener("pointerleave", () => { this.at = undefined; this.show(); });
   }
 
   onMove(tell: () => void): void { this.moved = tell; }
@@ -99,12 +91,6 @@ export class ScarEditor {
   /** Whether the borders are others than those that the wall was taken from. */
   get stale(): boolean { return this.linesOfPhase(this.scar.phase).some((line, i) => line !== this.taken.get(this.scar.walls)?.[i]); }
 
-  private spot(event: MouseEvent): [number, number] {
-    const box = this.picture.canvas.getBoundingClientRect();
-    return [event.clientX - box.left, event.clientY - box.top];
-  }
-  private placeOf(event: MouseEvent): Place { return this.picture.placeAt(this.spot(event)); }
-
   private follow(at: Place): void {
     this.at = at;
     this.painting?.(at);
@@ -112,22 +98,9 @@ export class ScarEditor {
   }
 
   private press(event: PointerEvent): void {
-    if (event.button > 1) return;
-    this.picture.canvas.setPointerCapture(event.pointerId);
-    if (event.button === 1) return this.pan(event);
-    this.startStroke(this.placeOf(event));
-  }
-
-  private pan(event: PointerEvent): void {
-    let last = this.spot(event);
+    if (event.button !== 1) return this.startStroke(this.picture.placeOf(event));
     this.painting = () => {};
-    const follow = (next: PointerEvent) => {
-      const now = this.spot(next);
-      this.picture.pan(now[0] - last[0], now[1] - last[1]);
-      last = now;
-    };
-    this.picture.canvas.addEventListener("pointermove", follow);
-    this.letGo = () => this.picture.canvas.removeEventListener("pointermove", follow);
+    this.letGo = this.picture.panWith(event);
   }
 
   private startStroke(from: Place): void {
@@ -180,6 +153,7 @@ export class ScarEditor {
     this.ask(async () => {
       const map = await this.source.scar!(this.wish(this.scar.walls, level));
       this.drawing.change({ what: "set the threshold", scar: proposedAgain(this.scar, this.planes, map) }, goesOn);
+      this.say(`Scar is brighter than ${map.threshold.toPrecision(4)} now.`);
     });
   }
 
