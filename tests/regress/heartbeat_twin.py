@@ -13,7 +13,7 @@ import time
 program = pathlib.Path(sys.argv[1]).resolve()
 failures = []
 common = """engine = "quasi_static"
-quasi_static.edge_length = "20 mm"
+quasi_static.edge_length = "18 mm"
 quasi_static.layers = 1
 protocol.kind = "cycle"
 cycle.beats = 30

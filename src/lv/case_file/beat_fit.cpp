@@ -18,6 +18,10 @@ double& number_at(const Parameter& p, Case& c) {
 
 }  // namespace
 
+double BeatDatum::shown(double value) const {
+  return value / units::parse_unit(unit).factor;
+}
+
 BeatFit beat_fit(const Case& c) {
   using Measures = circulation::BeatMeasures;
   const Calibration& k = c.calibration;
@@ -29,7 +33,7 @@ BeatFit beat_fit(const Case& c) {
         k.cuff_diastolic}},
       {},
       {}};
-  const auto measured = [&](Datum datum) { return fit.data[datum].measured > 0.0; };
+  const auto measured = [&](Datum datum) { return fit.data[datum].is_measured(); };
   const auto add = [&](const char* name, const char* words, Datum datum) {
     const Parameter* parameter = find_parameter(name);
     LV_CHECK(parameter != nullptr);
@@ -41,7 +45,7 @@ BeatFit beat_fit(const Case& c) {
   };
   const Levers lever = levers(c);
   add(lever.filling, "filling pressure", edv);
-  add(lever.contractility, contractility_words, esv);
+  add(lever.contractility, "contractility", esv);
   add(lever.resistance, "arterial resistance", measured(diastolic) ? diastolic : systolic);
   if (measured(diastolic) || !measured(systolic))
     add(lever.compliance, "arterial compliance", systolic);

@@ -14,9 +14,11 @@ struct BeatDatum {
   const char* unit;  ///< in which it is shown
   double circulation::BeatMeasures::*of_beat;
   double measured;  ///< [mm^3] or [kPa]; 0: not measured
-};
 
-inline constexpr const char* contractility_words = "contractility";
+  [[nodiscard]] bool is_measured() const { return measured > 0.0; }
+  /// A value in the unit.
+  [[nodiscard]] double shown(double value) const;
+};
 
 /// A parameter that is fitted to heartbeats.
 struct BeatParameter {

@@ -6,6 +6,7 @@
 #include "lv/base/nearest.hpp"
 #include "lv/base/printable.hpp"
 #include "lv/base/table.hpp"
+#include "lv/case_file/beat_fit.hpp"
 #include "lv/case_file/case_lines.hpp"
 #include "lv/case_file/parameter_values.hpp"
 
@@ -308,6 +309,10 @@ class CaseReader {
          fmt::format("is {:g} mmHg, and must be less than calibrate.cuff_systolic, {:g} mmHg; "
                      "check both, and which is which",
                      k.cuff_diastolic / units::mmHg, k.cuff_systolic / units::mmHg));
+    for (const BeatParameter& p : beat_fit(case_).parameters)
+      rule(value_of(*p.parameter, case_) > 0.0, p.parameter->name,
+           "is 0, and calibrate.cycle looks for a multiple of it: set it to a value to begin with, "
+           "or leave it at its default");
     together(
         k.factor.low <= 1.0 && k.factor.high >= 1.0 && k.factor.low < k.factor.high,
         {"calibrate.factor_max", "calibrate.factor_min"},

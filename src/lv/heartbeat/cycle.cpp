@@ -383,6 +383,8 @@ double CycleRun::step_size() const {
 
 /// Steps of different phases take different times, so that only a whole beat tells of others.
 double CycleRun::seconds_left() const {
+  if (is_measured_)
+    return -1.0;  // only who asked for these beats knows for what else
   return seconds_of_beat_ * (1.0 - record_.since() / record_.period() + record_.beats_left());
 }
 

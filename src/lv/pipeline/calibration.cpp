@@ -32,7 +32,7 @@ using case_file::Case;
 constexpr const char* answers_name = "answers.bin";
 constexpr const char* coarse_answers_name = "answers_coarse.bin";
 constexpr const char* muscle_text = "muscle.txt";
-constexpr const char* beating_wall_name = "beating_wall.bin";
+constexpr const char* stress_free_name = "stress_free.bin";
 constexpr double coarse_edge = 13.0;         // [mm]
 constexpr double shortest_of_coarse = 10.0;  // edges that are not made coarser [mm]
 constexpr std::size_t most_beats = 3;        // one, and two with corrected parameters
@@ -372,12 +372,12 @@ bool is_there(const std::filesystem::path& file) {
 }
 
 /// The wall that beats: that of the mesh, or what is left of it without load.
-anatomy::MeshResult beating_wall(const Case& c, const anatomy::MeshResult& mesh,
-                                 const std::filesystem::path& folder) {
+anatomy::MeshResult stress_free_wall(const Case& c, const anatomy::MeshResult& mesh,
+                                     const std::filesystem::path& folder) {
   anatomy::MeshResult wall = mesh;
   if (!case_file::is_loaded(c))
     return wall;
-  const auto kept = folder / beating_wall_name;
+  const auto kept = folder / stress_free_name;
   if (!is_there(kept)) {
     const implicit::Unloaded unloaded =
         find_unloaded(c, mesh.mesh, folder, folder / unloaded_shape_name);
@@ -391,16 +391,24 @@ anatomy::MeshResult beating_wall(const Case& c, const anatomy::MeshResult& mesh,
   return wall;
 }
 
-/// What is told of all fits, and what later stages begin with.
-void finish(const Case& c, const Case& fitted, const std::filesystem::path& folder) {
-  const case_file::Calibration& k = c.calibration;
-  std::string text = k.fits_muscle() ? read_file(folder / muscle_text) : "";
+/// What is told of all fits, of which the muscle's is then no file of its own any more.
+void write_text(const case_file::Calibration& k, const std::filesystem::path& folder) {
+  const auto muscle = folder / muscle_text;
+  if (k.fits_muscle() && !std::filesystem::exists(muscle))
+    return;  // written before the run was stopped
+  std::string text = k.fits_muscle() ? read_file(muscle) : "";
   if (k.cycle)
     text += (text.empty() ? "" : "\n") + read_file(folder / heartbeats_text);
   write_file(folder / "calibration.txt", text);
+  std::filesystem::remove(muscle);
+}
+
+/// What is told, and what later stages begin with.
+void finish(const Case& c, const Case& fitted, const std::filesystem::path& folder) {
+  write_text(c.calibration, folder);
   write_file(folder / "calibrated.toml", fragment(fitted, fitted_names(c)));
-  if (std::filesystem::exists(folder / beating_wall_name))
-    std::filesystem::rename(folder / beating_wall_name, folder / unloaded_shape_name);
+  if (std::filesystem::exists(folder / stress_free_name))
+    std::filesystem::rename(folder / stress_free_name, folder / unloaded_shape_name);
 }
 
 }  // namespace
@@ -412,7 +420,7 @@ void make_calibration(const Case& c, const anatomy::MeshResult& mesh, const Coar
     fit_muscle(c, mesh, coarse.of_muscle, folder);
   const Case fitted_muscle = with_muscle(c, folder);
   if (k.cycle && !is_there(folder / heartbeats_name))
-    static_cast<void>(fit_heartbeats(fitted_muscle, beating_wall(fitted_muscle, mesh, folder),
+    static_cast<void>(fit_heartbeats(fitted_muscle, stress_free_wall(fitted_muscle, mesh, folder),
                                      coarse.of_beats ? &*coarse.of_beats : nullptr, folder));
   const Case fitted = with_beats(fitted_muscle, folder);
   parallel::on_root([&] { finish(c, fitted, folder); });

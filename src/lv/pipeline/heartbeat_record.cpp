@@ -60,8 +60,8 @@ std::string data_rows(const HeartbeatFit& fit) {
 }
 
 std::string parameter_rows(const HeartbeatFit& fit) {
-  std::string text =
-      fmt::format("\n  {:<34}{:>12}{:>12}  fitted to\n", "parameter", "before", "fitted");
+  std::string text = fmt::format("\n  {:<34}{:>12}{:>12}  fitted to, name in a case file\n",
+                                 "parameter", "before", "fitted");
   for (const FittedValue& p : fit.parameters)
     text += fmt::format("  {:<34}{:>12.4g}{:>12.4g}  {}, {}\n", named(p.words, p.unit), p.before,
                         p.fitted, p.datum, p.parameter);

@@ -8,7 +8,6 @@
 #include "lv/base/log.hpp"
 #include "lv/base/parallel.hpp"
 #include "lv/base/table.hpp"
-#include "lv/base/units.hpp"
 #include "lv/case_file/beat_fit.hpp"
 #include "lv/case_file/parameters.hpp"
 #include "lv/cine/strain.hpp"
@@ -206,8 +205,7 @@ std::vector<report::FittedOfBeat> beside_beat(const std::vector<FittedDatum>& fi
   for (const FittedDatum& d : fitted)
     for (const case_file::BeatDatum& of_beat : case_file::beat_fit({}).data)
       if (of_beat.name == d.name) {
-        const double value =
-            beat.cycle->beats.back().*of_beat.of_beat / units::parse_unit(d.unit).factor;
+        const double value = of_beat.shown(beat.cycle->beats.back().*of_beat.of_beat);
         all.push_back({d.name, d.unit, d.measured, d.model, value,
                        std::abs(value / d.measured - 1.0) <= tolerance});
       }

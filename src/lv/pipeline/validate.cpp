@@ -123,9 +123,8 @@ std::string describe_beat_fit(const Case& c) {
   std::string text;
   for (const case_file::BeatParameter& p : fit.parameters) {
     const case_file::BeatDatum& d = fit.data[p.datum];
-    text +=
-        fmt::format("  heartbeats: {} ({}) is fitted to {} = {:g} {}\n", p.words, p.parameter->name,
-                    d.key, d.measured / units::parse_unit(d.unit).factor, d.unit);
+    text += fmt::format("  heartbeats: {} ({}) is fitted to {} = {:g} {}\n", p.words,
+                        p.parameter->name, d.key, d.shown(d.measured), d.unit);
   }
   for (const std::string& sentence : fit.left_alone)
     text += fmt::format("  {}\n", sentence);
