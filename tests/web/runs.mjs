@@ -65,7 +65,11 @@ async function pretendBeats() {
     const file = join(to, "04_results/summary.json");
     const last = ofBeats(`${name}.work`).at(-1);
     const summary = { ...JSON.parse(readFileSync(file, "utf8")), case: name, cycle: { last_beat: { peak_pressure_mmHg: Number(last.peak_pressure_mmHg) } } };
-    if (name === "beats") summary.heartbeats_fitted = [{ datum: "EDV", unit: "ml", measured: 141.25, fit: 141.1, beat: 140.9, within_tolerance: true }];
+    if (name === "beats") {
+      summary.heartbeats_fitted = [{ datum: "EDV", unit: "ml", measured: 141.25, fit: 141.1, beat: 140.9, within_tolerance: true },
+        { datum: "systolic", unit: "mmHg", measured: 123.5, fit: 123.6, beat: 123.7, within_tolerance: true }];
+      summary.cycle.last_beat.aortic_systolic_mmHg = 123.7;
+    }
     writeFileSync(file, JSON.stringify(summary));
   }
   mkdirSync(join(folder, "beats.work/02b_calibrate"), { recursive: true });

@@ -6,10 +6,13 @@ import { shown } from "./quantities.ts";
 /** What heartbeats were fitted to, as summary.json has it. */
 const ofBeats = (c: Case): any[] => Array.isArray(c.summary?.heartbeats_fitted) ? c.summary.heartbeats_fitted : [];
 
+/** What was measured of a heartbeat, in the unit of summary.json: "EDV", "ESV", "systolic" or "diastolic". */
+export const measuredOfBeat = (c: Case, datum?: string): number | undefined => ofBeats(c).find((row) => row.datum === datum)?.measured;
+
 /** The measured volume [ml] that summary.json names: "EDV" or "ESV". */
 export function measuredVolume(c: Case, name: string): number | undefined {
   const rows: any[] = Array.isArray(c.summary?.calibration) ? c.summary.calibration : [];
-  return rows.find((row) => row.volume === name)?.measured_ml ?? ofBeats(c).find((row) => row.datum === name)?.measured;
+  return rows.find((row) => row.volume === name)?.measured_ml ?? measuredOfBeat(c, name);
 }
 
 function volumes(c: Case): HTMLElement {
