@@ -13,13 +13,13 @@ using calibrate::RootSearch;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-const VectorXd root = (VectorXd(3) << 0.3, -0.2, 0.1).finished();
+const VectorXd zero = (VectorXd(3) << 0.3, -0.2, 0.1).finished();
 const MatrixXd coupled =
     (MatrixXd(3, 3) << 0.5, 0.1, 0.0, -0.3, -1.2, 0.4, 0.2, 0.6, 0.9).finished();
 
-/// Curved and coupled, zero at `root`.
+/// Curved and coupled; nothing at `zero`.
 VectorXd misfits(const VectorXd& x) {
-  const VectorXd d = x - root;
+  const VectorXd d = x - zero;
   return coupled * d + 0.15 * d.cwiseProduct(d);
 }
 
@@ -57,7 +57,7 @@ TEST_CASE("a root is found with slopes that are a third off, in few evaluations"
   const auto found = calibrate::search_root(model, VectorXd::Zero(3), three_unknowns());
   REQUIRE(found);
   CHECK(found->found);
-  CHECK((found->x - root).cwiseAbs().maxCoeff() < 3e-3);
+  CHECK((found->x - zero).cwiseAbs().maxCoeff() < 3e-3);
   CHECK(found->evaluations <= 8);
   CHECK(accuracies.front() == 0.01);
   CHECK(accuracies.back() == 1e-4);  // what is taken for the root is known well
