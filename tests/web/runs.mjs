@@ -65,8 +65,18 @@ async function pretendBeats() {
     const file = join(to, "04_results/summary.json");
     const last = ofBeats(`${name}.work`).at(-1);
     const summary = { ...JSON.parse(readFileSync(file, "utf8")), case: name, cycle: { last_beat: { peak_pressure_mmHg: Number(last.peak_pressure_mmHg) } } };
+    if (name === "beats") {
+      summary.heartbeats_fitted = [{ datum: "EDV", unit: "ml", measured: 141.25, fit: 141.1, beat: 140.9, within_tolerance: true },
+        { datum: "systolic", unit: "mmHg", measured: 123.5, fit: 123.6, beat: 123.7, within_tolerance: true }];
+      summary.cycle.last_beat.aortic_systolic_mmHg = 123.7;
+    }
     writeFileSync(file, JSON.stringify(summary));
   }
+  mkdirSync(join(folder, "beats.work/02b_calibrate"), { recursive: true });
+  writeFileSync(join(folder, "beats.work/02b_calibrate/heartbeats.json"), JSON.stringify({ left_alone: ["The contractility keeps the case's value"],
+    parameters: [{ parameter: "circulation.windkessel.p_ven", words: "filling pressure", unit: "mmHg", fitted_to: "EDV", before: 8, value: 9.876,
+      when_off: [{ measurement: "EDV", by: "5%", below: 8.765, above: 11.25 }] }],
+    data: [{ name: "EDV", d_ln_datum_by_d_ln: { "circulation.windkessel.p_ven": 0.4321 } }] }));
   await ventricle("report", "beats.work", "--output", "beats.html");
   await ventricle("compare", "beats.work", "stiff.work", "--output", "loops.html");
 }

@@ -160,6 +160,10 @@ export async function checkBeats() {
   check("they are beats.csv's", close(number(ofMeasure(rows, "stroke work")[1]), Number(last.stroke_work_mmHg_ml), 1e-3) &&
     close(number(ofMeasure(rows, "relaxation constant")[1]), Number(last.tau_ms), 1e-3), rows.join("; "));
   check("the first screen tells the peak pressure", /peak pressure \(mmHg\)/.test(await page.locator("#summary").innerText()));
+  check("and the cuff's beside the aorta's", /aortic pressure, systolic[^]*124[^]*124/.test(await page.locator("#summary").innerText()));
+  const details = await page.locator("#details").innerText();
+  check("what heartbeats were fitted to, by which parameter, how the datum follows it, and what was left alone", ["141.3", "9.876", "8.77 / 11.3", "0.432",
+    "The contractility keeps the case's value."].every((part) => details.includes(part)), details.match(/Heartbeats fitted[^]{0,600}/)?.[0]);
   check("no error is reported on heartbeats", said.length === 0, said.join("\n"));
   await done();
   const two = await open("loops.html", { width: 1400, height: 900 });

@@ -3,10 +3,16 @@ import type { Case } from "./data.ts";
 import { el, fileName, missing, table } from "./dom.ts";
 import { shown } from "./quantities.ts";
 
+/** What heartbeats were fitted to, as summary.json has it. */
+const ofBeats = (c: Case): any[] => Array.isArray(c.summary?.heartbeats_fitted) ? c.summary.heartbeats_fitted : [];
+
+/** What was measured of a heartbeat, in the unit of summary.json: "EDV", "ESV", "systolic" or "diastolic". */
+export const measuredOfBeat = (c: Case, datum?: string): number | undefined => ofBeats(c).find((row) => row.datum === datum)?.measured;
+
 /** The measured volume [ml] that summary.json names: "EDV" or "ESV". */
 export function measuredVolume(c: Case, name: string): number | undefined {
   const rows: any[] = Array.isArray(c.summary?.calibration) ? c.summary.calibration : [];
-  return rows.find((row) => row.volume === name)?.measured_ml;
+  return rows.find((row) => row.volume === name)?.measured_ml ?? measuredOfBeat(c, name);
 }
 
 function volumes(c: Case): HTMLElement {
@@ -38,6 +44,35 @@ function klotz(c: Case, fit: any): (Node | undefined)[] {
 
 /** Empty for a case without calibration. */
 export function calibration(c: Case): (Node | undefined)[] {
+  return [...muscle(c), ...heartbeats(c)];
+}
+
+/** What the heartbeats were fitted to, the parameters that were, and how each datum follows each of them. */
+function heartbeats(c: Case): (Node | undefined)[] {
+  const rows = ofBeats(c);
+  if (!rows.length) return [];
+  const text = c.json.files["heartbeats.json"];
+  const fit = text ? JSON.parse(text) : undefined;
+  const parameters: any[] = fit?.parameters ?? [];
+  const off: any[] = parameters[0]?.when_off ?? [];
+  return [
+    el("h3", {}, "Heartbeats fitted to what was measured"),
+    el("p", { class: "help" }, "Each datum tells of one parameter; all are found together, from beats of the wall in its circulation up to their limit cycle. " +
+      "A cuff's pressures are taken for the aorta's."),
+    table(fileName(c.name, "heartbeats-fitted"), ["datum", "measured", "fit", "last beat", "within tolerance"],
+      rows.map((v) => [`${v.datum} (${v.unit})`, shown(v.measured, 4), shown(v.fit, 4), shown(v.beat, 4), v.within_tolerance ? "yes" : "NO"])),
+    parameters.length ? table(fileName(c.name, "heartbeats-parameters"),
+      ["parameter", "before", "fitted", "fitted to", ...off.map((w) => `if ${w.measurement} is ∓${w.by} off`)],
+      parameters.map((p) => [`${p.words}${p.unit ? ` (${p.unit})` : ""}`, shown(p.before, 4), shown(p.value, 4), p.fitted_to,
+        ...p.when_off.map((w: any) => `${shown(w.below)} / ${shown(w.above)}`)]))
+      : missing("heartbeats.json is missing: how sure the fitted parameters are is not known."),
+    parameters.length ? table(fileName(c.name, "heartbeats-sensitivity"), ["relative change per relative change of", ...parameters.map((p) => p.words)],
+      fit.data.map((d: any) => [d.name, ...parameters.map((p) => shown(d.d_ln_datum_by_d_ln[p.parameter]))])) : undefined,
+    ...(fit?.left_alone ?? []).map((line: string) => el("p", { class: "help" }, `${line}.`))];
+}
+
+/** The fit of the muscle at given pressures. */
+function muscle(c: Case): (Node | undefined)[] {
   const volumesFitted = Array.isArray(c.summary?.calibration);
   if (!volumesFitted && !Array.isArray(c.summary?.klotz)) return [];
   const text = c.json.files["calibration.json"];

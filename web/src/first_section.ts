@@ -1,5 +1,5 @@
 // The numbers that are read first, beside measured ones and usual ranges.
-import { measuredVolume } from "./calibration_section.ts";
+import { measuredOfBeat, measuredVolume } from "./calibration_section.ts";
 import { type Case, type Row, value } from "./data.ts";
 import { el, fileName, missing, table, titled } from "./dom.ts";
 import { shown } from "./quantities.ts";
@@ -37,9 +37,9 @@ const figures: Figure[] = [
   { title: "stroke volume", unit: "ml", path: "stroke_volume_ml", of: (c) => c.summary?.stroke_volume_ml, measured: (c) => both(c, (edv, esv) => edv - esv) },
   { title: "ejection fraction", unit: "%", path: "ejection_fraction_percent", range: "ejection_fraction_percent",
     of: (c) => c.summary?.ejection_fraction_percent, measured: (c) => both(c, (edv, esv) => (100 * (edv - esv)) / edv) },
-  ...[["peak pressure", "peak_pressure_mmHg", "mmHg"], ["aortic pressure, systolic", "aortic_systolic_mmHg", "mmHg"],
-    ["aortic pressure, diastolic", "aortic_diastolic_mmHg", "mmHg"], ["stroke work", "stroke_work_mmHg_ml", "mmHg ml"]].map(([title, name, unit]): Figure =>
-    ({ title, unit, path: "cycle", of: (c) => c.summary?.cycle?.last_beat?.[name] })),
+  ...[["peak pressure", "peak_pressure_mmHg", "mmHg"], ["aortic pressure, systolic", "aortic_systolic_mmHg", "mmHg", "systolic"],
+    ["aortic pressure, diastolic", "aortic_diastolic_mmHg", "mmHg", "diastolic"], ["stroke work", "stroke_work_mmHg_ml", "mmHg ml"]].map(([title, name, unit, datum]): Figure =>
+    ({ title, unit, path: `cycle.last_beat.${name}`, of: (c) => c.summary?.cycle?.last_beat?.[name], measured: (c) => measuredOfBeat(c, datum) })),
   { title: "mass of the wall", unit: "g", path: "mass_g", range: "mass_g", of: (c) => c.summary?.mass_g },
   { title: "circumferential strain", unit: "%", path: "whole_wall.end_systole", range: "circumferential_strain", of: strain("circumferential"),
     measured: (c) => seen(c, "circumferential") },

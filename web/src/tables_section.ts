@@ -15,7 +15,7 @@ const ofRow = (row: Row | undefined): string => (row && row.mean !== "" ? pm({ m
 
 const known = ["case", "program", "resolution", "early_diastole", "edv_ml", "esv_ml", "stroke_volume_ml", "mass_g",
   "ejection_fraction_percent", "strain", "whole_wall", "fibre_shortening_percent",
-  "rotation", "plausibility", "calibration", "zones", "infarct", "infarct_segments", "assumptions", "warnings", "marks", "parameters", "set_in_case_file"];
+  "rotation", "plausibility", "calibration", "heartbeats_fitted", "zones", "infarct", "infarct_segments", "assumptions", "warnings", "marks", "parameters", "set_in_case_file"];
 
 /** After the name of a phase. */
 const endedSteady = "_was_steady";

@@ -159,23 +159,31 @@ struct QuasiStatic {
 /// Which measure of strain a file holds: E = (lambda^2 - 1)/2 or lambda - 1.
 enum class StrainMeasure { green_lagrange, engineering };
 
-/// Which parameters are fitted to which measured volumes, at the pressures of the protocol.
+/// Which parameters are fitted to which measured volumes, at the pressures of the protocol, and to
+/// which data of heartbeats.
 struct Calibration {
   calibrate::FittedPassive passive = calibrate::FittedPassive::none;
   bool active = false;
+  bool cycle = false;           ///< circulation and contractility to what heartbeats come to
   double edv = 0.0, esv = 0.0;  ///< 0: not measured [mm^3]
-  double tolerance = 0.01;      ///< of the volumes, as a fraction
+  double cuff_systolic = 0.0, cuff_diastolic = 0.0;  ///< of heartbeats; 0: not measured [kPa]
+  double tolerance = 0.01;                           ///< of volumes and pressures, as a fraction
   calibrate::Range stiffness{0.05, 50.0};
   calibrate::Range exponent{0.2, 5.0};
   calibrate::Range T_scale{0.1, 20.0};
-  std::string strains;  ///< file of regional strains, fitted to besides; empty: none
+  calibrate::Range factor{0.1, 10.0};  ///< of what is fitted to heartbeats, to the case's values
+  std::string strains;                 ///< file of regional strains, fitted to besides; empty: none
   StrainMeasure strain_measure = StrainMeasure::green_lagrange;  ///< of that file
   calibrate::Errors errors;  ///< of what was measured, which weigh it
   bool confirm = false;      ///< with the immersed engine
   /// By which the end-diastolic pressure of a fit to Klotz's curve may be off: fitted anew [kPa].
   double pressure_error = 4.0 * units::mmHg;
 
-  [[nodiscard]] bool asked() const { return passive != calibrate::FittedPassive::none || active; }
+  /// Whether parameters of the muscle are fitted at given pressures.
+  [[nodiscard]] bool fits_muscle() const {
+    return passive != calibrate::FittedPassive::none || active;
+  }
+  [[nodiscard]] bool asked() const { return fits_muscle() || cycle; }
 };
 
 /// Strain measured from cine images, or by somebody else. File names as the case file gives them.

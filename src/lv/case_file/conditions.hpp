@@ -18,9 +18,13 @@ inline bool may_have_infarct(const Case& c) {
   return c.scar.source == Scar::mesh ? c.anatomy.source == Source::mesh
                                      : c.scar.source != Scar::none;
 }
+/// A fit before the beat runs heartbeats only if it is to them.
+inline bool beats_in(const Case& c, Stage s) {
+  return is_cycle(c) && (s != Stage::calibrate || c.calibration.cycle);
+}
 /// By itself it always may run; with the wall it does in a cycle.
 inline bool has_circuit(const Case& c, Stage s) {
-  return c.circulation.asked() && (s != Stage::beat || is_cycle(c));
+  return c.circulation.asked() && (s == Stage::circulation || beats_in(c, s));
 }
 inline bool has_passive_fit(const Case& c) {
   return c.calibration.passive != calibrate::FittedPassive::none;
@@ -52,18 +56,21 @@ LV_CONDITION(iterative,
              "with quasi_static.linear_solver = \"iterative\"")
 LV_CONDITION(quadrature, c.coupling.kind == immersed::CouplingKind::quadrature,
              "with coupling.kind = \"quadrature\"")
-LV_CONDITION(heartbeats, is_cycle(c), "with protocol.kind = \"cycle\"")
-LV_CONDITION(paper_protocol, s == Stage::calibrate || !is_cycle(c),
+LV_CONDITION(heartbeats, beats_in(c, s), "with protocol.kind = \"cycle\"")
+LV_CONDITION(of_beats, s != Stage::calibrate || c.calibration.cycle, "of the beat")
+LV_CONDITION(paper_protocol, s == Stage::calibrate ? c.calibration.fits_muscle() : !is_cycle(c),
              "with protocol.kind = \"paper\"")
 LV_CONDITION(filled_in_time, c.engine == Engine::immersed || !is_cycle(c),
              "with engine = \"immersed\" or protocol.kind = \"paper\"")
-LV_CONDITION(calcium_in_time, c.engine == Engine::immersed || is_cycle(c),
+LV_CONDITION(calcium_in_time,
+             s == Stage::calibrate ? beats_in(c, s) : c.engine == Engine::immersed || is_cycle(c),
              "with engine = \"immersed\" or protocol.kind = \"cycle\"")
 LV_CONDITION(
-    rates, (c.engine == Engine::immersed || is_cycle(c)) && s == Stage::beat,
+    rates,
+    (c.engine == Engine::immersed && s == Stage::beat) || (beats_in(c, s) && s != Stage::unload),
     "with engine = \"immersed\" or protocol.kind = \"cycle\", for without time nothing has "
     "a rate")
-LV_CONDITION(static_rates, is_cycle(c) && s == Stage::beat,
+LV_CONDITION(static_rates, beats_in(c, s) && s != Stage::unload,
              "with protocol.kind = \"cycle\", for without time nothing has a rate")
 LV_CONDITION(inertia, c.protocol.cycle.inertia, "with cycle.inertia = true")
 LV_CONDITION(elastic_base, c.base.kind == solid::BasalSupport::Kind::elastic,
@@ -177,7 +184,9 @@ LV_CONDITION(niederer, c.active_law == ActiveLaw::niederer, "with active.law = \
 LV_CONDITION(land2017, c.active_law == ActiveLaw::land2017, "with active.law = \"land2017\"")
 LV_CONDITION(prescribed_tension, !has_kinetics(c),
              "with active.law = \"second_piola\" or \"cauchy\"")
-LV_CONDITION(moving_fibres, (c.engine == Engine::immersed || is_cycle(c)) && s == Stage::beat,
+LV_CONDITION(moving_fibres,
+             (c.engine == Engine::immersed && s == Stage::beat) ||
+                 (beats_in(c, s) && s != Stage::unload),
              "with engine = \"immersed\" or protocol.kind = \"cycle\"")
 LV_CONDITION(calcium_counts, has_kinetics(c) || moving_fibres.holds(c, s),
              "with active.law = \"niederer\" or \"land2017\", or with engine = \"immersed\"")
@@ -185,8 +194,9 @@ LV_CONDITION(alpha_function, has_alpha_function(c), "with calcium.shape = \"alph
 LV_CONDITION(double_exponential, !has_alpha_function(c),
              "with calcium.shape = \"double_exponential\"")
 LV_CONDITION(mass_counts,
-             s == Stage::results ||
-                 (s == Stage::beat ? c.protocol.cycle.inertia && is_cycle(c) : may_have_infarct(c)),
+             s == Stage::results || (s == Stage::beat || s == Stage::calibrate
+                                         ? c.protocol.cycle.inertia && beats_in(c, s)
+                                         : may_have_infarct(c)),
              "for the masses of wall and infarct, and with cycle.inertia = true")
 
 // circulation
@@ -204,7 +214,8 @@ LV_CONDITION(quadratic_valves, c.circulation.valves.law == circulation::ValveLaw
              "with circulation.valves.law = \"quadratic\"")
 
 // measurements
-LV_CONDITION(fit, c.calibration.asked(), "with a fit: set calibrate.passive or calibrate.active")
+LV_CONDITION(fit, c.calibration.asked(),
+             "with a fit: set calibrate.passive, calibrate.active or calibrate.cycle")
 LV_CONDITION(passive_fit, has_passive_fit(c), "with a passive fit: set calibrate.passive")
 LV_CONDITION(exponent_fit,
              c.calibration.passive == calibrate::FittedPassive::scale_and_exponent ||
@@ -212,9 +223,14 @@ LV_CONDITION(exponent_fit,
              "with calibrate.passive = \"scale_and_exponent\" or \"klotz\"")
 LV_CONDITION(klotz_fit, c.calibration.passive == calibrate::FittedPassive::klotz,
              "with calibrate.passive = \"klotz\"")
-LV_CONDITION(volume_fit,
-             has_passive_fit(c) && c.calibration.passive != calibrate::FittedPassive::klotz,
-             "with a passive fit: set calibrate.passive (to another than \"klotz\")")
+LV_CONDITION(edv_fit,
+             c.calibration.cycle ||
+                 (has_passive_fit(c) && c.calibration.passive != calibrate::FittedPassive::klotz),
+             "with a passive fit: set calibrate.passive (to another than \"klotz\"), or with "
+             "calibrate.cycle = true")
+LV_CONDITION(esv_fit, c.calibration.cycle || c.calibration.active,
+             "with calibrate.active = true or calibrate.cycle = true")
+LV_CONDITION(fit_to_beats, c.calibration.cycle, "with calibrate.cycle = true")
 LV_CONDITION(active_fit, c.calibration.active, "with calibrate.active = true")
 LV_CONDITION(strains_given, !c.calibration.strains.empty(), "with calibrate.strains")
 LV_CONDITION(loaded, c.unloaded.pressure > 0.0, "with unloaded.pressure above 0")

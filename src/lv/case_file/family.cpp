@@ -43,19 +43,26 @@ std::string name_of(const Factors& factors) {
 
 /// What a factor multiplies in a case, and by how much.
 std::pair<const char*, double> target(const Lever& lever, double factor, const Case& c) {
-  const bool is_loop = c.circulation.kind == circulation::Kind::closed_loop;
   if (lever.factor == preload.factor)
-    return {is_loop ? "circulation.start.p_ven_sys" : "circulation.windkessel.p_ven", factor};
+    return {levers(c).filling, factor};
   if (lever.factor == afterload.factor)
-    return {is_loop ? "circulation.closed_loop.systemic.R_ar" : "circulation.windkessel.R_p",
-            factor};
+    return {levers(c).resistance, factor};
   if (lever.factor == contractility.factor)
-    return {c.active_law == ActiveLaw::land2017 ? "active.land2017.T_ref" : "active.T_scale",
-            factor};
+    return {levers(c).contractility, factor};
   return {"circulation.period", 1.0 / factor};
 }
 
 }  // namespace
+
+Levers levers(const Case& c) {
+  const char* contractility =
+      c.active_law == ActiveLaw::land2017 ? "active.land2017.T_ref" : "active.T_scale";
+  if (c.circulation.kind == circulation::Kind::closed_loop)
+    return {"circulation.start.p_ven_sys", "circulation.closed_loop.systemic.R_ar",
+            "circulation.closed_loop.systemic.C_ar", contractility};
+  return {"circulation.windkessel.p_ven", "circulation.windkessel.R_p", "circulation.windkessel.C",
+          contractility};
+}
 
 std::vector<Member> family(const Study& study) {
   std::vector<Member> members;

@@ -8,6 +8,16 @@
 
 namespace lv::case_file {
 
+/// The parameters by which a heart that beats in a circulation is filled more or less, ejects
+/// against more or less, and is stronger or weaker.
+struct Levers {
+  const char* filling;        ///< pressure that fills it
+  const char* resistance;     ///< of the arteries
+  const char* compliance;     ///< of the arteries
+  const char* contractility;  ///< the muscle's tension
+};
+[[nodiscard]] Levers levers(const Case& c);
+
 /// One of the cases that a study asks for.
 struct Member {
   std::string name;  ///< "case", "preload_0.8", "contractility_1.2_afterload_1.5"

@@ -15,7 +15,8 @@ using namespace conditions;
 
 constexpr Stages meshing(Stage::mesh, Stage::calibrate, Stage::unload);
 constexpr Stages mechanics(Stage::calibrate, Stage::unload, Stage::beat);
-constexpr Stages joined(Stage::circulation, Stage::beat);
+constexpr Stages beating(Stage::calibrate, Stage::beat);
+constexpr Stages joined(Stage::circulation, Stage::calibrate, Stage::beat);
 
 constexpr Group of_anatomy[]{
     {Stages(Stage::results),
@@ -642,7 +643,7 @@ constexpr Group of_muscle[]{
          number("active.a", LV_AT(active.a), "", not_negative,
                 "curvature of the force-velocity relation", "A.10"),
      }},
-    {Stages(Stage::beat),
+    {beating,
      {&niederer, &moving_fibres},
      {
          number("active.A_1", LV_AT(active.A[0]), "", any, "weight of a fading memory", "A.11"),
@@ -706,7 +707,7 @@ constexpr Group of_muscle[]{
          number("active.land2017.r_w", LV_AT(land2017.r_w), "", between(0.01, 0.99),
                 "share of the other cross-bridges that is before it"),
      }},
-    {Stages(Stage::beat),
+    {beating,
      {&land2017, &moving_fibres},
      {
          number("active.land2017.k_TRPN", LV_AT(land2017.k_TRPN), "1/s", positive,
@@ -734,7 +735,7 @@ constexpr Group of_muscle[]{
                 "says",
                 "A.1"),
      }},
-    {Stages(Stage::beat),
+    {beating,
      {&calcium_in_time},
      {
          choice(
@@ -751,13 +752,13 @@ constexpr Group of_muscle[]{
          number("calcium.Ca_max", LV_AT(protocol.calcium.Ca_max), "uM", positive, "peak calcium",
                 "A.1"),
      }},
-    {Stages(Stage::beat),
+    {beating,
      {&calcium_in_time, &alpha_function},
      {
          number("calcium.tau", LV_AT(protocol.calcium.tau), "s", positive, "time to the peak",
                 "A.1"),
      }},
-    {Stages(Stage::beat),
+    {beating,
      {&calcium_in_time, &double_exponential},
      {
          number("calcium.t_1", LV_AT(protocol.calcium.t_1), "s", positive,
@@ -768,7 +769,7 @@ constexpr Group of_muscle[]{
 };
 
 constexpr Group of_blood_and_base[]{
-    {Stages(Stage::mesh, Stage::unload, Stage::beat, Stage::results),
+    {Stages(Stage::mesh, Stage::calibrate, Stage::unload, Stage::beat, Stage::results),
      {&mass_counts},
      {
          number("muscle.density", LV_AT(muscle_density), "g/ml", positive,
@@ -914,6 +915,14 @@ constexpr Group of_measurements[]{
          value("calibrate.active", LV_AT(calibration.active),
                "whether active.T_scale is fitted to esv"),
      }},
+    {beating,
+     {&heartbeats},
+     {
+         value("calibrate.cycle", LV_AT(calibration.cycle),
+               "whether heartbeats are fitted to edv, esv, cuff_systolic and cuff_diastolic, those "
+               "that are set: the pressure that fills the heart, contractility, resistance and "
+               "compliance of the arteries; circulation.period is the measured one"),
+     }},
     {Stages(Stage::calibrate),
      {&klotz_fit},
      {
@@ -925,22 +934,41 @@ constexpr Group of_measurements[]{
              "it is not set, at most half of unloaded.pressure"),
      }},
     {Stages(Stage::calibrate),
-     {&volume_fit},
+     {&edv_fit},
      {
          number("calibrate.edv", LV_AT(calibration.edv), "ml", between(0.0, 2000.0),
-                "measured volume at protocol.ed_pressure; 0: none", "3.1"),
+                "measured volume at protocol.ed_pressure, and of heartbeats at the closing of the "
+                "mitral valve; 0: none",
+                "3.1"),
      }},
     {Stages(Stage::calibrate),
-     {&active_fit},
+     {&esv_fit},
      {
          number("calibrate.esv", LV_AT(calibration.esv), "ml", between(0.0, 2000.0),
-                "measured volume at protocol.es_pressure; 0: none", "3.1"),
+                "measured volume at protocol.es_pressure, or of heartbeats at the closing of the "
+                "aortic valve; 0: none",
+                "3.1"),
+     }},
+    {Stages(Stage::calibrate),
+     {&fit_to_beats},
+     {
+         number("calibrate.cuff_systolic", LV_AT(calibration.cuff_systolic), "mmHg",
+                between(0.0, 400.0),
+                "systolic pressure of a cuff on the arm, taken for the aorta's largest; 0: none"),
+         number("calibrate.cuff_diastolic", LV_AT(calibration.cuff_diastolic), "mmHg",
+                between(0.0, 400.0),
+                "diastolic pressure of a cuff on the arm, taken for the aorta's least; 0: none"),
+         number("calibrate.factor_min", LV_AT(calibration.factor.low), "", positive,
+                "least value of what is fitted to heartbeats, to that of the case"),
+         number("calibrate.factor_max", LV_AT(calibration.factor.high), "", positive,
+                "largest value of it"),
      }},
     {Stages(Stage::calibrate, Stage::beat),
      {&fit},
      {
          number("calibrate.tolerance", LV_AT(calibration.tolerance), "", between(1e-5, 0.5),
-                "volumes of the fitted model are right within this fraction; the paper: 0.05",
+                "volumes, and pressures of heartbeats, of the fitted model are right within this "
+                "fraction; the paper: 0.05",
                 "3.1"),
      }},
     {Stages(Stage::calibrate),
@@ -1104,15 +1132,15 @@ constexpr Group of_study[]{
 };
 
 constexpr Group of_protocol[]{
-    {Stages(Stage::beat),
-     {},
+    {beating,
+     {&of_beats},
      {
          choice("protocol.kind", LV_AT(protocol.kind), "paper cycle",
                 "filling and contraction as in the paper; or heartbeats of the wall joined to the "
                 "circulation",
                 "2.4"),
      }},
-    {Stages(Stage::beat),
+    {beating,
      {&heartbeats},
      {
          number("cycle.beats", LV_AT(protocol.cycle.beats), "", between(1, 1000), "beats at most"),
@@ -1120,7 +1148,7 @@ constexpr Group of_protocol[]{
                 "beats end when the last has changed no state of the circuit, nor end-diastolic or "
                 "end-systolic volume, by more than this part of itself; 0: never"),
      }},
-    {Stages(Stage::beat),
+    {beating,
      {&heartbeats, &static_beat},
      {
          number("cycle.step", LV_AT(protocol.cycle.step), "s", above_up_to(0.0, 0.02),
@@ -1129,7 +1157,7 @@ constexpr Group of_protocol[]{
                "whether the wall has the mass of muscle.density; else it is in equilibrium at "
                "every time"),
      }},
-    {Stages(Stage::beat),
+    {beating,
      {&heartbeats, &static_beat, &inertia},
      {
          number("cycle.spectral_radius", LV_AT(protocol.cycle.spectral_radius), "",
@@ -1137,19 +1165,20 @@ constexpr Group of_protocol[]{
                 "of the generalised alpha rule, by which the fastest waves shrink in a step: 0 "
                 "they vanish, 1 they stay"),
      }},
-    {Stages(Stage::beat),
+    {beating,
      {&heartbeats, &static_beat},
      {
          choice("activation.kind", LV_AT(activation.kind), "uniform eikonal file",
                 "calcium begins everywhere at once; where a front has come, which spreads by the "
                 "eikonal equation; or at times of a file"),
      }},
-    {Stages(Stage::beat),
+    {beating,
      {&heartbeats, &static_beat, &eikonal},
      {
-         number("activation.v_f", LV_AT(activation.speeds.v_f), "m/s", positive,
-                "speed of the front along the fibres; the three defaults: Caldwell et al., Circ. "
-                "Arrhythm. Electrophysiol. 2:433, 2009"),
+         number(
+             "activation.v_f", LV_AT(activation.speeds.v_f), "m/s", positive,
+             "speed of the front along the fibres; the three defaults are of five pigs: Caldwell "
+             "et al., Circ. Arrhythm. Electrophysiol. 2:433, 2009"),
          number("activation.v_s", LV_AT(activation.speeds.v_s), "m/s", positive,
                 "speed across the fibres in the sheets"),
          number("activation.v_n", LV_AT(activation.speeds.v_n), "m/s", positive,
@@ -1157,14 +1186,15 @@ constexpr Group of_protocol[]{
          number("activation.v_endocardium", LV_AT(activation.speeds.endocardium), "m/s",
                 not_negative,
                 "speed along the endocardial surface, which stands for the Purkinje network; 0: "
-                "that of the muscle"),
-         filled_list("activation.sites", LV_AT(activation.sites),
-                     "where the front starts: segments (\"mid anterior\", \"apex\", or the AHA's "
-                     "number), whose middle on the endocardium is meant; points (\"12 -4 -30 mm\", "
-                     "in the coordinates of 02_mesh/mesh.vtu); or \"endocardium\", all of it. The "
-                     "default: Durrer et al., Circulation 41:899, 1970"),
+                "that of the muscle; the default is a choice"),
+         filled_list(
+             "activation.sites", LV_AT(activation.sites),
+             "where the front starts: segments (\"mid anterior\", \"apex\", or the AHA's "
+             "number), whose middle on the endocardium is meant; points (\"12 -4 -30 mm\", "
+             "in the coordinates of 02_mesh/mesh.vtu); or \"endocardium\", all of it. The "
+             "default: segments nearest to those of Durrer et al., Circulation 41:899, 1970"),
      }},
-    {Stages(Stage::beat),
+    {beating,
      {&heartbeats, &static_beat, &activation_file},
      {
          file("activation.file", LV_AT(activation.file),
@@ -1301,7 +1331,7 @@ constexpr Range of_elastance = between(0.0, 100.0);
 
 constexpr Group of_circulation[]{
     {joined,
-     {},
+     {&of_beats},
      {
          choice("circulation.kind", LV_AT(circulation.kind), "none windkessel closed_loop",
                 "three elements with a venous source, or the closed loop of Regazzoni et al. "
@@ -1561,8 +1591,8 @@ const std::vector<Section>& sections() {
       {"pericardium", "What holds the epicardium: springs and dashpots to where it was undeformed"},
       {"unloaded", "The shape without load, when the one that was seen is a loaded one"},
       {"calibrate",
-       "Fitting of passive and active parameters to measured volumes and strains, with the "
-       "quasi-static engine"},
+       "Fitting of passive and active parameters to measured volumes and strains, and of "
+       "heartbeats to volumes and a cuff's pressures, with the quasi-static engine"},
       {"strain", "Strain measured from cine images, and what the model's is compared with"},
       {"circulation",
        "The circulation, by itself (`ventricle circulation`) or joined to the wall (protocol.kind "

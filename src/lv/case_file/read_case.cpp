@@ -7,6 +7,7 @@
 #include "lv/base/nearest.hpp"
 #include "lv/base/printable.hpp"
 #include "lv/base/table.hpp"
+#include "lv/case_file/beat_fit.hpp"
 #include "lv/case_file/case_lines.hpp"
 #include "lv/case_file/parameter_values.hpp"
 
@@ -264,7 +265,7 @@ class CaseReader {
          "needs the measured volume calibrate.edv: add edv = \"... ml\" under [calibrate]");
     rule(!k.active || k.esv > 0.0, "calibrate.active",
          "needs the measured volume calibrate.esv: add esv = \"... ml\" under [calibrate]");
-    rule(!passive || k.edv == 0.0 || k.esv < k.edv, "calibrate.esv",
+    rule(!(passive || k.cycle) || k.edv == 0.0 || k.esv < k.edv, "calibrate.esv",
          fmt::format("is {:g} ml, and must be less than calibrate.edv, {:g} ml: the heart ejects "
                      "what is between them; check both, and which is which",
                      k.esv / units::ml, k.edv / units::ml));
@@ -288,6 +289,35 @@ class CaseReader {
              "must be larger than exponent_min");
     together(k.T_scale.low < k.T_scale.high, {"calibrate.T_scale_max", "calibrate.T_scale_min"},
              "must be larger than T_scale_min");
+    check_beat_fit();
+  }
+
+  void check_beat_fit() {
+    const Calibration& k = case_.calibration;
+    if (!k.cycle)
+      return;
+    rule(case_.engine == Engine::quasi_static, "calibrate.cycle",
+         "fits heartbeats of engine = \"quasi_static\" alone: those of engine = \"immersed\" are "
+         "too long to be repeated so often; fit with the other engine and take its "
+         "02b_calibrate/calibrated.toml, or leave it out");
+    rule(std::max({k.edv, k.esv, k.cuff_systolic, k.cuff_diastolic}) > 0.0, "calibrate.cycle",
+         "needs what was measured of a heartbeat, one or more of calibrate.edv, calibrate.esv, "
+         "calibrate.cuff_systolic and calibrate.cuff_diastolic");
+    rule(!k.active, "calibrate.active",
+         "and calibrate.cycle both fit contractility to calibrate.esv: leave calibrate.active "
+         "out, which does it outside of the heartbeats");
+    rule(k.cuff_systolic == 0.0 || k.cuff_diastolic < k.cuff_systolic, "calibrate.cuff_diastolic",
+         fmt::format("is {:g} mmHg, and must be less than calibrate.cuff_systolic, {:g} mmHg; "
+                     "check both, and which is which",
+                     k.cuff_diastolic / units::mmHg, k.cuff_systolic / units::mmHg));
+    for (const BeatParameter& p : beat_fit(case_).parameters)
+      rule(value_of(*p.parameter, case_) > 0.0, p.parameter->name,
+           "is 0, and calibrate.cycle looks for a multiple of it: set it to a value to begin with, "
+           "or leave it at its default");
+    together(
+        k.factor.low <= 1.0 && k.factor.high >= 1.0 && k.factor.low < k.factor.high,
+        {"calibrate.factor_max", "calibrate.factor_min"},
+        "must not be less than 1, nor factor_min more: the search begins at the case's values");
   }
 
   void check_circulation() {

@@ -95,11 +95,21 @@ double relaxation(Beat beat, std::size_t from, std::size_t to) {
   return slope < 0.0 ? -1.0 / slope : none;
 }
 
+/// The closing of the mitral valve before ejection; a beat that begins with a closed one begins
+/// with that.
+Crossing end_diastole(Beat beat, const Crossing& aortic_opens) {
+  const Crossing closes = crossing(beat, &Signals::mitral_gradient, false);
+  const bool is_late = !closes.found || (aortic_opens.found && closes.before > aortic_opens.before);
+  if (is_late && beat.front().signals.mitral_gradient < 0.0)
+    return {0, 0.0, true};
+  return closes;
+}
+
 }  // namespace
 
 BeatMeasures measure_beat(Beat beat) {
-  const Crossing mitral_closes = crossing(beat, &Signals::mitral_gradient, false);
   const Crossing aortic_opens = crossing(beat, &Signals::aortic_gradient, true);
+  const Crossing mitral_closes = end_diastole(beat, aortic_opens);
   const Crossing aortic_closes =
       crossing(beat, &Signals::aortic_gradient, false, aortic_opens.before);
   const Crossing mitral_opens =

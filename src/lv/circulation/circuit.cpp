@@ -1,5 +1,9 @@
 #include "lv/circulation/circuit.hpp"
 
+#include "lv/base/check.hpp"
+
+#include <algorithm>
+
 namespace lv::circulation {
 namespace {
 
@@ -33,6 +37,38 @@ void Circuit::start_around(double volume) {
         part.history.step = 0.0;
       },
       kind_);
+}
+
+void Circuit::start_from(std::span<const double> states) {
+  LV_CHECK(states.size() == this->states().size());
+  std::visit(
+      [&](auto& part) {
+        std::copy(states.begin(), states.end(), part.history.now.begin());
+        part.history.step = 0.0;
+      },
+      kind_);
+}
+
+void Circuit::scale_arterial_pressure(double factor) {
+  std::visit(
+      [&]<class C>(Part<C>& part) {
+        constexpr int arterial = std::is_same_v<C, ClosedLoop> ? int{ClosedLoop::p_ar_sys} : 1;
+        part.history.now[arterial] *= factor;
+        part.history.step = 0.0;
+      },
+      kind_);
+}
+
+void Circuit::fill_to(double blood) {
+  auto* loop = std::get_if<Part<ClosedLoop>>(&kind_);
+  if (loop == nullptr)
+    return;
+  auto& now = loop->history.now;
+  const double missing = blood - loop->circuit.blood(now);
+  auto more = now;
+  more[ClosedLoop::p_ven_sys] += 1.0;  // blood is linear in it
+  now[ClosedLoop::p_ven_sys] += missing / (loop->circuit.blood(more) - loop->circuit.blood(now));
+  loop->history.step = 0.0;
 }
 
 VolumeAfter Circuit::after(double t, double dt, double p) const {
@@ -80,6 +116,13 @@ std::vector<double> Circuit::numbers() const {
 
 bool Circuit::takes(std::size_t numbers) const {
   return numbers == 1 + 2 * states().size();
+}
+
+Start start_of(std::span<const double> y) {
+  if (y.size() == Windkessel::size)
+    return {.V_lv = y[0], .p_ar_sys = y[1]};
+  LV_CHECK(y.size() == ClosedLoop::size);
+  return {y[0], y[1], y[2], y[3], y[4], y[5], y[6], y[7], y[8], y[9], y[10], y[11]};
 }
 
 void Circuit::set_numbers(std::span<const double> numbers) {

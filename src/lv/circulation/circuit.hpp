@@ -27,6 +27,15 @@ class Circuit {
   /// Starts again around a ventricle of this volume [mm^3] instead of start.V_lv.
   void start_around(double volume);
 
+  /// Starts again in states such as states() gives.
+  void start_from(std::span<const double> states);
+
+  /// Multiplies the pressure in the arteries of the body.
+  void scale_arterial_pressure(double factor);
+
+  /// Brings a closed loop's blood to so much [mm^3], by what is in the veins of the body.
+  void fill_to(double blood);
+
   /// A step of dt [s] to the time t [s] with the pressure p [kPa] at its end. Throws RunError when
   /// the step has no solution that is found.
   [[nodiscard]] VolumeAfter after(double t, double dt, double p) const;
@@ -63,5 +72,8 @@ class Circuit {
 
   Kinds kind_;
 };
+
+/// A start in states such as Circuit::states() gives.
+[[nodiscard]] Start start_of(std::span<const double> states);
 
 }  // namespace lv::circulation

@@ -11,17 +11,14 @@
 namespace lv::circulation {
 namespace {
 
-/// A circuit with an elastance as its left ventricle.
-template <class Circuit>
+/// A circuit with a left ventricle whose pressure is a function of time and volume alone.
+template <class Circuit, class Ventricle>
 class Alone {
  public:
   static constexpr int size = Circuit::size;
 
-  Alone(const CircuitParameters& p, const Circuit& circuit)
-      : p_(p),
-        circuit_(circuit),
-        ventricle_(p.left_ventricle, p.period),
-        history_{Circuit::start(p.start)} {}
+  Alone(const CircuitParameters& p, const Circuit& circuit, const Ventricle& ventricle)
+      : p_(p), circuit_(circuit), ventricle_(ventricle), history_{Circuit::start(p.start)} {}
 
   Cycle run() {
     cycle_.columns = Circuit::columns();
@@ -68,19 +65,27 @@ class Alone {
 
   const CircuitParameters& p_;
   Circuit circuit_;
-  Elastance ventricle_;
+  Ventricle ventricle_;
   History<size> history_;
   double time_ = 0.0;
   Cycle cycle_;
 };
 
-Cycle run_closed_loop(const CircuitParameters& p) {
+template <class Ventricle>
+Cycle run_closed_loop(const CircuitParameters& p, const Ventricle& ventricle) {
   const ClosedLoop circuit(p.closed_loop, p.valves, p.period);
-  Alone<ClosedLoop> heart(p, circuit);
+  Alone heart(p, circuit, ventricle);
   Cycle cycle = heart.run();
   cycle.blood_lost =
       std::abs(circuit.blood(heart.states()) / circuit.blood(ClosedLoop::start(p.start)) - 1.0);
   return cycle;
+}
+
+template <class Ventricle>
+Cycle run_with(const CircuitParameters& p, const Ventricle& ventricle) {
+  if (p.kind == Kind::closed_loop)
+    return run_closed_loop(p, ventricle);
+  return Alone(p, Windkessel(p.windkessel, p.valves), ventricle).run();
 }
 
 }  // namespace
@@ -104,9 +109,11 @@ std::span<const Sample> samples_of(const Cycle& cycle, int beat) {
 }
 
 Cycle run_alone(const CircuitParameters& p) {
-  if (p.kind == Kind::closed_loop)
-    return run_closed_loop(p);
-  return Alone<Windkessel>(p, Windkessel(p.windkessel, p.valves)).run();
+  return run_with(p, Elastance(p.left_ventricle, p.period));
+}
+
+Cycle run_alone(const CircuitParameters& p, const StandIn& ventricle) {
+  return run_with(p, ventricle);
 }
 
 }  // namespace lv::circulation

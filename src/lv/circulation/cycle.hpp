@@ -2,6 +2,7 @@
 
 #include "lv/circulation/beat_measures.hpp"
 #include "lv/circulation/parameters.hpp"
+#include "lv/circulation/stand_in.hpp"
 
 #include <functional>
 #include <span>
@@ -29,6 +30,9 @@ struct Cycle {
 /// Runs a circulation whose left ventricle is an elastance, by implicit steps of second order.
 /// Throws RunError as implicit_step does, and Interrupted between beats.
 [[nodiscard]] Cycle run_alone(const CircuitParameters& parameters);
+
+/// The same with another ventricle.
+[[nodiscard]] Cycle run_alone(const CircuitParameters& parameters, const StandIn& ventricle);
 
 /// The largest relative change of a state.
 [[nodiscard]] double largest_change(std::span<const double> before, std::span<const double> after);

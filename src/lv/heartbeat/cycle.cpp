@@ -64,16 +64,43 @@ Archive archived(const TimeEngine::Moment& moment) {
   return archive;
 }
 
+/// How much a moment must hold; nothing: as much as there is.
+struct MomentSizes {
+  std::optional<std::size_t> nodes, pressures, velocities, accelerations, muscle;
+};
+
+implicit::State load_state(const Archive& archive, const std::string& name, const MomentSizes& n) {
+  return {vectors(archive.get_rows(name + ".positions", 3, n.nodes)),
+          archive.get_rows(name + ".pressures", 1, n.pressures),
+          archive.number(name + ".cavity_pressure")};
+}
+
+TimeEngine::Moment load_moment(const Archive& archive, const MomentSizes& n = {}) {
+  TimeEngine::Moment moment;
+  moment.dt_before = archive.number("dt_before");
+  moment.rates.velocity = vectors(archive.get_rows("velocity", 3, n.velocities));
+  moment.rates.acceleration = vectors(archive.get_rows("acceleration", 3, n.accelerations));
+  moment.muscle = archive.get_rows("muscle", 1, n.muscle);
+  moment.now = load_state(archive, "now", n);
+  if (moment.dt_before > 0.0)  // else there is none
+    moment.before = load_state(archive, "before", n);
+  return moment;
+}
+
 class CycleRun {
  public:
   CycleRun(const CycleSetup& setup, std::filesystem::path folder, const Observers& observers);
 
   Beat run();
+  Outcome<MeasuredBeats> measure(const BeatBegin* from);
 
  private:
   using Passed = TimeEngine::Passed;
 
+  void begin(const BeatBegin* from);
+  void beats();
   void start();
+  void start_from(const BeatBegin& from);
   void beat();
   void begin_beat();
   void step();
@@ -92,8 +119,7 @@ class CycleRun {
 
   void save();
   void resume(Archive archive);
-  [[nodiscard]] implicit::State load_state(const Archive& archive) const;
-  [[nodiscard]] TimeEngine::Moment load_engine(Archive archive) const;
+  [[nodiscard]] TimeEngine::Moment load_engine(const Archive& archive) const;
 
   [[nodiscard]] Snapshot snapshot(const Passed& at, const Sample& sample) const;
   [[nodiscard]] RunState& state() { return record_.run(); }
@@ -108,6 +134,8 @@ class CycleRun {
   TimeEngine engine_;
   std::vector<double> delays_;  ///< of this rank's points [s]; a single one: of all
   CycleRecord record_;
+  bool is_measured_ = false;  ///< for its measures alone: beats without a solution are an answer
+  std::string why_stopped_;
   double stored_before_ = 0.0, kinetic_before_ = 0.0;  ///< energy when the beat began [mN mm]
   TimeLeft reports_;
   std::optional<double> begun_;    ///< the beat underway, if in this process [s]
@@ -127,11 +155,37 @@ CycleRun::CycleRun(const CycleSetup& setup, std::filesystem::path folder,
       record_({setup.calcium, setup.circuit, setup.cycle, setup.frame_interval}) {}
 
 Beat CycleRun::run() {
+  begin(nullptr);
+  beats();
+  count_time();
+  Beat beat = record_.result(observers_);
+  beat.activation_times = setup_.activation_times;
+  return beat;
+}
+
+Outcome<MeasuredBeats> CycleRun::measure(const BeatBegin* from) {
+  is_measured_ = true;
+  if (from != nullptr)
+    record_.goes_on();
+  begin(from);
+  beats();
+  if (record_.cycle().cut_short)
+    return Unsolved{why_stopped_, ""};
+  const auto states = record_.circuit_states();
+  return MeasuredBeats{record_.cycle(), {engine_.moment(), {states.begin(), states.end()}}};
+}
+
+void CycleRun::begin(const BeatBegin* from) {
   const std::filesystem::path checkpoint = folder_ / checkpoint_name;
   if (parallel::root_says(std::filesystem::exists(checkpoint)))
     resume(Archive::read(checkpoint));
+  else if (from != nullptr)
+    start_from(*from);
   else
     start();
+}
+
+void CycleRun::beats() {
   try {
     while (!record_.done())
       beat();
@@ -141,16 +195,18 @@ Beat CycleRun::run() {
         fmt::format("stopped at {:.3f} s of beat {}; run the same command again to go on",
                     record_.since(), record_.beat() + 1));
   }
-  count_time();
-  Beat beat = record_.result(observers_);
-  beat.activation_times = setup_.activation_times;
-  return beat;
 }
 
 /// Fills the wall to the pressure before the mitral valve, so that it is neither open nor closed.
 void CycleRun::start() {
   const double pressure = record_.filling_pressure();
   record_.start(engine_.fill(pressure, setup_.calcium.Ca_0).value(), pressure);
+  begin_beat();
+}
+
+void CycleRun::start_from(const BeatBegin& from) {
+  engine_.restore(from.wall);
+  record_.start_from(from.circuit, engine_.pressure());
   begin_beat();
 }
 
@@ -244,6 +300,11 @@ void CycleRun::stop_early(const std::string& why) {
       "at {:.4f} s of beat {} no equilibrium of wall and circuit was found, even with a step of "
       "{:.2g} s: {}",
       record_.since(), record_.beat() + 1, std::ldexp(setup_.cycle.step, -most_step_halvings), why);
+  if (is_measured_) {
+    why_stopped_ = what;
+    record_.cut_short();
+    return;
+  }
   const RunError error(
       what,
       "Look at cycle.csv up to there: a circuit that empties the heart, or overfills it, has other "
@@ -322,6 +383,8 @@ double CycleRun::step_size() const {
 
 /// Steps of different phases take different times, so that only a whole beat tells of others.
 double CycleRun::seconds_left() const {
+  if (is_measured_)
+    return -1.0;  // only who asked for these beats knows for what else
   return seconds_of_beat_ * (1.0 - record_.since() / record_.period() + record_.beats_left());
 }
 
@@ -364,26 +427,12 @@ void CycleRun::resume(Archive archive) {
   log::info("going on from {:.4f} s of beat {}", record_.since(), record_.beat() + 1);
 }
 
-implicit::State CycleRun::load_state(const Archive& archive) const {
-  const implicit::State& like = engine_.state();
-  return {vectors(archive.get_rows("positions", 3, like.positions.size())),
-          archive.get_rows("pressures", 1, like.pressures.size()),
-          archive.number("cavity_pressure")};
-}
-
-TimeEngine::Moment CycleRun::load_engine(Archive archive) const {
-  TimeEngine::Moment moment;
-  moment.dt_before = archive.number("dt_before");
-  const implicit::Rates& like = engine_.rates();
-  moment.rates.velocity = vectors(archive.get_rows("velocity", 3, like.velocity.size()));
-  moment.rates.acceleration =
-      vectors(archive.get_rows("acceleration", 3, like.acceleration.size()));
-  moment.muscle = archive.get_rows("muscle", 1, engine_.muscle_numbers());
-  moment.now = load_state(archive.take("now"));
-  const Archive before = archive.take("before");
-  if (moment.dt_before > 0.0)  // else there is none
-    moment.before = load_state(before);
-  return moment;
+TimeEngine::Moment CycleRun::load_engine(const Archive& archive) const {
+  const implicit::Rates& rates = engine_.rates();
+  const implicit::State& state = engine_.state();
+  return load_moment(archive,
+                     {state.positions.size(), state.pressures.size(), rates.velocity.size(),
+                      rates.acceleration.size(), engine_.muscle_numbers()});
 }
 
 }  // namespace
@@ -391,6 +440,20 @@ TimeEngine::Moment CycleRun::load_engine(Archive archive) const {
 Beat run_cycle(const CycleSetup& setup, const std::filesystem::path& folder,
                const Observers& observers) {
   return CycleRun(setup, folder, observers).run();
+}
+
+Outcome<MeasuredBeats> measure_beats(const CycleSetup& setup, const BeatBegin* begin,
+                                     const std::filesystem::path& folder) {
+  return CycleRun(setup, folder, {}).measure(begin);
+}
+
+void store(const BeatBegin& begin, Archive& archive) {
+  archive.add("wall", archived(begin.wall));
+  archive.set("circuit", begin.circuit);
+}
+
+BeatBegin load_begin(Archive archive) {
+  return {load_moment(archive.take("wall")), archive.get("circuit")};
 }
 
 }  // namespace lv::heartbeat

@@ -1,11 +1,18 @@
 #pragma once
 
+#include "lv/base/outcome.hpp"
 #include "lv/heartbeat/cycle_record.hpp"
-#include "lv/implicit/engine.hpp"
+#include "lv/implicit/time_engine.hpp"
 
 #include <filesystem>
 
 namespace lv::heartbeat {
+
+/// Where a beat begins.
+struct BeatBegin {
+  implicit::TimeEngine::Moment wall;
+  std::vector<double> circuit;  ///< its states, the ventricle's volume first
+};
 
 struct CycleSetup {
   const mesh::Mesh& mesh;
@@ -35,5 +42,21 @@ struct CycleSetup {
 /// valve does not open and close in the last. Collective.
 [[nodiscard]] Beat run_cycle(const CycleSetup& setup, const std::filesystem::path& folder,
                              const Observers& observers);
+
+/// Heartbeats for their measures alone.
+struct MeasuredBeats {
+  circulation::Cycle cycle;
+  BeatBegin end;  ///< where the next beat would begin
+};
+
+/// The same beats without curves and fields, from `begin` on instead of a filled wall if it is
+/// there. Beats before `begin` were like those that follow. Unsolved where a step has no solution
+/// at the smallest step. Collective.
+[[nodiscard]] Outcome<MeasuredBeats> measure_beats(const CycleSetup& setup, const BeatBegin* begin,
+                                                   const std::filesystem::path& folder);
+
+/// Adds where a beat begins to an archive, and takes it out again.
+void store(const BeatBegin& begin, Archive& archive);
+[[nodiscard]] BeatBegin load_begin(Archive archive);
 
 }  // namespace lv::heartbeat

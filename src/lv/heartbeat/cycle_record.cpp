@@ -55,6 +55,14 @@ void CycleRecord::start(double volume, double pressure) {
             pressure / mmHg, 1e-3 * volume);
 }
 
+void CycleRecord::start_from(const std::vector<double>& states, double pressure) {
+  circuit_.start_from(states);
+  blood_at_start_ = circuit_.blood();
+  run_.time = 0.0;
+  now_ = {0.0, circuit_.signals(0.0, pressure)};
+  cycle_.samples.push_back(now_);
+}
+
 void CycleRecord::begin_beat() {
   since_ = 0.0;
   begins_.push_back(cycle_.samples.size() - 1);
@@ -81,7 +89,7 @@ double CycleRecord::after(double dt) const {
 double CycleRecord::calcium(double since, double delay) const {
   const bool is_loop = course_.circuit.kind == circulation::Kind::closed_loop;
   double s = since - delay - (is_loop ? course_.circuit.left_ventricle.t_C : 0.0);
-  for (int b = beat_; s < 0.0 && b > 0; --b)
+  for (int b = beat_ + beats_before_; s < 0.0 && b > 0; --b)
     s += period();
   return course_.calcium.at(s);
 }
@@ -175,10 +183,14 @@ void CycleRecord::stop_early(const RunError& error, const std::string& words,
     show_progress(observers);
     throw error;
   }
-  cycle_.cut_short = true;
-  cycle_.samples.resize(begins_.back() + 1);
+  cut_short();
   log::warn("{}; what follows is of the {} whole beat{} before it", words, beat_,
             beat_ == 1 ? "" : "s");
+}
+
+void CycleRecord::cut_short() {
+  cycle_.cut_short = true;
+  cycle_.samples.resize(begins_.back() + 1);
 }
 
 bool CycleRecord::done() const {

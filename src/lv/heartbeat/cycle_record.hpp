@@ -7,7 +7,9 @@
 #include <array>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 namespace lv::heartbeat {
 
@@ -60,6 +62,11 @@ class CycleRecord {
   /// Starts around a wall that was filled to a volume [mm^3] by a pressure [kPa].
   void start(double volume, double pressure);
 
+  /// Starts where a beat began with these states of the circuit and this pressure [kPa].
+  void start_from(const std::vector<double>& states, double pressure);
+  /// Beats before the first were like those that follow; said before the start.
+  void goes_on() { beats_before_ = 1; }
+
   // the beat underway
   void begin_beat();
   [[nodiscard]] int beat() const { return beat_; }                        ///< whole ones so far
@@ -105,6 +112,8 @@ class CycleRecord {
   /// The beat underway finds no solution: what whole ones were reached stays, and a warning says
   /// why in `words`. Throws `error` where there is none.
   void stop_early(const RunError& error, const std::string& words, const Observers& observers);
+  /// Drops the beat underway and ends the beats, without a word.
+  void cut_short();
   void gave_way() { ++cycle_.gave_way; }
   [[nodiscard]] bool done() const;
   /// Beats after the one underway, if changes go on falling as they did.
@@ -114,6 +123,10 @@ class CycleRecord {
   [[nodiscard]] RunState& run() { return run_; }
   [[nodiscard]] const RunState& run() const { return run_; }
   [[nodiscard]] const char* phase() const;
+
+  /// All beats so far, and where the circuit is now.
+  [[nodiscard]] const circulation::Cycle& cycle() const { return cycle_; }
+  [[nodiscard]] std::span<const double> circuit_states() const { return circuit_.states(); }
 
   /// Tells of all beats so far.
   void show_progress(const Observers& observers);
@@ -134,6 +147,7 @@ class CycleRecord {
   RunState run_;
   Beat whole_;  ///< the last whole beat: curves, moments and energy
   int beat_ = 0;
+  int beats_before_ = 0;  ///< of the same kind, before the first; as many as calcium lasts
   double since_ = 0.0;
   circulation::Sample before_, now_;
   std::vector<std::size_t> begins_;    ///< the samples that beats begin with

@@ -268,7 +268,7 @@ struct PageFile {
   const char* name;
 };
 
-constexpr std::array<PageFile, 21> page_files{{
+constexpr std::array<PageFile, 22> page_files{{
     {"results", "summary.json", "summary.json"},
     {"results", "regions.csv", "regions.csv"},
     {"results", "rotation.csv", "rotation.csv"},
@@ -284,6 +284,7 @@ constexpr std::array<PageFile, 21> page_files{{
     {"beat", "beats.csv", "beats.csv"},
     {"beat", "confirmation.json", "confirmation.json"},
     {"calibrate", "calibration.json", "calibration.json"},
+    {"calibrate", "heartbeats.json", "heartbeats.json"},
     {"mesh", "quality.csv", "quality.csv"},
     {"anatomy", "quality.csv", "anatomy_quality.csv"},
     {"anatomy", "fit.csv", "fit.csv"},

@@ -13,6 +13,7 @@
 #include "lv/heartbeat/immersed_beat.hpp"
 #include "lv/pipeline/answer_record.hpp"
 #include "lv/pipeline/confirmation.hpp"
+#include "lv/pipeline/heartbeat_fit.hpp"
 #include "lv/pipeline/unloading.hpp"
 #include "lv/solid/endocardial_surface.hpp"
 
@@ -30,6 +31,8 @@ using case_file::Case;
 
 constexpr const char* answers_name = "answers.bin";
 constexpr const char* coarse_answers_name = "answers_coarse.bin";
+constexpr const char* muscle_text = "muscle.txt";
+constexpr const char* stress_free_name = "stress_free.bin";
 constexpr double coarse_edge = 13.0;         // [mm]
 constexpr double shortest_of_coarse = 10.0;  // edges that are not made coarser [mm]
 constexpr std::size_t most_beats = 3;        // one, and two with corrected parameters
@@ -61,10 +64,35 @@ calibrate::Plan plan(const Case& c, const std::vector<cine::StrainTarget>& targe
           k.errors};
 }
 
+/// Names of the parameters that are fitted at given pressures.
+std::vector<std::string> muscle_names(const case_file::Calibration& k) {
+  std::vector<std::string> names;
+  if (k.passive == FittedPassive::C_a)
+    names.emplace_back("passive.C_a");
+  const bool exponent =
+      k.passive == FittedPassive::scale_and_exponent || k.passive == FittedPassive::klotz;
+  if (k.passive == FittedPassive::scale || exponent)
+    for (const char* a : {"a", "a_f", "a_s", "a_fs"})
+      names.push_back(std::string("passive.holzapfel_ogden.") + a);
+  if (exponent)
+    for (const char* b : {"b", "b_f", "b_s", "b_fs"})
+      names.push_back(std::string("passive.holzapfel_ogden.") + b);
+  if (k.active)
+    names.emplace_back("active.T_scale");
+  return names;
+}
+
+/// The case with what is fitted to its heartbeats.
+Case with_beats(Case c, const std::filesystem::path& calibration) {
+  if (!c.calibration.cycle)
+    return c;
+  const auto file = calibration / heartbeats_name;
+  return with_values(std::move(c), read_heartbeats(file), file);
+}
+
 /// Lines for a case file, in place of its [calibrate].
-std::string fragment(const Case& fitted) {
+std::string fragment(const Case& fitted, const std::vector<std::string>& names) {
   std::vector<case_file::CaseLine> lines;
-  const auto names = fitted_names(fitted.calibration);
   for (const case_file::Parameter& p : case_file::parameters())
     if (std::find(names.begin(), names.end(), p.name) != names.end())
       lines.push_back({p.name, p.get(fitted), ""});
@@ -225,7 +253,7 @@ std::optional<FitStart> fit_coarse(const Case& c, const anatomy::MeshResult& coa
 /// Pressures that a case leaves to the defaults or to a rule of thumb. In a heartbeat the
 /// circulation makes them; a fit before it still reads them.
 std::vector<geometry::Assumption> assumed_pressures(const Case& c) {
-  if (case_file::is_cycle(c) && !c.calibration.asked())
+  if (case_file::is_cycle(c) && !c.calibration.fits_muscle())
     return {};
   std::vector<geometry::Assumption> assumed;
   const auto left_out = [&](const char* parameter, const char* moment, double pressure) {
@@ -243,6 +271,20 @@ std::vector<geometry::Assumption> assumed_pressures(const Case& c) {
   else
     left_out("protocol.es_pressure", "end-systolic", c.protocol.es_pressure);
   return assumed;
+}
+
+/// What heartbeats were fitted to, and what was not measured of them.
+void add_beats(const HeartbeatFit& fit, const Case& c, FitRecord& record) {
+  for (const FittedDatum& d : fit.data)
+    if (!std::isnan(d.measured))
+      record.beats.push_back({d.name, d.unit, d.measured, d.model});
+  for (const std::string& sentence : fit.left_alone)
+    record.assumed.push_back({"heartbeats", sentence});
+  if (!c.origin.contains("circulation.period"))
+    record.assumed.push_back(
+        {"heart rate", fmt::format("the default, {:.0f} beats a minute; circulation.period is not "
+                                   "set",
+                                   60.0 / c.circulation.period)});
 }
 
 /// Volumes of Klotz's curve beside the model's, and what the end-diastolic pressure costs.
@@ -267,20 +309,11 @@ void add_klotz(const calibrate::RecordedFit& fit, FitRecord& record) {
 
 }  // namespace
 
-std::vector<std::string> fitted_names(const case_file::Calibration& k) {
-  std::vector<std::string> names;
-  if (k.passive == FittedPassive::C_a)
-    names.emplace_back("passive.C_a");
-  const bool exponent =
-      k.passive == FittedPassive::scale_and_exponent || k.passive == FittedPassive::klotz;
-  if (k.passive == FittedPassive::scale || exponent)
-    for (const char* a : {"a", "a_f", "a_s", "a_fs"})
-      names.push_back(std::string("passive.holzapfel_ogden.") + a);
-  if (exponent)
-    for (const char* b : {"b", "b_f", "b_s", "b_fs"})
-      names.push_back(std::string("passive.holzapfel_ogden.") + b);
-  if (k.active)
-    names.emplace_back("active.T_scale");
+std::vector<std::string> fitted_names(const Case& c) {
+  std::vector<std::string> names = muscle_names(c.calibration);
+  if (c.calibration.cycle)
+    for (const case_file::BeatParameter& p : case_file::beat_fit(c).parameters)
+      names.emplace_back(p.parameter->name);
   return names;
 }
 
@@ -290,16 +323,20 @@ Case for_calibration(Case c) {
 }
 
 std::optional<Case> on_coarse_wall(Case c) {
-  if (c.quasi_static.order != 2 || c.quasi_static.edge_length >= shortest_of_coarse)
+  if (!c.calibration.fits_muscle() || c.quasi_static.order != 2 ||
+      c.quasi_static.edge_length >= shortest_of_coarse)
     return {};
   c.quasi_static.edge_length = coarse_edge;
   c.quasi_static.layers = 1;
   return c;
 }
 
-void make_calibration(const Case& c, const anatomy::MeshResult& mesh,
-                      const std::optional<anatomy::MeshResult>& coarse,
-                      const std::filesystem::path& folder) {
+namespace {
+
+/// The fit of the muscle at given pressures, and its files; collective.
+void fit_muscle(const Case& c, const anatomy::MeshResult& mesh,
+                const std::optional<anatomy::MeshResult>& coarse,
+                const std::filesystem::path& folder) {
   const std::vector<cine::StrainTarget> targets = cine::strain_targets(c, mesh.regions);
   calibrate::Plan task = plan(c, targets);
   const bool klotz = task.passive == FittedPassive::klotz;
@@ -319,31 +356,94 @@ void make_calibration(const Case& c, const anatomy::MeshResult& mesh,
       fit.other_pressures.push_back(
           fit_at(pressure, c, mesh, task, fit.parameters, records.back()));
     }
-  if (!parallel::is_root())
-    return;
-  if (unloaded)
-    write_unloaded(*unloaded, folder / unloaded_shape_name);
-  for (const std::filesystem::path& record : records)
-    std::filesystem::remove(record);
-  calibrate::history_table(fit).write_csv(folder / "calibration.csv");
-  write_file(folder / "calibration.txt", calibrate::text(task, fit));
-  write_file(folder / "calibrated.toml", fragment(with(c, fit.parameters)));
-  write_file(folder / calibration_name, calibrate::json(task, fit));
+  parallel::on_root([&, &fit = fit, &unloaded = unloaded] {
+    if (unloaded)
+      write_unloaded(*unloaded, folder / unloaded_shape_name);
+    for (const std::filesystem::path& record : records)
+      std::filesystem::remove(record);
+    calibrate::history_table(fit).write_csv(folder / "calibration.csv");
+    write_file(folder / muscle_text, calibrate::text(task, fit));
+    write_file(folder / calibration_name, calibrate::json(task, fit));
+  });
+}
+
+bool is_there(const std::filesystem::path& file) {
+  return parallel::root_says(std::filesystem::exists(file));
+}
+
+/// The wall that beats: that of the mesh, or what is left of it without load.
+anatomy::MeshResult stress_free_wall(const Case& c, const anatomy::MeshResult& mesh,
+                                     const std::filesystem::path& folder) {
+  anatomy::MeshResult wall = mesh;
+  if (!case_file::is_loaded(c))
+    return wall;
+  const auto kept = folder / stress_free_name;
+  if (!is_there(kept)) {
+    const implicit::Unloaded unloaded =
+        find_unloaded(c, mesh.mesh, folder, folder / unloaded_shape_name);
+    parallel::on_root([&] {
+      write_unloaded(unloaded, kept);
+      std::filesystem::remove(folder / search_record);
+    });
+  }
+  wall.mesh = mesh::with_nodes(
+      mesh.mesh, load_unloaded(heartbeat::Archive::read(kept), mesh.mesh.nodes.size()).nodes);
+  return wall;
+}
+
+/// What is told of all fits, of which the muscle's is then no file of its own any more.
+void write_text(const case_file::Calibration& k, const std::filesystem::path& folder) {
+  const auto muscle = folder / muscle_text;
+  if (k.fits_muscle() && !std::filesystem::exists(muscle))
+    return;  // written before the run was stopped
+  std::string text = k.fits_muscle() ? read_file(muscle) : "";
+  if (k.cycle)
+    text += (text.empty() ? "" : "\n") + read_file(folder / heartbeats_text);
+  write_file(folder / "calibration.txt", text);
+  std::filesystem::remove(muscle);
+}
+
+/// What is told, and what later stages begin with.
+void finish(const Case& c, const Case& fitted, const std::filesystem::path& folder) {
+  write_text(c.calibration, folder);
+  write_file(folder / "calibrated.toml", fragment(fitted, fitted_names(c)));
+  if (std::filesystem::exists(folder / stress_free_name))
+    std::filesystem::rename(folder / stress_free_name, folder / unloaded_shape_name);
+}
+
+}  // namespace
+
+void make_calibration(const Case& c, const anatomy::MeshResult& mesh, const CoarseWalls& coarse,
+                      const std::filesystem::path& folder) {
+  const case_file::Calibration& k = c.calibration;
+  if (k.fits_muscle() && !is_there(folder / calibration_name))
+    fit_muscle(c, mesh, coarse.of_muscle, folder);
+  const Case fitted_muscle = with_muscle(c, folder);
+  if (k.cycle && !is_there(folder / heartbeats_name))
+    static_cast<void>(fit_heartbeats(fitted_muscle, stress_free_wall(fitted_muscle, mesh, folder),
+                                     coarse.of_beats ? &*coarse.of_beats : nullptr, folder));
+  const Case fitted = with_beats(fitted_muscle, folder);
+  parallel::on_root([&] { finish(c, fitted, folder); });
 }
 
 Case calibrated(Case c, const std::filesystem::path& file) {
-  for (const std::string& name : fitted_names(c.calibration))
+  for (const std::string& name : muscle_names(c.calibration))
     c.origin[name] = file.string();
   return with(std::move(c), calibrate::read_parameters(file));
 }
 
-Case fitted(const Case& c, const std::filesystem::path& calibration,
-            const std::filesystem::path& beat) {
-  if (!c.calibration.asked())
+Case with_muscle(const Case& c, const std::filesystem::path& calibration,
+                 const std::filesystem::path& beat) {
+  if (!c.calibration.fits_muscle())
     return c;
   const auto corrected = beat / confirmation_name;
-  return calibrated(
-      c, std::filesystem::exists(corrected) ? corrected : calibration / calibration_name);
+  const bool is_corrected = !beat.empty() && std::filesystem::exists(corrected);
+  return calibrated(c, is_corrected ? corrected : calibration / calibration_name);
+}
+
+Case fitted(const Case& c, const std::filesystem::path& calibration,
+            const std::filesystem::path& beat) {
+  return with_beats(with_muscle(c, calibration, beat), calibration);
 }
 
 bool correct(const Case& c, const std::filesystem::path& calibration_folder,
@@ -369,8 +469,18 @@ bool correct(const Case& c, const std::filesystem::path& calibration_folder,
     std::filesystem::remove(folder / heartbeat::checkpoint_name);  // before the new parameters
   }
   write_confirmation(record, file);
-  if (!again)
-    write_file(folder / "calibrated.toml", fragment(calibrated(c, file)));
+  if (!again) {
+    std::vector<std::string> names = muscle_names(c.calibration);
+    Case last = calibrated(c, file);
+    if (c.calibration.cycle) {
+      const auto beats_file = calibration_folder / heartbeats_name;
+      const HeartbeatFit beats = read_heartbeats(beats_file);
+      last = with_values(std::move(last), beats, beats_file);
+      for (const FittedValue& p : beats.parameters)
+        names.push_back(p.parameter);
+    }
+    write_file(folder / "calibrated.toml", fragment(last, names));
+  }
   return again;
 }
 
@@ -379,6 +489,10 @@ FitRecord fit_record(const Case& c, const std::filesystem::path& calibration,
   FitRecord all;
   all.assumed = assumed_pressures(c);
   if (!c.calibration.asked())
+    return all;
+  if (c.calibration.cycle)
+    add_beats(read_heartbeats(calibration / heartbeats_name), c, all);
+  if (!c.calibration.fits_muscle())
     return all;
   const Confirmation record = read_confirmation(beat / confirmation_name);
   for (const ConfirmedVolume& v : record.beats.back().volumes)

@@ -9,30 +9,42 @@ namespace lv::pipeline {
 /// The same case on the quasi-static engine, which calibrates whatever engine runs the beat.
 [[nodiscard]] case_file::Case for_calibration(case_file::Case c);
 
-/// The same case with one layer of long elements, on which a fit is tried first; nothing where its
-/// elements are hardly shorter.
+/// The same case with one layer of long elements, on which a fit of the muscle is tried first;
+/// nothing where none is asked for, or its elements are hardly shorter.
 [[nodiscard]] std::optional<case_file::Case> on_coarse_wall(case_file::Case c);
 
-/// Fits what the case asks for, with the wall unloaded anew for all parameters where it was seen
-/// under load, and writes into `folder` calibration.json, calibration.txt,
-/// calibration.csv (every equilibrium of the search) and calibrated.toml (for a case file);
+/// Walls on which fits are made first.
+struct CoarseWalls {
+  std::optional<anatomy::MeshResult> of_muscle;  ///< on_coarse_wall
+  std::optional<anatomy::MeshResult> of_beats;   ///< with_coarse_wall
+};
+
+/// Fits what the case asks for: the muscle at given pressures, with the wall unloaded anew for all
+/// parameters where it was seen under load, and then heartbeats (fit_heartbeats). Writes into
+/// `folder` calibration.json and calibration.csv of the muscle (every equilibrium of the search),
+/// the files of fit_heartbeats, calibration.txt of both and calibrated.toml (for a case file);
 /// collective. A fit that was stopped goes on from the answers that it left in `folder`. With a
-/// `coarse` wall the fit is made there first, so that the one on `mesh` starts near its end, and a
+/// coarse wall a fit is made there first, so that the one on `mesh` starts near its end, and a
 /// volume that is out of reach there by more than calibrate::reach_margin is refused within
 /// seconds. Throws InputError for a volume out of reach, with the volumes within reach.
 void make_calibration(const case_file::Case& c, const anatomy::MeshResult& mesh,
-                      const std::optional<anatomy::MeshResult>& coarse,
-                      const std::filesystem::path& folder);
+                      const CoarseWalls& coarse, const std::filesystem::path& folder);
 
 /// The files with fitted parameters: of a calibration, and of a beat made with them.
 inline constexpr const char* calibration_name = "calibration.json";
 inline constexpr const char* confirmation_name = "confirmation.json";
 
 /// Names of the parameters that a calibration changes.
-[[nodiscard]] std::vector<std::string> fitted_names(const case_file::Calibration& k);
+[[nodiscard]] std::vector<std::string> fitted_names(const case_file::Case& c);
 
-/// The case with the parameters of such a file.
+/// The case with the muscle's parameters of such a file.
 [[nodiscard]] case_file::Case calibrated(case_file::Case c, const std::filesystem::path& file);
+
+/// The case with the muscle's parameters in use, without what is fitted to heartbeats: those of its
+/// wall without load, which is found before.
+[[nodiscard]] case_file::Case with_muscle(const case_file::Case& c,
+                                          const std::filesystem::path& calibration,
+                                          const std::filesystem::path& beat = {});
 
 /// The case with the parameters in use: its own, those of the calibration's folder, or those of a
 /// beat in whose folder they were corrected.

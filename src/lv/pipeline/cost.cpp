@@ -20,8 +20,9 @@ using case_file::Case;
 constexpr double steps_of_beat = 45.0;
 constexpr double steps_of_unloading = 25.0;
 constexpr double steps_of_fit = 45.0;
-constexpr double steps_of_time_step = 0.04;     // in a heartbeat, which keeps its tangents
-constexpr int many_unknowns = 100'000;  // whose load step takes longer than some seconds
+constexpr double steps_of_time_step = 0.04;  // in a heartbeat, which keeps its tangents
+constexpr double beats_of_fit = 30.0;        // with sensitivities
+constexpr int many_unknowns = 100'000;       // whose load step takes longer than some seconds
 
 template <class Work>
 double seconds(const Work& work) {
@@ -116,7 +117,10 @@ std::string preparation(const Case& c, double step) {
                           : 0) +
                      (k.active ? 1 : 0);
   const double unloading = case_file::is_loaded(c) ? steps_of_unloading * step : 0.0;
-  const double fit = fitted * (steps_of_fit * step + unloading);
+  const double beats = k.cycle ? beats_of_fit * c.circulation.period / c.protocol.cycle.step *
+                                     steps_of_time_step * step
+                               : 0.0;
+  const double fit = fitted * (steps_of_fit * step + unloading) + beats;
   if (unloading + fit == 0.0)
     return "";
   return fmt::format(", {}{}{} before it about {}", unloading > 0.0 ? "unloading" : "",

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 
 namespace lv::pipeline {
@@ -19,8 +20,15 @@ using case_file::Case;
 using units::ml;
 using units::mmHg;
 
-constexpr double shortest_fibres = 0.8;
 constexpr double longest_fibres = 1.5;
+
+/// At which the law of the case bears no tension any more.
+double shortest_fibres(const Case& c) {
+  if (c.active_law != case_file::ActiveLaw::land2017)
+    return 0.8;
+  constexpr double least = 0.5;  // of a law that hardly depends on stretch
+  return std::max(least, 0.5 * (1.87 - 1.0 / c.land2017.beta_0));  // h = 0, below 0.87
+}
 
 /// What the endocardium encloses below the base plane, and the wall around it [mm^3].
 struct Volumes {
@@ -52,6 +60,14 @@ struct Measured {
 void check_edv(const Case& c, const Measured& edv, double cavity) {
   if (edv.volume > (1.0 + c.calibration.tolerance) * cavity)
     return;
+  if (!c.calibration.fits_muscle())
+    refuse(
+        c, edv,
+        fmt::format("the shape of the anatomy, which is taken as free of stress, holds {:.1f} "
+                    "ml already: no pressure fills it to less",
+                    cavity / ml),
+        "If the shape is that of end-diastole, it bears a pressure: set unloaded.pressure to it; "
+        "else give the shape of early diastole");
   const double p = c.protocol.ed_pressure / mmHg;
   refuse(c, edv,
          fmt::format("the shape of the anatomy, which is taken as free of stress, holds {:.1f} ml "
@@ -77,7 +93,7 @@ void check_esv(const Case& c, const Measured& esv, double cavity) {
 
 /// The volumes between which the mean fibre has a length that it can have.
 void check_fibres(const Case& c, const Measured& measured, double V_0, double V_w) {
-  const double least = calibrate::one_fibre_volume(V_0, V_w, shortest_fibres);
+  const double least = calibrate::one_fibre_volume(V_0, V_w, shortest_fibres(c));
   const double most = calibrate::one_fibre_volume(V_0, V_w, longest_fibres);
   const std::string wall =
       fmt::format("this heart's ({:.1f} ml of muscle around {:.1f} ml{})", V_w / ml, V_0 / ml,
@@ -88,8 +104,11 @@ void check_fibres(const Case& c, const Measured& measured, double V_0, double V_
   if (measured.volume < least)
     refuse(c, measured,
            fmt::format("no contractility brings {} below {:.1f} ml: its fibres have then shortened "
-                       "by a fifth in the mean, where they bear no tension any more",
-                       wall, least / ml),
+                       "by {} in the mean, where they bear no tension any more",
+                       wall, least / ml,
+                       c.active_law == case_file::ActiveLaw::land2017
+                           ? fmt::format("{:.0f}%", 100.0 * (1.0 - shortest_fibres(c)))
+                           : "a fifth"),
            remedy);
   if (measured.volume > most)
     refuse(c, measured,
@@ -111,11 +130,12 @@ void check_measured_volumes(const Case& c, const anatomy::Shape& shape) {
   const double V_0 = loaded ? calibrate::klotz(cavity, c.unloaded.pressure).V0 : cavity;
   const Measured edv{"calibrate.edv", k.edv};
   const Measured esv{"calibrate.esv", k.esv};
-  if (k.passive != FittedPassive::none && !klotz) {
-    check_edv(c, edv, cavity);
+  if ((k.passive != FittedPassive::none && !klotz) || (k.cycle && k.edv > 0.0)) {
+    if (!loaded)
+      check_edv(c, edv, cavity);
     check_fibres(c, edv, V_0, wall);
   }
-  if (!k.active)
+  if (!k.active && !(k.cycle && k.esv > 0.0))
     return;
   if (klotz)
     check_esv(c, esv, cavity);

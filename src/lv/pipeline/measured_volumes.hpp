@@ -12,7 +12,8 @@ namespace lv::pipeline {
 /// - calibrate.esv is not below what a shape of end-diastole was seen to hold;
 /// - one of them asks for fibres that are half as long again as without load, or shorter than four
 ///   fifths of that, in the mean (calibrate::one_fibre_volume): shorter ones bear no tension,
-///   1 + beta_0 (lambda - 1) = 0 in the law of Niederer, Hunter and Smith. A loaded shape's volume
+///   1 + beta_0 (lambda - 1) = 0 in the law of Niederer, Hunter and Smith; in that of Land et al.
+///   where its h(lambda) is zero, at 0.72 with its own constants. A loaded shape's volume
 ///   without load is taken from Klotz's curve, to which it is fitted.
 void check_measured_volumes(const case_file::Case& c, const anatomy::Shape& shape);
 

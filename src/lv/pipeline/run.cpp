@@ -13,6 +13,7 @@
 #include "lv/page/page.hpp"
 #include "lv/pipeline/calibration.hpp"
 #include "lv/pipeline/circulation.hpp"
+#include "lv/pipeline/heartbeat_fit.hpp"
 #include "lv/pipeline/measured_volumes.hpp"
 #include "lv/pipeline/stages.hpp"
 #include "lv/pipeline/unloading.hpp"
@@ -136,7 +137,8 @@ class Pipeline {
                        "Name them with strain.cine, and the contours with strain.contours");
     if (*options_.until == "calibrate" && !case_.calibration.asked())
       throw InputError(case_.file.string(), "asks for no calibration",
-                       "Set calibrate.passive or calibrate.active, and the measured volumes");
+                       "Set calibrate.passive, calibrate.active or calibrate.cycle, and what was "
+                       "measured");
     if (*options_.until == "unload" && !case_file::is_loaded(case_))
       throw InputError(case_.file.string(), "takes the shape of its anatomy as free of stress",
                        "Set unloaded.pressure to the pressure under which it was seen");
@@ -241,20 +243,25 @@ class Pipeline {
 
   void calibrate(const Case& fitting, const std::filesystem::path& part) {
     on_root([&] { anatomy::write_mesh_result(make_mesh(fitting, shape()), part); });
-    make_calibration(fitting, anatomy::read_mesh_result(part), coarse_wall(fitting, part), part);
-    on_root([&] { std::filesystem::remove_all(part / coarse_name); });
+    const auto of_muscle = part / coarse_name;
+    const auto of_beats = part / coarse_wall_name;
+    make_calibration(fitting, anatomy::read_mesh_result(part),
+                     {coarse_wall(on_coarse_wall(fitting), of_muscle),
+                      coarse_wall(with_coarse_wall(fitting), of_beats)},
+                     part);
+    on_root([&] {
+      std::filesystem::remove_all(of_muscle);
+      std::filesystem::remove_all(of_beats);
+    });
   }
 
-  /// Where a fit may be tried before; nothing where the mesh comes from elsewhere, or where a wall
-  /// so coarse cannot be made.
-  std::optional<anatomy::MeshResult> coarse_wall(const Case& fitting,
-                                                 const std::filesystem::path& part) {
-    const std::optional<Case> coarse = on_coarse_wall(fitting);
+  /// Where a fit may be tried before, its mesh in a folder of its own; nothing where the mesh comes
+  /// from elsewhere, or where a wall so coarse cannot be made.
+  std::optional<anatomy::MeshResult> coarse_wall(const std::optional<Case>& coarse,
+                                                 const std::filesystem::path& elements) {
     if (!coarse)
       return {};
-    const auto elements = part / coarse_name;
     on_root([&] {
-      std::filesystem::remove_all(elements);
       if (shape().given)
         return;
       try {
@@ -290,7 +297,7 @@ class Pipeline {
       beat = make_beat(fitted(c, calibration(), part), mesh, part);
       log::info("beat: {} steps in {}", beat.steps, log::duration(beat.wall_clock));
       on_root([&] {
-        again = c.calibration.asked() && correct(c, calibration(), beat, part);
+        again = c.calibration.fits_muscle() && correct(c, calibration(), beat, part);
         if (again)
           std::filesystem::remove_all(part / "fields");  // the next beat may have fewer
       });
@@ -304,7 +311,7 @@ class Pipeline {
   /// The wall without load for the parameters in use, into a folder.
   void unload(const std::filesystem::path& part, const std::filesystem::path& elements) const {
     make_unloading(
-        fitted(work::stage_view(case_, Stage::unload), calibration(), part),
+        with_muscle(work::stage_view(case_, Stage::unload), calibration(), part),
         anatomy::read_mesh_result(folder(Stage::mesh)), anatomy::read_mesh_result(elements).mesh,
         part,
         case_.calibration.asked() ? calibration() / unloaded_shape_name : std::filesystem::path());

@@ -8,6 +8,7 @@
 #include "lv/base/log.hpp"
 #include "lv/base/parallel.hpp"
 #include "lv/base/table.hpp"
+#include "lv/case_file/beat_fit.hpp"
 #include "lv/case_file/parameters.hpp"
 #include "lv/cine/strain.hpp"
 #include "lv/heartbeat/quasi_static_beat.hpp"
@@ -140,6 +141,7 @@ class BeatWriter {
 bool is_measurement(const std::string& parameter) {
   return parameter == "protocol.cuff_systolic" || parameter == "calibrate.edv" ||
          parameter == "calibrate.esv" || parameter == "calibrate.strains" ||
+         parameter == "calibrate.cuff_systolic" || parameter == "calibrate.cuff_diastolic" ||
          parameter.starts_with("strain.") || parameter == "segment.cine" ||
          parameter == "segment.series" ||
          (parameter.starts_with("anatomy.") && parameter != "anatomy.source" &&
@@ -156,7 +158,7 @@ void add_marks(const Case& c, report::RunFacts& facts) {
   facts.muscle_density = c.muscle_density;
   facts.shape = case_file::is_drawn(c) ? report::Mark::measured : report::Mark::assumed;
   facts.scar_is_measured = scar_is_measured(c);
-  facts.fitted_parameters = fitted_names(c.calibration);
+  facts.fitted_parameters = fitted_names(c);
   for (const auto& [name, place] : c.origin)
     if (is_measurement(name))
       facts.measured_parameters.push_back(name);
@@ -192,6 +194,22 @@ report::RunFacts run_facts(const Case& c, const anatomy::MeshResult& mesh, const
     facts.warnings.push_back(
         fmt::format("{} steps were taken back and repeated smaller", beat.beat.retries));
   return facts;
+}
+
+/// What heartbeats were fitted to beside the last of them.
+std::vector<report::FittedOfBeat> beside_beat(const std::vector<FittedDatum>& fitted,
+                                              const heartbeat::Beat& beat, double tolerance) {
+  std::vector<report::FittedOfBeat> all;
+  if (!beat.cycle)
+    return all;
+  for (const FittedDatum& d : fitted)
+    for (const case_file::BeatDatum& of_beat : case_file::beat_fit({}).data)
+      if (of_beat.name == d.name) {
+        const double value = of_beat.shown(beat.cycle->beats.back().*of_beat.of_beat);
+        all.push_back({d.name, d.unit, d.measured, d.model, value,
+                       std::abs(value / d.measured - 1.0) <= tolerance});
+      }
+  return all;
 }
 
 /// The segments that the infarct touches.
@@ -408,6 +426,7 @@ std::string make_results(const Case& c, const anatomy::MeshResult& mesh, const B
     facts.assumed.insert(facts.assumed.end(), fitted.assumed.begin(), fitted.assumed.end());
     facts.fitted = fitted.volumes;
     facts.klotz = fitted.klotz;
+    facts.fitted_beats = beside_beat(fitted.beats, beat.beat, c.calibration.tolerance);
     facts.unloaded = unloaded;
     facts.scar = scar_facts(c, mesh);
     text = write_results(c, mesh, beat, facts, fields, folder);

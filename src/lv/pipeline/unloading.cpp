@@ -24,7 +24,6 @@ using units::mmHg;
 using heartbeat::Archive;
 
 constexpr const char* summary_name = "unloaded.json";
-constexpr const char* search_record = "search.bin";
 
 /// A cavity without load below this share of Klotz's V0 is warned of.
 constexpr double least_of_klotz = 0.8;
@@ -137,19 +136,24 @@ void check_elements(const mesh::Mesh& wall) {
 
 }  // namespace
 
+implicit::Unloaded find_unloaded(const case_file::Case& c, const mesh::Mesh& elements,
+                                 const std::filesystem::path& folder,
+                                 const std::filesystem::path& start) {
+  const std::filesystem::path record = folder / search_record;
+  const std::optional<Unloaded> near = read_start(start, elements.nodes.size());
+  return implicit::unload(elements, case_file::static_model(c), c.unloaded, c.quasi_static.solver,
+                          near ? &*near : nullptr,
+                          {read_record(record, elements.nodes.size()),
+                           [&](const implicit::Equilibria& known) {
+                             parallel::on_root([&] { write_record(known, record); });
+                           }})
+      .value();
+}
+
 void make_unloading(const case_file::Case& c, const anatomy::MeshResult& seen,
                     const mesh::Mesh& elements, const std::filesystem::path& folder,
                     const std::filesystem::path& start) {
-  const std::filesystem::path record = folder / search_record;
-  const std::optional<Unloaded> near = read_start(start, elements.nodes.size());
-  const Unloaded unloaded =
-      implicit::unload(elements, case_file::static_model(c), c.unloaded, c.quasi_static.solver,
-                       near ? &*near : nullptr,
-                       {read_record(record, elements.nodes.size()),
-                        [&](const implicit::Equilibria& known) {
-                          parallel::on_root([&] { write_record(known, record); });
-                        }})
-          .value();
+  const Unloaded unloaded = find_unloaded(c, elements, folder, start);
   anatomy::MeshResult result = seen;
   result.mesh = mesh::with_nodes(seen.mesh, c.engine == case_file::Engine::quasi_static
                                                 ? unloaded.nodes
@@ -160,7 +164,7 @@ void make_unloading(const case_file::Case& c, const anatomy::MeshResult& seen,
     warn(c, elements, unloaded);
     steps_table(unloaded).write_csv(folder / "unloading.csv");
     write_file(folder / summary_name, summary(c, elements, unloaded).dump(2) + "\n");
-    std::filesystem::remove(record);
+    std::filesystem::remove(folder / search_record);
   }
   show_mesh(result, c, folder);
 }

@@ -25,8 +25,14 @@ void make_unloading(const case_file::Case& c, const anatomy::MeshResult& seen,
 [[nodiscard]] std::vector<Vec3> carried(const mesh::Mesh& elements, std::span<const Vec3> unloaded,
                                         const mesh::Mesh& other);
 
+/// The search alone, whose record in `folder` is for whoever called to remove.
+[[nodiscard]] implicit::Unloaded find_unloaded(const case_file::Case& c, const mesh::Mesh& elements,
+                                               const std::filesystem::path& folder,
+                                               const std::filesystem::path& start);
+
 /// A wall without load as the start of a search, in a file and back.
 inline constexpr const char* unloaded_shape_name = "unloaded.bin";
+inline constexpr const char* search_record = "search.bin";
 void write_unloaded(const implicit::Unloaded& unloaded, const std::filesystem::path& file);
 
 /// The name in an archive of the n-th of several equilibria.

@@ -4,6 +4,7 @@
 #include "lv/base/log.hpp"
 #include "lv/base/mistakes.hpp"
 #include "lv/base/units.hpp"
+#include "lv/case_file/beat_fit.hpp"
 #include "lv/cine/strain.hpp"
 #include "lv/cine/strain_targets.hpp"
 #include "lv/mesh/quality.hpp"
@@ -116,15 +117,30 @@ std::string describe_shape(const Case& c, const anatomy::Shape& shape, double ca
   return text;
 }
 
+/// What heartbeats are fitted to, and what is left as it is.
+std::string describe_beat_fit(const Case& c) {
+  const case_file::BeatFit fit = case_file::beat_fit(c);
+  std::string text;
+  for (const case_file::BeatParameter& p : fit.parameters) {
+    const case_file::BeatDatum& d = fit.data[p.datum];
+    text += fmt::format("  heartbeats: {} ({}) is fitted to {} = {:g} {}\n", p.words,
+                        p.parameter->name, d.key, d.shown(d.measured), d.unit);
+  }
+  for (const std::string& sentence : fit.left_alone)
+    text += fmt::format("  {}\n", sentence);
+  return text;
+}
+
 }  // namespace
 
 std::string fit_outside_heartbeats(const Case& c) {
-  if (!case_file::is_cycle(c) || !c.calibration.asked())
+  if (!case_file::is_cycle(c) || !c.calibration.fits_muscle() || c.calibration.cycle)
     return "";
   return fmt::format(
       "[calibrate] fits outside of the heartbeats, at protocol.ed_pressure ({:g} mmHg) and "
       "protocol.es_pressure ({:g} mmHg): the volumes of a beat are those of the pressures that the "
-      "circulation makes, and need not be the measured ones",
+      "circulation makes, and need not be the measured ones. calibrate.cycle = true fits the "
+      "heartbeats themselves",
       c.protocol.ed_pressure / mmHg, c.protocol.es_pressure / mmHg);
 }
 
@@ -148,6 +164,8 @@ std::string validate(const Case& c) {
   text += strain + describe_mesh(result.mesh);
   if (const std::string infarct = scar::describe_infarct(c, result); !infarct.empty())
     text += fmt::format("  {}\n", infarct);
+  if (c.calibration.cycle)
+    text += describe_beat_fit(c);
   if (members > 0)
     text += fmt::format("  a study of {} cases: ventricle study {}\n", members, c.file.string());
   const std::vector<Warning> warnings = warnings_of(c, *shape, cavity);

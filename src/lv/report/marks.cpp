@@ -4,14 +4,22 @@
 #include "lv/report/summary.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace lv::report {
 namespace {
 
 using Marks = std::vector<std::pair<std::string, Mark>>;
 
-/// A heartbeat has the pressures that its circulation makes, not those of the fit.
+bool beats_were_fitted(const RunFacts& facts, const char* datum) {
+  return std::any_of(facts.fitted_beats.begin(), facts.fitted_beats.end(),
+                     [&](const FittedOfBeat& v) { return v.name == datum; });
+}
+
+/// A heartbeat has the pressures that its circulation makes, not those of a fit before it.
 bool was_fitted(const RunFacts& facts, const char* volume) {
+  if (beats_were_fitted(facts, volume))
+    return true;
   return facts.pressure != Mark::computed &&
          std::any_of(facts.fitted.begin(), facts.fitted.end(),
                      [&](const FittedVolume& v) { return v.name == volume; });
@@ -28,6 +36,18 @@ void mark_volumes(const RunFacts& facts, Marks& marks) {
                              {"end_systole.cavity_volume_ml", mark(esv)},
                              {"stroke_volume_ml", mark(edv && esv)},
                              {"ejection_fraction_percent", mark(edv && esv)}});
+}
+
+/// What heartbeats were fitted to, where the last of them is told of.
+void mark_beats(const RunFacts& facts, Marks& marks) {
+  constexpr std::array<std::pair<const char*, const char*>, 4> told{
+      {{"EDV", "edv_ml"},
+       {"ESV", "esv_ml"},
+       {"systolic", "aortic_systolic_mmHg"},
+       {"diastolic", "aortic_diastolic_mmHg"}}};
+  for (const auto& [datum, name] : told)
+    if (beats_were_fitted(facts, datum))
+      marks.emplace_back(std::string("cycle.last_beat.") + name, Mark::fitted);
 }
 
 void mark_parameters(const RunFacts& facts, Marks& marks) {
@@ -77,6 +97,10 @@ Marks marks(const RunFacts& facts, const std::vector<std::string>& moments) {
               {"unloaded", Mark::computed},
               {"unloaded.seen_under_mmHg", Mark::assumed},
               {"unloaded.seen_volume_ml", facts.shape}});
+  if (!facts.fitted_beats.empty())
+    all.insert(all.end(), {{"heartbeats_fitted", Mark::fitted},
+                           {"heartbeats_fitted.measured", Mark::measured}});
+  mark_beats(facts, all);
   mark_parameters(facts, all);
   return all;
 }

@@ -218,6 +218,13 @@ void add_fits(const RunFacts& facts, Json& json) {
                                    {"quasi_static_ml", number(1e-3 * v.quasi_static)},
                                    {"beat_ml", number(1e-3 * v.beat)},
                                    {"within_tolerance", v.within_tolerance}});
+  for (const FittedOfBeat& v : facts.fitted_beats)
+    json["heartbeats_fitted"].push_back({{"datum", v.name},
+                                         {"unit", v.unit},
+                                         {"measured", number(v.measured)},
+                                         {"fit", number(v.fit)},
+                                         {"beat", number(v.beat)},
+                                         {"within_tolerance", v.within_tolerance}});
   for (const KlotzVolume& v : facts.klotz)
     json["klotz"].push_back({{"volume", v.name},
                              {"pressure_mmHg", number(v.pressure / mmHg)},
@@ -303,6 +310,19 @@ std::string cycle_text(const heartbeat::Beat& beat) {
                                millijoule * e.kinetic, millijoule * e.supports,
                                millijoule * e.viscosity),
              100.0 * e.error());
+}
+
+/// What heartbeats were fitted to.
+std::string fitted_beats_text(const std::vector<FittedOfBeat>& fitted) {
+  if (fitted.empty())
+    return "";
+  std::string text = fmt::format("  {:<34}{:>14}{:>14}{:>14}\n", "heartbeats fitted to", "measured",
+                                 "fit", "last beat");
+  for (const FittedOfBeat& v : fitted)
+    text += fmt::format("  {:<34}{:>14.2f}{:>14.2f}{:>14.2f}  {}\n",
+                        fmt::format("{} ({})", v.name, v.unit), v.measured, v.fit, v.beat,
+                        v.within_tolerance ? "within tolerance" : "OUTSIDE TOLERANCE");
+  return text + "\n";
 }
 
 Json pairs(const std::vector<std::pair<std::string, std::string>>& list) {
@@ -401,6 +421,7 @@ std::string summary_text(const RunFacts& facts, const heartbeat::Beat& beat, con
                         v.within_tolerance ? "within tolerance" : "OUTSIDE TOLERANCE");
   if (!facts.fitted.empty())
     text += "\n";
+  text += fitted_beats_text(facts.fitted_beats);
   text += klotz_text(facts.klotz);
   text += fmt::format("  {:<34}{:>18}\n", "at end-systole, whole wall", "mean +- sd");
   for (const auto& v : r.regional)

@@ -21,6 +21,16 @@ struct FittedVolume {
   bool within_tolerance = false;
 };
 
+/// A datum that heartbeats were fitted to, in its own unit.
+struct FittedOfBeat {
+  std::string name;  ///< EDV, ESV, systolic or diastolic
+  std::string unit;
+  double measured = 0.0;
+  double fit = 0.0;   ///< of the fit
+  double beat = 0.0;  ///< of the last heartbeat
+  bool within_tolerance = false;
+};
+
 /// A volume that Klotz's curve gives a shape of end-diastole, and that of the model fitted to it.
 struct KlotzVolume {
   std::string name;
@@ -74,6 +84,7 @@ struct RunFacts {
   std::vector<std::string> fitted_parameters, measured_parameters;  ///< names
   std::vector<FittedVolume> fitted;                                 ///< of a calibrated case
   std::vector<KlotzVolume> klotz;                                   ///< of a fit to that curve
+  std::vector<FittedOfBeat> fitted_beats;  ///< of a case whose heartbeats were fitted
   std::optional<UnloadedShape> unloaded;
   std::vector<SegmentScar> scar;  ///< empty without infarct
 };

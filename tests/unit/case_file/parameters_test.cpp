@@ -125,6 +125,7 @@ const std::vector<Lines>& bases() {
       beating({{"activation.kind", "\"file\""}, {"activation.file", "\"times.dat\""}}),
       beating_immersed,
       held_immersed,
+      beating({{"calibrate.cycle", "true"}, {"calibrate.edv", "\"120 ml\""}}),
       {{"circulation.kind", "\"closed_loop\""}, {"circulation.valves.law", "\"arctangent\""}},
       {{"strain.cine", "\"cine\""}, {"strain.contours", "\"loops.csv\""}},
       {{"strain.cine", "\"cine\""}, {"strain.long_axis_cine", "[\"view\"]"}},
@@ -500,18 +501,7 @@ Numbers static_beat_of(const Case& c) {
   return numbers;
 }
 
-Numbers immersed_beat_of(const Case& c) {
-  Numbers numbers;
-  add_muscle(c, numbers);
-  numbers.push_back(case_file::myocardium(c).volumetric.beta_s);
-  const heartbeat::Protocol& p = c.protocol;
-  for (const heartbeat::Phase& phase : heartbeat::phases(p)) {
-    numbers.insert(numbers.end(), {phase.drag, phase.settled});
-    for (const double time : {0.01, 0.05, 0.15, 1.0}) {
-      const solid::Loads loads = phase.loads(time);
-      numbers.insert(numbers.end(), {loads.pressure, loads.calcium, loads.activation});
-    }
-  }
+void add_kinetics(const Case& c, Numbers& numbers) {
   if (c.active_law == case_file::ActiveLaw::niederer)
     for (const double rate : {-5.0, 0.0, 20.0}) {
       material::Sarcomere<double> state = c.active.steady_state(1.0, 0.7 + 0.01 * rate);
@@ -526,6 +516,59 @@ Numbers immersed_beat_of(const Case& c) {
         c.land2017.advance(state, state.stretch + 1e-3 * rate, 0.5, 1.0, 1e-3);
       numbers.insert(numbers.end(), {state.tension, state.B, state.CaTRPN});
     }
+}
+
+/// What a fit of heartbeats runs.
+Numbers fitted_beats_of(const Case& c) {
+  Numbers numbers = static_muscle_of(c);
+  add_kinetics(c, numbers);
+  const heartbeat::Protocol& p = c.protocol;
+  for (const double time : {0.01, 0.05, 0.15})
+    numbers.push_back(p.calcium.at(time));
+  const activation::Speeds& v = c.activation.speeds;
+  const circulation::WindkesselParameters& w = c.circulation.windkessel;
+  const circulation::ValveParameters& valves = c.circulation.valves;
+  numbers.insert(numbers.end(), {static_cast<double>(p.cycle.beats),
+                                 p.cycle.tolerance,
+                                 p.cycle.step,
+                                 p.cycle.spectral_radius,
+                                 v.v_f,
+                                 v.v_s,
+                                 v.v_n,
+                                 v.endocardium,
+                                 w.R_mv,
+                                 w.R_ao,
+                                 w.R_c,
+                                 w.R_p,
+                                 w.C,
+                                 w.p_ven,
+                                 valves.closed_resistance,
+                                 valves.smoothing,
+                                 c.circulation.period,
+                                 c.circulation.start.p_ar_sys,
+                                 c.calibration.edv,
+                                 c.calibration.esv,
+                                 c.calibration.cuff_systolic,
+                                 c.calibration.cuff_diastolic,
+                                 c.calibration.factor.low,
+                                 c.calibration.factor.high,
+                                 c.calibration.tolerance});
+  return numbers;
+}
+
+Numbers immersed_beat_of(const Case& c) {
+  Numbers numbers;
+  add_muscle(c, numbers);
+  numbers.push_back(case_file::myocardium(c).volumetric.beta_s);
+  const heartbeat::Protocol& p = c.protocol;
+  for (const heartbeat::Phase& phase : heartbeat::phases(p)) {
+    numbers.insert(numbers.end(), {phase.drag, phase.settled});
+    for (const double time : {0.01, 0.05, 0.15, 1.0}) {
+      const solid::Loads loads = phase.loads(time);
+      numbers.insert(numbers.end(), {loads.pressure, loads.calcium, loads.activation});
+    }
+  }
+  add_kinetics(c, numbers);
   mesh::Mesh point;
   point.nodes = {Vec3::Zero()};
   const immersed::ModelParameters model = case_file::model_parameters(c, point);
@@ -554,6 +597,8 @@ Numbers computed(const Case& c, bool by_views) {
   add(mesh_of(seen_by(Stage::anatomy), seen_by(Stage::mesh)));
   const Case beat = seen_by(Stage::beat);
   add(c.engine == case_file::Engine::immersed ? immersed_beat_of(beat) : static_beat_of(beat));
+  if (c.calibration.cycle)
+    add(fitted_beats_of(pipeline::for_calibration(seen_by(Stage::calibrate))));
   if (!is_loaded(c))
     return numbers;
   const Case unload = pipeline::for_calibration(seen_by(Stage::unload));
@@ -604,6 +649,13 @@ std::vector<Lines> cases_without_files() {
                          {"pericardium.weight", "\"sigmoid\""},
                          {"activation.kind", "\"eikonal\""},
                          {"cycle.inertia", "true"}}));
+  for (const char* law : {"niederer", "land2017"})
+    all.push_back(beating({{"quasi_static.edge_length", "\"18 mm\""},
+                           {"active.law", fmt::format("\"{}\"", law)},
+                           {"activation.kind", "\"eikonal\""},
+                           {"cycle.inertia", "true"},
+                           {"calibrate.cycle", "true"},
+                           {"calibrate.edv", "\"120 ml\""}}));
   all.push_back(
       with(with(static_engine, "quasi_static.order", "1"), "mesh.edge_length", "\"9 mm\""));
   for (const Lines& immersed : {beating_immersed, held_immersed})

@@ -105,6 +105,18 @@ TEST_CASE("the number of beats ends a circulation that has no limit cycle yet",
   CHECK_FALSE(cycle.is_limit);
 }
 
+TEST_CASE("a beat that begins with a closed mitral valve has its end-diastole there",
+          "[unit][circulation]") {
+  const Cycle cycle = run_alone(quick(Kind::windkessel));
+  auto beat = samples_of(cycle, static_cast<int>(cycle.beats.size()) - 1);
+  while (beat.front().signals.mitral_gradient >= 0.0)
+    beat = beat.subspan(1);
+  const BeatMeasures m = measure_beat(beat);
+  CHECK(m.mitral_closes == 0.0);
+  CHECK(m.end_diastolic_volume == beat.front().signals.volume);
+  CHECK(m.end_systolic_volume == cycle.beats.back().end_systolic_volume);
+}
+
 TEST_CASE("a ventricle too weak to open the aortic valve has no end-systole",
           "[unit][circulation]") {
   CircuitParameters p = quick(Kind::windkessel);

@@ -181,6 +181,32 @@ TEST_CASE("muscle that is activated later contracts later", "[unit][heartbeat]")
   CHECK(later.curves.front().calcium == Approx(0.1));
 }
 
+TEST_CASE("measured heartbeats are those of a run, and go on from where others ended",
+          "[unit][heartbeat]") {
+  const mesh::Mesh mesh = coarse_wall();
+  CycleSetup setup = quick(mesh);
+  setup.circuit.start.p_ar_sys = 70.0 * units::mmHg;
+  const auto first = heartbeat::measure_beats(setup, nullptr, empty_folder("lv_measured"));
+  REQUIRE(first);
+  heartbeat::Archive archive;
+  heartbeat::store(first->end, archive);
+  const heartbeat::BeatBegin begin = heartbeat::load_begin(archive);
+  CHECK(begin.wall.now.positions == first->end.wall.now.positions);
+  CHECK(begin.wall.muscle == first->end.wall.muscle);
+  CHECK(begin.circuit == first->end.circuit);
+  const auto second = heartbeat::measure_beats(setup, &begin, empty_folder("lv_measured_more"));
+  REQUIRE(second);
+  setup.cycle.beats = 2;
+  const Beat both = heartbeat::run_cycle(setup, empty_folder("lv_measured_both"), {});
+  const auto& run = both.cycle->beats;
+  REQUIRE(run.size() == 2);
+  CHECK(first->cycle.beats.back().end_systolic_volume == run[0].end_systolic_volume);
+  // the circuit's first step is of first order again
+  CHECK(second->cycle.beats.back().end_systolic_volume ==
+        Approx(run[1].end_systolic_volume).epsilon(1e-3));
+  CHECK(second->cycle.beats.back().aortic_systolic == Approx(run[1].aortic_systolic).epsilon(1e-3));
+}
+
 TEST_CASE("heartbeats in an archive are those that were put in", "[unit][heartbeat]") {
   circulation::CircuitParameters p;
   p.kind = circulation::Kind::windkessel;

@@ -74,4 +74,6 @@ TEST_CASE("a fit beside heartbeats is said to be made at the pressures of the pr
   c.protocol.kind = heartbeat::ProtocolKind::cycle;
   CHECK_THAT(pipeline::fit_outside_heartbeats(c),
              Catch::Contains("protocol.ed_pressure (8 mmHg) and protocol.es_pressure (150 mmHg)"));
+  c.calibration.cycle = true;  // the heartbeats are fitted themselves
+  CHECK(pipeline::fit_outside_heartbeats(c).empty());
 }

@@ -131,6 +131,16 @@ TEST_CASE("damaged records of earlier stages are read or refused",
   try_damaged("calibration.json",
               "{\"parameters\": {\"C_a\": 1.5, \"scale\": 1.0, \"exponent\": 1.0, \"T_scale\": 5}}",
               fit);
+  const auto beats = [](const std::filesystem::path& file) {
+    static_cast<void>(pipeline::with_values({}, pipeline::read_heartbeats(file), file));
+  };
+  try_damaged("heartbeats.json",
+              "{\"data\": [{\"name\": \"EDV\", \"unit\": \"ml\", \"measured\": 120.5, \"model\": "
+              "120}],\n\"parameters\": [{\"parameter\": \"circulation.windkessel.p_ven\", "
+              "\"words\": \"filling pressure\",\n\"unit\": \"mmHg\", \"fitted_to\": \"EDV\", "
+              "\"before\": 8, \"value\": 9.5}],\n\"left_alone\": [\"that\"], \"tolerance\": "
+              "0.01, \"evaluations\": 7, \"beats\": 20}\n",
+              beats);
   const auto unloading = [](const std::filesystem::path& file) {
     static_cast<void>(pipeline::unloaded_shape(file.parent_path()));
   };

@@ -1,0 +1,69 @@
+#include "lv/case_file/beat_fit.hpp"
+
+#include "lv/base/check.hpp"
+#include "lv/case_file/read_case.hpp"
+
+#include <catch2/catch.hpp>
+
+namespace {
+
+using namespace lv;
+using Catch::Matchers::Contains;
+using Names = std::vector<std::pair<std::string, std::string>>;
+
+case_file::Case fitted(const std::string& data, const std::string& kind = "windkessel") {
+  return case_file::parse_case(
+      "engine = \"quasi_static\"\nprotocol.kind = \"cycle\"\nactive.law = \"land2017\"\n"
+      "calcium.shape = \"double_exponential\"\ncalcium.t_1 = \"0.04 s\"\n"
+      "calcium.t_2 = \"0.22 s\"\ncirculation.kind = \"" +
+          kind + "\"\n[calibrate]\ncycle = true\n" + data,
+      "case.toml");
+}
+
+/// Parameter and datum of what is fitted.
+Names pairs(const case_file::BeatFit& fit) {
+  Names all;
+  for (const case_file::BeatParameter& p : fit.parameters)
+    all.emplace_back(p.parameter->name, fit.data[p.datum].name);
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("each datum of a heartbeat tells of one parameter", "[unit][case_file]") {
+  const std::string all =
+      "edv = \"120 ml\"\nesv = \"50 ml\"\ncuff_systolic = \"120 mmHg\"\n"
+      "cuff_diastolic = \"75 mmHg\"\n";
+  const auto windkessel = case_file::beat_fit(fitted(all));
+  CHECK(pairs(windkessel) == Names{{"circulation.windkessel.p_ven", "EDV"},
+                                   {"active.land2017.T_ref", "ESV"},
+                                   {"circulation.windkessel.R_p", "diastolic"},
+                                   {"circulation.windkessel.C", "systolic"}});
+  CHECK(windkessel.left_alone.empty());
+  CHECK(pairs(case_file::beat_fit(fitted(all, "closed_loop"))) ==
+        Names{{"circulation.start.p_ven_sys", "EDV"},
+              {"active.land2017.T_ref", "ESV"},
+              {"circulation.closed_loop.systemic.R_ar", "diastolic"},
+              {"circulation.closed_loop.systemic.C_ar", "systolic"}});
+}
+
+TEST_CASE("a datum of a heartbeat that is missing leaves its parameter, and that is said",
+          "[unit][case_file]") {
+  const auto fit = case_file::beat_fit(fitted("edv = \"120 ml\"\ncuff_systolic = \"120 mmHg\"\n"));
+  CHECK(pairs(fit) ==
+        Names{{"circulation.windkessel.p_ven", "EDV"}, {"circulation.windkessel.R_p", "systolic"}});
+  REQUIRE(fit.left_alone.size() == 2);
+  CHECK_THAT(fit.left_alone[0], Contains("active.land2017.T_ref") && Contains("calibrate.esv"));
+  CHECK_THAT(fit.left_alone[1],
+             Contains("circulation.windkessel.C") && Contains("calibrate.cuff_diastolic"));
+  CHECK(pairs(case_file::beat_fit(fitted("cuff_diastolic = \"75 mmHg\"\n"))) ==
+        Names{{"circulation.windkessel.R_p", "diastolic"}});
+}
+
+TEST_CASE("a parameter's value is given and taken in its own unit", "[unit][case_file]") {
+  auto c = fitted("edv = \"120 ml\"\n");
+  const auto& p = *case_file::find_parameter("circulation.windkessel.R_p");
+  CHECK(case_file::value_of(p, c) == Approx(1.05));
+  case_file::set_value(p, c, 1.5);
+  CHECK(c.circulation.windkessel.R_p == Approx(1.5 * units::mmHg / units::ml));
+}
