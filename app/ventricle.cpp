@@ -323,6 +323,7 @@ void add_heart_options(CLI::App& app, lv::phantom::Ventricle& v) {
   number("--scar-top", v.scar.top, "height below the base, negative [mm]", -150, 0);
   number("--scar-transmurality", v.scar.transmurality, "part of the wall; 0: no scar", 0, 1);
   number("--papillary", v.papillary, "radius of two papillary muscles, 0: none [mm]", 0, 8);
+  number("--trabeculae", v.trabeculae, "depth of a rim of trabeculae, 0: none [mm]", 0, 8);
   number("--akinesia", v.akinesia, "part of the squeeze that the scar loses", 0, 1);
 }
 

@@ -149,9 +149,11 @@ std::string describe(const CineSegmentation& segmentation) {
     return fmt::format("{}: phase {}, cavity {:.1f} ml\n", name, frame + 1,
                        1e-3 * found.volumes[static_cast<std::size_t>(frame)]);
   };
-  std::string text = moment("end-diastole", found.phases.end_diastole) +
-                     moment("end-systole", found.phases.end_systole) +
-                     moment("early diastole", found.phases.early_diastole);
+  std::string text =
+      moment("end-diastole", found.phases.end_diastole) +
+      moment("end-systole", found.phases.end_systole) +
+      moment("early diastole", found.phases.early_diastole) +
+      fmt::format("{}{:.3f} of the way from blood to muscle\n", segment::fall_is, found.fall);
   for (const auto* notes : {&segmentation.cine.notes, &found.doubts})
     for (const std::string& note : *notes)
       text += fmt::format("note: {}\n", note);

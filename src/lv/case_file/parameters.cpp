@@ -182,9 +182,10 @@ constexpr Group of_anatomy[]{
          number("segment.centre", LV_AT(anatomy.cine.segmentation.centre), "mm", any,
                 "a point in the left ventricle's blood in scanner coordinates; none: found from "
                 "motion and roundness"),
-         number("segment.fall", LV_AT(anatomy.cine.segmentation.fall), "", between(0.5, 0.95),
+         number("segment.fall", LV_AT(anatomy.cine.segmentation.fall), "", between(0.0, 0.95),
                 "the endocardium lies where this part of the way from the blood's grey value to "
-                "the muscle's is reached: 0.5 in the middle of an edge, more outside trabeculae"),
+                "the muscle's is reached, 0.5 or more: 0.5 in the middle of an edge, more outside "
+                "trabeculae; 0: from how wide the study's own edges are"),
          choice("segment.moment", LV_AT(anatomy.cine.moment), "early_diastole end_diastole",
                 "the time whose borders give the shape, proposed from the volume curve"),
      }},

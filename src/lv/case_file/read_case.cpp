@@ -200,6 +200,10 @@ class CaseReader {
     check_cycle();
     check_study();
     check_activation();
+    const double fall = case_.anatomy.cine.segmentation.fall;
+    rule(fall == 0.0 || fall >= 0.5, "segment.fall",
+         fmt::format("is {:g}; it must be 0, for the study's own edges, or between 0.5 and 0.95",
+                     fall));
     const StrainStudy& study = case_.strain;
     rule(study.measured.empty() || !study.measured_column.empty(), "strain.measured",
          "needs strain.measured_column, the name of the column that holds end-systole");

@@ -62,9 +62,9 @@ std::optional<std::string> of_scar(const Study& study, const Request& request) {
 
 std::string redrawn(const Study& study, const std::string& body) {
   const Redrawn asked = read_wish(body, study);
+  const double set = study.settings.anatomy.cine.segmentation.fall;
   return points_json(segment::redraw(study.cine.slices[asked.slice], asked.wish,
-                                     study.settings.anatomy.cine.segmentation.fall,
-                                     "what the page sent"));
+                                     set == 0.0 ? study.proposal.fall : set, "what the page sent"));
 }
 
 Answer shown(const Study& study, const std::string& place) {
@@ -91,8 +91,11 @@ Answer answer(Study& study, const Request& request) {
     return shown(study, place);
   if (place == "save" || place == "overwrite")
     return keep(study, request.body, place == "overwrite");
-  if (place == "segment")
-    return {200, "application/json", proposal_json(propose(study, read_centre(request.body)))};
+  if (place == "segment") {
+    const Proposal found = propose(study, read_centre(request.body));
+    study.proposal.fall = found.fall;
+    return {200, "application/json", proposal_json(found)};
+  }
   if (place == "redraw")
     return {200, "application/json", redrawn(study, request.body)};
   if (auto text = of_scar(study, request))

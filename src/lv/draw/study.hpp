@@ -28,6 +28,7 @@ struct Proposal {
   Lines lines;
   std::vector<Confidence> confidence;
   std::vector<std::string> doubts;
+  double fall = 0.0;  ///< at which the endocardium was drawn (segment::draw_borders)
 };
 
 /// What observer and program have drawn in a cine.

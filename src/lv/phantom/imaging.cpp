@@ -134,7 +134,7 @@ ScanPlanes planes(const Ventricle& v, const Scan& scan) {
 }
 
 Scanner::Scanner(const Ventricle& ventricle, const Scan& scan)
-    : ventricle_(ventricle), scan_(scan), pose_(pose(scan)) {
+    : ventricle_(ventricle), scan_(scan), pose_(pose(scan)), trabeculae_(ventricle, scan.seed) {
   constexpr int waves = 40;
   Random random(scan.seed + 0x100000000ULL);
   for (int n = 0; n < waves; ++n) {
@@ -158,7 +158,8 @@ Scanner::Place Scanner::place(const Motion& motion, const Vec3& x) const {
   const double theta = std::atan2(x.y(), x.x());
   const double r = std::hypot(x.x(), x.y());
   if (r < motion.radius(Side::endo, x.z(), theta))
-    return {cavity, false, X, in_papillary(ventricle_, motion, x)};
+    return {cavity, false, X,
+            in_papillary(ventricle_, motion, x) || trabeculae_.contain(motion, x, X)};
   if (r >= motion.radius(Side::epi, x.z(), theta))
     return {background, in_right_ventricle(ventricle_, X), X};
   return {ventricle_.in_scar(X) ? scar : muscle, false, X};
@@ -174,7 +175,7 @@ double Scanner::texture(const Vec3& X) const {
 double Scanner::signal(const Place& at, const Vec3& x, Contrast contrast) const {
   const bool cine = contrast == Contrast::cine;
   const double blood = cine ? signals::blood : signals::enhanced_blood;
-  if (at.papillary)
+  if (at.in_cavity)
     return cine ? signals::muscle : signals::nulled_muscle;
   if (at.label == cavity || at.right_ventricle)
     return blood;

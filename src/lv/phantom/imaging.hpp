@@ -3,6 +3,7 @@
 #include "lv/geometry/contours.hpp"
 #include "lv/geometry/frame.hpp"
 #include "lv/image/picture.hpp"
+#include "lv/phantom/trabeculae.hpp"
 #include "lv/phantom/ventricle.hpp"
 
 #include <cstdint>
@@ -75,7 +76,7 @@ class Scanner {
     Label label;
     bool right_ventricle;
     Vec3 X;                  ///< at end-diastole
-    bool papillary = false;  ///< muscle that counts to the cavity
+    bool in_cavity = false;  ///< papillary or trabecular muscle, which counts to the cavity
   };
   [[nodiscard]] Place place(const Motion& motion, const Vec3& x) const;
   [[nodiscard]] double signal(const Place& place, const Vec3& x, Contrast contrast) const;
@@ -91,6 +92,7 @@ class Scanner {
   const Ventricle& ventricle_;
   const Scan& scan_;
   geometry::Frame pose_;
+  Trabeculae trabeculae_;
   std::vector<Wave> waves_;
 };
 

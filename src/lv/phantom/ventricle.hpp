@@ -27,8 +27,9 @@ struct Ventricle {
       -4.0 * std::numbers::pi / 180.0;  ///< anticlockwise seen from the apex [rad]
   double rotation_apex = 12.0 * std::numbers::pi / 180.0;  ///< at the epicardial apex; linear in Z
   Scar scar;
-  double akinesia = 0.8;   ///< how much of the squeeze is lost in the middle of the scar
-  double papillary = 0.0;  ///< radius of two papillary muscles, see in_papillary [mm]; 0: none
+  double akinesia = 0.8;    ///< how much of the squeeze is lost in the middle of the scar
+  double papillary = 0.0;   ///< radius of two papillary muscles, see in_papillary [mm]; 0: none
+  double trabeculae = 0.0;  ///< depth of a rim, see Trabeculae [mm]; 0: none
 
   [[nodiscard]] double apex() const { return -shape.base_height - shape.epi_length; }
   [[nodiscard]] double cavity_apex() const { return -shape.base_height - shape.endo_length; }

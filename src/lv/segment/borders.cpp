@@ -3,7 +3,9 @@
 #include "lv/base/dense.hpp"
 #include "lv/base/interrupt.hpp"
 #include "lv/base/median.hpp"
+#include "lv/image/volume.hpp"
 #include "lv/segment/closed_path.hpp"
+#include "lv/segment/edge_width.hpp"
 #include "lv/segment/grey_levels.hpp"
 #include "lv/segment/redraw_border.hpp"
 #include "lv/segment/smooth_border.hpp"
@@ -47,11 +49,12 @@ Polar mean_at(const Polar& values, int first, int last) {
   return sum / (last - first + 1);
 }
 
-/// Integral from the centre along every ray [mm].
+/// Integral from the first radius to each along every ray, by the trapezoidal rule [mm]: the least
+/// lies at the radius nearest to where the values change sign.
 Polar integral(const Polar& values) {
-  Polar sum = grid.step * values;
+  Polar sum = Polar::Zero(values.rows(), values.cols());
   for (Eigen::Index k = 1; k < values.cols(); ++k)
-    sum.col(k) += sum.col(k - 1);
+    sum.col(k) = sum.col(k - 1) + 0.5 * grid.step * (values.col(k - 1) + values.col(k));
   return sum;
 }
 
@@ -62,10 +65,9 @@ Polar darkness(const Polar& values, const Levels& levels) {
 }
 
 /// How unlike muscle a grey value is, 0 to 1: brighter by a third of the way to blood, or darker by
-/// six tenths of the muscle's own.
-Polar unlikeness(const Polar& values, const Levels& levels) {
+/// a part of the muscle's own.
+Polar unlikeness(const Polar& values, const Levels& levels, double darker = 0.6) {
   constexpr double brighter = 0.35;
-  constexpr double darker = 0.6;
   const Polar muscle = levels.muscle.replicate(1, grid.radii);
   return (values > muscle)
       .select((values - muscle) / (levels.blood - muscle) / brighter,
@@ -100,8 +102,9 @@ Radii middle_of_wall(const Polar& values, const Radii& blood, const Levels& leve
                      const Fixes& epi = {}) {
   constexpr int half_band = 2;     // radii
   constexpr double nearer = 0.02;  // a millimetre farther costs so much
+  constexpr double darker = 0.8;   // lung is a fifth as bright: half unlike in the middle between
   const Polar away = distance_from(blood);
-  const Polar cost = mean_at(unlikeness(values, levels), -half_band, half_band) +
+  const Polar cost = mean_at(unlikeness(values, levels, darker), -half_band, half_band) +
                      nearer * away.max(0.0) + forbid(away, 1.0, 16.0) + forbid_outside(epi, 1.5);
   return closed_path(cost, {.reach = 1, .stiffness = 0.1}, grid);
 }
@@ -116,17 +119,25 @@ Polar epicardial_cost(const Polar& values, const Radii& middle, const Levels& le
   return region * sum - edge.min(strongest) + forbid(distance_from(middle), 1.0, 14.0);
 }
 
-/// The median of each ray over neighbouring frames.
-std::vector<Radii> median_in_time(const std::vector<Radii>& lines, int reach) {
+/// What each ray's radius is in time when single frames are left out that stand off: the median of
+/// the frame's own radius r, counted twice, of the straight lines through the two frames before and
+/// the two after it, and of the mean of its neighbours. Where the radius turns round, at
+/// end-diastole and end-systole, the lines lie beyond r and the mean within, and r stays; a median
+/// of neighbours alone would take a part of the stroke away.
+std::vector<Radii> steady_in_time(const std::vector<Radii>& lines) {
   const int n = static_cast<int>(lines.size());
   std::vector<Radii> result(lines);
-  for (int t = 0; t < n; ++t)
-    for (Eigen::Index i = 0; i < lines.front().size(); ++i) {
-      std::vector<double> near;
-      for (int d = -reach; d <= reach; ++d)
-        near.push_back(lines[static_cast<std::size_t>(((t + d) % n + n) % n)](i));
-      result[static_cast<std::size_t>(t)](i) = median(std::move(near));
+  for (int t = 0; t < n; ++t) {
+    const auto at = [&](int d) -> const Radii& {
+      return lines[static_cast<std::size_t>(((t + d) % n + n) % n)];
+    };
+    for (Eigen::Index i = 0; i < at(0).size(); ++i) {
+      const double r = at(0)(i);
+      result[static_cast<std::size_t>(t)](i) =
+          median({r, r, 2.0 * at(-1)(i) - at(-2)(i), 2.0 * at(1)(i) - at(2)(i),
+                  0.5 * (at(-1)(i) + at(1)(i))});
     }
+  }
   return result;
 }
 
@@ -145,7 +156,7 @@ std::vector<Radii> epicardium(const std::vector<Polar>& costs) {
   for (const Polar& cost : costs)
     lines.push_back(closed_path(cost, epicardial_rule, grid));
   for (int round = 0; round < 2; ++round) {
-    const std::vector<Radii> usual = median_in_time(lines, 2);
+    const std::vector<Radii> usual = steady_in_time(lines);
     for (std::size_t t = 0; t < costs.size(); ++t)
       lines[t] = closed_path(costs[t] + pull_to(harmonics_of(usual[t], epi_harmonics)),
                              epicardial_rule, grid);
@@ -161,8 +172,14 @@ Radii endocardium(const Polar& values, const Radii& outside, const Levels& level
   return closed_path(cost, {.reach = 1, .stiffness = 0.2}, grid, fixed);
 }
 
-/// How much muscle lies within 4 mm outside a line, 0 to 1.
-Radii wall_behind(const Polar& values, const Radii& line, const Levels& levels) {
+/// How much muscle lies within 4 mm outside a line, 0 to 1. Lung behind an atrium, whose grey value
+/// may have been learnt for muscle's, is too dark.
+Radii wall_behind(const Polar& values, const Radii& line, Levels levels) {
+  constexpr double darkest = 0.65;  // of the slice's level
+  constexpr double brightest = 1.5;
+  levels.muscle = levels.muscle.max(darkest * levels.muscle_of_slice)
+                      .min(brightest * levels.muscle_of_slice)
+                      .eval();
   const Polar away = distance_from(line);
   const Polar here = (away > 0.5 && away < 4.0).cast<double>();
   return ((1.0 - unlikeness(values, levels)) * here).rowwise().sum() /
@@ -179,10 +196,10 @@ struct Work {
 void find_middle(Work& work) {
   constexpr int rounds = 2;         // of levels along the rays
   constexpr double faintest = 1.2;  // blood beside muscle; a slice without either is left out later
-  const double of_slice = work.levels.muscle.mean();
+  const Radii usual = work.levels.muscle;
   for (int round = 0; round <= rounds; ++round) {
     if (round > 0)
-      work.levels.muscle = muscle_along(work.values, work.middle, of_slice, grid);
+      work.levels.muscle = muscle_along(work.values, work.middle, usual, grid);
     work.levels.blood = std::max(work.levels.blood, faintest * work.levels.muscle.maxCoeff());
     work.middle.clear();
     for (std::size_t t = 0; t < work.values.size(); ++t)
@@ -191,7 +208,6 @@ void find_middle(Work& work) {
 }
 
 void find_borders(Work& work, double fall) {
-  find_middle(work);
   std::vector<Polar> costs;
   for (std::size_t t = 0; t < work.values.size(); ++t)
     costs.push_back(epicardial_cost(work.values[t], work.middle[t], work.levels));
@@ -237,7 +253,7 @@ std::vector<Radii> drawn_endocardium(const Work& work, const SliceBorders* inner
     const Radii expected = inner == nullptr ? seen : scaled_to(inner->frames[t].endo, seen, sees);
     lines.push_back(convex(fit_border(endocardial_fit(seen, sees, expected))));
   }
-  return median_in_time(lines, 1);
+  return steady_in_time(lines);
 }
 
 double part_within(const Radii& a, const Radii& b, double most) {
@@ -271,6 +287,12 @@ Work begin(const image::CineSlice& slice, const Centre& centre) {
   return work;
 }
 
+/// Learns the muscle's level along each ray from that of the slice.
+void learn_round(Work& work, double muscle_of_slice) {
+  work.levels.muscle_of_slice = muscle_of_slice;
+  work.levels.muscle = muscle_round(work.values, work.blood, muscle_of_slice, grid);
+}
+
 std::vector<Work> begin_all(const image::Cine& cine, const Heart& heart) {
   std::vector<Work> all;
   std::vector<std::vector<double>> outside;
@@ -284,7 +306,40 @@ std::vector<Work> begin_all(const image::Cine& cine, const Heart& heart) {
     blood.push_back(work.levels.blood);
   const std::vector<double> muscle = muscle_levels(outside, blood);
   for (std::size_t s = 0; s < all.size(); ++s)
-    all[s].levels.muscle.setConstant(muscle[s]);
+    learn_round(all[s], muscle[s]);
+  return all;
+}
+
+/// How much the blood's mean radius changes per height, in a frame, from the slice before to the
+/// one behind.
+double slope_at(const std::vector<Work>& work, std::size_t slice, std::size_t frame,
+                double spacing) {
+  const std::size_t before = slice > 0 ? slice - 1 : slice;
+  const std::size_t behind = std::min(slice + 1, work.size() - 1);
+  const double change = work[behind].blood[frame].mean() - work[before].blood[frame].mean();
+  return std::abs(change) /
+         (spacing * static_cast<double>(std::max<std::size_t>(behind - before, 1)));
+}
+
+/// The widths of all edges of a study where blood is seen in a wall, as darkness_at_border takes
+/// them.
+std::vector<double> relative_edge_widths(const image::Cine& cine, const std::vector<Work>& work) {
+  constexpr double steepest = 0.5;  // beyond it lies the tip, or no ventricle
+  constexpr double seen = 0.5;      // part of the rays with an edge
+  const double spacing = image::spacing_of(cine);
+  std::vector<double> all;
+  for (std::size_t s = 0; s < work.size(); ++s)
+    for (std::size_t t = 0; t < work[s].values.size(); ++t) {
+      const double slope = slope_at(work, s, t, spacing);
+      const Radii widths =
+          edge_widths(darkness(work[s].values[t], work[s].levels), work[s].middle[t], grid);
+      if (slope > steepest || (widths > 0.0).cast<double>().mean() < seen)
+        continue;
+      const double sharp = sharp_width(cine.slices[s].frames[t].plane, grid, slope, spacing);
+      for (const double width : widths)
+        if (width > 0.0)
+          all.push_back(width / sharp);
+    }
   return all;
 }
 
@@ -385,7 +440,8 @@ Radii redrawn_epicardium(const Frame& frame, const std::optional<Radii>& endo,
 
 Radii redraw_border(const image::CineSlice& slice, const Redrawing& asked, double fall) {
   Work work = begin(slice, asked.centre);
-  work.levels.muscle.setConstant(
+  learn_round(
+      work,
       muscle_levels({around_blood(work.values, work.blood, grid)}, {work.levels.blood}).front());
   find_middle(work);
   const Frame frame{work, asked.frame};
@@ -399,22 +455,27 @@ Radii redraw_border(const image::CineSlice& slice, const Redrawing& asked, doubl
   return drawn.max(grid.first);
 }
 
-std::vector<SliceBorders> draw_borders(const image::Cine& cine, const Heart& heart, double fall) {
+Drawn draw_borders(const image::Cine& cine, const Heart& heart, const std::optional<double>& fall) {
   std::vector<Work> work = begin_all(cine, heart);
   for (Work& slice : work) {
     interrupt::check();
-    find_borders(slice, fall);
+    find_middle(slice);
   }
-  std::vector<SliceBorders> borders(work.size());
+  Drawn drawn{{}, fall ? *fall : darkness_at_border(relative_edge_widths(cine, work))};
+  for (Work& slice : work) {
+    interrupt::check();
+    find_borders(slice, drawn.fall);
+  }
+  drawn.slices.resize(work.size());
   const auto finish_slice = [&](std::size_t s, const SliceBorders* inner) {
-    borders[s] = finish(work[s], heart.centres[s].at, inner);
+    drawn.slices[s] = finish(work[s], heart.centres[s].at, inner);
   };
   finish_slice(heart.seed, nullptr);
   for (std::size_t s = heart.seed + 1; s < work.size(); ++s)
-    finish_slice(s, &borders[s - 1]);
+    finish_slice(s, &drawn.slices[s - 1]);
   for (std::size_t s = heart.seed; s-- > 0;)
-    finish_slice(s, &borders[s + 1]);
-  return borders;
+    finish_slice(s, &drawn.slices[s + 1]);
+  return drawn;
 }
 
 }  // namespace lv::segment

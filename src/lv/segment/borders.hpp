@@ -2,6 +2,9 @@
 
 #include "lv/segment/heart.hpp"
 
+#include <optional>
+#include <vector>
+
 namespace lv::segment {
 
 /// Both borders in one frame of one slice.
@@ -19,6 +22,13 @@ struct SliceBorders {
   std::vector<FrameBorders> frames;
 };
 
+/// The borders of all slices, and the part of the way from blood to muscle at which the endocardium
+/// was drawn.
+struct Drawn {
+  std::vector<SliceBorders> slices;
+  double fall = 0.0;
+};
+
 /// Draws endocardium and epicardium on all frames of all slices.
 ///
 /// Grey levels are learnt from the study: blood as the median of the inner half of the cavity of a
@@ -27,15 +37,15 @@ struct SliceBorders {
 ///
 /// In polar pictures round the heart's centre four closed paths of least cost follow each other:
 /// the blood's edge; the middle of the wall, along which a band of 4 mm is most like muscle; from
-/// there outwards the epicardium, where what is like muscle ends at an edge, close to the median of
-/// neighbouring frames; inwards the endocardium, where `fall` of the way from blood to muscle is
-/// reached. Trabeculae, greyer than blood, lie inside for fall = 0.85, as observers draw them; the
-/// middle of an edge is at 0.5.
+/// there outwards the epicardium, where what is like muscle ends at an edge, close to where
+/// neighbouring frames have it; inwards the endocardium, where `fall` of the way from blood to
+/// muscle is reached: 0.5 in the middle of an edge, more outside trabeculae. None: from how wide
+/// the study's edges are (see darkness_at_border).
 ///
 /// The endocardium is then a sum of three harmonics that papillary muscles hardly push inwards, and
 /// its convex hull. Where no muscle is seen behind it, as in the outflow tract, it takes the shape
 /// of the next slice towards the middle of the heart.
-[[nodiscard]] std::vector<SliceBorders> draw_borders(const image::Cine& cine, const Heart& heart,
-                                                     double fall);
+[[nodiscard]] Drawn draw_borders(const image::Cine& cine, const Heart& heart,
+                                 const std::optional<double>& fall);
 
 }  // namespace lv::segment

@@ -1,6 +1,7 @@
 #include "lv/segment/grey_levels.hpp"
 
 #include "lv/base/median.hpp"
+#include "lv/segment/smooth_border.hpp"
 
 #include <algorithm>
 #include <array>
@@ -37,6 +38,17 @@ double most_frequent(const std::vector<double>& values, double low, double high)
   return low + (static_cast<double>(peak) + 0.5) / bins * (high - low);
 }
 
+/// The grey values 2 to 10 mm outside the blood on a ray.
+void add_outside(const std::vector<Polar>& frames, const std::vector<Radii>& blood, int ray,
+                 const PolarGrid& grid, std::vector<double>& values) {
+  constexpr double nearest = 2.0;
+  constexpr double farthest = 10.0;
+  for (std::size_t t = 0; t < frames.size(); ++t)
+    for (int k = 0; k < grid.radii; ++k)
+      if (const double away = grid.radius(k) - blood[t](ray); away > nearest && away < farthest)
+        values.push_back(frames[t](ray, k));
+}
+
 }  // namespace
 
 Levels guess_levels(const std::vector<Polar>& frames, double radius, const PolarGrid& grid) {
@@ -47,19 +59,14 @@ Levels guess_levels(const std::vector<Polar>& frames, double radius, const Polar
     for (const double v : values.leftCols(inner).reshaped())
       middle.push_back(v);
   const double blood = std::max(median(std::move(middle)), 1e-6);  // a black image has none
-  return {blood, Radii::Constant(grid.rays, usual * blood)};
+  return {blood, Radii::Constant(grid.rays, usual * blood), 0.0};
 }
 
 std::vector<double> around_blood(const std::vector<Polar>& frames, const std::vector<Radii>& blood,
                                  const PolarGrid& grid) {
-  constexpr double nearest = 2.0;
-  constexpr double farthest = 10.0;
   std::vector<double> values;
-  for (std::size_t t = 0; t < frames.size(); ++t)
-    for (int i = 0; i < grid.rays; ++i)
-      for (int k = 0; k < grid.radii; ++k)
-        if (const double away = grid.radius(k) - blood[t](i); away > nearest && away < farthest)
-          values.push_back(frames[t](i, k));
+  for (int i = 0; i < grid.rays; ++i)
+    add_outside(frames, blood, i, grid, values);
   return values;
 }
 
@@ -83,10 +90,27 @@ std::vector<double> muscle_levels(const std::vector<std::vector<double>>& outsid
   return levels;
 }
 
-Radii muscle_along(const std::vector<Polar>& frames, const std::vector<Radii>& middle,
+Radii muscle_round(const std::vector<Polar>& frames, const std::vector<Radii>& blood,
                    double of_slice, const PolarGrid& grid) {
+  constexpr double darkest = 0.3;  // of the slice's level
+  constexpr double brightest = 1.6;
+  constexpr double unclear = 0.1;  // so near the darkest lies the foot of lung, no peak
+  const int beside = grid.rays / 12;
+  Radii round(grid.rays);
+  for (int i = 0; i < grid.rays; ++i) {
+    std::vector<double> near;
+    for (int d = -beside; d <= beside; ++d)
+      add_outside(frames, blood, (i + d + grid.rays) % grid.rays, grid, near);
+    const double found = most_frequent(near, darkest * of_slice, brightest * of_slice);
+    round(i) = found > (darkest + unclear) * of_slice ? found : of_slice;
+  }
+  return harmonics_of(round, 2).max(darkest * of_slice);
+}
+
+Radii muscle_along(const std::vector<Polar>& frames, const std::vector<Radii>& middle,
+                   const Radii& usual, const PolarGrid& grid) {
   constexpr double band = 1.6;      // [mm]
-  constexpr double darkest = 0.65;  // of the slice's level
+  constexpr double darkest = 0.65;  // of the usual level
   constexpr double brightest = 1.5;
   Radii along(grid.rays);
   for (int i = 0; i < grid.rays; ++i) {
@@ -95,7 +119,7 @@ Radii muscle_along(const std::vector<Polar>& frames, const std::vector<Radii>& m
       for (int k = 0; k < grid.radii; ++k)
         if (std::abs(grid.radius(k) - middle[t](i)) < band)
           near.push_back(frames[t](i, k));
-    along(i) = std::clamp(median(std::move(near)), darkest * of_slice, brightest * of_slice);
+    along(i) = std::clamp(median(std::move(near)), darkest * usual(i), brightest * usual(i));
   }
   const std::array<double, 19> weights = gaussian();
   Radii smooth = Radii::Zero(grid.rays);

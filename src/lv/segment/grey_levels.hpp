@@ -10,6 +10,7 @@ namespace lv::segment {
 struct Levels {
   double blood = 1.0;
   Radii muscle;
+  double muscle_of_slice = 0.0;  ///< 0: not known yet
 };
 
 /// Blood: the median within half of the cavity's radius over all frames. Muscle, not known yet:
@@ -28,9 +29,16 @@ struct Levels {
 [[nodiscard]] std::vector<double> muscle_levels(const std::vector<std::vector<double>>& outside,
                                                 const std::vector<double>& blood);
 
-/// The muscle's grey value along each ray: the median over time within 1.6 mm of the middle of the
-/// wall, between 0.65 and 1.5 of the slice's own, smoothed over rays (15 degrees).
-[[nodiscard]] Radii muscle_along(const std::vector<Polar>& frames, const std::vector<Radii>& middle,
+/// The muscle's grey value along each ray before the wall is known: the most frequent one outside
+/// the blood within 30 degrees, over all frames, between 0.4 and 1.6 of the slice's own, which
+/// stands where there is none; of these the mean and two harmonics, since the coils' sensitivity is
+/// smooth.
+[[nodiscard]] Radii muscle_round(const std::vector<Polar>& frames, const std::vector<Radii>& blood,
                                  double of_slice, const PolarGrid& grid);
+
+/// The muscle's grey value along each ray: the median over time within 1.6 mm of the middle of the
+/// wall, between 0.65 and 1.5 of the usual one, smoothed over rays (15 degrees).
+[[nodiscard]] Radii muscle_along(const std::vector<Polar>& frames, const std::vector<Radii>& middle,
+                                 const Radii& usual, const PolarGrid& grid);
 
 }  // namespace lv::segment

@@ -260,7 +260,10 @@ Segmentation segment(const Cine& cine, const SegmentParameters& parameters,
     given = Vec3(parameters.centre->data());
   const Heart heart = find_heart(cine, given);
   Segmentation found;
-  found.borders = draw_borders(cine, heart, parameters.fall);
+  const double set = parameters.fall;
+  Drawn drawn = draw_borders(cine, heart, set == 0.0 ? std::nullopt : std::optional(set));
+  found.borders = std::move(drawn.slices);
+  found.fall = drawn.fall;
   found.spacing = image::spacing_of(cine);
   found.shows.assign(cine.slices.size(), std::vector<char>(cine.slices.front().frames.size(), 0));
   const Run run = walled_run(found.borders, heart.seed);

@@ -7,6 +7,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace lv::segment {
@@ -15,18 +16,22 @@ namespace lv::segment {
 struct SegmentParameters {
   /// A point in the left ventricle's blood, image space [mm]; none: it is found.
   std::optional<std::array<double, 3>> centre;
-  double fall = 0.85;  ///< see draw_borders
+  double fall = 0.0;  ///< see draw_borders; 0: from the study's own edges
 };
 
 /// The ventricle in a short-axis cine. Slices and frames count from 0, in the cine's order.
 struct Segmentation {
   std::vector<SliceBorders> borders;     ///< of every slice
   std::vector<std::vector<char>> shows;  ///< slice, frame: whether it shows the ventricle
+  double fall = 0.0;                     ///< see draw_borders
   double spacing = 0.0;                  ///< between slices [mm]
   std::vector<double> volumes;           ///< of the cavity per frame, areas x spacing [mm^3]
   image::Phases phases;
   std::vector<std::string> doubts;  ///< what an observer should look at, in sentences
 };
+
+/// What describes where the endocardium was drawn, as segmentation.txt says it.
+inline constexpr std::string_view fall_is = "segment.fall: ";
 
 /// A contour whose border agrees with the image along a smaller part (FrameBorders) is doubtful.
 inline constexpr double doubtful = 0.6;

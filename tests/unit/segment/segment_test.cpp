@@ -3,12 +3,10 @@
 #include "lv/base/check.hpp"
 #include "lv/geometry/contour_measures.hpp"
 #include "lv/geometry/contour_table.hpp"
-#include "lv/image/dicom_study.hpp"
-#include "lv/image/sunnybrook.hpp"
-#include "lv/phantom/study.hpp"
 #include "lv/segment/redraw.hpp"
 #include "lv/strain/measures.hpp"
 
+#include "segment/agreement.hpp"
 #include "support/temporary_folder.hpp"
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
@@ -16,7 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cstdlib>
+#include <optional>
 
 using namespace lv;
 using geometry::Contour;
@@ -24,37 +22,8 @@ using geometry::Side;
 
 namespace {
 
-/// How drawn loops agree with others of the same slices.
-struct Agreement {
-  double dice = 0.0, distance = 0.0,
-         volume = 0.0;  ///< means; relative difference of the areas' sum
-  int loops = 0, missed = 0;
-};
-
-Agreement agreement(const geometry::Contours& found, const geometry::Contours& truth, Side side) {
-  Agreement a;
-  double own = 0.0;
-  double others = 0.0;
-  for (const Contour& loop : truth.short_axis) {
-    if (loop.side != side)
-      continue;
-    ++a.loops;
-    others += geometry::enclosed_area(loop);
-    const Contour* drawn = geometry::find(found.short_axis, loop.slice, side);
-    if (drawn == nullptr) {
-      ++a.missed;
-      continue;
-    }
-    a.dice += strain::dice(drawn->points, loop.points);
-    a.distance += strain::distance(drawn->points, {loop.points}, true).mean;
-  }
-  for (const Contour& loop : found.short_axis)
-    own += loop.side == side ? geometry::enclosed_area(loop) : 0.0;
-  a.dice /= a.loops;
-  a.distance /= std::max(1, a.loops - a.missed);
-  a.volume = own / others - 1.0;
-  return a;
-}
+using test::Agreement;
+using test::agreement;
 
 void tell(const std::string& what, const Agreement& a) {
   fmt::print("{}: Dice {:.3f}, distance {:.2f} mm, volume {:+.1f}%, {} of {} loops missed\n", what,
@@ -70,8 +39,10 @@ Vec3 farthest_of(const std::vector<Vec3>& truth, const std::vector<Vec3>& drawn)
 
 /// What some points, each set where the line is farthest from the true one, and redrawing from them
 /// make of the mean distance of the lines of a side.
-void try_redrawing(const std::string& what, const image::Cine& cine, std::size_t frame,
-                   const geometry::Contours& drawn, const geometry::Contours& truth, Side side) {
+void try_redrawing(const std::string& what, const image::Cine& cine,
+                   const segment::Segmentation& found, std::size_t frame,
+                   const geometry::Contours& truth, Side side) {
+  const geometry::Contours drawn = segment::contours_at(cine, found, frame);
   constexpr int most_points = 3;
   std::array<double, most_points + 1> distance{};
   double slowest = 0.0;
@@ -90,8 +61,8 @@ void try_redrawing(const std::string& what, const image::Cine& cine, std::size_t
         break;
       wish.points.push_back(farthest_of(loop.points, line));
       const auto began = std::chrono::steady_clock::now();
-      line =
-          segment::redraw(cine.slices[static_cast<std::size_t>(loop.slice - 1)], wish, 0.85, what);
+      line = segment::redraw(cine.slices[static_cast<std::size_t>(loop.slice - 1)], wish,
+                             found.fall, what);
       const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began;
       slowest = std::max(slowest, took.count());
     }
@@ -103,13 +74,6 @@ void try_redrawing(const std::string& what, const image::Cine& cine, std::size_t
   fmt::print(" points; slowest {:.0f} ms\n", 1e3 * slowest);
   CHECK(distance[1] < distance[0]);
   CHECK(distance[most_points] < 0.8 * distance[0]);
-}
-
-phantom::Ventricle with_papillary_muscles() {
-  phantom::Ventricle v;
-  v.papillary = 4.0;
-  v.scar.transmurality = 0.0;
-  return v;
 }
 
 phantom::Scan noisy(std::uint32_t seed) {
@@ -124,71 +88,78 @@ phantom::Scan noisy(std::uint32_t seed) {
 
 /// What a segmentation finds of the phantom at end-diastole and end-systole.
 void try_phantom(std::uint32_t seed) {
-  const phantom::Ventricle v = with_papillary_muscles();
-  const phantom::Scan scan = noisy(seed);
-  const phantom::ScanPlanes planes = phantom::planes(v, scan);
-  const image::Cine cine = phantom::short_axis_cine(v, scan, planes);
-  // its wall has no trabeculae, so the border lies near the middle of the edge
-  const segment::Segmentation found =
-      segment::segment(cine, {.centre = {}, .fall = 0.6}, "phantom");
-  const std::vector<double> times = phantom::phase_times(scan);
-  for (const int frame : {found.phases.end_diastole, found.phases.end_systole}) {
-    const auto t = static_cast<std::size_t>(frame);
-    const geometry::Contours drawn = segment::contours_at(cine, found, t);
-    const geometry::Contours truth = phantom::contours(v, scan, planes, times.at(t));
+  const test::KnownCine known = test::phantom_study("phantom", noisy(seed), 0.0);
+  const segment::Segmentation found = segment::segment(known.cine, {}, "phantom");
+  CHECK(found.fall == Approx(0.5).margin(0.05));  // no trabeculae
+  CHECK(found.phases.end_diastole == known.end_diastole);
+  CHECK(found.phases.end_systole == known.end_systole);
+  for (const int frame : {known.end_diastole, known.end_systole}) {
+    const geometry::Contours drawn =
+        segment::contours_at(known.cine, found, static_cast<std::size_t>(frame));
+    const geometry::Contours& truth = known.truth.at(frame);
     const Agreement endo = agreement(drawn, truth, Side::endo);
     const Agreement epi = agreement(drawn, truth, Side::epi);
     tell(fmt::format("phantom {}, phase {}, endocardium", seed, frame + 1), endo);
     tell(fmt::format("phantom {}, phase {}, epicardium", seed, frame + 1), epi);
-    CHECK(endo.dice > 0.95);
+    CHECK(endo.pooled > 0.95);
+    // the slice at the tip, as thick as its cavity is wide, has 0.8 and less
+    CHECK(endo.dice > 0.94);
     CHECK(std::abs(endo.volume) < 0.03);
     CHECK(epi.dice > 0.95);
+    CHECK(test::dice_of_muscle(drawn, truth) > 0.90);
   }
 }
 
-std::filesystem::path data() {
-  const char* set = std::getenv("VENTRICLE_DATA");
-  return set != nullptr ? set : LV_DATA_DIR;
+/// The same with a rim of trabeculae. Its edge is no ramp but columns that fill three fifths at the
+/// wall, so that less is asked of the volume.
+void try_trabeculae(std::uint32_t seed) {
+  const test::KnownCine known = test::phantom_study("phantom", noisy(seed), 4.0);
+  const segment::Segmentation found = segment::segment(known.cine, {}, "phantom");
+  CHECK(found.fall > 0.7);
+  for (const int frame : {known.end_diastole, known.end_systole}) {
+    const Agreement endo =
+        agreement(segment::contours_at(known.cine, found, static_cast<std::size_t>(frame)),
+                  known.truth.at(frame), Side::endo);
+    tell(fmt::format("phantom {} with trabeculae, phase {}, endocardium", seed, frame + 1), endo);
+    CHECK(std::abs(endo.volume) < 0.05);
+  }
 }
 
 /// A real study against the loops that observers drew, phases in their count.
 void try_patient(const std::string& name, const std::string& images, int diastole, int systole) {
-  const std::filesystem::path folder = data() / name;
-  if (!std::filesystem::exists(folder)) {
-    WARN("skipped: no folder " << folder << "; set VENTRICLE_DATA to the folder that holds it");
+  const std::optional<test::KnownCine> known = test::patient(name, images, diastole, systole);
+  if (!known) {
+    WARN("skipped: no images of " << name);
     return;
   }
-  const image::DicomStudy study = image::read_dicom_study(std::array{folder / images});
-  const image::DicomStack stack = image::choose_stack(study, {}, name, "series");
-  const image::Cine cine = image::read_pixels(stack);
-  const image::DrawnPhases drawn = image::read_sunnybrook(
-      folder / "contours", stack, image::PixelOrigin::corner, image::DrawnBy::manual);
+  const image::Cine& cine = known->cine;
   const segment::Segmentation found = segment::segment(cine, {}, name);
   const auto at = [&](int phase) {
     return segment::contours_at(cine, found, static_cast<std::size_t>(phase - 1));
   };
-  const Agreement endo = agreement(at(diastole), drawn.phases.at(diastole), Side::endo);
-  const Agreement epi = agreement(at(diastole), drawn.phases.at(diastole), Side::epi);
-  const Agreement small = agreement(at(systole), drawn.phases.at(systole), Side::endo);
+  const Agreement endo = agreement(at(diastole), known->truth.at(diastole - 1), Side::endo);
+  const Agreement epi = agreement(at(diastole), known->truth.at(diastole - 1), Side::epi);
+  const Agreement small = agreement(at(systole), known->truth.at(systole - 1), Side::endo);
   tell(name + ", end-diastole, endocardium", endo);
   tell(name + ", end-diastole, epicardium", epi);
   tell(name + ", end-systole, endocardium", small);
   fmt::print("{}: proposed end-diastole {}, end-systole {}, observers' {}, {}\n", name,
              found.phases.end_diastole + 1, found.phases.end_systole + 1, diastole, systole);
   for (const Side side : {Side::endo, Side::epi})
-    try_redrawing(name + ", end-diastole", cine, static_cast<std::size_t>(diastole - 1),
-                  at(diastole), drawn.phases.at(diastole), side);
-  try_redrawing(name + ", end-systole", cine, static_cast<std::size_t>(systole - 1), at(systole),
-                drawn.phases.at(systole), Side::endo);
+    try_redrawing(name + ", end-diastole", cine, found, static_cast<std::size_t>(diastole - 1),
+                  known->truth.at(diastole - 1), side);
+  try_redrawing(name + ", end-systole", cine, found, static_cast<std::size_t>(systole - 1),
+                known->truth.at(systole - 1), Side::endo);
   CHECK(endo.dice > 0.90);
   CHECK(small.dice > 0.85);
   CHECK(epi.dice > 0.92);
   CHECK(std::abs(endo.volume) < 0.08);
   CHECK(std::abs(small.volume) < 0.12);
   CHECK(endo.distance < 2.0);
-  // the bound of 2 mm is not reached by the epicardium of a wall beside lung, nor at end-systole,
-  // where papillary muscles have merged with the wall
-  CHECK(std::max(small.distance, epi.distance) < 2.5);
+  CHECK(epi.distance < 2.0);
+  // the bound of 2 mm is not reached at end-systole, where papillary muscles have merged with the
+  // wall and the most basal slice has its outflow tract
+  CHECK(small.distance < 2.5);
 }
 
 }  // namespace
@@ -196,6 +167,10 @@ void try_patient(const std::string& name, const std::string& images, int diastol
 TEST_CASE("a phantom with papillary muscles, noise and shifts is segmented to 3%", "[segment]") {
   for (const std::uint32_t seed : {1U, 2U})
     try_phantom(seed);
+}
+
+TEST_CASE("trabeculae of a phantom are taken into the cavity", "[segment]") {
+  try_trabeculae(1);
 }
 
 TEST_CASE("the borders of real ventricles are those of observers", "[segment]") {

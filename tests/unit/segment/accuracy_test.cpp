@@ -1,0 +1,105 @@
+#include "lv/segment/segment.hpp"
+
+#include "segment/agreement.hpp"
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <vector>
+
+using namespace lv;
+using geometry::Side;
+
+namespace {
+
+/// Convolves all images with a Gaussian of this deviation [mm].
+void blur(image::Cine& cine, double deviation) {
+  for (image::CineSlice& slice : cine.slices)
+    for (image::Picture& picture : slice.frames)
+      for (const bool along_row : {true, false}) {
+        const image::Picture sharp = picture;
+        const auto& plane = picture.plane;
+        const double sigma = deviation / (along_row ? plane.spacing_i : plane.spacing_j);
+        const int reach = static_cast<int>(std::ceil(3.0 * sigma));
+        for (int j = 0; j < plane.rows; ++j)
+          for (int i = 0; i < plane.columns; ++i) {
+            double sum = 0.0;
+            double weights = 0.0;
+            for (int d = -reach; d <= reach; ++d) {
+              const double weight = std::exp(-0.5 * d * d / (sigma * sigma));
+              const int x = std::clamp(along_row ? i + d : i, 0, plane.columns - 1);
+              const int y = std::clamp(along_row ? j : j + d, 0, plane.rows - 1);
+              sum += weight * sharp.at(x, y);
+              weights += weight;
+            }
+            picture.values[static_cast<std::size_t>(j) * plane.columns + i] =
+                static_cast<float>(sum / weights);
+          }
+      }
+}
+
+/// A line of the table per moment; what is absent is "-".
+void tell_row(const test::KnownCine& known) {
+  const segment::Segmentation found = segment::segment(known.cine, {}, known.name);
+  for (const int frame : {known.end_diastole, known.end_systole}) {
+    const geometry::Contours drawn =
+        segment::contours_at(known.cine, found, static_cast<std::size_t>(frame));
+    const geometry::Contours& truth = known.truth.at(frame);
+    const test::Agreement endo = test::agreement(drawn, truth, Side::endo);
+    const test::Agreement epi = test::agreement(drawn, truth, Side::epi);
+    fmt::print("{:42} {} {:.3f} {:+6.1f}% {:6.3f} {:6.3f} {:5.2f} {:2}/{:<2}",
+               frame == known.end_diastole ? known.name : "",
+               frame == known.end_diastole ? "ED" : "ES", found.fall, 100.0 * endo.volume,
+               endo.dice, endo.pooled, endo.distance, endo.missed, endo.loops);
+    if (epi.loops > 0)
+      fmt::print(" {:6.3f} {:5.2f} {:6.3f}\n", epi.dice, epi.distance,
+                 test::dice_of_muscle(drawn, truth));
+    else
+      fmt::print("      -     -      -\n");
+  }
+}
+
+phantom::Scan noisy_scan(std::uint32_t seed) {
+  phantom::Scan scan;
+  scan.phases = 8;
+  scan.field_of_view = 150;
+  scan.snr = 20.0;
+  scan.shift = 3.0;
+  scan.seed = seed;
+  return scan;
+}
+
+int seeds() {
+  const char* set = std::getenv("VENTRICLE_SEEDS");
+  return set != nullptr ? std::atoi(set) : 3;
+}
+
+}  // namespace
+
+TEST_CASE("a table of what segmentation makes of phantoms and patients", "[.][segment_table]") {
+  fmt::print("{:42} at fall   volume   Dice pooled  [mm] missed   epi  [mm] muscle\n", "");
+  for (int seed = 1; seed <= seeds(); ++seed)
+    for (const double trabeculae : {0.0, 4.0})
+      for (const double pixel : {1.0, 1.4, 1.8}) {
+        phantom::Scan scan = noisy_scan(static_cast<std::uint32_t>(seed));
+        scan.pixel = pixel;
+        scan.gap = seed % 2 == 0 ? 2.0 : 0.0;
+        tell_row(test::phantom_study(
+            fmt::format("phantom {}, pixel {}, gap {}, rim {}", seed, pixel, scan.gap, trabeculae),
+            scan, trabeculae));
+      }
+  for (const double deviation : {0.7, 1.2})
+    for (const double trabeculae : {0.0, 4.0}) {
+      test::KnownCine known = test::phantom_study(
+          fmt::format("phantom 1, blurred by {} mm, rim {}", deviation, trabeculae), noisy_scan(1),
+          trabeculae);
+      blur(known.cine, deviation);
+      tell_row(known);
+    }
+  for (const auto& known : {test::patient("sunnybrook_SC-HF-I-1", "cine", 19, 8),
+                            test::patient("sunnybrook_SC-HF-I-4", "dicom", 20, 7)})
+    if (known)
+      tell_row(*known);
+}
