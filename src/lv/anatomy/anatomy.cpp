@@ -14,9 +14,13 @@
 #include "lv/report/tables_csv.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
+#include <limits>
 #include <memory>
+#include <numbers>
 
 namespace lv::anatomy {
 namespace {
@@ -87,6 +91,45 @@ void check_orientation(const Case& c, Shape& shape) {
                                : "the anterior wall faces the patient's back and feet")});
 }
 
+/// Warns of contours that the wall passes by: of a point that slipped, or a slice that lies
+/// elsewhere.
+void check_contours_met(const geometry::FitReport& fit, Shape& shape) {
+  constexpr double far = 6.0;  // [mm]; breath-holds are moved back from less, or told
+  std::vector<std::string> where;
+  for (const geometry::ImageReport& image : fit.short_axis)
+    for (const auto& [side, distance] : {std::pair("endo", image.endo), {"epi", image.epi}})
+      if (distance && distance->max > far)
+        where.push_back(fmt::format("slice {} {} ({:.1f} mm)", image.slice, side, distance->max));
+  if (!where.empty())
+    shape.warnings.push_back(
+        {"contours", fmt::format("the wall passes the contours by: {}; a point of them slipped, or "
+                                 "the slice lies elsewhere: look at fit.csv, and redraw it",
+                                 fmt::join(where, ", "))});
+}
+
+/// Throws InputError for a point of the septum that lies far outside of the wall.
+void check_septum_point(const Case& c, const Shape& shape) {
+  constexpr double most = 40.0;  // [mm]; the right ventricle's insertions lie on the epicardium
+  constexpr int angles = 72;
+  const auto& septum = c.anatomy.contours.fit.frame.septum;
+  if (!septum)
+    return;
+  const Vec3 x = shape.frame.to_model(Vec3(septum->data()));
+  double nearest = std::numeric_limits<double>::infinity();
+  for (int i = 0; i <= angles; ++i)
+    for (int j = 0; j < angles; ++j)
+      nearest = std::min(nearest, (shape.wall(static_cast<double>(i) / angles,
+                                              2.0 * std::numbers::pi * j / angles, 1.0) -
+                                   x)
+                                      .norm());
+  if (nearest > most)
+    throw InputError(case_file::place_of(c, "anatomy.contours.septum_point"),
+                     fmt::format("anatomy.contours.septum_point lies {:.0f} mm from the wall: no "
+                                 "point of its septum",
+                                 nearest),
+                     "Give a point of the septum, in the coordinates and the unit of the contours");
+}
+
 /// Warnings are assumptions and notes too.
 void collect_remarks(Shape& shape) {
   shape.assumed.insert(shape.assumed.begin(), shape.warnings.begin(), shape.warnings.end());
@@ -133,6 +176,8 @@ Shape from_drawn(const Case& c) {
   shape.segmentation = std::move(drawn.segmentation);
   if (!fit.frame.septum && !c.origin.contains("regions.septum_angle"))
     shape.warnings.push_back({"septum", assumed_septum});
+  check_septum_point(c, shape);
+  check_contours_met(wall->report(), shape);
   if (fit.frame.septum)
     check_orientation(c, shape);
   shape.assumed = wall->report().assumed;

@@ -407,8 +407,9 @@ Drawn read_drawn(const Case& c) {
   if (mended)
     image::close_walls(drawn.contours, thinnest, drawn.notes);
   geometry::check_contours(drawn.contours);
-  const std::vector<std::string> of_slices = geometry::notes_on_spacing(drawn.contours);
-  drawn.notes.insert(drawn.notes.end(), of_slices.begin(), of_slices.end());
+  for (const auto& notes :
+       {geometry::notes_on_spacing(drawn.contours), geometry::notes_on_gaps(drawn.contours)})
+    drawn.notes.insert(drawn.notes.end(), notes.begin(), notes.end());
   if (drawn.end_systole) {
     std::vector<std::string> of_comparison;  // says nothing of the wall
     if (mended)

@@ -7,11 +7,13 @@
 #include "lv/geometry/polygon.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -464,6 +466,30 @@ std::vector<std::string> notes_on_spacing(const Contours& contours) {
     }
   }
   return notes;
+}
+
+std::vector<std::string> notes_on_gaps(const Contours& contours) {
+  constexpr double wide = 0.2;  // of a loop's length
+  constexpr double rare = 5.0;  // times the usual step between its points
+  std::vector<std::string> gaps;
+  double widest = 0.0;
+  for (const Contour& loop : contours.short_axis) {
+    std::vector<double> steps;
+    for (std::size_t i = 0; i < loop.points.size(); ++i)
+      steps.push_back((loop.points[(i + 1) % loop.points.size()] - loop.points[i]).norm());
+    const double length = std::accumulate(steps.begin(), steps.end(), 0.0);
+    const double largest = *std::max_element(steps.begin(), steps.end());
+    if (largest < wide * length || largest < rare * median(steps))
+      continue;
+    gaps.push_back(fmt::format("slice {} {} ({:.1f} mm)", loop.slice, name(loop.side), largest));
+    widest = std::max(widest, largest / length);
+  }
+  if (gaps.empty())
+    return {};
+  return {
+      fmt::format("up to {:.0f}% of a loop's length is without points, and bridged: {}; draw "
+                  "what is missing",
+                  100.0 * widest, fmt::join(gaps, ", "))};
 }
 
 }  // namespace lv::geometry

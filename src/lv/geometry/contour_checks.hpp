@@ -21,4 +21,8 @@ void check_contours(const Contours& contours);
 /// together two usual ones, the slice between both seems misplaced.
 [[nodiscard]] std::vector<std::string> notes_on_spacing(const Contours& contours);
 
+/// Loops of which a fifth of the length or more lies between two neighbouring points, though others
+/// lie much closer: a part was not drawn, and is bridged. At most one note.
+[[nodiscard]] std::vector<std::string> notes_on_gaps(const Contours& contours);
+
 }  // namespace lv::geometry

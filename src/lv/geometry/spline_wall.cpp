@@ -278,8 +278,20 @@ void check_inside_out(const Contours& contours, const SplineWall& wall) {
 }
 
 void note_missing_epicardium(const Contours& contours, std::vector<std::string>& notes) {
-  for (const int slice : slices_from_base(contours))
-    if (find(contours.short_axis, slice, Side::epi) == nullptr)
+  const std::vector<int> slices = slices_from_base(contours);
+  const auto is_open = [&](int slice) {
+    return find(contours.short_axis, slice, Side::epi) == nullptr;
+  };
+  const auto open = std::count_if(slices.begin(), slices.end(), is_open);
+  if (open + 1 >= static_cast<std::ptrdiff_t>(slices.size())) {
+    notes.push_back(
+        fmt::format("{} of {} slices have an epicardium: elsewhere it is that of the long-axis "
+                    "contours, and interpolated between them",
+                    slices.size() - static_cast<std::size_t>(open), slices.size()));
+    return;
+  }
+  for (const int slice : slices)
+    if (is_open(slice))
       notes.push_back(
           fmt::format("slice {} has no epicardium: interpolated from its neighbours", slice));
 }

@@ -52,6 +52,7 @@ std::vector<Warning> warnings_of(const Case& c, const anatomy::Shape& shape, dou
   for (const geometry::Assumption& a : shape.warnings)
     warnings.push_back({a.part == "septum"        ? "septum assumed"
                         : a.part == "orientation" ? "orientation"
+                        : a.part == "contours"    ? "contours off the wall"
                                                   : "end-diastolic shape",
                         a.text});
   const double edv = c.calibration.edv;

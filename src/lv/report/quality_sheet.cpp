@@ -61,8 +61,10 @@ std::string change(double value, double reference) {
 
 /// "195.31 ml; contours 191.30 ml (+2.1%); labels 194.84 ml (+0.2%)"
 std::string volumes_text(double fitted, double contours, const std::optional<double>& labels) {
-  std::string text = fmt::format("{:.2f} ml; area x slab of the contours {:.2f} ml ({})",
-                                 ml(fitted), ml(contours), change(fitted, contours));
+  std::string text = fmt::format("{:.2f} ml", ml(fitted));
+  if (contours > 0.0)
+    text += fmt::format("; area x slab of the contours {:.2f} ml ({})", ml(contours),
+                        change(fitted, contours));
   if (labels && *labels > 0.0)
     text += fmt::format("; voxels {:.2f} ml ({})", ml(*labels), change(fitted, *labels));
   return text;

@@ -159,6 +159,23 @@ image::Volume scar_map(const Case& c, const std::string& file) {
   return image::frame_of(volume, frames.front(), case_file::place_of(c, "infarct.labels.file"));
 }
 
+/// Warns where most of a map's scar lies beside the wall.
+void check_met(const image::Volume& map, const std::vector<int>& scar, const Mesh& mesh,
+               const Infarct& infarct) {
+  constexpr double enough = 0.5;  // of the map's scar; some lies above the base, or at the rim
+  double drawn = 0.0;
+  for (const auto& [label, volume] : image::label_volumes(map))
+    if (std::find(scar.begin(), scar.end(), label) != scar.end())
+      drawn += volume;
+  const double met = mesh::infarct_volumes(mesh, infarct.part).infarct;
+  if (met < enough * drawn)
+    log::warn(
+        "scar: {:.1f} of the {:.1f} ml of scar in {} lie in the wall: check that both share "
+        "the scanner's coordinates; infarct.labels.in_plane moves slices onto the wall, "
+        "infarct.shift all of it",
+        1e-3 * met, 1e-3 * drawn, map.file);
+}
+
 Infarct within_image(const Case& c, const anatomy::Shape& shape, const Mesh& mesh,
                      const std::string& file) {
   const image::Volume volume = scar_map(c, file);
@@ -173,12 +190,14 @@ Infarct within_image(const Case& c, const anatomy::Shape& shape, const Mesh& mes
   const std::vector<int> wanted = infarcted_labels(c);
   const std::vector<Vec3> moves =
       c.scar.in_plane ? moves_onto_wall(c, shape, mesh, volume, wanted) : std::vector<Vec3>{};
-  return within(
+  Infarct infarct = within(
       c, shape, mesh,
       [&](const Vec3& X, double) {
         return image::has_label(volume, in_images(c, shape, X), wanted, moves);
       },
       fmt::format("in {}", file));
+  check_met(volume, wanted, mesh, infarct);
+  return infarct;
 }
 
 /// The brightness at the centre of every element; NaN outside the image.

@@ -261,6 +261,18 @@ TEST_CASE("a loop that crosses itself is refused with the place", "[unit][geomet
                  Contains("after its points 10 and 14"));
 }
 
+TEST_CASE("loops of which a part was not drawn are told", "[unit][geometry]") {
+  using lv::geometry::notes_on_gaps;
+  Contours contours = draw(in_scanner());
+  CHECK(notes_on_gaps(contours).empty());
+  auto& points = loop(contours, 3, Side::epi).points;
+  const auto count = static_cast<std::ptrdiff_t>(points.size());
+  points.erase(points.begin() + count / 4, points.begin() + 3 * count / 4);
+  REQUIRE(notes_on_gaps(contours).size() == 1);
+  CHECK_THAT(notes_on_gaps(contours).front(),
+             Contains("slice 3 epi (") && Contains("without points"));
+}
+
 TEST_CASE("an endocardium that crosses its epicardium is refused with the place",
           "[unit][geometry]") {
   CHECK_THAT(complaint_after([](Contours& c) {
