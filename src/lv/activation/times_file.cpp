@@ -72,8 +72,7 @@ std::vector<double> read_lines(const std::string& file) {
       continue;
     const auto number = number_of<double>(text);
     if (!number)
-      throw InputError(lines.where(), fmt::format("\"{}\" is no number", text),
-                       "Write one time a line");
+      throw InputError(lines.where(), why_no_number(text, "is no number"), "Write one time a line");
     numbers.push_back(*number);
   }
   return numbers;

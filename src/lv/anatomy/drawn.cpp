@@ -306,9 +306,10 @@ mesh_io::Triangles read_surface(const Case& c, const std::string& name) {
                            : a.space == case_file::SurfaceSpace::LPS ? "LPS"
                                                                      : "";
   if (!said.empty() && !stated.empty() && said != stated)
-    throw InputError(case_file::place_of(c, "anatomy.surfaces.space"),
-                     fmt::format("is \"{}\", but {} says SPACE={}", said, file, stated),
-                     "Leave anatomy.surfaces.space out: the file's own word is believed");
+    throw InputError(
+        case_file::place_of(c, "anatomy.surfaces.space"),
+        fmt::format("anatomy.surfaces.space is \"{}\", but {} says SPACE={}", said, file, stated),
+        "Leave anatomy.surfaces.space out: the file's own word is believed");
   case_file::Missing missing;
   if (said.empty() && stated.empty())
     missing.add({"anatomy.surfaces.space", case_file::fill_in,

@@ -9,6 +9,7 @@
 #include "lv/drawing/overlay.hpp"
 #include "lv/geometry/contour_table.hpp"
 #include "lv/image/dicom_study.hpp"
+#include "lv/image/pixel_grid.hpp"
 #include "lv/image/volume_file.hpp"
 
 #include <fmt/format.h>
@@ -126,7 +127,9 @@ image::Cine read_cine(const Case& c) {
     names.push_back(a.series);
   const image::DicomStack stack =
       image::choose_stack(study, names, file.string(), "segment.series");
-  return image::read_pixels(stack);
+  image::Cine cine = image::read_pixels(stack);
+  image::require_one_grid(cine, file.string(), "segment.series");
+  return cine;
 }
 
 CineSegmentation segment_cine(const Case& c) {
@@ -178,7 +181,8 @@ void write_segmentation(const CineSegmentation& segmentation, const fs::path& fo
 
 std::string segment_case(const Case& c, const fs::path& folder) {
   if (c.anatomy.source != case_file::AnatomySource::cine)
-    throw InputError(case_file::place_of(c, "anatomy.source"), "names no cine to draw borders in",
+    throw InputError(case_file::place_of(c, "anatomy.source"),
+                     "anatomy.source names no cine to draw borders in",
                      "Set anatomy.source = \"cine\" and segment.cine");
   if (fs::exists(fs::symlink_status(folder)))
     throw InputError(folder.string(), "exists already, and its contours may have been corrected",

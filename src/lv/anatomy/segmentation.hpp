@@ -14,7 +14,7 @@ struct CineSegmentation {
 };
 
 /// The cine of segment.cine. Throws InputError where the case does not name it, or a series of
-/// several.
+/// several, and where its slices have pixels of several sizes or differ in their number.
 [[nodiscard]] image::Cine read_cine(const case_file::Case& c);
 
 /// Segments the cine of segment.cine. Throws InputError where the case does not name it, or a

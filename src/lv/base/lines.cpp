@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cstdint>
 #include <fstream>
@@ -78,6 +79,29 @@ std::string with_newlines(std::string_view text) {
   return lines;
 }
 
+bool all_digits(std::string_view text) {
+  return !text.empty() && std::all_of(text.begin(), text.end(),
+                                      [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
+/// "12", "-12" and "+12".
+bool whole(std::string_view text) {
+  if (text.starts_with('-') || text.starts_with('+'))
+    text.remove_prefix(1);
+  return all_digits(text);
+}
+
+/// How many numbers may have fallen into two fields each at their decimal commas.
+std::size_t split_numbers(const std::vector<std::string>& fields) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i + 1 < fields.size(); ++i)
+    if (whole(fields[i]) && all_digits(fields[i + 1])) {
+      ++count;
+      ++i;
+    }
+  return count;
+}
+
 }  // namespace
 
 std::string_view trimmed(std::string_view text) {
@@ -114,6 +138,21 @@ std::vector<std::string> csv_fields(std::string_view line) {
   }
 }
 
+bool has_decimal_comma(std::string_view text) {
+  const auto comma = text.find(',');
+  if (comma == std::string_view::npos || !whole(text.substr(0, comma)))
+    return false;
+  const std::string_view after = text.substr(comma + 1);
+  const auto exponent = after.find_first_of("eE");
+  return all_digits(after.substr(0, exponent)) &&
+         (exponent == std::string_view::npos || whole(after.substr(exponent + 1)));
+}
+
+std::string why_no_number(std::string_view text, std::string_view what) {
+  return fmt::format("\"{}\" {}", text,
+                     has_decimal_comma(text) ? "has a decimal comma; write a decimal point" : what);
+}
+
 template <class Number>
 std::optional<Number> number_of(std::string_view text) {
   if (text.starts_with('+'))
@@ -148,7 +187,32 @@ std::string read_text(const std::filesystem::path& file) {
   return text;
 }
 
-LineReader::LineReader(const std::filesystem::path& file) : file_(file.string()) {
+void CsvCheck::check(std::string_view line, const std::string& where) {
+  if (trimmed(line).starts_with('#'))
+    return;
+  const bool is_first = columns_ == 0;
+  const std::vector<std::string> fields = csv_fields(line);
+  columns_ = is_first ? fields.size() : columns_;
+  const auto other = line.find_first_of(";\t");
+  if (fields.size() == 1 && other != std::string_view::npos && (is_first || columns_ > 1))
+    throw InputError(
+        where, fmt::format("columns are separated by {}", line[other] == ';' ? "';'" : "tabs"),
+        "Save it with commas between columns and with decimal points");
+  for (const std::string& field : fields)
+    if (has_decimal_comma(field))
+      throw InputError(where, why_no_number(field, "is no number"),
+                       "In a spreadsheet, choose English numbers before you save the table");
+  if (fields.size() > columns_ && columns_ + split_numbers(fields) >= fields.size())
+    throw InputError(where,
+                     fmt::format("{} values in a table of {} columns, perhaps because numbers "
+                                 "have decimal commas",
+                                 fields.size(), columns_),
+                     "Give every line one value per column, and numbers a decimal point");
+}
+
+LineReader::LineReader(const std::filesystem::path& file, Columns columns) : file_(file.string()) {
+  if (columns == Columns::by_ending && ending_of(file) == ".csv")
+    csv_.emplace();
   is_open_ = unreadable(file).empty();
   if (is_open_)
     text_ = read_text(file);
@@ -160,8 +224,11 @@ bool LineReader::next() {
     begin_ = next_;
     end_ = std::min(text_.find('\n', begin_), text_.size());
     next_ = end_ + 1;
-    if (!trimmed(text()).empty())
-      return true;
+    if (trimmed(text()).empty())
+      continue;
+    if (csv_)
+      csv_->check(text(), where());
+    return true;
   }
   return false;
 }

@@ -58,7 +58,7 @@ std::vector<Number> parsed(const std::vector<std::string>& fields, const std::st
     const auto value = field.empty() ? std::optional(missing) : number_of<Number>(field);
     if (!value)
       throw InputError(fmt::format("column {}", column),
-                       fmt::format("\"{}\" is not such a number as this column holds", field),
+                       why_no_number(field, "is not such a number as this column holds"),
                        "The table seems to be damaged");
     numbers.push_back(*value);
   }

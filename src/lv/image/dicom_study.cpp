@@ -4,6 +4,7 @@
 #include "lv/base/ending.hpp"
 #include "lv/base/formats.hpp"
 #include "lv/base/time_left.hpp"
+#include "lv/image/pixel_grid.hpp"
 
 #include <fmt/format.h>
 
@@ -31,13 +32,6 @@ constexpr double degrees = 180.0 / std::numbers::pi;
 /// Whether two images lie on planes of one direction, rows and spacing.
 bool alike(const Plane& a, const Plane& b) {
   return a.normal().dot(b.normal()) > parallel && a.along_row.dot(b.along_row) > parallel;
-}
-
-/// "1.37 x 1.37 mm" and the like.
-std::string spacing_text(const Plane& p) {
-  return std::abs(p.spacing_i - p.spacing_j) < 1e-4 * p.spacing_i
-             ? fmt::format("{:.3f} mm", p.spacing_i)
-             : fmt::format("{:.3f} x {:.3f} mm", p.spacing_i, p.spacing_j);
 }
 
 /// What orders the images of one slice.
@@ -266,8 +260,7 @@ std::string lacks_of(const std::vector<DicomImage>& images) {
 /// Why two images that follow each other in a slice cannot both be of it.
 std::optional<Clash> clash(const DicomImage& a, const DicomImage& b, const DicomSlice& slice,
                            Order order) {
-  if ((a.plane.origin - b.plane.origin).norm() > same_plane || a.plane.columns != b.plane.columns ||
-      a.plane.rows != b.plane.rows)
+  if ((a.plane.origin - b.plane.origin).norm() > same_plane || !same_grid(a.plane, b.plane))
     return Clash{
         fmt::format("has images of different places or sizes: {} and {}", name_of(a), name_of(b))};
   if (a.series_uid != b.series_uid)
@@ -316,6 +309,32 @@ std::size_t patients_of(const DicomStack& stack) {
   ids.erase("");
   names.erase("");
   return std::max(ids.size(), names.size());
+}
+
+/// The plane of the pixels that most slices have.
+const Plane& usual_plane(const DicomStack& stack) {
+  const auto count_alike = [&](const DicomSlice& slice) {
+    return std::count_if(stack.slices.begin(), stack.slices.end(), [&](const DicomSlice& other) {
+      return same_grid(slice.images.front().plane, other.images.front().plane);
+    });
+  };
+  return std::max_element(stack.slices.begin(), stack.slices.end(),
+                          [&](const DicomSlice& a, const DicomSlice& b) {
+                            return count_alike(a) < count_alike(b);
+                          })
+      ->images.front()
+      .plane;
+}
+
+/// Slices whose pixels are not those of the others, and pixels of no usual size.
+void note_pixels(const DicomStack& stack, std::vector<std::string>& notes) {
+  const Plane& usual = usual_plane(stack);
+  for (const DicomSlice& slice : stack.slices)
+    if (const Plane& plane = slice.images.front().plane; !same_grid(plane, usual))
+      notes.push_back(fmt::format("{} has {} where others have {}", place_text(slice),
+                                  grid_text(plane), grid_text(usual)));
+  if (std::string note = unusual_pixels(usual.spacing_i, usual.spacing_j); !note.empty())
+    notes.push_back(std::move(note));
 }
 
 [[noreturn]] void fail_choice(const DicomStudy& study, const std::string& where,
@@ -466,10 +485,9 @@ std::string describe(const DicomStudy& study) {
     const DicomImage& first = stack.slices.front().images.front();
     text += fmt::format("series \"{}\": \"{}\"{}\n", stack.key, stack.description,
                         stack.kind.empty() ? "" : fmt::format(", {}", stack.kind));
-    text += fmt::format("  {} slice{}, {} image{} each, {} x {} pixels of {}, {}",
-                        stack.slices.size(), stack.slices.size() == 1 ? "" : "s",
-                        most_and_least(least, most), most == 1 ? "" : "s", first.plane.columns,
-                        first.plane.rows, spacing_text(first.plane), steps_text(stack));
+    text += fmt::format("  {} slice{}, {} image{} each, {}, {}", stack.slices.size(),
+                        stack.slices.size() == 1 ? "" : "s", most_and_least(least, most),
+                        most == 1 ? "" : "s", grid_text(usual_plane(stack)), steps_text(stack));
     text += first.thickness > 0.0 ? fmt::format(" and {:g} mm thick\n", first.thickness) : "\n";
     text += fmt::format("  {}; {}\n", orientation_text(stack.normal), rr_text(rr_least, rr_most));
     for (const std::string& remark : remarks(stack))
@@ -563,6 +581,7 @@ std::vector<std::string> remarks(const DicomStack& stack) {
       if (slice.images.size() < most)
         notes.push_back(fmt::format("{} has {} images where others have {}", place_text(slice),
                                     slice.images.size(), most));
+  note_pixels(stack, notes);
   const int announced = stack.slices.front().images.front().phases_announced;
   if (announced > static_cast<int>(most))
     notes.push_back(

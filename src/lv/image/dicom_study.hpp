@@ -74,7 +74,7 @@ void require_images(const DicomStudy& study, const std::string& where);
 
 /// What a user should know of a stack: files left out, several patients, slices that cannot be used
 /// as they are, gaps and steps between slices, differing heart rates, differing numbers of images,
-/// damaged files.
+/// slices with other pixels, pixels of no usual size, damaged files.
 [[nodiscard]] std::vector<std::string> remarks(const DicomStack& stack);
 
 /// The images of a stack with their pixels.

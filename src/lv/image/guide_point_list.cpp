@@ -45,7 +45,7 @@ std::vector<std::string_view> columns_of(std::string_view line) {
 /// The file, line by line.
 class List {
  public:
-  explicit List(const fs::path& file) : file_(file.string()), lines_(file) {
+  explicit List(const fs::path& file) : file_(file.string()), lines_(file, Columns::any) {
     if (!lines_.is_open())
       throw InputError(file_, "the list of points cannot be opened: " + unreadable(file),
                        "Check the name and that it can be read");
@@ -107,7 +107,7 @@ class List {
   [[nodiscard]] double number(std::string_view text) const {
     const auto value = number_of<double>(text);
     if (!value || !std::isfinite(*value))
-      throw InputError(lines_.where(), fmt::format("\"{}\" is not a finite number", text),
+      throw InputError(lines_.where(), why_no_number(text, "is not a finite number"),
                        "Give positions in scanner millimetres");
     return *value;
   }

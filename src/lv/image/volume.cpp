@@ -170,7 +170,12 @@ void require_labels(const Volume& volume, int frame, const std::vector<int>& lab
                     const std::string& remedy) {
   require_frame(volume, frame + 1, where);
   const auto present = label_volumes(volume, frame);
-  for (const int label : labels)
+  for (const int label : labels) {
+    if (label == 0)
+      throw InputError(where,
+                       fmt::format("0 is the background of the map, no label of {}; {} has {}",
+                                   parameter, volume.file, describe(present, volume.names)),
+                       remedy);
     if (!present.contains(label))
       throw InputError(
           where,
@@ -178,6 +183,7 @@ void require_labels(const Volume& volume, int frame, const std::vector<int>& lab
                       volume.frames > 1 ? fmt::format(", frame {},", frame + 1) : "", label,
                       parameter, describe(present, volume.names)),
           remedy);
+  }
 }
 
 }  // namespace lv::image

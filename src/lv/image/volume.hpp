@@ -74,7 +74,8 @@ struct Volume {
                                    const std::map<int, std::string>& names = {});
 
 /// Throws InputError, listing the labels that there are with their volumes, unless the frame exists
-/// and every label occurs in it. `parameter` names the choice in messages; `where` is its place.
+/// and every label occurs in it and is not 0, the background. `parameter` names the choice in
+/// messages; `where` is its place.
 void require_labels(const Volume& volume, int frame, const std::vector<int>& labels,
                     const std::string& where, const std::string& parameter,
                     const std::string& remedy = "Name the labels as this file has them");

@@ -55,7 +55,7 @@ class BlockReader {
 
  private:
   void read_file(const std::string& path, int depth) {
-    LineReader lines(path);
+    LineReader lines(path, Columns::any);
     if (!lines.is_open())
       throw InputError(path, "cannot be opened", "Check the name and the permission to read");
     const int file = static_cast<int>(result_.files.size());

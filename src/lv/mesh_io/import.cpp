@@ -137,7 +137,10 @@ void check_extent(const ForeignMesh& foreign, const mesh::ImportParameters& p) {
   for (const Unit& unit : units) {
     const double in_unit = found / p.unit * unit.mm;
     if (in_unit >= p.shortest && in_unit <= p.longest) {
-      remedy = fmt::format("The file's unit looks like {}: set it to {} mm", unit.name, unit.mm);
+      remedy = fmt::format(
+          "The file's unit looks like {}: set anatomy.mesh.length_unit, with the line "
+          "length_unit = \"{} mm\" under [anatomy.mesh]",
+          unit.name, unit.mm);
       break;
     }
   }

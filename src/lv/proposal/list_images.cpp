@@ -6,6 +6,7 @@
 #include "lv/image/dicom_study.hpp"
 #include "lv/image/label_contours.hpp"
 #include "lv/image/label_meaning.hpp"
+#include "lv/image/pixel_grid.hpp"
 #include "lv/image/sunnybrook.hpp"
 #include "lv/image/volume_file.hpp"
 #include "lv/proposal/propose_case.hpp"
@@ -55,6 +56,12 @@ std::string describe_labels(const image::Volume& v) {
   return text;
 }
 
+/// See image::unusual_pixels: those of the slices.
+std::string unusual_pixels_of(const image::Volume& v) {
+  const int axis = image::slice_axis(v);
+  return image::unusual_pixels(v.spacing[(axis + 1) % 3], v.spacing[(axis + 2) % 3]);
+}
+
 std::string list_volume(const fs::path& file, const ListOptions& options) {
   const image::Volume v = image::read_labels(file);
   std::string text = fmt::format(
@@ -67,6 +74,8 @@ std::string list_volume(const fs::path& file, const ListOptions& options) {
       direction_text(v.directions.col(2)), "ijk"[image::slice_axis(v)]);
   for (const std::string& note : v.notes)
     text += fmt::format("  note: {}\n", note);
+  if (const std::string note = unusual_pixels_of(v); !note.empty())
+    text += fmt::format("  note: {}\n", note);
   if (!image::seems_labels(v)) {
     if (!options.cavity.empty())
       throw InputError(
@@ -78,11 +87,16 @@ std::string list_volume(const fs::path& file, const ListOptions& options) {
   text += describe_labels(v);
   if (options.cavity.empty())
     return text;
-  for (const int label : options.cavity)
+  for (const int label : options.cavity) {
+    if (label == 0)
+      throw InputError(
+          "--cavity", "0 is the background of the map",
+          fmt::format("Frame 1 has {}", image::describe(image::label_volumes(v), v.names)));
     if (std::find(v.values.begin(), v.values.end(), static_cast<float>(label)) == v.values.end())
       throw InputError(
           "--cavity", fmt::format("no voxel of {} has the label {}", v.file, label),
           fmt::format("Frame 1 has {}", image::describe(image::label_volumes(v), v.names)));
+  }
   return text + anatomy::describe_volume_curve(image::volume_curve(v, options.cavity)) + "\n";
 }
 

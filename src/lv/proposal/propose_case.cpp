@@ -41,7 +41,7 @@ bool has_ending(const fs::path& file, std::initializer_list<const char*> endings
 
 /// The first line of a text, in small letters; empty for other files.
 std::string first_line(const fs::path& file) {
-  LineReader lines(file);
+  LineReader lines(file, Columns::any);
   return lines.is_open() && lines.next() ? lower_case(std::string(lines.text())) : "";
 }
 

@@ -26,7 +26,7 @@ std::size_t column_of(const std::vector<std::string>& header, const std::string&
 double number_in(const std::string& text, const std::string& where) {
   const auto value = number_of<double>(text);
   if (!value || !std::isfinite(*value))
-    throw InputError(where, fmt::format("\"{}\" is not a finite number", text),
+    throw InputError(where, why_no_number(text, "is not a finite number"),
                      "Give the number or remove the line");
   return *value;
 }

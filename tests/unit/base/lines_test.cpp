@@ -98,6 +98,45 @@ TEST_CASE("text in another encoding is refused in words, not read as garbage", "
   CHECK(refusal("Gr\xFC\xDF,y\n") == "no error");  // Latin-1 has all of ASCII
 }
 
+TEST_CASE("a table with other separators or decimal commas is refused with the cause",
+          "[unit][base]") {
+  using Catch::Matchers::Contains;
+  const test::TemporaryFolder folder;
+  const auto refusal = [&](const std::string& text, Columns columns = Columns::by_ending) {
+    test::write_bytes(folder / "table.csv", text);
+    try {
+      LineReader reader(folder / "table.csv", columns);
+      while (reader.next())
+        continue;
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return "no error"s;
+  };
+  CHECK_THAT(refusal("a;b\n1;2\n"), Contains("table.csv:1: columns are separated by ';'. Save it"));
+  CHECK_THAT(refusal("a\tb\n"), Contains("table.csv:1: columns are separated by tabs"));
+  CHECK_THAT(refusal("a,b\n1,2\n3;4\n"), Contains("table.csv:3: columns are separated by ';'"));
+  CHECK_THAT(refusal("a,b\n1,\"-11,36\"\n"),
+             Contains("table.csv:2: \"-11,36\" has a decimal comma; write a decimal point"));
+  CHECK_THAT(refusal("a,b\nx,1.5\nx,1,5\n"),
+             Contains("table.csv:3: 3 values in a table of 2 columns, perhaps because numbers "
+                      "have decimal commas"));
+  CHECK(refusal("a,b\n1,endo,3\n1.5,2.5,3\n") == "no error");  // for who reads it to refuse
+  CHECK(refusal("a,b\n\"x; y\",\"p, q\"\n") == "no error");
+  CHECK(refusal("# of the left; ventricle\n12.5\n") == "no error");
+  CHECK(refusal("a\tb\n1,5\t2\n", Columns::any) == "no error");
+}
+
+TEST_CASE("numbers with decimal commas are known", "[unit][base]") {
+  for (const char* text : {"1,5", "-11,36", "+0,000", "1,5e-3"})
+    CHECK(has_decimal_comma(text));
+  for (const char* text : {"", ",", "1,", ",5", "1.5", "1,5,2", "a,5", "1,5 mm", "1,5e", "1,-5"})
+    CHECK_FALSE(has_decimal_comma(text));
+  CHECK(why_no_number("1,5", "is no number") ==
+        "\"1,5\" has a decimal comma; write a decimal point");
+  CHECK(why_no_number("x", "is no number") == "\"x\" is no number");
+}
+
 TEST_CASE("numbers may have exponents of Fortran", "[unit][base]") {
   for (const char* text : {"15", "+15", "1.5e1", "1.5E+01", "1.5D+01", "1.5d1", "150.D-1"})
     CHECK(number_of<double>(text) == 15.0);

@@ -1,6 +1,7 @@
 #include "lv/base/check.hpp"
 #include "lv/image/dicom_study.hpp"
 #include "lv/image/dicom_text.hpp"
+#include "lv/image/pixel_grid.hpp"
 
 #include "support/scanner_files.hpp"
 #include "support/temporary_folder.hpp"
@@ -108,6 +109,63 @@ TEST_CASE("a missing phase, a gap and a copy of a file are told", "[unit][image]
   CHECK_THAT(notes, Contains("8.00 to 16.00 mm apart"));
   CHECK_THAT(notes, Contains("copy is left out: the same image as"));
   CHECK_THAT(notes, Contains("notes.txt is left out: it is not DICOM"));
+}
+
+TEST_CASE("a slice with other pixels is told with both sizes, and refused where one is needed",
+          "[unit][image]") {
+  const test::TemporaryFolder folder;
+  for (int s = 0; s < 3; ++s) {
+    DicomSpec spec = oblique(s, 0);
+    if (s == 1)
+      spec.plane.spacing_i = spec.plane.spacing_j = 2.0;
+    test::write_bytes(folder / fmt::format("{}", s), test::dicom_bytes(spec));
+  }
+  const std::string note =
+      "has 6 x 4 pixels of 2.000 mm where others have 6 x 4 pixels of 1.500 x 1.250 mm";
+  CHECK_THAT(describe(read_dicom_study(std::array{folder / ""})),
+             Contains("note: the slice at") && Contains(note));
+  const Cine cine = read(folder);
+  CHECK_THAT(fmt::format("{}", fmt::join(cine.notes, "|")), Contains(note));
+  CHECK_THROWS_WITH(require_one_grid(cine, "study", "segment.series"),
+                    Contains("study: slice 1 has 6 x 4 pixels of 1.500 x 1.250 mm and slice 2 has "
+                             "6 x 4 pixels of 2.000 mm") &&
+                        Contains("Choose with segment.series"));
+}
+
+TEST_CASE("a slice with more rows is told and refused too, and equal slices are not",
+          "[unit][image]") {
+  const test::TemporaryFolder folder;
+  write_stack(folder);
+  CHECK_NOTHROW(require_one_grid(read(folder), "study", "series"));
+  DicomSpec taller = oblique(3, 0);
+  taller.plane.rows += 2;
+  taller.pixels.resize(static_cast<std::size_t>(columns) * (rows + 2));
+  test::write_bytes(folder / "taller", test::dicom_bytes(taller));
+  const Cine cine = read(folder);
+  CHECK_THAT(fmt::format("{}", fmt::join(cine.notes, "|")),
+             Contains("has 6 x 6 pixels of 1.500 x 1.250 mm where others have 6 x 4 pixels"));
+  CHECK_THROWS_WITH(require_one_grid(cine, "study", "series"), Contains("6 x 6 pixels"));
+}
+
+TEST_CASE("images of one slice with pixels of two sizes are no cine", "[unit][image]") {
+  const test::TemporaryFolder folder;
+  DicomSpec other = oblique(0, 1);
+  other.plane.spacing_i = 2.0;
+  test::write_bytes(folder / "a", test::dicom_bytes(oblique(0, 0)));
+  test::write_bytes(folder / "b", test::dicom_bytes(other));
+  CHECK_THAT(complaint(folder), Contains("has images of different places or sizes"));
+}
+
+TEST_CASE("pixels of a size that no image of a heart has are told", "[unit][image]") {
+  CHECK(unusual_pixels(0.3, 5.0).empty());
+  CHECK(unusual_pixels(0.14, 0.14) == "pixels of 0.14 mm: the header's unit seems wrong");
+  CHECK(unusual_pixels(1.4, 14.0) == "pixels of 14 mm: the header's unit seems wrong");
+  const test::TemporaryFolder folder;
+  DicomSpec tiny = oblique(0, 0);
+  tiny.plane.spacing_i = tiny.plane.spacing_j = 0.14;
+  test::write_bytes(folder / "a", test::dicom_bytes(tiny));
+  CHECK_THAT(describe(read_dicom_study(std::array{folder / ""})),
+             Contains("note: pixels of 0.14 mm: the header's unit seems wrong"));
 }
 
 TEST_CASE("series that are mixed in a folder are named, and chosen by number or description",

@@ -336,6 +336,8 @@ TEST_CASE("absent labels are answered with those that there are; fractions are n
   CHECK_THROWS_WITH(require_labels(v, 0, {3, 4}, "case.toml:5", "cavity"),
                     Contains("case.toml:5") && Contains("has the label 4 of cavity") &&
                         Contains("0 (1.00 ml), 3 (1.00 ml)"));
+  CHECK_THROWS_WITH(require_labels(v, 0, {3, 0}, "case.toml:5", "cavity"),
+                    Contains("case.toml:5: 0 is the background of the map, no label of cavity"));
   CHECK_THROWS_WITH(require_labels(v, 1, {3}, "case.toml:5", "cavity"),
                     Contains("there is no frame 2"));
   v.values = {0.0F, 0.4F};

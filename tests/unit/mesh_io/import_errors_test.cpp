@@ -291,10 +291,14 @@ TEST_CASE("a wall of impossible size is refused with the unit it looks like", "[
   CHECK_THAT(abaqus_message(mesh),
              Contains("with a unit of 1 mm the wall measures 8.9 mm; from a "
                       "ventricle 20 to 200 mm are expected. The file's unit looks "
-                      "like cm: set it to 10 mm"));
+                      "like cm: set anatomy.mesh.length_unit, with the line "
+                      "length_unit = \"10 mm\" under [anatomy.mesh]"));
   ImportParameters parameters;
   parameters.unit = 1000.0;
-  CHECK_THAT(abaqus_message(hexahedra(), parameters), Contains("looks like mm: set it to 1 mm"));
+  CHECK_THAT(
+      abaqus_message(hexahedra(), parameters),
+      Contains(
+          "looks like mm: set anatomy.mesh.length_unit, with the line length_unit = \"1 mm\""));
   for (Vec3& X : mesh.nodes)
     X /= 1e6;
   CHECK_THAT(abaqus_message(mesh), Contains("Check the mesh and its unit"));

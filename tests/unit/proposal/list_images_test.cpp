@@ -87,6 +87,21 @@ TEST_CASE("frames without labels are counted, not proposed", "[unit][proposal]")
   CHECK_THAT(text, Contains("proposed: end-diastole 2, end-systole 5; no frame after it"));
 }
 
+TEST_CASE("a map with pixels of no usual size has a note, and 0 is no cavity", "[unit][proposal]") {
+  const test::TemporaryFolder folder;
+  test::NiftiSpec spec = test::label_map({4, 4, 3}, Mat3::Identity(), {0.14, 0.14, 8.0}, {1, 2, 3},
+                                         [](const Vec3& x) { return x.z() > 5.0 ? 1 : 0; });
+  test::write_bytes(folder / "m.nii", test::nifti_bytes(spec));
+  CHECK_THAT(listed(folder / "m.nii"), Contains("note: pixels of 0.14 mm"));
+  CHECK_THAT(listed(folder / "m.nii", {0}), Contains("--cavity: 0 is the background of the map"));
+}
+
+TEST_CASE("a table of contours with semicolons is named as such", "[unit][proposal]") {
+  const test::TemporaryFolder folder;
+  test::write_bytes(folder / "c.csv", "slice;contour;point;x_mm;y_mm;z_mm\n1;endo;1;20,0;0;0\n");
+  CHECK_THAT(listed(folder / "c.csv"), Contains("c.csv:1: columns are separated by ';'"));
+}
+
 TEST_CASE("a folder of NIfTI files is listed by its files", "[unit][proposal]") {
   const test::TemporaryFolder folder;
   test::write_bytes(folder / "a.nii", test::nifti_bytes(map_of_frames(1, {1})));
