@@ -89,12 +89,17 @@ Infarct within_surface(const Case& c, const anatomy::Shape& shape, const Mesh& m
 }
 
 void check_labels(const Case& c, const std::string& file, const std::vector<int>& found) {
-  for (const int label : c.scar.scar)
+  for (const int label : c.scar.scar) {
+    if (label == 0)
+      throw InputError(case_file::place_of(c, "infarct.labels.scar"),
+                       "infarct.labels.scar: 0 is the background of the map, not a tissue",
+                       "Name the labels that mean scar");
     if (!std::binary_search(found.begin(), found.end(), label))
       throw InputError(case_file::place_of(c, "infarct.labels.scar"),
                        fmt::format("no voxel of {} has the label {}; it has {}", file, label,
                                    fmt::join(found, ", ")),
                        "Name the labels that mean scar");
+  }
 }
 
 /// A point of the wall as the shifted images have it.
