@@ -489,6 +489,14 @@ const radius = (points) => {
   return points.reduce((sum, p) => sum + Math.hypot(...p.map((x, d) => x - middle[d])), 0) / points.length;
 };
 
+const minus = (a, b) => a.map((x, d) => x - b[d]);
+const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+/** What a closed line encloses (mm^2). */
+const area = ({ points }) => Math.hypot(...points.reduce((sum, p, i) => {
+  const part = cross(minus(p, points[0]), minus(points[(i + 1) % points.length], points[0]));
+  return sum.map((x, d) => x + part[d] / 2);
+}, [0, 0, 0]));
+
 const step = 0.5;  // mm, of the buttons that resize
 const stepsTo = (line, wanted) => Math.round((radius(wanted.points) - radius(line.points)) / step);
 const press = async (page, smaller, larger, steps) => {
@@ -524,9 +532,14 @@ async function checkFiveCorrections() {
   const own = join(folder, "five");
   const server = await start(caseFile, { more: ["--no-browser", "--to", own] });
   const { page, context } = await open(server.url);
-  const truth = JSON.parse(readFileSync(join(study, "truth.json"), "utf8"));
-  const moments = [["end_diastole", "ed"], ["end_systole", "es"]].map(([moment, file]) =>
-    ({ phase: truth[moment].phase, volume: truth[moment].cavity_volume_ml, truth: borders(join(study, `contours/${file}_short_axis.csv`)) }));
+  const told = JSON.parse(readFileSync(join(study, "truth.json"), "utf8"));
+  const spacing = told.short_axis[0].height_mm - told.short_axis[1].height_mm;
+  // the observer's volumes are the page's: area times spacing of the phantom's own lines
+  const moments = [["end_diastole", "ed"], ["end_systole", "es"]].map(([moment, file]) => {
+    const truth = borders(join(study, `contours/${file}_short_axis.csv`));
+    const areas = Object.entries(truth).filter(([key]) => key.endsWith("endo")).map(([, line]) => area(line));
+    return { phase: told[moment].phase, volume: 1e-3 * spacing * areas.reduce((sum, a) => sum + a, 0), truth };
+  });
   const off = async () => {
     const parts = [];
     for (const { phase, volume } of moments) {
