@@ -1,4 +1,4 @@
-# What almost every source includes, parsed once per target. Only headers of others: a change of ours rebuilds no more than without.
+# What almost every source includes, parsed once for the library and once for the tests. Only headers of others: a change of ours rebuilds no more than without.
 # No JSON: its inline functions would be instantiated again in every file.
 function(lv_precompile target)
   target_precompile_headers(${target} PRIVATE

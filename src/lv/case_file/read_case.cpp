@@ -522,9 +522,11 @@ void require_files(const Case& c) {
   std::string first, text;  // place, what
   std::error_code failed;
   for (const Parameter& p : parameters()) {
-    if ((p.text != Text::file && p.text != Text::path) || !counts_only(p, c).empty())
+    if (!counts_only(p, c).empty())
       continue;
     for (const std::string& name : paths(p, c)) {
+      if (!names_file(p, c, name))
+        continue;
       const std::filesystem::path path = beside(c, name);
       const bool is_folder = p.text == Text::path && std::filesystem::is_directory(path, failed);
       const std::string reason = is_folder ? "" : unreadable(path);

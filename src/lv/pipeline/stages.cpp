@@ -202,8 +202,9 @@ std::vector<report::FittedOfBeat> beside_beat(const std::vector<FittedDatum>& fi
   std::vector<report::FittedOfBeat> all;
   if (!beat.cycle)
     return all;
+  const std::vector<case_file::BeatDatum> data = case_file::beat_fit({}).data;
   for (const FittedDatum& d : fitted)
-    for (const case_file::BeatDatum& of_beat : case_file::beat_fit({}).data)
+    for (const case_file::BeatDatum& of_beat : data)
       if (of_beat.name == d.name) {
         const double value = of_beat.shown(beat.cycle->beats.back().*of_beat.of_beat);
         all.push_back({d.name, d.unit, d.measured, d.model, value,

@@ -94,8 +94,7 @@ void warn(const case_file::Case& c, const mesh::Mesh& elements, const Unloaded& 
     log::warn(
         "the wall without load was found up to {:.3f} mm: loaded again it is off by so much at "
         "most (rms {:.3f} mm; {:.2f} ml instead of {:.2f} ml), more than unloaded.tolerance and "
-        "less "
-        "than unloaded.near_enough, and the search came no nearer",
+        "less than unloaded.near_enough, and the search came no nearer",
         last.largest, last.rms, 1e-3 * last.volume, 1e-3 * seen_volume(elements));
   const double expected = klotz_volume(c, elements);
   if (last.unloaded_volume < least_of_klotz * expected)

@@ -151,7 +151,7 @@ Proposal of_contours(const fs::path& source, const std::string& name) {
   constexpr std::string_view shown = "short_axis";
   for (const char* other : {"long_axis", "apex_endo", "apex_epi"}) {
     const auto beside = [&](std::string text) {
-      if (const auto at = text.find(shown); at != std::string::npos)
+      if (const auto at = text.rfind(shown); at != std::string::npos)
         text.replace(at, shown.size(), other);
       return text;
     };
@@ -239,11 +239,14 @@ Proposal of_surface(const fs::path& source, const std::string& name) {
 /// The series with a name of late enhancement.
 const image::DicomStack* late_enhancement(const image::DicomStudy& study) {
   constexpr std::array names{"late", "lge", "psir", "delayed", "enhanc", "viab", "tfi_de", "_de_"};
+  const auto is_named = [&](const std::string& description) {
+    return std::any_of(names.begin(), names.end(), [&](const char* name) {
+      return description.find(name) != std::string::npos;
+    });
+  };
   for (const image::DicomStack& stack : study.stacks)
     if (stack.slices.size() > 2 && stack.slices.front().images.size() == 1 &&
-        std::any_of(names.begin(), names.end(), [&](const char* name) {
-          return lower_case(stack.description).find(name) != std::string::npos;
-        }))
+        is_named(lower_case(stack.description)))
       return &stack;
   return nullptr;
 }

@@ -61,16 +61,6 @@ void tell_row(const test::KnownCine& known) {
   }
 }
 
-phantom::Scan noisy_scan(std::uint32_t seed) {
-  phantom::Scan scan;
-  scan.phases = 8;
-  scan.field_of_view = 150;
-  scan.snr = 20.0;
-  scan.shift = 3.0;
-  scan.seed = seed;
-  return scan;
-}
-
 int seeds() {
   const char* set = std::getenv("VENTRICLE_SEEDS");
   return set != nullptr ? std::atoi(set) : 3;
@@ -83,7 +73,7 @@ TEST_CASE("a table of what segmentation makes of phantoms and patients", "[.][se
   for (int seed = 1; seed <= seeds(); ++seed)
     for (const double trabeculae : {0.0, 4.0})
       for (const double pixel : {1.0, 1.4, 1.8}) {
-        phantom::Scan scan = noisy_scan(static_cast<std::uint32_t>(seed));
+        phantom::Scan scan = test::noisy_scan(static_cast<std::uint32_t>(seed));
         scan.pixel = pixel;
         scan.gap = seed % 2 == 0 ? 2.0 : 0.0;
         tell_row(test::phantom_study(
@@ -93,8 +83,8 @@ TEST_CASE("a table of what segmentation makes of phantoms and patients", "[.][se
   for (const double deviation : {0.7, 1.2})
     for (const double trabeculae : {0.0, 4.0}) {
       test::KnownCine known = test::phantom_study(
-          fmt::format("phantom 1, blurred by {} mm, rim {}", deviation, trabeculae), noisy_scan(1),
-          trabeculae);
+          fmt::format("phantom 1, blurred by {} mm, rim {}", deviation, trabeculae),
+          test::noisy_scan(1), trabeculae);
       blur(known.cine, deviation);
       tell_row(known);
     }

@@ -70,6 +70,16 @@ double dice_of_muscle(const geometry::Contours& found, const geometry::Contours&
   return sum / std::max(slices, 1);
 }
 
+phantom::Scan noisy_scan(std::uint32_t seed) {
+  phantom::Scan scan;
+  scan.phases = 8;
+  scan.field_of_view = 150;
+  scan.snr = 20.0;
+  scan.shift = 3.0;
+  scan.seed = seed;
+  return scan;
+}
+
 KnownCine phantom_study(const std::string& name, const phantom::Scan& scan, double trabeculae) {
   phantom::Ventricle v;
   v.papillary = 4.0;

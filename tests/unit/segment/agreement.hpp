@@ -5,6 +5,7 @@
 #include "lv/phantom/imaging.hpp"
 #include "lv/phantom/ventricle.hpp"
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -36,6 +37,9 @@ struct KnownCine {
   int end_diastole = 0, end_systole = 0;
   std::map<int, geometry::Contours> truth;
 };
+
+/// Eight phases with noise (SNR 20) and slices that breath-holds shift by 3 mm.
+[[nodiscard]] phantom::Scan noisy_scan(std::uint32_t seed);
 
 /// A phantom with papillary muscles of 4 mm and without scar, of eight phases; `trabeculae`: the
 /// depth of a rim [mm].

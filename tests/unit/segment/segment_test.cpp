@@ -76,19 +76,9 @@ void try_redrawing(const std::string& what, const image::Cine& cine,
   CHECK(distance[most_points] < 0.8 * distance[0]);
 }
 
-phantom::Scan noisy(std::uint32_t seed) {
-  phantom::Scan scan;
-  scan.phases = 8;
-  scan.field_of_view = 150;
-  scan.snr = 20.0;
-  scan.shift = 3.0;
-  scan.seed = seed;
-  return scan;
-}
-
 /// What a segmentation finds of the phantom at end-diastole and end-systole.
 void try_phantom(std::uint32_t seed) {
-  const test::KnownCine known = test::phantom_study("phantom", noisy(seed), 0.0);
+  const test::KnownCine known = test::phantom_study("phantom", test::noisy_scan(seed), 0.0);
   const segment::Segmentation found = segment::segment(known.cine, {}, "phantom");
   CHECK(found.fall == Approx(0.5).margin(0.05));  // no trabeculae
   CHECK(found.phases.end_diastole == known.end_diastole);
@@ -113,7 +103,7 @@ void try_phantom(std::uint32_t seed) {
 /// The same with a rim of trabeculae. Its edge is no ramp but columns that fill three fifths at the
 /// wall, so that less is asked of the volume.
 void try_trabeculae(std::uint32_t seed) {
-  const test::KnownCine known = test::phantom_study("phantom", noisy(seed), 4.0);
+  const test::KnownCine known = test::phantom_study("phantom", test::noisy_scan(seed), 4.0);
   const segment::Segmentation found = segment::segment(known.cine, {}, "phantom");
   CHECK(found.fall > 0.7);
   for (const int frame : {known.end_diastole, known.end_systole}) {
