@@ -494,8 +494,8 @@ void require_match(const std::string& filter) {
   for (const Parameter& p : parameters()) {
     if (contains(p.name, filter) || contains(p.help, filter))
       return;
-    names.push_back(p.name);
-    names.push_back(key_of(p.name));
+    names.emplace_back(p.name);
+    names.emplace_back(key_of(p.name));
   }
   const std::string nearest = nearest_name(filter, names);
   throw InputError(

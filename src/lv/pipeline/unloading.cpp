@@ -172,7 +172,7 @@ std::vector<Vec3> carried(const mesh::Mesh& elements, std::span<const Vec3> unlo
                           const mesh::Mesh& other) {
   std::vector<Vec3> displacement;
   for (std::size_t a = 0; a < elements.nodes.size(); ++a)
-    displacement.push_back(unloaded[a] - elements.nodes[a]);
+    displacement.emplace_back(unloaded[a] - elements.nodes[a]);
   std::vector<Vec3> nodes = solid::interpolate(elements, displacement, other.nodes);
   for (std::size_t a = 0; a < nodes.size(); ++a)
     nodes[a] += other.nodes[a];
