@@ -17,11 +17,6 @@ find_package(VTK 9.1 REQUIRED COMPONENTS CommonCore CommonDataModel IOCore IOGeo
 # OpenMPI's retired C++ interface is neither used nor linked.
 target_compile_definitions(PkgConfig::MPI INTERFACE OMPI_SKIP_MPICXX)
 
-# Gmsh ships no CMake configuration.
-find_path(GMSH_INCLUDE_DIR gmsh.h REQUIRED)
-find_library(GMSH_LIBRARY gmsh REQUIRED)
-add_library(gmsh UNKNOWN IMPORTED)
-set_target_properties(gmsh PROPERTIES IMPORTED_LOCATION ${GMSH_LIBRARY} INTERFACE_INCLUDE_DIRECTORIES ${GMSH_INCLUDE_DIR})
 find_package(Boost 1.74 REQUIRED)  # headers alone: the R-tree
 
 find_path(METIS_INCLUDE metis.h REQUIRED)

@@ -37,6 +37,6 @@ endif()
 set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
 set(CMAKE_CXX_FLAGS_DEBUG "-O1 -g")
 
-# Gmsh and ITK contain copies of Eigen's functions compiled for other processors. None of ours may take their place when the
+# ITK contains copies of Eigen's functions compiled for other processors. None of ours may take their place when the
 # program is loaded: memory of one would be freed by the other.
 set(CMAKE_CXX_VISIBILITY_PRESET hidden)

@@ -4,7 +4,8 @@
 
 namespace lv::mesh_io {
 
-/// Reads a Gmsh .msh file of format 2.2 or 4.1, text or binary, with Gmsh's own reader.
+/// Reads a Gmsh .msh file (gmsh_file.hpp). Elements that stand there once for each of their
+/// physical groups, as Gmsh writes those of several in format 2.2, are taken once.
 [[nodiscard]] ForeignMesh read_gmsh(const mesh::ImportParameters& parameters);
 
 }  // namespace lv::mesh_io

@@ -150,8 +150,7 @@ class PackedElements final : public Wall::Elements {
   [[nodiscard]] static NodalScalar gather(const Group& group, std::span<const double> values);
   static void scatter(const Group& group, const Nodal& nodal, std::span<Vec3> forces);
   static void scatter(const Group& group, const NodalScalar& nodal, std::span<double> values);
-  [[nodiscard]] static Tensor<Pack> deformation_gradient(const Nodal& x, const Gradients& gradient,
-                                                         const Tensor<Pack>& K);
+  [[nodiscard]] static Tensor<Pack> dx_dxi(const Nodal& x, const Gradients& gradient);
   static void subtract_force(const Tensor<Pack>& P, const Point& point, const Gradients& gradient,
                              Nodal& force);
   template <class Law>
@@ -287,18 +286,17 @@ void PackedElements<E>::scatter(const Group& group, const Nodal& nodal, std::spa
 }
 
 template <class E>
-Tensor<Pack> PackedElements<E>::deformation_gradient(const Nodal& x, const Gradients& gradient,
-                                                     const Tensor<Pack>& K) {
-  Tensor<Pack> dx_dxi;
+Tensor<Pack> PackedElements<E>::dx_dxi(const Nodal& x, const Gradients& gradient) {
+  Tensor<Pack> result;
   for (int d = 0; d < 3; ++d) {
     for (int m = 0; m < 3; ++m) {
       Pack sum = x[0][d] * gradient[0][m];
       for (int a = 1; a < E::nodes; ++a)
         sum = xsimd::fma(x[a][d], Pack(gradient[a][m]), sum);
-      dx_dxi(d, m) = sum;
+      result(d, m) = sum;
     }
   }
-  return dx_dxi * K;
+  return result;
 }
 
 /// F_a -= P : grad phi_a dX at one point.
@@ -334,8 +332,8 @@ void PackedElements<E>::add_stretch(std::span<const Vec3> positions,
     NodalScalar nodal;
     nodal.fill(Pack(0.0));
     for (int q = 0; q < E::points; ++q) {
-      const Tensor<Pack> F = deformation_gradient(x, rule.gradient[q], group.points[q].K);
-      const Pack stretch = xsimd::sqrt(F.col(0).squaredNorm()) * group.points[q].volume;
+      const Vector<Pack> f = dx_dxi(x, rule.gradient[q]) * group.points[q].K.col(0);
+      const Pack stretch = xsimd::sqrt(f.squaredNorm()) * group.points[q].volume;
       for (int a = 0; a < E::nodes; ++a)
         nodal[a] = xsimd::fma(Pack(rule.value[q][a]), stretch, nodal[a]);
     }
@@ -386,12 +384,12 @@ Pack PackedElements<E>::at_point(const NodalScalar& nodal, int q) {
 /// Of the stresses at the quadrature points.
 template <class E>
 template <class Law>
-void PackedElements<E>::point_forces(const Law& law, const Group& group, const Nodal& x,
+[[gnu::flatten]] void PackedElements<E>::point_forces(const Law& law, const Group& group, const Nodal& x,
                                      const NodalScalar& tension, Nodal& force,
                                      PackRange& J_range) const {
   for (int q = 0; q < E::points; ++q) {
     const Point& point = group.points[q];
-    const Tensor<Pack> F = deformation_gradient(x, rule.gradient[q], point.K);
+    const Tensor<Pack> F = dx_dxi(x, rule.gradient[q]) * point.K;
     const Pack J = determinant(F);
     J_range.include(J);
     const Pack T = at_point(tension, q) * law.infarct.active(point.infarct);
@@ -478,7 +476,7 @@ std::vector<PointSample> PackedElements<E>::sample(std::span<const Vec3> positio
     const NodalScalar nodal_tension = gather(groups_[g], tension);
     for (int i = 0; i < pack_size && cells_.begin + g * pack_size + i < cells_.end; ++i) {
       for (int q = 0; q < E::points; ++q) {
-        const Tensor<Pack> F = deformation_gradient(x, rule.gradient[q], groups_[g].points[q].K);
+        const Tensor<Pack> F = dx_dxi(x, rule.gradient[q]) * groups_[g].points[q].K;
         samples.push_back(sample_point(g, q, i, F, lane(at_point(nodal_tension, q), i)));
         samples.back().position = Vec3::Zero();
         for (int a = 0; a < E::nodes; ++a)

@@ -91,7 +91,7 @@ HelixErrors helix_errors(const Mesh& mesh, double edge, const Radial& radial_of_
 /// A tetrahedral mesh that went through a file and so has t by distance.
 Mesh imported_tetrahedra(double edge_length) {
   const Mesh mesh = mesh::split_into_tetrahedra(test::ellipsoid_mesh({}, edge_length));
-  const test::TemporaryFile file(".msh", test::gmsh41_text(mesh));
+  const test::TemporaryFile file(".msh", test::gmsh41(mesh));
   mesh::ImportParameters parameters;
   parameters.file = file.path();
   return mesh_io::import_mesh(parameters).mesh;

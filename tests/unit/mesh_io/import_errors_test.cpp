@@ -105,7 +105,7 @@ TEST_CASE("truncated VTK and Gmsh files are refused wherever they end", "[unit][
        {Format{".vtk", test::vtk_text(hexahedra(), VtkTags::point_arrays)},
         Format{".vtu", test::vtu_text(hexahedra(), VtkTags::point_arrays)},
         Format{".msh", test::gmsh22_text(hexahedra())},
-        Format{".msh", test::gmsh41_text(hexahedra())}}) {
+        Format{".msh", test::gmsh41(hexahedra())}}) {
     for (const double share : {0.0, 0.01, 0.1, 0.3, 0.5, 0.7, 0.9, 0.97}) {
       INFO(ending << " cut at " << share);
       const auto kept = static_cast<std::size_t>(share * static_cast<double>(text.size()));
@@ -216,7 +216,7 @@ TEST_CASE("a missing tag lists those that exist and suggests the nearest", "[uni
       Contains("has no *Surface, *Elset or *Nset \"epo\"; it has BASE, ENDO, EPI. Did you mean "
                "\"EPI\"?"));
   CHECK_THAT(
-      message(".msh", test::gmsh41_text(hexahedra()), parameters),
+      message(".msh", test::gmsh41(hexahedra()), parameters),
       Contains("has no physical surface \"epo\"; it has endo, epi, base. Did you mean \"epi\"?"));
   CHECK_THAT(message(".vtk", test::vtk_text(hexahedra(), VtkTags::point_arrays), parameters),
              Contains("has no point array \"epo\"; it has") && Contains("Did you mean \"epi\"?"));

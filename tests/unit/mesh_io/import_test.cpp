@@ -97,7 +97,7 @@ TEST_CASE("Gmsh meshes come back by the names and numbers of their physical surf
   numbers.base = "3";
   for (const CellKind kind : kinds) {
     const Mesh mesh = test::coarse_mesh(kind);
-    for (const std::string& text : {test::gmsh22_text(mesh), test::gmsh41_text(mesh)}) {
+    for (const std::string& text : {test::gmsh22_text(mesh), test::gmsh41(mesh)}) {
       check_same(import_text(".msh", text).mesh, mesh);
       check_same(import_text(".msh", text, numbers).mesh, mesh);
       check_same(import_text(".msh", text, by_geometry()).mesh, mesh);

@@ -127,7 +127,7 @@ std::string points_text(const Mesh& mesh) {
 
 struct GmshElement {
   int number, type, entity;
-  std::string nodes;
+  std::span<const int> nodes;
 };
 
 std::vector<GmshElement> gmsh_elements(const Mesh& mesh, const std::vector<bool>& scar = {}) {
@@ -136,11 +136,10 @@ std::vector<GmshElement> gmsh_elements(const Mesh& mesh, const std::vector<bool>
   int number = 1;
   for (int s = 0; s < 3; ++s)
     for (int f = 0; f < sides(mesh)[s]->size(); ++f)
-      elements.push_back(
-          {number++, hexahedra ? 3 : 2, s + 1, from_one(sides(mesh)[s]->face(f), " ")});
+      elements.push_back({number++, hexahedra ? 3 : 2, s + 1, sides(mesh)[s]->face(f)});
   for (int c = 0; c < mesh.cell_count(); ++c)
-    elements.push_back({number++, hexahedra ? 5 : 4, !scar.empty() && scar[c] ? 2 : 1,
-                        from_one(mesh.cell(c), " ")});
+    elements.push_back(
+        {number++, hexahedra ? 5 : 4, !scar.empty() && scar[c] ? 2 : 1, mesh.cell(c)});
   return elements;
 }
 
@@ -157,27 +156,114 @@ constexpr const char* physical_names =
     "$PhysicalNames\n5\n2 1 \"endo\"\n2 2 \"epi\"\n2 3 \"base\"\n3 1 \"wall\"\n3 2 "
     "\"scar\"\n$EndPhysicalNames\n";
 
-std::string gmsh41_entities() {
-  std::string text = "$Entities\n0 0 3 1\n";
-  for (int s = 1; s <= 3; ++s)
-    text += fmt::format("{} -99 -99 -99 99 99 99 1 {} 0\n", s, s);
-  return text + "1 -99 -99 -99 99 99 99 1 1 3 1 2 3\n$EndEntities\n";
+/// A file of Gmsh's format 4.1, as text or bytes.
+class Gmsh41Writer {
+ public:
+  explicit Gmsh41Writer(GmshNumbers numbers) : numbers_(numbers) {
+    out_ = fmt::format("$MeshFormat\n4.1 {} 8\n", is_text() ? 0 : 1);
+    if (!is_text())
+      put(std::int32_t{1});
+    out_ += fmt::format("\n$EndMeshFormat\n{}", physical_names);
+  }
+
+  void line(const std::string& text) { out_ += text + "\n"; }
+  void wholes(std::initializer_list<std::int32_t> values) { put_all(values); }
+  void sizes(std::initializer_list<std::size_t> values) { put_all(values); }
+  void reals(std::initializer_list<double> values) { put_all(values); }
+  [[nodiscard]] std::string text() && { return std::move(out_); }
+
+ private:
+  [[nodiscard]] bool is_text() const { return numbers_ == GmshNumbers::text; }
+
+  template <class Number>
+  void put(Number value) {
+    if (is_text())
+      out_ += fmt::format("{}\n", value);
+    else
+      append(out_, value, numbers_ == GmshNumbers::swapped_bytes);
+  }
+  template <class Number>
+  void put_all(std::initializer_list<Number> values) {
+    for (const Number value : values)
+      put(value);
+  }
+
+  GmshNumbers numbers_;
+  std::string out_;
+};
+
+/// Entities 1 to 3 are surfaces, each with its own group; the volume 1 has its group. Those of
+/// partitions have parents and partitions.
+void put_entities(Gmsh41Writer& file, bool partitioned) {
+  const auto parents = [&](std::int32_t dimension, std::int32_t parent) {
+    if (!partitioned)
+      return;
+    file.wholes({dimension, parent});
+    file.sizes({2});
+    file.wholes({1, 2});
+  };
+  file.line(partitioned ? "$PartitionedEntities" : "$Entities");
+  if (partitioned) {
+    file.sizes({2, 1});
+    file.wholes({77, 1});
+  }
+  file.sizes({1, 0, 3, 1});
+  file.wholes({1});
+  parents(0, 1);
+  file.reals({9.0, 9.0, 9.0});
+  file.sizes({0});
+  for (std::int32_t s = 1; s <= 3; ++s) {
+    file.wholes({s});
+    parents(2, s);
+    file.reals({-99.0, -99.0, -99.0, 99.0, 99.0, 99.0});
+    file.sizes({1});
+    file.wholes({s == 2 ? -s : s});  // a negative group has its elements turned
+    file.sizes({0});
+  }
+  file.wholes({1});
+  parents(3, 1);
+  file.reals({-99.0, -99.0, -99.0, 99.0, 99.0, 99.0});
+  file.sizes({1});
+  file.wholes({1});
+  file.sizes({3});
+  file.wholes({1, 2, 3});
+  file.line(partitioned ? "\n$EndPartitionedEntities" : "\n$EndEntities");
 }
 
-std::string gmsh41_elements(const Mesh& mesh) {
-  const auto elements = gmsh_elements(mesh);
-  std::map<std::array<int, 3>, std::string> blocks;
-  std::map<std::array<int, 3>, int> counts;
-  for (const GmshElement& e : elements) {
-    const std::array<int, 3> block{e.type >= 4 ? 3 : 2, e.entity, e.type};
-    blocks[block] += fmt::format("{} {}\n", e.number, e.nodes);
-    ++counts[block];
+/// The second half in the volume, then the first on a surface with coordinates on it.
+void put_nodes(Gmsh41Writer& file, const Mesh& mesh) {
+  const std::size_t all = mesh.nodes.size();
+  file.line("$Nodes");
+  file.sizes({2, all, 1, all});
+  for (const bool parametric : {false, true}) {
+    const std::size_t begin = parametric ? 0 : all / 2;
+    const std::size_t end = parametric ? all / 2 : all;
+    file.wholes({parametric ? 2 : 3, 1, parametric ? 1 : 0});
+    file.sizes({end - begin});
+    for (std::size_t a = begin; a < end; ++a)
+      file.sizes({a + 1});
+    for (std::size_t a = begin; a < end; ++a) {
+      file.reals({mesh.nodes[a].x(), mesh.nodes[a].y(), mesh.nodes[a].z()});
+      if (parametric)
+        file.reals({0.25, 0.75});
+    }
   }
-  std::string text =
-      fmt::format("$Elements\n{} {} 1 {}\n", blocks.size(), elements.size(), elements.size());
-  for (const auto& [block, lines] : blocks)
-    text += fmt::format("{} {} {} {}\n{}", block[0], block[1], block[2], counts[block], lines);
-  return text + "$EndElements\n";
+  file.line("\n$EndNodes");
+}
+
+/// One block for each element, volumes before sides.
+void put_elements(Gmsh41Writer& file, const Mesh& mesh) {
+  auto elements = gmsh_elements(mesh);
+  std::reverse(elements.begin(), elements.end());
+  file.line("$Elements");
+  file.sizes({elements.size(), elements.size(), 1, elements.size()});
+  for (const GmshElement& e : elements) {
+    file.wholes({e.type >= 4 ? 3 : 2, e.entity, e.type});
+    file.sizes({1, static_cast<std::size_t>(e.number)});
+    for (const int node : e.nodes)
+      file.sizes({static_cast<std::size_t>(node + 1)});
+  }
+  file.line("\n$EndElements");
 }
 
 }  // namespace
@@ -310,7 +396,7 @@ std::string gmsh22_text(const Mesh& mesh, const std::vector<bool>& scar,
   text += fmt::format("$EndNodes\n$Elements\n{}\n", elements.size());
   for (const GmshElement& e : elements)
     text += fmt::format("{} {} 2 {} {} {}\n", e.number, e.type, e.entity,
-                        elementary ? elementary(e.entity) : e.entity, e.nodes);
+                        elementary ? elementary(e.entity) : e.entity, from_one(e.nodes, " "));
   return text + "$EndElements\n";
 }
 
@@ -347,14 +433,12 @@ std::string gmsh22_bytes(const Mesh& mesh, bool swapped) {
   return bytes + "\n$EndElements\n";
 }
 
-std::string gmsh41_text(const Mesh& mesh) {
-  const std::size_t n = mesh.nodes.size();
-  std::string text =
-      fmt::format("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n{}{}$Nodes\n1 {} 1 {}\n3 1 0 {}\n",
-                  physical_names, gmsh41_entities(), n, n, n);
-  for (std::size_t i = 1; i <= n; ++i)
-    text += fmt::format("{}\n", i);
-  return text + points_text(mesh) + "$EndNodes\n" + gmsh41_elements(mesh);
+std::string gmsh41(const Mesh& mesh, GmshNumbers numbers, bool partitioned) {
+  Gmsh41Writer file(numbers);
+  put_entities(file, partitioned);
+  put_nodes(file, mesh);
+  put_elements(file, mesh);
+  return std::move(file).text();
 }
 
 Quadratic quadratic(const Mesh& mesh) {

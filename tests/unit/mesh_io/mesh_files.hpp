@@ -63,7 +63,11 @@ enum class VtkTags { none, surface_cells, point_arrays };
 /// elementary tag, or that of the function.
 [[nodiscard]] std::string gmsh22_text(const mesh::Mesh& mesh, const std::vector<bool>& scar = {},
                                       const std::function<int(int group)>& elementary = {});
-[[nodiscard]] std::string gmsh41_text(const mesh::Mesh& mesh);
+/// The same of format 4.1, with nodes and elements in several blocks and not by their numbers; its
+/// entities are those of partitions if asked.
+enum class GmshNumbers { text, bytes, swapped_bytes };
+[[nodiscard]] std::string gmsh41(const mesh::Mesh& mesh, GmshNumbers numbers = GmshNumbers::text,
+                                 bool partitioned = false);
 
 /// A binary file of format 2.2 with those sides and the volume 7, all of one elementary tag, in
 /// this machine's order of bytes or the other.

@@ -228,6 +228,20 @@ TEST_CASE("binary files of Gmsh 2.2 are read in both orders of bytes", "[unit][m
   }
 }
 
+TEST_CASE("files of Gmsh 4.1 are read as text and bytes, whole and of partitions",
+          "[unit][mesh_io]") {
+  for (const CellKind kind : kinds) {
+    const Mesh mesh = test::coarse_mesh(kind);
+    for (const auto numbers :
+         {test::GmshNumbers::text, test::GmshNumbers::bytes, test::GmshNumbers::swapped_bytes})
+      for (const bool partitioned : {false, true})
+        check_sides(import_text(".msh", test::gmsh41(mesh, numbers, partitioned)).mesh, mesh);
+    const std::string bytes = test::gmsh41(mesh, test::GmshNumbers::bytes);
+    CHECK_THAT(refusal([&] { return import_text(".msh", replaced(bytes, "4.1 1 8", "4.1 1 4")); }),
+               Contains("counts have 4 bytes, not 8"));
+  }
+}
+
 TEST_CASE("an element of Gmsh 2.2 that stands there once for each of its groups is one element",
           "[unit][mesh_io]") {
   const Mesh mesh = test::coarse_mesh(CellKind::hexahedron);

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-/// Gmsh files of format 2.2, text or binary (reference manual, "MSH file format version 2"). Gmsh
-/// itself hands the physical group of one element on to all that share its elementary tag, and
-/// leaves out elements whose number another one bears; in the file a group belongs to its element.
+/// Gmsh files of format 2.2 or 4.1, text or binary (reference manual, "MSH file format" and "MSH
+/// file format version 2"). In the older format a physical group belongs to each element, whatever
+/// its elementary tag; in the newer one to all elements of an entity.
 namespace lv::mesh_io {
 
 /// What a type of Gmsh's elements is; its corners are the first of its nodes.
@@ -21,11 +21,11 @@ struct GmshShape {
   std::string name;  ///< "Hexahedron 8"
 };
 
-struct Gmsh22File {
+struct GmshFile {
   struct Node {
     std::int64_t number = 0;
     Vec3 X = Vec3::Zero();
-    int line = 0;  ///< 0 in a binary file
+    int line = 0;  ///< of X; 0 in a binary file
   };
   struct Element {
     GmshShape shape;
@@ -41,7 +41,9 @@ struct Gmsh22File {
   bool has_fields = false;                           ///< data at nodes or in elements
 };
 
-/// Throws InputError, with the line of a text file, where it is damaged.
-[[nodiscard]] Gmsh22File read_gmsh22_file(const std::string& file);
+/// Nodes and elements in the file's order (2.2), or by their numbers (4.1, which has them entity by
+/// entity). Throws InputError, with the line of a text file, where it is damaged or of another
+/// format.
+[[nodiscard]] GmshFile read_gmsh_file(const std::string& file);
 
 }  // namespace lv::mesh_io

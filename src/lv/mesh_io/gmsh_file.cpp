@@ -1,4 +1,4 @@
-#include "lv/mesh_io/gmsh22_file.hpp"
+#include "lv/mesh_io/gmsh_file.hpp"
 
 #include "lv/base/check.hpp"
 #include "lv/base/lines.hpp"
@@ -10,6 +10,7 @@
 #include <array>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <optional>
 #include <string_view>
 
@@ -122,17 +123,27 @@ class Cursor {
 };
 
 /// Section by section.
-class Gmsh22Reader {
+class GmshReader {
  public:
-  explicit Gmsh22Reader(const std::string& file) : text_(read_file(file)), cursor_(file, text_) {}
+  explicit GmshReader(const std::string& file) : text_(read_file(file)), cursor_(file, text_) {}
 
-  Gmsh22File read() {
+  GmshFile read() {
     for (cursor_.skip_blanks(); !cursor_.is_at_end(); cursor_.skip_blanks())
       read_section(std::string(cursor_.line()));
+    if (by_entity_) {
+      sort_by_number(result_.nodes);
+      sort_by_number(result_.elements);
+    }
     return std::move(result_);
   }
 
  private:
+  template <class Numbered>
+  static void sort_by_number(std::vector<Numbered>& all) {
+    std::stable_sort(all.begin(), all.end(),
+                     [](const auto& a, const auto& b) { return a.number < b.number; });
+  }
+
   void read_section(const std::string& heading) {
     if (!heading.starts_with('$'))
       cursor_.fail(fmt::format("\"{}\" is no section", heading));
@@ -141,10 +152,14 @@ class Gmsh22Reader {
       read_format();
     else if (heading == "$PhysicalNames")
       read_names();
+    else if (heading == "$Entities")
+      read_entities();
+    else if (heading == "$PartitionedEntities")
+      read_partitions();
     else if (heading == "$Nodes")
-      read_nodes();
+      by_entity_ ? read_blocks([this] { read_nodes_of_entity(); }) : read_nodes();
     else if (heading == "$Elements")
-      read_elements();
+      by_entity_ ? read_blocks([this] { read_elements_of_entity(); }) : read_elements();
     else
       cursor_.skip_to(end);
     result_.has_fields = result_.has_fields || heading.ends_with("Data");
@@ -153,11 +168,14 @@ class Gmsh22Reader {
   }
 
   void read_format() {
-    static_cast<void>(cursor_.word());  // the version
+    by_entity_ = cursor_.word() == "4.1";
     const int kind = cursor_.written<int>();
+    const int bytes_of_size = cursor_.written<int>();
     static_cast<void>(cursor_.line());
     if (kind != 1)
       return;
+    if (by_entity_ && bytes_of_size != 8)
+      cursor_.fail(fmt::format("its counts have {} bytes, not 8", bytes_of_size));
     cursor_.set_binary(false);
     cursor_.set_binary(cursor_.number<std::int32_t>() != 1);
   }
@@ -174,15 +192,98 @@ class Gmsh22Reader {
     }
   }
 
+  // Format 4.1.
+
+  /// Points, curves, surfaces and volumes.
+  void read_entities(bool of_partitions = false) {
+    std::array<std::int64_t, 4> counts{};
+    for (std::int64_t& count : counts)
+      count = size();
+    for (int dimension = 0; dimension < 4; ++dimension)
+      for (std::int64_t i = 0; i < counts[dimension]; ++i)
+        read_entity(dimension, of_partitions);
+  }
+
+  void read_partitions() {
+    static_cast<void>(size());
+    skip_wholes(2 * size());  // ghosts: tag and partition
+    read_entities(true);
+  }
+
+  /// An entity's groups; those of partitions name their parent and their partitions too.
+  void read_entity(int dimension, bool of_partition) {
+    const std::int64_t tag = whole();
+    if (of_partition) {
+      skip_wholes(2);
+      skip_wholes(size());
+    }
+    const int box = dimension == 0 ? 3 : 6;
+    for (int i = 0; i < box; ++i)
+      static_cast<void>(cursor_.number<double>());
+    std::set<int>& groups = groups_[{dimension, tag}];
+    const std::int64_t count = size();
+    for (std::int64_t i = 0; i < count; ++i)
+      add_group(whole(), groups);
+    if (dimension > 0)
+      skip_wholes(size());  // what bounds it
+  }
+
+  void skip_wholes(std::int64_t count) {
+    for (std::int64_t i = 0; i < count; ++i)
+      static_cast<void>(whole());
+  }
+
+  /// The nodes or elements of one entity after the other.
+  template <class ReadBlock>
+  void read_blocks(const ReadBlock& read_block) {
+    const std::int64_t blocks = size();
+    for (int i = 0; i < 3; ++i)
+      static_cast<void>(size());  // how many, and their least and largest number
+    for (std::int64_t i = 0; i < blocks; ++i)
+      read_block();
+  }
+
+  /// All numbers, then all places, with coordinates on the entity if it is parametric.
+  void read_nodes_of_entity() {
+    const std::int64_t dimension = whole();
+    static_cast<void>(whole());
+    const std::int64_t parameters = whole() == 0 ? 0 : dimension;
+    const std::int64_t count = size();
+    const std::size_t first = result_.nodes.size();
+    for (std::int64_t i = 0; i < count; ++i) {
+      result_.nodes.emplace_back();
+      result_.nodes.back().number = size();
+    }
+    for (std::size_t i = first; i < result_.nodes.size(); ++i) {
+      read_place(result_.nodes[i]);
+      for (std::int64_t d = 0; d < parameters; ++d)
+        static_cast<void>(cursor_.number<double>());
+    }
+  }
+
+  void read_elements_of_entity() {
+    const std::int64_t dimension = whole();
+    const std::int64_t entity = whole();
+    GmshFile::Element element;
+    element.shape = shape(whole());
+    element.groups = groups_[{dimension, entity}];
+    const std::int64_t count = size();
+    for (std::int64_t i = 0; i < count; ++i) {
+      element.number = size();
+      element.line = cursor_.line_number();
+      read_corners(element, [this] { return size(); });
+    }
+  }
+
+  // Format 2.2.
+
   void read_nodes() {
     const auto count = cursor_.written<std::int64_t>();
     static_cast<void>(cursor_.line());
     for (std::int64_t i = 0; i < count; ++i) {
-      Gmsh22File::Node node;
+      GmshFile::Node node;
       node.number = whole();
-      node.line = cursor_.line_number();
-      for (double& x : node.X)
-        x = cursor_.number<double>();
+      read_place(node);
       result_.nodes.push_back(node);
     }
   }
@@ -200,7 +301,7 @@ class Gmsh22Reader {
 
   /// "number type tags ... nodes"
   void read_line() {
-    Gmsh22File::Element element;
+    GmshFile::Element element;
     element.number = whole();
     element.line = cursor_.line_number();
     element.shape = shape(whole());
@@ -209,7 +310,7 @@ class Gmsh22Reader {
 
   /// Elements of one type; how many.
   std::int64_t read_block() {
-    Gmsh22File::Element element;
+    GmshFile::Element element;
     element.shape = shape(whole());
     const std::int64_t count = whole();
     const std::int64_t tags = whole();
@@ -222,21 +323,43 @@ class Gmsh22Reader {
     return count;
   }
 
-  /// The first tag is the physical group; a negative one has its elements the other way round.
-  void read_tags_and_nodes(Gmsh22File::Element element, std::int64_t tags) {
+  /// The first tag is the physical group.
+  void read_tags_and_nodes(GmshFile::Element element, std::int64_t tags) {
     for (std::int64_t i = 0; i < tags; ++i)
       if (const std::int64_t tag = whole(); i == 0 && tag != 0)
-        element.groups.insert(static_cast<int>(std::abs(tag)));
+        add_group(tag, element.groups);
+    read_corners(element, [this] { return whole(); });
+  }
+
+  // Both formats.
+
+  void read_place(GmshFile::Node& node) {
+    for (double& x : node.X)
+      x = cursor_.number<double>();
+    node.line = cursor_.line_number();
+  }
+
+  /// Adds the element with its corners, the first of its nodes.
+  template <class Next>
+  void read_corners(GmshFile::Element& element, const Next& next) {
     element.corners.clear();
     for (int i = 0; i < element.shape.nodes; ++i)
-      if (const std::int64_t node = whole(); i < element.shape.corners)
+      if (const std::int64_t node = next(); i < element.shape.corners)
         element.corners.push_back(node);
-    result_.elements.push_back(std::move(element));
+    result_.elements.push_back(element);
+  }
+
+  /// A negative group has its elements the other way round.
+  static void add_group(std::int64_t tag, std::set<int>& groups) {
+    groups.insert(static_cast<int>(std::abs(tag)));
   }
 
   std::int64_t whole() {
     return cursor_.is_binary() ? cursor_.number<std::int32_t>() : cursor_.written<std::int64_t>();
   }
+
+  /// Counts and the numbers of nodes and elements in format 4.1.
+  std::int64_t size() { return cursor_.number<std::int64_t>(); }
 
   GmshShape shape(std::int64_t type) {
     const auto found = shapes().find(static_cast<int>(type));
@@ -247,13 +370,32 @@ class Gmsh22Reader {
 
   std::string text_;
   Cursor cursor_;
-  Gmsh22File result_;
+  bool by_entity_ = false;                                                 ///< format 4.1
+  std::map<std::pair<std::int64_t, std::int64_t>, std::set<int>> groups_;  ///< of entities
+  GmshFile result_;
 };
+
+/// Throws InputError unless the file says that it is of a format that is read.
+void require_format(const std::string& file) {
+  check_encoding(file);
+  std::ifstream stream(file);
+  std::string header;
+  double version = 0.0;
+  stream >> header >> version;
+  if (header != "$MeshFormat")
+    throw InputError(fmt::format("{}:1", file), "is not a Gmsh mesh: $MeshFormat is missing",
+                     "Export it from Gmsh as .msh, version 4.1 or 2.2");
+  if (version != 2.2 && version != 4.1)
+    throw InputError(fmt::format("{}:2", file),
+                     fmt::format("has Gmsh's mesh format {}, which is not read", version),
+                     "Export it as version 4.1 or 2.2");
+}
 
 }  // namespace
 
-Gmsh22File read_gmsh22_file(const std::string& file) {
-  return Gmsh22Reader(file).read();
+GmshFile read_gmsh_file(const std::string& file) {
+  require_format(file);
+  return GmshReader(file).read();
 }
 
 }  // namespace lv::mesh_io
