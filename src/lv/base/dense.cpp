@@ -24,7 +24,16 @@ Eigen::VectorXd solve_symmetric(const Eigen::MatrixXd& K, const Eigen::VectorXd&
   return K.ldlt().solve(f);
 }
 
+Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns) {
+  return Eigen::HouseholderQR<Eigen::MatrixXd>(columns).householderQ() *
+         Eigen::MatrixXd::Identity(columns.rows(), columns.cols());
+}
+
 Eigen::VectorXd solve(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
+  return A.partialPivLu().solve(b);
+}
+
+Vec3 solve(const Mat3& A, const Vec3& b) {
   return A.partialPivLu().solve(b);
 }
 

@@ -1,11 +1,13 @@
 #pragma once
 
+#include "lv/base/tensor.hpp"
+
 #include <Eigen/Core>
 
 #include <vector>
 
 /// Solutions of small dense problems. Eigen's decompositions are templates that take a compiler
-/// seconds each; those of matrices of any size stand compiled here, once.
+/// seconds each; those that several rooms need stand compiled here, once.
 namespace lv::dense {
 
 /// Numbers as a vector.
@@ -20,8 +22,12 @@ namespace lv::dense {
 /// x of K x = f for a symmetric, semidefinite K.
 [[nodiscard]] Eigen::VectorXd solve_symmetric(const Eigen::MatrixXd& K, const Eigen::VectorXd& f);
 
+/// An orthonormal basis of what the columns span, which must be independent.
+[[nodiscard]] Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns);
+
 /// x of A x = b for an invertible A.
 [[nodiscard]] Eigen::VectorXd solve(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
+[[nodiscard]] Vec3 solve(const Mat3& A, const Vec3& b);
 
 /// A = V diag(values) V^T.
 struct Eigenpairs {

@@ -1,8 +1,7 @@
 #include "lv/implicit/smooth_fields.hpp"
 
 #include "lv/base/check.hpp"
-
-#include <Eigen/QR>
+#include "lv/base/dense.hpp"
 
 #include <cmath>
 #include <vector>
@@ -31,20 +30,19 @@ Eigen::MatrixXd monomials(std::span<const Vec3> places, int degree) {
   return all;
 }
 
-Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns) {
-  LV_CHECK(columns.rows() > columns.cols());
-  return Eigen::HouseholderQR<Eigen::MatrixXd>(columns).householderQ() *
-         Eigen::MatrixXd::Identity(columns.rows(), columns.cols());
+Eigen::MatrixXd basis_of(const Eigen::MatrixXd& fields) {
+  LV_CHECK(fields.rows() > fields.cols());
+  return dense::orthonormal(fields);
 }
 
 }  // namespace
 
 SmoothFields::SmoothFields(std::span<const Vec3> places, int degree)
-    : across_(orthonormal(monomials(places, degree))) {
+    : across_(basis_of(monomials(places, degree))) {
   Eigen::MatrixXd along = monomials(places, degree - 1);
   for (Eigen::Index a = 0; a < along.rows(); ++a)
     along.row(a) *= places[static_cast<std::size_t>(a)].z();
-  along_ = orthonormal(along);
+  along_ = basis_of(along);
 }
 
 Eigen::VectorXd SmoothFields::nearest(const Eigen::VectorXd& displacement) const {

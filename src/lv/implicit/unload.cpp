@@ -1,12 +1,12 @@
 #include "lv/implicit/unload.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/dense.hpp"
 #include "lv/base/log.hpp"
 #include "lv/base/units.hpp"
 #include "lv/implicit/smooth_fields.hpp"
 #include "lv/implicit/unload_forecast.hpp"
 
-#include <Eigen/QR>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -304,7 +304,7 @@ class Unloader {
       dX.col(j) = history_[static_cast<std::size_t>(j)].dX;
       dR.col(j) = history_[static_cast<std::size_t>(j)].dR;
     }
-    const Eigen::VectorXd gamma = dR.colPivHouseholderQr().solve(now_.R);
+    const Eigen::VectorXd gamma = dense::least_squares(dR, now_.R);
     return now_.R - (dX + dR) * gamma;
   }
 

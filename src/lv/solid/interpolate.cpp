@@ -1,10 +1,10 @@
 #include "lv/solid/interpolate.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/dense.hpp"
 #include "lv/mesh/quadratic.hpp"
 #include "lv/mesh/shapes.hpp"
 
-#include <Eigen/LU>
 #include <boost/geometry/geometries/box.hpp>
 #include <boost/geometry/geometries/point.hpp>
 #include <boost/geometry/index/rtree.hpp>
@@ -95,7 +95,7 @@ class Interpolation {
     for (int i = 0; i < corrections; ++i) {
       const mesh::Shapes s = shapes(xi);
       const Mat3 dX = X * s.gradient.transpose();
-      const Vec3 step = dX.partialPivLu().solve(x - X * s.value);
+      const Vec3 step = dense::solve(dX, x - X * s.value);
       if (!step.allFinite())
         return {};
       const double length = step.norm();

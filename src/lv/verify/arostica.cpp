@@ -1,13 +1,13 @@
 #include "lv/verify/arostica.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/dense.hpp"
 #include "lv/base/log.hpp"
 #include "lv/mesh/fibres.hpp"
 #include "lv/mesh/shapes.hpp"
 #include "lv/mesh/wall_mesh.hpp"
 
 #include <Eigen/IterativeLinearSolvers>
-#include <Eigen/LU>
 #include <Eigen/SparseCore>
 #include <fmt/format.h>
 
@@ -72,7 +72,7 @@ std::optional<Probe> probe_in(const mesh::Mesh& mesh, std::span<const int> nodes
     }
     if (error.norm() < 1e-8 && xi.minCoeff() > -rounding && xi.maxCoeff() < 1.0 + rounding)
       return Probe{{nodes.begin(), nodes.end()}, shapes.value};
-    xi += slope.partialPivLu().solve(error);
+    xi += dense::solve(slope, error);
     if ((xi - Vec3::Constant(0.5)).norm() > 5.0)
       return {};
   }

@@ -24,6 +24,9 @@ MatrixXd positive() {
 TEST_CASE("a square system's solution fulfils it", "[unit][base]") {
   const VectorXd b = VectorXd::LinSpaced(3, 1.0, 2.0);
   CHECK((positive() * dense::solve(positive(), b) - b).norm() < 1e-14);
+  const Vec3 b3(1.0, -2.0, 0.5);
+  const Mat3 A3 = positive().topLeftCorner<3, 3>();
+  CHECK((A3 * dense::solve(A3, b3) - b3).norm() < 1e-14);
   CHECK((positive() * dense::solve_symmetric(positive(), b) - b).norm() < 1e-14);
 }
 
@@ -34,6 +37,13 @@ TEST_CASE("a least-squares solution leaves a residual normal to the columns, and
   const VectorXd x = dense::least_squares(A, b);
   CHECK((A.transpose() * (A * x - b)).norm() < 1e-13);
   CHECK(std::abs(x[0] + x[1] - x[2]) < 1e-13);  // the null space is (1, 1, -1)
+}
+
+TEST_CASE("an orthonormal basis spans the columns", "[unit][base]") {
+  const MatrixXd A = dependent().leftCols(2);
+  const MatrixXd Q = dense::orthonormal(A);
+  CHECK((Q.transpose() * Q - MatrixXd::Identity(2, 2)).norm() < 1e-14);
+  CHECK((Q * (Q.transpose() * A) - A).norm() < 1e-14);
 }
 
 TEST_CASE("the inverse of a normal matrix is its pseudo-inverse where columns depend on each other",
