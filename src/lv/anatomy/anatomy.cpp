@@ -7,6 +7,7 @@
 #include "lv/case_file/parameters.hpp"
 #include "lv/geometry/contour_table.hpp"
 #include "lv/geometry/drawn_wall.hpp"
+#include "lv/mesh/fibres.hpp"
 #include "lv/mesh/refine.hpp"
 #include "lv/mesh_io/foreign_mesh.hpp"
 #include "lv/mesh_io/import.hpp"
@@ -189,6 +190,36 @@ Shape from_drawn(const Case& c) {
   return shape;
 }
 
+/// Warns of fibres that lead through the wall: an array of sheets or normals that was named in
+/// their place, or another axis than the heart's.
+void check_fibres(Shape& shape) {
+  constexpr double most = 25.0;  // [degrees]; directions at random have 33, fibres less than 15
+  const mesh::Mesh& m = *shape.given;
+  if (m.fibres.f0.empty())
+    return;
+  const std::vector<Vec3> radial = mesh::radial_directions(m);
+  const auto out_of_wall = [](const Vec3& f, const Vec3& r) {
+    return std::asin(std::min(1.0, std::abs(f.dot(r)))) * 180.0 / std::numbers::pi;
+  };
+  double sum = 0.0;
+  for (std::size_t i = 0; i < m.fibres.f0.size(); ++i) {
+    Vec3 r = Vec3::Zero();
+    if (m.fibres.at == mesh::GivenFibres::At::nodes)
+      r = radial[i];
+    else
+      for (const int node : m.cell(static_cast<int>(i)))
+        r += radial[node];
+    sum += out_of_wall(m.fibres.f0[i], r.normalized());
+  }
+  const double mean = sum / static_cast<double>(m.fibres.f0.size());
+  if (mean > most)
+    shape.warnings.push_back(
+        {"fibres", fmt::format("the fibres of anatomy.mesh.fibres lead out of the wall's surface, "
+                               "by {:.0f} degrees in the mean: muscle fibres run along it; is it "
+                               "the array of sheets or normals, or are its axes other ones?",
+                               mean)});
+}
+
 /// Sides and directions of fibres may be files beside the mesh's.
 constexpr std::array perhaps_files{&mesh::ImportParameters::endo, &mesh::ImportParameters::epi,
                                    &mesh::ImportParameters::base, &mesh::ImportParameters::fibres,
@@ -219,6 +250,7 @@ Shape from_mesh(const Case& c) {
   shape.notes = imported.notes;
   if (!c.origin.contains("regions.septum_angle"))
     shape.warnings.push_back({"septum", assumed_septum_of_mesh});
+  check_fibres(shape);
   assume_moment(c, {}, false, shape);
   collect_remarks(shape);
   return shape;

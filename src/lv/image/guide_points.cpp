@@ -259,6 +259,29 @@ std::size_t drop_closing_line(std::vector<GuidePoint>& epi, const std::vector<Gu
   });
 }
 
+/// Throws InputError for a curve, sorted along the wall, whose points lie across it: it is drawn
+/// twice, as where a list holds two times of an image.
+void require_single(const std::vector<GuidePoint>& rows, const Contour& as) {
+  constexpr double drawn_noise = 2.0;  // [mm]; what a hand is off a smooth curve
+  std::vector<double> across;          // of points, to the middle between their neighbours [mm]
+  std::vector<double> steep;           // the same over half of the neighbours' distance
+  for (std::size_t i = 1; i + 1 < rows.size(); ++i) {
+    const Vec3 half = 0.5 * (rows[i + 1].x - rows[i - 1].x);
+    const Vec3 off = rows[i].x - rows[i - 1].x;
+    const double length = half.norm();
+    across.push_back(length > 0.0 ? off.cross(half).norm() / length : off.norm());
+    steep.push_back(across.back() / std::max(length, 1e-6));
+  }
+  const double distance = median(across);
+  if (distance > drawn_noise && median(steep) > 1.0)
+    throw InputError(
+        fmt::format("{}:{}", as.file, as.lines.front()),
+        fmt::format("{} is drawn twice: along the wall its points change by {:.1f} mm from one "
+                    "curve to another",
+                    geometry::label(as), distance),
+        "Leave one of the two in the list, or give the image's points the frame of their loops");
+}
+
 void add_curves(const Groups& groups, const std::string& file, const Vec3& up, GuidePoints& found) {
   const Vec3 middle = middle_of_cavity(found.contours.short_axis);
   auto valves = valves_of(groups);
@@ -277,6 +300,7 @@ void add_curves(const Groups& groups, const std::string& file, const Vec3& up, G
         closing += drop_closing_line(rows, endo[slice], angle);
       sort_by(rows, angle);
       found.contours.long_axis.push_back(contour_of(rows, slice, side, file));
+      require_single(rows, found.contours.long_axis.back());
     }
   if (closing > 0)
     found.notes.push_back(

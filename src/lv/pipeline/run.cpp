@@ -58,8 +58,9 @@ class Pipeline {
       log::warn("{}: {}", case_.file.string(), no_parameters);
     for (const std::string& what : case_.without_effect)
       log::warn("{}", what);
-    if (const std::string outside = fit_outside_heartbeats(case_); !outside.empty())
-      log::warn("{}", outside);
+    for (const std::string& odd : {fit_outside_heartbeats(case_), left_handed_fibres(case_)})
+      if (!odd.empty())
+        log::warn("{}", odd);
     if (!case_.strain.measured.empty())  // a mistake there must not come up after the beat
       on_root([&] { static_cast<void>(cine::measured_strains(case_)); });
     const std::vector<Planned> stages = plan();

@@ -23,6 +23,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 namespace lv::pipeline {
@@ -49,10 +50,13 @@ std::vector<Warning> warnings_of(const Case& c, const anatomy::Shape& shape, dou
     warnings.push_back({"slow relaxation", std::move(slow)});
   if (std::string outside = fit_outside_heartbeats(c); !outside.empty())
     warnings.push_back({"fit outside heartbeats", std::move(outside)});
+  if (std::string turned = left_handed_fibres(c); !turned.empty())
+    warnings.push_back({"left-handed fibres", std::move(turned)});
   for (const geometry::Assumption& a : shape.warnings)
     warnings.push_back({a.part == "septum"        ? "septum assumed"
                         : a.part == "orientation" ? "orientation"
                         : a.part == "contours"    ? "contours off the wall"
+                        : a.part == "fibres"      ? "fibres out of the wall"
                                                   : "end-diastolic shape",
                         a.text});
   const double edv = c.calibration.edv;
@@ -143,6 +147,19 @@ std::string fit_outside_heartbeats(const Case& c) {
       "circulation makes, and need not be the measured ones. calibrate.cycle = true fits the "
       "heartbeats themselves",
       c.protocol.ed_pressure / mmHg, c.protocol.es_pressure / mmHg);
+}
+
+std::string left_handed_fibres(const Case& c) {
+  const mesh::FibreRule& rule = c.fibres;
+  if (rule.helix_endo <= rule.helix_epi)
+    return "";
+  constexpr double degrees = 180.0 / std::numbers::pi;
+  return fmt::format(
+      "fibres.helix_endo = {0:g} deg and fibres.helix_epi = {1:g} deg make a left-handed helix at "
+      "the endocardium, which no human heart has: here the right-handed one is negative. Most "
+      "programs count the other way; for their {0:g} and {1:g} write {2:g} and {3:g}",
+      rule.helix_endo * degrees, rule.helix_epi * degrees, -rule.helix_endo * degrees,
+      -rule.helix_epi * degrees);
 }
 
 std::string validate(const Case& c) {

@@ -19,4 +19,9 @@ inline constexpr const char* no_parameters =
 /// What is to know of a fit in a case with heartbeats, which is made outside of them; empty else.
 [[nodiscard]] std::string fit_outside_heartbeats(const case_file::Case& c);
 
+/// What is odd about fibres that run as a left-handed helix; empty for others. The human heart's
+/// are right-handed at the endocardium (Streeter et al., Circ. Res. 24:339, 1969), which is a
+/// negative angle here and a positive one in most other programs.
+[[nodiscard]] std::string left_handed_fibres(const case_file::Case& c);
+
 }  // namespace lv::pipeline

@@ -319,14 +319,22 @@ std::vector<std::string> state_of(const fs::path& work) {
 
 void check_contents(const fs::path& work) {
   using fs::recursive_directory_iterator;
+  const auto is_of_stage = [](const std::string& name) {
+    for (std::size_t s = 0; s < case_file::all_stages.size(); ++s)
+      if (name.starts_with(stage_folder(s)))
+        return true;
+    return false;
+  };
   std::error_code ignored;  // what a run that is at work takes away meanwhile is not there
   recursive_directory_iterator entry(work);
   for (; entry != recursive_directory_iterator(); entry.increment(ignored)) {
     const fs::file_status status = fs::status(*entry, ignored);
+    if (entry.depth() == 0 && !is_of_stage(entry->path().filename().string()))
+      entry.disable_recursion_pending();
     const bool is_there = fs::exists(entry->symlink_status(ignored));
     if (is_there && !fs::is_regular_file(status) && !fs::is_directory(status))
       throw RunError(fmt::format("{} is neither a file nor a folder", entry->path().string()),
-                     "Remove it, or name another work folder with --work");
+                     "Name another work folder with --work, or remove it if a run left it");
   }
 }
 

@@ -68,8 +68,9 @@ class StageFolder {
 /// none when all is as it should be. Throws InputError when it holds no stage at all.
 [[nodiscard]] std::vector<std::string> state_of(const std::filesystem::path& work);
 
-/// Throws RunError for anything in a work folder that is neither a file nor a folder: a pipe would
-/// be waited on for ever, and a link may lead nowhere.
+/// Throws RunError for anything in a work folder or its stages that is neither a file nor a folder:
+/// a pipe would be waited on for ever, and a link may lead nowhere. Other folders in it are not
+/// looked into.
 void check_contents(const std::filesystem::path& work);
 
 /// Holds a work folder for this process alone. Throws RunError when another run is at work there,

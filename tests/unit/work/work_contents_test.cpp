@@ -26,4 +26,8 @@ TEST_CASE("a pipe or a link that leads nowhere in a work folder is refused by na
   std::filesystem::remove(work / "03_beat.part/checkpoint.bin");
   std::filesystem::create_symlink("round.csv", work / "round.csv");
   CHECK_THROWS_WITH(work::check_contents(work / ""), Contains("round.csv"));
+  std::filesystem::remove(work / "round.csv");
+  std::filesystem::create_directories(work / "devices");
+  REQUIRE(mkfifo((work / "devices/pipe").c_str(), 0600) == 0);
+  CHECK_NOTHROW(work::check_contents(work / ""));
 }
