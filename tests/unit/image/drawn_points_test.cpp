@@ -261,6 +261,28 @@ TEST_CASE("long-axis curves end at the valves, also where they are drawn through
     CHECK(c.points.size() == 29);
 }
 
+TEST_CASE("a long-axis curve that stands in the list twice is refused", "[unit][image]") {
+  const geometry::Contours contours = drawn::draw({});
+  const auto with_a_second = [&](double distance) {
+    std::string points = list(contours);
+    for (const auto& c : contours.long_axis)
+      if (c.side == Side::endo)
+        for (const Vec3& inner : c.points) {
+          const Vec3 x = inner - distance * Vec3(inner.x(), inner.y(), 0.0).normalized();
+          points += fmt::format("{:.4f}\t{:.4f}\t{:.4f}\tLAX_LV_ENDOCARDIAL\t{}\t1\t0\n", x.x(),
+                                x.y(), x.z() + 0.3 * distance, 100 + c.slice);
+        }
+    return points;
+  };
+  const test::TemporaryFolder folder;
+  test::write_bytes(folder / "points.txt", with_a_second(6.0));
+  CHECK_THROWS_WITH(read_guide_points(folder / "points.txt", std::nullopt, Side::epi),
+                    Contains("points.txt:") && Contains("endo is drawn twice") &&
+                        Contains("Leave one of the two"));
+  test::write_bytes(folder / "points.txt", with_a_second(0.5));  // a hand that went back and forth
+  CHECK_NOTHROW(read_guide_points(folder / "points.txt", std::nullopt, Side::epi));
+}
+
 TEST_CASE("lists of points that say too little are refused", "[unit][image]") {
   const test::TemporaryFolder folder;
   const auto says = [&](const std::string& text) -> std::string {

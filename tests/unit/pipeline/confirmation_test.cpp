@@ -9,6 +9,8 @@
 #include "support/temporary_folder.hpp"
 #include <catch2/catch.hpp>
 
+#include <utility>
+
 using namespace lv;
 
 TEST_CASE("beats with fitted parameters are read as they were written", "[unit][pipeline]") {
@@ -76,4 +78,12 @@ TEST_CASE("a fit beside heartbeats is said to be made at the pressures of the pr
              Catch::Contains("protocol.ed_pressure (8 mmHg) and protocol.es_pressure (150 mmHg)"));
   c.calibration.cycle = true;  // the heartbeats are fitted themselves
   CHECK(pipeline::fit_outside_heartbeats(c).empty());
+}
+
+TEST_CASE("fibres of a left-handed helix are told with the angles to write", "[unit][pipeline]") {
+  case_file::Case c;
+  CHECK(pipeline::left_handed_fibres(c).empty());
+  std::swap(c.fibres.helix_endo, c.fibres.helix_epi);
+  CHECK_THAT(pipeline::left_handed_fibres(c),
+             Catch::Contains("left-handed") && Catch::Contains("write -60 and 60"));
 }
