@@ -62,6 +62,8 @@ std::vector<FitPart> parts_of(const Plan& plan) {
       parts.push_back({FitEnd::open, true, {15.0, 0.0}});  // those of one correction
   };
   fit_passive(plan.starts_near);
+  if (plan.active && !passive)
+    parts.push_back({FitEnd::counted, false, {1.0, 0.0}});
   if (plan.active && curve && !plan.starts_near)  // between the bracket and the curve
     parts.insert(parts.begin() + 1, {FitEnd::by_misfit, false, {0.0, 4.0}});
   if (plan.active) {
@@ -108,6 +110,8 @@ class Fitter {
     };
   }
 
+  [[nodiscard]] const FitParameters& parameters() const { return fit_.parameters; }
+
   Fit run() {
     observe();
     std::vector<Fitted> fitted;
@@ -119,6 +123,8 @@ class Fitter {
       fitted.push_back({"exponent", &FitParameters::exponent});
     fit_passive(fitted, plan_.starts_near ? near : far);
     if (plan_.active) {
+      if (fitted.empty())
+        check_filling();
       fitted.push_back(tension_);
       bracket(tension_, plan_.T_scale, es_loads(), plan_.esv,
               plan_.starts_near || has_tension_ ? near : far);
@@ -164,6 +170,22 @@ class Fitter {
     }
   }
 
+  /// Of muscle that was not fitted to an end-diastolic volume.
+  void check_filling() {
+    begin("filling");
+    const double edv = model_.volume(fit_.parameters, ed_loads()).value();
+    const double missing = std::log(plan_.esv.volume / edv);
+    if (missing >= 0.0)
+      throw OutOfReach(
+          plan_.esv.origin,
+          fmt::format("{:.2f} ml cannot be reached by contraction: this muscle fills to {:.2f} ml "
+                      "at {:.2f} mmHg, so nothing would be ejected",
+                      1e-3 * plan_.esv.volume, 1e-3 * edv, plan_.ed_pressure / units::mmHg),
+          "Check this volume, protocol.ed_pressure and the stiffness, which calibrate.passive can "
+          "fit to a measured end-diastolic volume",
+          missing, fit_.parameters.T_scale);
+  }
+
   /// A first T_scale with the stiffness that is known so far. Throws OutOfReach where the
   /// end-systolic volume is beyond what the muscle reaches by more than the margin.
   void try_contraction() {
@@ -180,6 +202,11 @@ class Fitter {
             fmt::format(" (a first try, with the stiffness known roughly: at the end of the range "
                         "{:.0f}% are missing, and the rest of the fit may gain {:.0f}%)",
                         100.0 * failure.missing(), 100.0 * reach_margin));
+      if (failure.missing() > 0.0)
+        log::warn(
+            "{}: a first try, with the stiffness known roughly, misses it by {:.1f}%. The fit "
+            "goes on, since the rest of it may gain {:.0f}%",
+            failure.what(), 100.0 * failure.missing(), 100.0 * reach_margin);
     }
     if (!has_tension_)
       fit_.parameters.T_scale = start;
@@ -206,11 +233,16 @@ class Fitter {
       sought_ = 0.0;
       return found;
     };
-    const auto root =
-        find_root(volume, {which.name, p.*which.member, range, first_factor}, target, accuracy);
-    if (root)
-      p.*which.member = *root;
-    return root;
+    try {
+      const auto root =
+          find_root(volume, {which.name, p.*which.member, range, first_factor}, target, accuracy);
+      if (root)
+        p.*which.member = *root;
+      return root;
+    } catch (const OutOfReach& failure) {
+      p.*which.member = failure.nearest();
+      throw;
+    }
   }
 
   /// Scale and exponent of a shape of end-diastole: first the scale alone, roughly.
@@ -514,7 +546,12 @@ class Fitter {
 }  // namespace
 
 Fit fit(const Model& model, const FitParameters& start, const Plan& plan) {
-  return Fitter(model, start, plan).run();
+  Fitter fitter(model, start, plan);
+  try {
+    return fitter.run();
+  } catch (const OutOfReach& failure) {
+    throw FitOutOfReach(failure, fitter.parameters());
+  }
 }
 
 }  // namespace lv::calibrate
