@@ -167,7 +167,7 @@ class Search {
                     1e-3 * target_.volume * std::exp(f)),
         "Check this volume and its pressure, and unloaded.pressure; a muscle with other exponents "
         "fills farther",
-        std::abs(f), std::exp(log_x));
+        std::abs(f));
   }
 
   /// The misfit at the end of the range, on the line through two points; not known from one.
@@ -200,7 +200,7 @@ class Search {
         fmt::format(
             "Check this volume and its pressure, and the shape that was seen{}",
             at_end ? fmt::format("; or widen the range of {} in [calibrate]", unknown_.name) : ""),
-        misses ? std::abs(*f_end) : 0.0, x);
+        misses ? std::abs(*f_end) : 0.0);
   }
 
   const std::function<Outcome<double>(double)>& volume_;

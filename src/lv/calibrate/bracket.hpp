@@ -32,30 +32,26 @@ struct Target {
 /// No value of the unknown makes the target's volume.
 class OutOfReach : public InputError {
  public:
-  /// `missing` and `nearest` as below.
-  OutOfReach(const std::string& where, std::string what, std::string what_to_do, double missing,
-             double nearest)
+  /// `missing` as below.
+  OutOfReach(const std::string& where, std::string what, std::string what_to_do, double missing)
       : InputError(where, what, what_to_do),
         what_(std::move(what)),
         what_to_do_(std::move(what_to_do)),
-        missing_(missing),
-        nearest_(nearest) {}
+        missing_(missing) {}
 
   /// |ln(V/V_target)| at the end of the range: found there, or where there was no equilibrium that
   /// far, on the straight line through the last two in the unknown's logarithm. Zero where that
   /// line meets the target or only one was found: the target may be within reach then.
   [[nodiscard]] double missing() const { return missing_; }
-  /// The value of the unknown with which the volume comes nearest.
-  [[nodiscard]] double nearest() const { return nearest_; }
 
   /// The same, with where it was found out.
   [[nodiscard]] OutOfReach found(const std::string& how) const {
-    return {where(), what_ + how, what_to_do_, missing_, nearest_};
+    return {where(), what_ + how, what_to_do_, missing_};
   }
 
  private:
   std::string what_, what_to_do_;
-  double missing_, nearest_;
+  double missing_;
 };
 
 /// The value of the unknown at which a volume that falls with it is the target's, within

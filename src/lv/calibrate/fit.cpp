@@ -4,6 +4,7 @@
 #include "lv/base/dense.hpp"
 #include "lv/base/log.hpp"
 #include "lv/base/units.hpp"
+#include "lv/calibrate/fit_out_of_reach.hpp"
 #include "lv/calibrate/forecast.hpp"
 #include "lv/calibrate/klotz.hpp"
 #include "lv/calibrate/least_squares.hpp"
@@ -15,6 +16,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 namespace lv::calibrate {
 namespace {
@@ -183,7 +185,7 @@ class Fitter {
                       1e-3 * plan_.esv.volume, 1e-3 * edv, plan_.ed_pressure / units::mmHg),
           "Check this volume, protocol.ed_pressure and the stiffness, which calibrate.passive can "
           "fit to a measured end-diastolic volume",
-          missing, fit_.parameters.T_scale);
+          missing);
   }
 
   /// A first T_scale with the stiffness that is known so far. Throws OutOfReach where the
@@ -223,24 +225,33 @@ class Fitter {
     return solve(scale, plan_.stiffness, ed_loads(), plan_.edv, near, accuracy());
   }
 
+  /// Where the target is out of reach the parameter is left where it comes nearest.
   Outcome<double> solve(const Fitted& which, const Range& range, const Loads& loads,
                         const Target& target, double first_factor, double accuracy) {
     FitParameters& p = fit_.parameters;
+    const double start = p.*which.member;
+    double nearest = start;
+    double least = std::numeric_limits<double>::infinity();
     const auto volume = [&](double x) {
       p.*which.member = x;
       sought_ = target.volume;
       const auto found = model_.volume(p, loads);
       sought_ = 0.0;
+      const double misfit = found ? std::abs(std::log(*found / target.volume)) : least;
+      if (misfit < least) {
+        nearest = x;
+        least = misfit;
+      }
       return found;
     };
     try {
       const auto root =
-          find_root(volume, {which.name, p.*which.member, range, first_factor}, target, accuracy);
+          find_root(volume, {which.name, start, range, first_factor}, target, accuracy);
       if (root)
         p.*which.member = *root;
       return root;
-    } catch (const OutOfReach& failure) {
-      p.*which.member = failure.nearest();
+    } catch (const OutOfReach&) {
+      p.*which.member = nearest;
       throw;
     }
   }

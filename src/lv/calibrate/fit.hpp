@@ -84,19 +84,6 @@ struct Fit {
   std::vector<Evaluation> history;
 };
 
-/// A volume is out of reach of a fit: with the parameters that come nearest, the fitted ones as far
-/// as they were known.
-class FitOutOfReach : public OutOfReach {
- public:
-  FitOutOfReach(const OutOfReach& why, const FitParameters& parameters)
-      : OutOfReach(why), parameters_(parameters) {}
-
-  [[nodiscard]] const FitParameters& parameters() const { return parameters_; }
-
- private:
-  FitParameters parameters_;
-};
-
 /// Fits the passive parameters to the end-diastolic volume, then T_scale to the end-systolic one
 /// (section 3.1), and finds out how sure the values are.
 ///
@@ -119,9 +106,7 @@ class FitOutOfReach : public OutOfReach {
 ///
 /// Before scale and exponent are sought T_scale is bracketed roughly, with the stiffness that is
 /// known by then: an end-systolic volume that is out of reach by more than reach_margin is refused
-/// before the fit takes its time, by less it is warned of. Where the passive muscle is not fitted,
-/// an end-systolic volume that it does not fill to is refused before it contracts. Every fit may
-/// start from that of a coarse wall (starts_near).
+/// before the fit takes its time. Every fit may start from that of a coarse wall (starts_near).
 ///
 /// With measured strains those values are the start of a least-squares fit of all fitted
 /// parameters,
@@ -131,8 +116,8 @@ class FitOutOfReach : public OutOfReach {
 /// by Levenberg-Marquardt in their logarithms (the points of the Klotz curve count as volumes). It
 /// need not meet the volumes within the tolerance.
 ///
-/// Throws FitOutOfReach for a volume out of reach and RunError when a fitted model misses the
-/// measured volumes, to which alone it was fitted, by more than the tolerance.
+/// Throws OutOfReach for a volume out of reach and RunError when a fitted model misses the measured
+/// volumes, to which alone it was fitted, by more than the tolerance.
 [[nodiscard]] Fit fit(const Model& model, const FitParameters& start, const Plan& plan);
 
 }  // namespace lv::calibrate

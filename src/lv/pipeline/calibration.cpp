@@ -5,6 +5,7 @@
 #include "lv/base/parallel.hpp"
 #include "lv/base/table.hpp"
 #include "lv/base/units.hpp"
+#include "lv/calibrate/fit_out_of_reach.hpp"
 #include "lv/calibrate/record.hpp"
 #include "lv/calibrate/summary.hpp"
 #include "lv/case_file/case_lines.hpp"

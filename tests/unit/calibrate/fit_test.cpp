@@ -2,6 +2,7 @@
 
 #include "lv/base/check.hpp"
 #include "lv/base/units.hpp"
+#include "lv/calibrate/fit_out_of_reach.hpp"
 #include "lv/calibrate/klotz.hpp"
 
 #include <Eigen/LU>
