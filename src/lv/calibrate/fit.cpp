@@ -4,6 +4,7 @@
 #include "lv/base/dense.hpp"
 #include "lv/base/log.hpp"
 #include "lv/base/units.hpp"
+#include "lv/calibrate/fit_out_of_reach.hpp"
 #include "lv/calibrate/forecast.hpp"
 #include "lv/calibrate/klotz.hpp"
 #include "lv/calibrate/least_squares.hpp"
@@ -15,6 +16,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 namespace lv::calibrate {
 namespace {
@@ -62,6 +64,8 @@ std::vector<FitPart> parts_of(const Plan& plan) {
       parts.push_back({FitEnd::open, true, {15.0, 0.0}});  // those of one correction
   };
   fit_passive(plan.starts_near);
+  if (plan.active && !passive)
+    parts.push_back({FitEnd::counted, false, {1.0, 0.0}});
   if (plan.active && curve && !plan.starts_near)  // between the bracket and the curve
     parts.insert(parts.begin() + 1, {FitEnd::by_misfit, false, {0.0, 4.0}});
   if (plan.active) {
@@ -108,6 +112,8 @@ class Fitter {
     };
   }
 
+  [[nodiscard]] const FitParameters& parameters() const { return fit_.parameters; }
+
   Fit run() {
     observe();
     std::vector<Fitted> fitted;
@@ -119,6 +125,8 @@ class Fitter {
       fitted.push_back({"exponent", &FitParameters::exponent});
     fit_passive(fitted, plan_.starts_near ? near : far);
     if (plan_.active) {
+      if (fitted.empty())
+        check_filling();
       fitted.push_back(tension_);
       bracket(tension_, plan_.T_scale, es_loads(), plan_.esv,
               plan_.starts_near || has_tension_ ? near : far);
@@ -164,6 +172,22 @@ class Fitter {
     }
   }
 
+  /// Of muscle that was not fitted to an end-diastolic volume.
+  void check_filling() {
+    begin("filling");
+    const double edv = model_.volume(fit_.parameters, ed_loads()).value();
+    const double missing = std::log(plan_.esv.volume / edv);
+    if (missing >= 0.0)
+      throw OutOfReach(
+          plan_.esv.origin,
+          fmt::format("{:.2f} ml cannot be reached by contraction: this muscle fills to {:.2f} ml "
+                      "at {:.2f} mmHg, so nothing would be ejected",
+                      1e-3 * plan_.esv.volume, 1e-3 * edv, plan_.ed_pressure / units::mmHg),
+          "Check this volume, protocol.ed_pressure and the stiffness, which calibrate.passive can "
+          "fit to a measured end-diastolic volume",
+          missing);
+  }
+
   /// A first T_scale with the stiffness that is known so far. Throws OutOfReach where the
   /// end-systolic volume is beyond what the muscle reaches by more than the margin.
   void try_contraction() {
@@ -180,6 +204,11 @@ class Fitter {
             fmt::format(" (a first try, with the stiffness known roughly: at the end of the range "
                         "{:.0f}% are missing, and the rest of the fit may gain {:.0f}%)",
                         100.0 * failure.missing(), 100.0 * reach_margin));
+      if (failure.missing() > 0.0)
+        log::warn(
+            "{}: a first try, with the stiffness known roughly, misses it by {:.1f}%. The fit "
+            "goes on, since the rest of it may gain {:.0f}%",
+            failure.what(), 100.0 * failure.missing(), 100.0 * reach_margin);
     }
     if (!has_tension_)
       fit_.parameters.T_scale = start;
@@ -196,21 +225,35 @@ class Fitter {
     return solve(scale, plan_.stiffness, ed_loads(), plan_.edv, near, accuracy());
   }
 
+  /// Where the target is out of reach the parameter is left where it comes nearest.
   Outcome<double> solve(const Fitted& which, const Range& range, const Loads& loads,
                         const Target& target, double first_factor, double accuracy) {
     FitParameters& p = fit_.parameters;
+    const double start = p.*which.member;
+    double nearest = start;
+    double least = std::numeric_limits<double>::infinity();
     const auto volume = [&](double x) {
       p.*which.member = x;
       sought_ = target.volume;
       const auto found = model_.volume(p, loads);
       sought_ = 0.0;
+      const double misfit = found ? std::abs(std::log(*found / target.volume)) : least;
+      if (misfit < least) {
+        nearest = x;
+        least = misfit;
+      }
       return found;
     };
-    const auto root =
-        find_root(volume, {which.name, p.*which.member, range, first_factor}, target, accuracy);
-    if (root)
-      p.*which.member = *root;
-    return root;
+    try {
+      const auto root =
+          find_root(volume, {which.name, start, range, first_factor}, target, accuracy);
+      if (root)
+        p.*which.member = *root;
+      return root;
+    } catch (const OutOfReach&) {
+      p.*which.member = nearest;
+      throw;
+    }
   }
 
   /// Scale and exponent of a shape of end-diastole: first the scale alone, roughly.
@@ -514,7 +557,12 @@ class Fitter {
 }  // namespace
 
 Fit fit(const Model& model, const FitParameters& start, const Plan& plan) {
-  return Fitter(model, start, plan).run();
+  Fitter fitter(model, start, plan);
+  try {
+    return fitter.run();
+  } catch (const OutOfReach& failure) {
+    throw FitOutOfReach(failure, fitter.parameters());
+  }
 }
 
 }  // namespace lv::calibrate

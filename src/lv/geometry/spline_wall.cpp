@@ -11,6 +11,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <utility>
@@ -176,19 +177,51 @@ Contours moved(Contours contours, const std::vector<Vec3>& shifts) {
   return contours;
 }
 
-/// Refuses a loop that the rays from the long axis do not meet, or meet more than once.
-void check_star_shaped(const Contour& loop, const Frame& frame) {
-  constexpr double tolerance = 10.0 * pi / 180.0;  // a small notch is smoothed away
+/// By how much each side of a loop turns about the long axis [rad].
+std::vector<double> turns_of(const Contour& loop, const Frame& frame) {
   const std::size_t n = loop.points.size();
   std::vector<double> turns(n);
-  double total = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
     const Vec3 p = frame.to_model(loop.points[i]);
     const Vec3 q = frame.to_model(loop.points[(i + 1) % n]);
     turns[i] = std::atan2(p.x() * q.y() - p.y() * q.x(), p.x() * q.x() + p.y() * q.y());
-    total += turns[i];
   }
-  if (std::abs(total) < pi)
+  return turns;
+}
+
+/// The long axis passes through a loop that turns about it once.
+bool is_passed(double turn) {
+  return std::abs(turn) >= pi;
+}
+
+double whole_turn(const std::vector<double>& turns) {
+  return std::accumulate(turns.begin(), turns.end(), 0.0);
+}
+
+/// Where slices may move, a tip that shows muscle alone cannot: it has no cavity. Beside the long
+/// axis it lies where a breath-hold put it, and is left out.
+Contours without_stray_tips(Contours contours, const FrameParameters& parameters,
+                            std::vector<std::string>& notes) {
+  const Frame frame = model_frame(contours, parameters);
+  const Contours all = contours;
+  std::erase_if(contours.short_axis, [&](const Contour& c) {
+    const bool stray = find(all.short_axis, c.slice, Side::endo) == nullptr &&
+                       !is_passed(whole_turn(turns_of(c, frame)));
+    if (stray)
+      notes.push_back(fmt::format(
+          "slice {} shows muscle without a cavity beside the long axis: left out", c.slice));
+    return stray;
+  });
+  return contours;
+}
+
+/// Refuses a loop that the rays from the long axis do not meet, or meet more than once.
+void check_star_shaped(const Contour& loop, const Frame& frame) {
+  constexpr double tolerance = 10.0 * pi / 180.0;  // a small notch is smoothed away
+  const std::vector<double> turns = turns_of(loop, frame);
+  const std::size_t n = turns.size();
+  const double total = whole_turn(turns);
+  if (!is_passed(total))
     throw InputError(loop.where(), label(loop) + ": the long axis does not pass through the loop",
                      "The slice seems shifted against the others: check its position and the apex "
                      "points, or give long-axis contours to correct it");
@@ -359,12 +392,14 @@ std::vector<Vec3> slice_shifts(const Contours& contours, const SplineFitParamete
 
 SplineWall fit_spline_wall(const Contours& contours, const SplineFitParameters& parameters) {
   const std::vector<Vec3> shifts = slice_shifts(contours, parameters);
-  const Contours placed = moved(contours, shifts);
+  FitReport said;
+  Contours placed = moved(contours, shifts);
+  if (moves_slices(contours, parameters))
+    placed = without_stray_tips(std::move(placed), parameters.frame, said.notes);
   const Frame frame = model_frame(placed, parameters.frame);
   for (const Contour& loop : placed.short_axis)
     check_star_shaped(loop, frame);
 
-  FitReport said;
   Sampler sampler(placed, frame, parameters);
   sampler.add_assumed_apexes(said);
   note_missing_epicardium(placed, said.notes);

@@ -25,7 +25,7 @@ constexpr double smallest_share = 1.0 / 64;  // of the pressure, before it gives
 constexpr double far_below = 0.02;
 constexpr double loose = 0.5;  // tolerance on the way to the whole pressure, and what is near [mm]
 
-constexpr double near_end = 2.0;  // distance below which no trial begins from no load [mm]
+constexpr double near_end = 2.0;  // of the given shape: no trial begins from no load there [mm]
 
 constexpr int smooth_degree = 3;
 constexpr std::array<double, 6> smoothings{0.8, 0.4, 0.2, 0.1, 0.05, 0.025};  // alpha
@@ -91,8 +91,7 @@ class Unloader {
       forget();
       start = nullptr;
     }
-    if (start == nullptr ||
-        !(try_from(as_vector(start->nodes), loaded_of(*start)) || is_near_enough()))
+    if (start == nullptr || !(try_from(as_vector(start->nodes), loaded_of(*start)) || is_near()))
       approach();
     if (has_wall() && is_folded(now_.step.folds)) {
       log::info("the wall that is looked for is folded: {}", words(now_.step.folds));
@@ -283,7 +282,7 @@ class Unloader {
     for (double damping = 1.0; damping >= least; damping *= 0.5) {
       if (equilibria_ >= parameters_.iterations)
         return false;
-      auto trial = load(now_.X + damping * direction, &now_.loaded, now_.left > near_end);
+      auto trial = load(now_.X + damping * direction, &now_.loaded, now_.step.largest > near_end);
       if (!trial || trial->R.norm() >= now_.R.norm())
         continue;
       trial->step.damping = damping;

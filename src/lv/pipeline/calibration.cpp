@@ -5,6 +5,7 @@
 #include "lv/base/parallel.hpp"
 #include "lv/base/table.hpp"
 #include "lv/base/units.hpp"
+#include "lv/calibrate/fit_out_of_reach.hpp"
 #include "lv/calibrate/record.hpp"
 #include "lv/calibrate/summary.hpp"
 #include "lv/case_file/case_lines.hpp"
@@ -219,9 +220,10 @@ void set_seen_volume(const Case& c, const anatomy::MeshResult& mesh, calibrate::
                 case_file::place_of(c, "unloaded.pressure")};
 }
 
-/// Where the fit on a mesh begins: at the end of the one on a coarse wall. Nothing where that wall
-/// has none, which says nothing of the other. Throws OutOfReach where it misses a volume by more
-/// than walls differ.
+/// Where the fit on a mesh begins: at the end of the one on a coarse wall, or where that misses a
+/// volume by no more than walls differ, so that the other finds out at once whether it does.
+/// Nothing where that wall has no fit, which says nothing of the other. Throws OutOfReach where it
+/// misses a volume by more.
 std::optional<FitStart> fit_coarse(const Case& c, const anatomy::MeshResult& coarse,
                                    const anatomy::MeshResult& mesh, calibrate::Plan task,
                                    const FitParameters& start,
@@ -237,10 +239,12 @@ std::optional<FitStart> fit_coarse(const Case& c, const anatomy::MeshResult& coa
     if (unloaded && unloaded->smoothing == 0.0)
       first.unloaded = carried(coarse.mesh, unloaded->nodes, mesh.mesh);
     return first;
-  } catch (const calibrate::OutOfReach& failure) {
+  } catch (const calibrate::FitOutOfReach& failure) {
     if (failure.missing() > calibrate::reach_margin)
       throw failure.found(fmt::format(" (on a coarse wall of {} elements)", elements));
     log::info("{}", failure.what());
+    if (failure.missing() > 0.0)
+      return FitStart{failure.parameters()};
   } catch (const InputError& failure) {
     log::info("{}", failure.what());
   } catch (const RunError& failure) {

@@ -2,6 +2,7 @@
 
 #include "lv/base/check.hpp"
 #include "lv/base/units.hpp"
+#include "lv/calibrate/fit_out_of_reach.hpp"
 #include "lv/calibrate/klotz.hpp"
 
 #include <Eigen/LU>
@@ -111,6 +112,55 @@ TEST_CASE("a volume out of reach is refused with the nearest within reach", "[ca
   CHECK_THROWS_AS(fit(model, {}, p), lv::InputError);
   CHECK_THROWS_WITH(fit(model, {}, p), Contains("case.toml:3: 65.00 ml cannot be reached") &&
                                            Contains(fmt::format("{:.2f} ml at C_a = 50", least)));
+}
+
+TEST_CASE(
+    "a volume out of reach is told with the parameters that come nearest, from where another "
+    "wall finds out at once",
+    "[calibrate]") {
+  Plan p = plan_for({.C_a = 2.5, .T_scale = 4.0});
+  p.esv.volume = 0.98 * volume({.C_a = 2.5, .T_scale = 20.0}, {p.es_pressure, 1.0});
+  FitParameters nearest;
+  try {
+    static_cast<void>(fit(model, {}, p));
+    FAIL("it is within reach");
+  } catch (const FitOutOfReach& failure) {
+    nearest = failure.parameters();
+    CHECK(failure.missing() == Approx(-std::log(0.98)).epsilon(1e-2));
+  }
+  CHECK(nearest.C_a == Approx(2.5).epsilon(1e-3));
+  CHECK(nearest.T_scale == Approx(20.0));
+  int contracted = 0;
+  const Model counted{[&](const FitParameters& q, const Loads& loads) {
+                        contracted += loads.activation > 0.0 ? 1 : 0;
+                        return volume(q, loads);
+                      },
+                      unloaded_volume,
+                      {}};
+  p.starts_near = true;
+  CHECK_THROWS_AS(fit(counted, nearest, p), FitOutOfReach);
+  CHECK(contracted == 1);
+}
+
+TEST_CASE("muscle that does not fill to the end-systolic volume is refused before it contracts",
+          "[calibrate]") {
+  Plan p = plan();
+  p.active = true;
+  const double edv = volume({}, {p.ed_pressure, 0.0});
+  p.esv.volume = 1.1 * edv;
+  int contracted = 0;
+  const Model counted{[&](const FitParameters& q, const Loads& loads) {
+                        contracted += loads.activation > 0.0 ? 1 : 0;
+                        return volume(q, loads);
+                      },
+                      unloaded_volume,
+                      {}};
+  CHECK_THROWS_WITH(fit(counted, {}, p),
+                    Catch::Matchers::Contains(fmt::format("fills to {:.2f} ml", 1e-3 * edv)) &&
+                        Catch::Matchers::Contains("nothing would be ejected"));
+  CHECK(contracted == 0);
+  p.esv.volume = 0.5 * edv;
+  CHECK(fit(counted, {}, p).esv == Approx(p.esv.volume).epsilon(1e-3));
 }
 
 TEST_CASE("the bracket keeps away from where the model has no equilibrium", "[calibrate]") {

@@ -173,6 +173,29 @@ TEST_CASE("without long axes slices are moved to where the wall is smooth, if th
   CHECK(rms(aligned) < 0.5 * rms(as_drawn));
 }
 
+TEST_CASE(
+    "where slices may move, a tip without a cavity that lies beside the long axis is left out",
+    "[unit][geometry]") {
+  Drawing drawing;
+  drawing.long_axis = false;
+  drawing.apex = false;
+  Contours contours = draw(drawing);
+  const double apex = -drawing.shape.base_height - drawing.shape.epi_length;
+  Contour tip{9, Side::epi, {}, {}, {}};  // of 2 mm, moved by 4 mm
+  for (int k = 0; k < 12; ++k)
+    tip.points.push_back(drawing.frame.to_image(
+        {4.0 + 2.0 * std::cos(2.0 * pi * k / 12), 2.0 * std::sin(2.0 * pi * k / 12), apex + 1.0}));
+  contours.short_axis.push_back(tip);
+  CHECK_THROWS_WITH(fit_spline_wall(contours, {}),
+                    Contains("slice 9, epi: the long axis does not pass through the loop"));
+  SplineFitParameters parameters;
+  parameters.align_slices = true;
+  const SplineWall wall = fit_spline_wall(contours, parameters);
+  CHECK(
+      notes_contain(wall, "slice 9 shows muscle without a cavity beside the long axis: left out"));
+  check_volumes(wall, drawing.shape, 0.02);
+}
+
 TEST_CASE("a shifted slice beyond the limit is refused", "[unit][geometry]") {
   const Drawing drawing = in_scanner();
   Contours contours = draw(drawing);
