@@ -73,7 +73,7 @@ export function curvesSection(cases: Case[], shared: Shared, time: Timeline): HT
 export function rotationSection(cases: Case[]): HTMLElement {
   const help = "Mean rotation of each short-axis slice about the long axis, anticlockwise seen from the apex positive, from " +
     "rotation.csv. A normal apex turns anticlockwise in systole, by about 10° from images, while the base turns clockwise by about " +
-    "3° (Young & Cowan, J. Cardiovasc. Magn. Reson. 14:49, 2012); the model's base cannot turn.";
+    "3° (Young & Cowan, J. Cardiovasc. Magn. Reson. 14:49, 2012); a base that is held (base.support) cannot turn.";
   const found = cases.map((c) => ({ c, rows: c.table("rotation.csv") })).filter(({ rows }) => rows.length);
   if (!found.length) return folded("rotation", "Rotation per slice", "rotation.csv is missing: there are no results yet.");
   const columns = [["end_diastole_to_end_systole_deg", "end-diastole to end-systole"], ["early_to_end_diastole_deg", "early to end-diastole"]];

@@ -192,7 +192,7 @@ export class WallView {
     this.renderer.setSize(width, height, false);
     // room for letters around the wall, for the caption above and the apex below it
     const { radius, bottom, top } = this.reach;
-    const [above, below] = [66, 22];  // [pixels]
+    const [above, below] = [84, 22];  // [pixels]
     const across = 2 * (radius + 16);
     const mm = Math.max(Math.max(top - bottom + 8, across) / Math.max(height - above - below, 1), across / width);  // a pixel
     const [half, lower] = [0.5 * mm * height, 0.5 * mm * (above - below)];
