@@ -34,7 +34,7 @@ export function curvesSection(cases: Case[], shared: Shared, time: Timeline): HT
   const beats = shownCases.every(({ c }) => c.isBeating);
   const help = "From curves.csv. " + (beats ? "Valves and a circulation set pressure and volume; the curves are those of one beat. " :
     "There are no valves: pressure and activation are given, and the volume follows, so the path of pressure against volume is no loop of a heart. ") + (loads ? "The quasi-static engine goes from equilibrium to equilibrium: the axis counts its load, not time. " : "") +
-    "Where a file has no value the curve has a gap: calcium between rest and peak of the quasi-static engine. The black line and the dots " +
+    "Where a file has no value the curve has a gap: calcium between rest and peak of the quasi-static engine. The line and the dots " +
     "are the moment that the 3-D view shows; point at a chart to read it.";
   const against = [
     { y: "cavity_volume_ml", title: "cavity volume (ml)" },

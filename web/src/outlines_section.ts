@@ -43,8 +43,8 @@ const isLaid = (pictures: Outlined[]) => pictures.some((p) => p.lines.some((line
 /** What agreement with the contours can mean in a case. */
 function meaning(c: Case): string {
   const fitted = c.isFitted ? "; parameters were fitted to measured volumes, so what they enclose is no test of the model, where it lies is" : "";
-  return c.isUnloaded ? `The wall without load was sought so that it fills to the shape that was seen: agreement at that moment is made, not found${fitted}.`
-    : `It was started from the shape at early diastole: at end-diastole and end-systole nothing else puts its outline onto the contours${fitted}.`;
+  return c.isUnloaded ? `the wall without load was sought so that it fills to the shape that was seen: agreement at that moment is made, not found${fitted}.`
+    : `the model was started from the shape at early diastole; at end-diastole and end-systole nothing else puts its outline onto the contours${fitted}.`;
 }
 
 /** An image with its lines; `scale` pixels of the screen a millimetre. */

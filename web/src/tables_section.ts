@@ -129,7 +129,7 @@ export function zoneSection(cases: Case[], shared: Shared): HTMLElement {
   const names = ["active_tension", "fibre_stress", "fibre_stress_passive", "fibre_strain", "circumferential_strain", "longitudinal_strain", "radial_strain"];
   const cells = (row: Row | undefined) => row ? [ofRow(row), shown(value(row.p1)), shown(value(row.p50)), shown(value(row.p99))] : ["–", "–", "–", "–"];
   return section("zones", title,
-    "Transmurality: the part of the wall's thickness that the infarct takes, per AHA segment. Distributions at end-systole over the infarct (M = 1), " +
+    "Per AHA segment the part of it that is infarcted, and the transmurality: the part of the wall's thickness that the infarct takes where it is, be that little of the segment. Distributions at end-systole over the infarct (M = 1), " +
     "its border zone (0 < M < 1) and remote muscle (M = 0), from regions.csv; on request with the means the paper gives for its patient.", paperSwitch(),
     perCase(cases, (c) => {
       const zones = c.regionNames("zone");
