@@ -258,7 +258,7 @@ export class Case {
   assumes(part: string): boolean { return this.assumptions.some((a) => a.part === part); }
 
   /** Whether the infarct is where somebody said, and not where images show it. */
-  get assumesInfarct(): boolean { return this.mark("infarct") === "assumed"; }
+  get assumesInfarct(): boolean { return this.summary?.infarct !== undefined && this.mark("infarct") === "assumed"; }
 
   /** measured, fitted, assumed or computed: that of the longest path that a figure's path in summary.json begins with. */
   mark(path: string): string | undefined {

@@ -229,7 +229,7 @@ std::optional<FitStart> fit_coarse(const Case& c, const anatomy::MeshResult& coa
   const int elements = coarse.mesh.cell_count() / 8;
   log::info("the fit is made on a coarse wall first, of {} elements", elements);
   set_seen_volume(c, coarse, task);
-  task.parameters_alone = true;
+  task.parameters_alone = task.is_rehearsal = true;
   task.strains.clear();
   try {
     const auto [fit, unloaded] = fit_wall(c, coarse, {}, task, {start}, answers);
