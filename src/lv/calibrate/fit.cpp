@@ -101,9 +101,9 @@ class Fitter {
       fit_.history.push_back({purpose_, p, loads, *volume});
       log::info(
           "{:<22} C_a {:.4g}  scale {:.4g}  exponent {:.4g}  T_scale {:.4g}  {:.2f} mmHg  "
-          "{:.3f} ml{}{}",
+          "{:.3f} ml{}",
           purpose_, p.C_a, p.scale, p.exponent, p.T_scale, loads.pressure / units::mmHg,
-          1e-3 * *volume, forecast_.words(), plan_.is_rehearsal ? " on the coarse wall" : "");
+          1e-3 * *volume, forecast_.words());
       return volume;
     };
   }

@@ -38,7 +38,6 @@ struct Plan {
   Errors errors;
   bool starts_near = false;       ///< the start is near the end
   bool parameters_alone = false;  ///< finds no sensitivities
-  bool is_rehearsal = false;      ///< on a coarse wall; the fit on the case's own follows
 
   [[nodiscard]] bool fits_exponent() const {
     return passive == FittedPassive::scale_and_exponent || passive == FittedPassive::klotz;
