@@ -2,7 +2,7 @@
 // node check.mjs VENTRICLE [--work WORK] [--images WORK]   exit code 77: skipped
 // WORK: folders of runs that are there, of a case with flow and of one with a cine; without, small ones are run.
 import { rmSync } from "node:fs";
-import { checkDocumented, checkFigures, checkImages, checkMixed, checkReal } from "./image_checks.mjs";
+import { checkDocumented, checkElsewhere, checkFigures, checkImages, checkMixed, checkReal } from "./image_checks.mjs";
 import { checkPage } from "./page_checks.mjs";
 import { makeRuns } from "./runs.mjs";
 import { browser, failed, folder, secondsTaken, timed } from "./setting.mjs";
@@ -25,6 +25,7 @@ try {
   await of("half", checkHalf);
   await of("beats", checkBeats);
   await of("images", checkImages, checkFigures);
+  await of("elsewhere", checkElsewhere);
   await of("mixed", checkMixed);
   await of("real", checkReal, checkDocumented);
 } finally {

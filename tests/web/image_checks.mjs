@@ -137,6 +137,20 @@ export async function checkImages() {
   await done();
 }
 
+/** A wall that lies in none of the images beside it. */
+export async function checkElsewhere() {
+  const { page, said, close: done } = await open("elsewhere.html");
+  await page.waitForSelector("#outlines svg.outlined");
+  const large = page.locator("#outlines figure").first();
+  const drawn = await large.locator("svg.outlined").evaluate((root) => ({ model: root.querySelectorAll("[data-source=model]").length,
+    contours: root.querySelectorAll("[data-source=contours]").length, letters: root.querySelectorAll("text.letter").length }));
+  check("images that the wall does not lie in have contours, but no outline of it and no letters", drawn.model === 0 && drawn.letters === 0 && drawn.contours === 2, JSON.stringify(drawn));
+  const words = await page.locator("#outlines").innerText();
+  check("and it is said, with no distances", /does not lie in the space of these images/.test(await large.innerText()) && !/distance of the drawn contours/.test(words), words.slice(0, 900));
+  check("nor an error", said.length === 0, said.join("\n"));
+  await done();
+}
+
 export async function checkMixed() {
   const { page, said, close: done } = await open("mixed.html");
   await page.waitForSelector("#outlines svg.outlined");
@@ -164,6 +178,9 @@ export async function checkReal() {
   const scale = fitted.uncertainty[0];
   check("HV01: its measured volume and its fitted parameter are shown", summary.includes("142.6") && close(number(summary.match(/\nscale\t([\d.]+)/)?.[1] ?? "–"), scale.value, 0.006), summary.match(/scale.*/)?.[0]);
   const pairs = csv(join(run, "04_results/strain_comparison_circumferential.csv"));
+  const green = 100 * pairs.reduce((sum, r) => sum + Number(r.measured) + Number(r.measured) ** 2 / 2, 0) / pairs.length;
+  const beside = (await page.locator("#summary tbody tr").evaluateAll((all) => all.map((row) => [...row.children].map((cell) => cell.textContent)))).find(([name]) => name.startsWith("circumferential"));
+  check("HV01: measured changes of length stand beside the model's strain as strain", close(number(beside[2]), green, 0.006), `${beside} ${green}`);
   const dots = await page.locator("#strain svg.chart").first().locator("circle:not(.live, .key)").count();
   check("HV01: strains of 30 sectors stand beside the measured ones", pairs.length === 30 && dots === 30, dots);
   check("HV01: its quality sheet is shown, images are said to be missing, no error", /cavity_fitted/.test(await page.locator("#input").innerText()) &&

@@ -14,6 +14,7 @@ async function checkFirstScreen(page) {
   }));
   check("quantity, legend, moment and the first numbers are in sight at 1280 x 720", inSight.every(Boolean), inSight);
   check("the first picture is circumferential strain", (await page.locator("#wall select").first().inputValue()) === "circumferential_strain");
+  check("a case without an infarct assumes none", !/infarct/.test(await page.locator(".sentence").innerText()), await page.locator(".sentence").innerText());
   check("end-diastole and end-systole are marked at the slider", (await page.locator("#wall .tick").allTextContents()).join() === "ED,ES");
   const bars = await page.locator("#regions svg.bar").evaluateAll((all) => all.map((one) => one.getAttribute("aria-label")));
   check("both states have one scale", bars.length === 2 && bars[0] === bars[1], bars);

@@ -37,6 +37,7 @@ async function pretendFit() {
   const summary = JSON.parse(readFileSync(file, "utf8"));
   summary.calibration = ["EDV", "ESV"].map((volume, i) => ({ volume, measured_ml: fit.measured[i], quasi_static_ml: 130, beat_ml: 129, within_tolerance: false }));
   summary.assumptions = [{ part: "septum", text: "the septum is assumed on the x axis" }, { part: "apex", text: "the apex is continued below the last contour" }];
+  summary.unloaded = { pressure_mmHg: 8 };
   summary.marks = { edv_ml: "fitted", end_diastole: "computed", "end_diastole.pressure_mmHg": "assumed" };
   const judged = { unit: "%", low: 48, high: 77, source: "a study" };
   summary.plausibility = [
@@ -49,6 +50,17 @@ async function pretendFit() {
   writeFileSync(join(to, "02b_calibrate/calibration.json"), JSON.stringify({ uncertainty: [{ parameter: "C_a", value: fit.C_a,
     when_off: [{ measurement: "EDV", by: "5%", below: fit.below, above: fit.above }] }], ambiguities: ["One volume determines one parameter."] }));
   await ventricle("report", to, "--output", "fitted.html");
+}
+
+/** The run with images as if its wall were in none of them. */
+async function pretendElsewhere() {
+  const to = join(folder, "elsewhere.work");
+  cpSync(images, to, { recursive: true });
+  const keep = (name, change) => writeFileSync(join(to, name), change(readFileSync(join(to, name), "utf8")));
+  keep("01_anatomy/frame.json", (text) => JSON.stringify(Object.fromEntries(Object.entries(JSON.parse(text)).filter(([key]) => !/in_image_space/.test(key)))));
+  keep("04_results/outlines.csv", (text) => text.split("\n").filter((line) => !/,model,/.test(line)).join("\n"));
+  keep("04_results/outline_distances.csv", (text) => `${text.split("\n")[0]}\n`);
+  await ventricle("report", to, "--output", "elsewhere.html");
 }
 
 export const ofBeats = (name) => csv(join(folder, name, "03_beat/beats.csv"));
@@ -142,6 +154,7 @@ export function makeRuns() {
   made.half = after(made.fitted, "half", makeHalf);
   made.beats = after(made.half, "beats", pretendBeats);
   made.images = after(phantom, "images", () => ventricle("report", images, "--output", "images.html"));
+  made.elsewhere = after(made.images, "elsewhere", pretendElsewhere);
   made.real = after(small, "HV01", runReal);
   made.mixed = after(Promise.all([made.images, small]), "mixed", () => ventricle("compare", images, work, "--output", "mixed.html"));
   // who waits for one hears of its failure; until then it is no unhandled one

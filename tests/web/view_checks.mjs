@@ -12,13 +12,18 @@ async function savedSvg(page, section) {
 
 export async function checkFitted() {
   const { page, said, close: done } = await open("fitted.html");
-  const text = (await page.locator("#summary").innerText()) + (await page.locator("#details").innerText());
+  const text = (await page.locator("#summary").innerText()) + (await page.locator(".remarks").innerText()) + (await page.locator("#details").innerText());
   check("measured volumes and fitted parameters with their sensitivity are shown",
     ["131.5", "61.25", "1.234", "1.11 / 1.36", "One volume determines"].every((part) => text.includes(part)) && !text.includes("No measured volumes"), text.match(/fitted[^]{0,300}/)?.[0]);
   const letters = await page.locator("#wall text.letter").allTextContents();
   const words = await page.locator("svg.bullseye").first().textContent();
   check("an assumed septum and apex are starred in the 3-D view and in bull's-eyes, and said first", letters.join() === "S*,A*,L*,I*,apex*" && /septal\*/.test(words) &&
     /assumed, septum/.test(text), `${letters} ${words}`);
+  check("and named in the first sentence", / Assumed: septum, apex\.$/.test(await page.locator(".sentence").innerText()), await page.locator(".sentence").innerText());
+  await page.setViewportSize({ width: 390, height: 844 });
+  const tops = await page.evaluate(() => ["#summary table", "#wall canvas.wall", ".remarks"].map((part) => document.querySelector(part).getBoundingClientRect().top));
+  check("on a phone numbers and picture stand before what was assumed", tops[0] < tops[1] && tops[1] < tops[2], tops);
+  await page.setViewportSize({ width: 1000, height: 760 });
   const starred = {
     "the 3-D view": await page.locator("#wall svg.overlay").textContent(), "bull's-eyes": await page.locator("#regions figcaption").first().textContent(),
     "rotation": await page.locator("#rotation svg.chart").textContent(), "flow": await page.locator("#flow svg.overlay").textContent() };
@@ -32,6 +37,8 @@ export async function checkFitted() {
   check("a figure is within, outside, or the range does not apply", /within/.test(cells("end-diastolic volume\t")) && /outside/.test(cells("rotation of the apex")) &&
     /not applicable.*an infarct/.test(cells("circumferential strain\t")), cells("circumferential strain\t"));
   const sentence = await page.locator(".sentence").innerText();
+  const heads = await page.locator("#details thead th").allTextContents();
+  check("a wall that was unloaded is not called early diastole", heads.includes("without load") && !heads.includes("early diastole"), heads);
   check("an impossible figure is flagged, in the first sentence too", /IMPOSSIBLE/.test(cells("ejection fraction\t")) && /IMPOSSIBLE: ejection fraction; outside.*rotation/.test(sentence), sentence);
   check("and no error is reported", said.length === 0, said.join("\n"));
   await done();

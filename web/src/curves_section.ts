@@ -34,7 +34,7 @@ export function curvesSection(cases: Case[], shared: Shared, time: Timeline): HT
   const beats = shownCases.every(({ c }) => c.isBeating);
   const help = "From curves.csv. " + (beats ? "Valves and a circulation set pressure and volume; the curves are those of one beat. " :
     "There are no valves: pressure and activation are given, and the volume follows, so the path of pressure against volume is no loop of a heart. ") + (loads ? "The quasi-static engine goes from equilibrium to equilibrium: the axis counts its load, not time. " : "") +
-    "Where a file has no value the curve has a gap: calcium between rest and peak of the quasi-static engine. The black line and the dots " +
+    "Where a file has no value the curve has a gap: calcium between rest and peak of the quasi-static engine. The line and the dots " +
     "are the moment that the 3-D view shows; point at a chart to read it.";
   const against = [
     { y: "cavity_volume_ml", title: "cavity volume (ml)" },
@@ -73,7 +73,7 @@ export function curvesSection(cases: Case[], shared: Shared, time: Timeline): HT
 export function rotationSection(cases: Case[]): HTMLElement {
   const help = "Mean rotation of each short-axis slice about the long axis, anticlockwise seen from the apex positive, from " +
     "rotation.csv. A normal apex turns anticlockwise in systole, by about 10° from images, while the base turns clockwise by about " +
-    "3° (Young & Cowan, J. Cardiovasc. Magn. Reson. 14:49, 2012); the model's base cannot turn.";
+    "3° (Young & Cowan, J. Cardiovasc. Magn. Reson. 14:49, 2012); a base that is held (base.support) cannot turn.";
   const found = cases.map((c) => ({ c, rows: c.table("rotation.csv") })).filter(({ rows }) => rows.length);
   if (!found.length) return folded("rotation", "Rotation per slice", "rotation.csv is missing: there are no results yet.");
   const columns = [["end_diastole_to_end_systole_deg", "end-diastole to end-systole"], ["early_to_end_diastole_deg", "early to end-diastole"]];

@@ -240,7 +240,16 @@ export class Case {
     return this.summary?.assumptions ?? (frame ? JSON.parse(frame).assumed : undefined) ?? [];
   }
 
-  /** The axes of the model in image space; undefined when they are not known. */
+  /** The wall without load was found from one that bears a pressure; summary.json calls it early_diastole. */
+  get isUnloaded(): boolean { return this.summary?.unloaded !== undefined; }
+
+  /** Parameters were fitted to measured volumes. */
+  get isFitted(): boolean { return Array.isArray(this.summary?.calibration) || Array.isArray(this.summary?.heartbeats_fitted); }
+
+  /** A moment's name for readers. */
+  momentTitle(name: string): string { return name === "early_diastole" && this.isUnloaded ? "without load" : stateTitle(name); }
+
+  /** The axes of the model in image space; undefined when it is not there, or nobody knows. */
   get axes(): { x: number[]; y: number[] } | undefined {
     const frame = this.json.files["frame.json"] ? JSON.parse(this.json.files["frame.json"]) : {};
     return frame.x_axis_in_image_space && { x: frame.x_axis_in_image_space, y: frame.y_axis_in_image_space };
@@ -249,7 +258,7 @@ export class Case {
   assumes(part: string): boolean { return this.assumptions.some((a) => a.part === part); }
 
   /** Whether the infarct is where somebody said, and not where images show it. */
-  get assumesInfarct(): boolean { return this.mark("infarct") === "assumed"; }
+  get assumesInfarct(): boolean { return this.summary?.infarct !== undefined && this.mark("infarct") === "assumed"; }
 
   /** measured, fitted, assumed or computed: that of the longest path that a figure's path in summary.json begins with. */
   mark(path: string): string | undefined {

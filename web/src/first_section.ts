@@ -18,11 +18,14 @@ const both = (c: Case, f: (edv: number, esv: number) => number) => {
   return edv === undefined || esv === undefined ? undefined : f(edv, esv);
 };
 
-/** Mean over the regions that images gave, in per cent. */
+/** Mean over the regions that images gave, in per cent; Green-Lagrange, as the model's own. */
 function seen(c: Case, component: string): number | undefined {
+  const agreement = c.json.files["strain_agreement.json"];
+  const isLength = agreement !== undefined && JSON.parse(agreement).measure === "engineering";
   const rows: Row[] = c.table(`strain_comparison_${component}.csv`);
   const scheme = rows.some((r) => r.scheme === "sector") ? "sector" : "aha17";
-  const found = rows.filter((r) => r.scheme === scheme).map((r) => value(r.measured)).filter(Number.isFinite);
+  const found = rows.filter((r) => r.scheme === scheme).map((r) => value(r.measured)).filter(Number.isFinite)
+    .map((e) => (isLength ? e + (e * e) / 2 : e));
   return found.length ? (100 * found.reduce((sum, x) => sum + x, 0)) / found.length : undefined;
 }
 
@@ -105,8 +108,20 @@ export function firstSection(cases: Case[]): HTMLElement {
   return titled("summary", "Summary", {}, content,
     none ? el("p", { class: "help" }, `No measured volumes: ${several ? "neither case" : "the case"} is ${several ? "" : "not "}fitted to any.`) : undefined,
     el("p", { class: "help" }, "Strain at end-systole is Green-Lagrange, the mean over the wall; measured, the mean over the regions of the images. " +
-      "Sources of the usual ranges and what was assumed are below."),
+      "Sources of the usual ranges are below."));
+}
+
+/** What was assumed and what the run warns of, in full: beside or below the numbers and the picture, which mark it. */
+export function remarks(cases: Case[]): HTMLElement {
+  const several = cases.length > 1;
+  return el("div", { class: "remarks" },
     ...cases.flatMap((c) => c.assumptions.map((a) => el("p", { class: "warning" }, el("strong", {}, `${several ? `${c.name}: ` : ""}assumed, ${a.part}: `), a.text))),
     ...cases.flatMap((c) => (c.summary?.warnings ?? []).filter((text: string) => !c.assumptions.some((a) => a.text === text))
       .map((text: string) => el("p", { class: "warning" }, several && `${c.name}: `, text))));
+}
+
+/** "Assumed: septum, apex." */
+export function assumedSentence(c: Case): string {
+  const parts = [...new Set([...c.assumptions.map((a) => a.part), ...(c.assumesInfarct ? ["infarct"] : [])])];
+  return parts.length ? ` Assumed: ${parts.join(", ")}.` : "";
 }

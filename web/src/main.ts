@@ -8,7 +8,7 @@ import { heartbeatSection } from "./heartbeat_section.ts";
 import { outlinesSection } from "./outlines_section.ts";
 import { Shared, timeline } from "./shared.ts";
 import { strainSection } from "./strain_section.ts";
-import { firstSection, sentence } from "./first_section.ts";
+import { assumedSentence, firstSection, remarks, sentence } from "./first_section.ts";
 import { bullsEyeSection } from "./regions_section.ts";
 import { detailsSection, inputSection, normalSection, parameterSection, zoneSection } from "./tables_section.ts";
 import { wallSection } from "./wall_section.ts";
@@ -17,7 +17,7 @@ function header(cases: Case[]): HTMLElement {
   const title = cases.map((c) => c.name).join(" beside ");
   document.title = `${title} – ventricle`;
   const unfinished = cases.filter((c) => !c.json.complete);
-  return el("header", {}, el("h1", {}, title), ...cases.map((c) => el("p", { class: "sentence" }, sentence(c))),
+  return el("header", {}, el("h1", {}, title), ...cases.map((c) => el("p", { class: "sentence" }, sentence(c) + assumedSentence(c))),
     ...unfinished.map((c) => el("div", { class: "state", role: "alert" }, el("strong", {}, `The run of ${c.name} is not complete. `),
       "What there is, is shown; what is not there, is said to be missing.", el("ul", {}, ...c.json.state.map((line) => el("li", {}, line))))));
 }
@@ -46,7 +46,7 @@ async function main(): Promise<void> {
   if (new Set(cases.map((c) => c.name)).size < cases.length) for (const c of cases) c.name += ` (${c.json.folder})`;
   const page = document.getElementById("page")!;
   page.className = cases.length > 1 ? "two" : "one";
-  const first = el("div", { class: "first" }, firstSection(cases));
+  const first = el("div", { class: "first" }, firstSection(cases), remarks(cases));
   const nav = el("nav", { "aria-label": "sections" });
   page.append(header(cases), first, nav);
   await painted();

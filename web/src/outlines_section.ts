@@ -37,8 +37,18 @@ function letters(c: Case, { along_row, along_column }: Outlined, width: number, 
 const scaleBar = (width: number, height: number) => [svg("rect", { x: width - 23, y: height - 5, width: 20, height: 1, fill: "#fff" }),
   svg("text", { x: width - 13, y: height - 6.5, "text-anchor": "middle", "font-size": 4.5, ...white }, "20 mm")];
 
+/** Whether the model lies where the images show a heart, so that it was laid over them. */
+const isLaid = (pictures: Outlined[]) => pictures.some((p) => p.lines.some((line) => line.source === "model"));
+
+/** What agreement with the contours can mean in a case. */
+function meaning(c: Case): string {
+  const fitted = c.isFitted ? "; parameters were fitted to measured volumes, so what they enclose is no test of the model, where it lies is" : "";
+  return c.isUnloaded ? `the wall without load was sought so that it fills to the shape that was seen: agreement at that moment is made, not found${fitted}.`
+    : `the model was started from the shape at early diastole; at end-diastole and end-systole nothing else puts its outline onto the contours${fitted}.`;
+}
+
 /** An image with its lines; `scale` pixels of the screen a millimetre. */
-function drawPicture(c: Case, picture: Outlined, scale: number): SVGSVGElement {
+function drawPicture(c: Case, picture: Outlined, scale: number, laid: boolean): SVGSVGElement {
   const { columns, rows, spacing_i_mm: across, spacing_j_mm: down } = picture;
   const [width, height] = [columns * across, rows * down];
   const title = `${titleOf(picture.slice)}, image ${picture.phase} (${stateTitle(picture.state)})`;
@@ -51,7 +61,7 @@ function drawPicture(c: Case, picture: Outlined, scale: number): SVGSVGElement {
     lines.append(svg("path", { d: pathOf(line.points), fill: "none", stroke: line.source === "model" ? modelColour : contourColour,
       "stroke-width": 1.6 / scale, "stroke-dasharray": line.source === "model" ? "none" : `${4.5 / scale} ${3 / scale}`, "data-source": line.source }));
   root.append(lines, ...(scale < 2 ? [svg("text", { x: 2, y: height - 2.5, "font-size": 4 + 6 / scale, ...white }, titleOf(picture.slice))]
-    : [...letters(c, picture, width, height), ...scaleBar(width, height)]));
+    : [...(laid ? letters(c, picture, width, height) : []), ...scaleBar(width, height)]));
   return root;
 }
 
@@ -64,7 +74,9 @@ class Sheet {
   private large = el("div");
   private slider: HTMLInputElement;
   private name = el("output");
+  private laid: boolean;
   constructor(private c: Case, private pictures: Outlined[]) {
+    this.laid = isLaid(pictures);
     const slices = this.slices();
     const states = [...new Set(pictures.map((p) => p.state))];
     this.state = states[0];
@@ -75,7 +87,9 @@ class Sheet {
       ...states.map((state) => el("button", { type: "button", "data-state": state,
         click: () => { this.state = state; this.draw(); } }, stateTitle(state))));
     this.element.append(el("div", { class: "controls" }, choice, el("label", {}, "slice", this.slider, this.name)),
-      el("div", { class: "outlines" }, this.large, this.grid), this.distances());
+      el("div", { class: "outlines" }, this.large, this.grid), this.laid ? el("p", { class: "help" }, `${c.name}: ${meaning(c)}`)
+        : missing(`${c.name}: the model does not lie in the space of these images: it is not laid over them, and the images have no letters.`),
+      ...(this.laid ? [this.distances()] : []));
     this.draw();
   }
 
@@ -90,12 +104,12 @@ class Sheet {
     const now = this.pictures.filter((p) => p.state === this.state);
     const chosen = now.find((p) => p.slice === this.slice);
     this.large.replaceChildren(chosen
-      ? figure([`${this.c.name}: ${titleOf(this.slice)}, image ${chosen.phase}, at ${stateTitle(this.state)}, model (solid, orange) and contours (dashed, blue)`, starNote(heartOf(this.c))]
-        .filter(Boolean).join("; "),
-        fileName(this.c.name, "outlines", this.state, titleOf(this.slice)), drawPicture(this.c, chosen, 4))
+      ? figure([`${this.c.name}: ${titleOf(this.slice)}, image ${chosen.phase}, at ${stateTitle(this.state)}, ${this.laid ? "model (solid, orange) and " : ""}contours (dashed, blue)`,
+        this.laid ? starNote(heartOf(this.c)) : "the model does not lie in the space of these images"].filter(Boolean).join("; "),
+        fileName(this.c.name, "outlines", this.state, titleOf(this.slice)), drawPicture(this.c, chosen, 4, this.laid))
       : missing(`No image of ${titleOf(this.slice)} at ${stateTitle(this.state)}.`));
     this.grid.replaceChildren(...now.map((p) => el("button", { type: "button", class: "thumb", "aria-label": `show ${titleOf(p.slice)}`,
-      "aria-pressed": p.slice === this.slice, click: () => { this.slice = p.slice; this.draw(); } }, drawPicture(this.c, p, 1.3))));
+      "aria-pressed": p.slice === this.slice, click: () => { this.slice = p.slice; this.draw(); } }, drawPicture(this.c, p, 1.3, this.laid))));
   }
 
   private distances(): HTMLElement {
@@ -115,7 +129,7 @@ export function outlinesSection(cases: Case[]): HTMLElement {
   const whole = section("outlines", "Outlines over the images",
     "Where the model's two surfaces cut the planes of the cine, short and long axes (solid, orange), over the images at end-diastole and " +
     "end-systole, with the contours that were drawn on them (dashed, blue). Where both lie on each other the model has the shape of the " +
-    "heart; at end-diastole and end-systole nothing forces it to: it was only started from the shape at early diastole. A slice without " +
+    "heart; what that says of it stands below the images. A slice without " +
     "orange lies above the model's base or below its apex. The table has the distance of the drawn points from the model's outline; " +
     "a dash where the plane does not cut the model. Curves on long axes are drawn at end-diastole alone. From pictures/, outlines.csv and outline_distances.csv.", place);
   const absent = (c: Case) => el("div", { class: "panel" }, missing(`${c.name}: ${none}`));

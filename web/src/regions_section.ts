@@ -115,17 +115,20 @@ export function bullsEyeSection(cases: Case[], shared: Shared, scaleNow: () => S
   return section("regions", "Bull's-eyes", help, read, place);
 }
 
-/** How much of the wall's thickness the infarct takes in each AHA segment; nothing for a case without infarct. */
+/** How much of each AHA segment is infarcted, and of the wall's thickness there; nothing for a case without infarct. */
 export function transmurality(c: Case, shared: Shared): HTMLElement | undefined {
   const rows: any[] = c.summary?.infarct_segments ?? [];
   if (!rows.length) return undefined;
   const of = c.regionNames("aha17").map((name) => rows.find((row) => row.segment === name.replace(/^\d+ /, "")));
   const scale: Scale = { min: 0, max: 100, diverging: false, middle: 0, floor: 0.5 };
   const marks = new Marked(shared);
-  const title = c.assumesInfarct ? "transmurality of the infarct* (%; * assumed: infarct)" : "transmurality of the infarct (%)";
-  const drawn = marks.draw(c, "aha17", of.map((row) => row?.transmurality_percent ?? 0), of.map((row) => row
-    ? `infarct through ${shown(row.transmurality_percent)}% of the wall, in ${shown(row.percent_of_segment)}% of the segment` : "no infarct"),
-    scale, `${c.name}: ${title}`, fileName(c.name, "transmurality"), title);
+  const star = c.assumesInfarct ? ["*", "; * assumed: infarct"] : ["", ""];
+  const details = of.map((row) => row
+    ? `infarct in ${shown(row.percent_of_segment)}% of the segment, there through ${shown(row.transmurality_percent)}% of the wall` : "no infarct");
+  const one = (key: string, title: string, file: string) =>
+    marks.draw(c, "aha17", of.map((row) => row?.[key] ?? 0), details, scale, `${c.name}: ${title}`, fileName(c.name, file), title);
+  const drawn = [one("percent_of_segment", `part of the segment that is infarcted${star[0]} (%${star[1]})`, "infarcted-part"),
+    one("transmurality_percent", `transmurality where it is infarcted${star[0]} (%${star[1]})`, "transmurality")];
   shared.onChange((_, changed) => changed.has("selection") && marks.mark());
-  return el("div", { class: "one-figure" }, colourBar(scale, title), drawn);
+  return el("div", {}, colourBar(scale, `infarct${star[0]} (%${star[1]})`), el("div", { class: "pair" }, ...drawn));
 }

@@ -9,7 +9,10 @@ import { shown } from "./quantities.ts";
 const components = ["circumferential", "radial"];
 const schemes: [string, string][] = [["sector", "sectors of slices"], ["aha17", "AHA segments"]];
 /** A caption, with what was assumed of the anatomy that the regions hang on. */
-const withStars = (c: Case, caption: string) => [`${c.name}: ${caption}`, starNote(heartOf(c))].filter(Boolean).join("; regions* ");
+const withStars = (c: Case, caption: string) => {
+  const note = starNote(heartOf(c));
+  return `${c.name}: ${caption}${note && `, regions* (${note})`}`;
+};
 
 interface Agreement { count: number; bias: number; standard_deviation: number; lower_limit: number; upper_limit: number; correlation: number }
 

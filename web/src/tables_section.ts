@@ -40,7 +40,7 @@ function stateTable(c: Case): HTMLElement {
   const row = (title: string, key: string, digits = 4) => [title, ...names.map((name) => shown(c.summary[name]?.[key], digits)),
     marks(c, ...names.map((name) => `${name}.${key}`))];
   const measured = moments.map((name) => shown(measuredVolume(c, ({ end_diastole: "EDV", end_systole: "ESV" } as Record<string, string>)[name]), 4));
-  return table(fileName(c.name, "states"), ["", ...names.map(stateTitle), "origin"], [
+  return table(fileName(c.name, "states"), ["", ...names.map((name) => c.momentTitle(name)), "origin"], [
     row(c.isLoaded ? "load (no time)" : "time (s)", "time_s"), row("endocardial pressure (mmHg)", "pressure_mmHg"), row("cavity volume (ml)", "cavity_volume_ml"),
     ["measured cavity volume (ml)", "–", ...measured, "measured"],
     row("wall volume (ml)", "wall_volume_ml"), row("endocardial apex z (mm)", "apex_endo_z_mm"),
@@ -104,7 +104,7 @@ export function normalSection(cases: Case[]): HTMLElement {
     "from regions.csv. Beside them, for the whole wall, " +
     `the mean and spread of 100 healthy adults from feature tracking of cine images (${volunteers}), whose changes of length are ` +
     "converted to Green-Lagrange strain, E = e + e²/2. Feature tracking follows the borders of the wall, mostly the inner one, so it sees " +
-    "more shortening than a mean over the wall; the model's base cannot move, so its longitudinal strain is small. “Away”: how many of those " +
+    "more shortening than a mean over the wall; a model whose base is held in its plane shortens little along its axis. “Away”: how many of those " +
     `standard deviations lie between. On request, the paper's healthy subject (${paper}): one heart, and its spread over the wall.`, paperSwitch(),
     perCase(cases, (c) => c.regions.length === 0 ? [missing("regions.csv is missing: there are no results yet.")] : [
       table(fileName(c.name, "strain-thirds"), ["strain", ...thirds, "whole wall", "100 healthy adults", "away", "paper's healthy subject", "away"],
@@ -129,7 +129,7 @@ export function zoneSection(cases: Case[], shared: Shared): HTMLElement {
   const names = ["active_tension", "fibre_stress", "fibre_stress_passive", "fibre_strain", "circumferential_strain", "longitudinal_strain", "radial_strain"];
   const cells = (row: Row | undefined) => row ? [ofRow(row), shown(value(row.p1)), shown(value(row.p50)), shown(value(row.p99))] : ["–", "–", "–", "–"];
   return section("zones", title,
-    "Transmurality: the part of the wall's thickness that the infarct takes, per AHA segment. Distributions at end-systole over the infarct (M = 1), " +
+    "Per AHA segment the part of it that is infarcted, and the transmurality: the part of the wall's thickness that the infarct takes where it is, be that little of the segment. Distributions at end-systole over the infarct (M = 1), " +
     "its border zone (0 < M < 1) and remote muscle (M = 0), from regions.csv; on request with the means the paper gives for its patient.", paperSwitch(),
     perCase(cases, (c) => {
       const zones = c.regionNames("zone");

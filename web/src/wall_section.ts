@@ -79,9 +79,12 @@ class Panel {
     const region = hit && this.view!.region(hit.cell, scheme);
     this.shared.pick(region === undefined ? undefined : { scheme, index: region }, fixed);
     const q = quantity(this.shared.state.quantity);
-    this.read.textContent = hit === undefined ? "" :
-      `${label(q)} here: ${shown(hit.value)}; segment ${regionName(this.c, "aha17", this.view!.region(hit.cell, "aha17") ?? 0)}, ` +
-      `slice and sector ${regionName(this.c, "sector", this.view!.region(hit.cell, "sector") ?? 0)}`;
+    const place = (words: string, of: Scheme) => {
+      const index = this.view!.region(hit!.cell, of);
+      return index === undefined ? [] : [`${words} ${regionName(this.c, of, index)}`];
+    };
+    this.read.textContent = hit === undefined ? "" : [`${label(q)} here: ${shown(hit.value)}`,
+      [...place("segment", "aha17"), ...place("slice and sector", "sector")].join(", ")].filter(Boolean).join("; ");
   }
 
   private async field(name: string): Promise<Series | Float32Array | undefined> {

@@ -76,6 +76,7 @@ export class WallView {
   private cut: Cut = { kind: "none", angle: 0, height: 0 };
   private fibres?: Fibres;
   private reach: { radius: number; bottom: number; top: number };  // of the wall about the long axis, at all moments [mm]
+  private lowest = 0;  // of the wall, at the moment that is shown [mm]
   private selection?: Selection;
   private waiting = false;
   private slow: boolean;  // no graphics processor
@@ -192,7 +193,7 @@ export class WallView {
     this.renderer.setSize(width, height, false);
     // room for letters around the wall, for the caption above and the apex below it
     const { radius, bottom, top } = this.reach;
-    const [above, below] = [66, 22];  // [pixels]
+    const [above, below] = [84, 22];  // [pixels]
     const across = 2 * (radius + 16);
     const mm = Math.max(Math.max(top - bottom + 8, across) / Math.max(height - above - below, 1), across / width);  // a pixel
     const [half, lower] = [0.5 * mm * height, 0.5 * mm * (above - below)];
@@ -216,7 +217,7 @@ export class WallView {
       return { name, label, x: 0.5 * (1 + at.x) * width, y: 0.5 * (1 - at.y) * clientHeight, seen: Math.abs(eye.dot(direction)) < 0.8 };
     };
     const up = new Vector3(0, 0, 1);
-    const ends: Record<string, number> = { apex: this.reach.bottom - 4, base: this.reach.top + 4 };
+    const ends: Record<string, number> = { apex: this.lowest - 5, base: this.reach.top + 4 };
     return [...walls.map(([name, angle]) => {
       const [x, y] = unit(this.heart.septum + angle);
       const direction = new Vector3(x, y, 0);
@@ -241,6 +242,7 @@ export class WallView {
   /** The wall at a frame; `series` colours it, M if it is an array. */
   show(frame: number, field: Series | Float32Array | undefined, scale: Scale, cut: Cut, fibres: Fibres | undefined): void {
     this.undrawn = this.wall.positions(frame);
+    this.lowest = this.undrawn.subarray(2 * this.wall.nodes).reduce((a, b) => Math.min(a, b), 0);
     this.cut = cut;
     this.plane = planeOf(cut, this.heart);
     this.fibres = fibres;

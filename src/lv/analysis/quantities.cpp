@@ -15,11 +15,12 @@ using Strain = const CellStrain&;
 constexpr double strain_floor = 0.005;
 constexpr double stress_floor = 0.1;  // [kPa]
 constexpr const char* strain_help =
-    "Green-Lagrange strain; up to end-diastole from early diastole, after it from end-diastole. "
-    "Negative: shorter.";
+    "Green-Lagrange strain; up to end-diastole from early diastole (or the wall without load, "
+    "where that was sought), after it from end-diastole. Negative: shorter.";
 constexpr const char* radial_help =
-    "Green-Lagrange strain; up to end-diastole from early diastole, after it from end-diastole. "
-    "Negative: shorter. Positive across the wall: thicker.";
+    "Green-Lagrange strain; up to end-diastole from early diastole (or the wall without load, "
+    "where that was sought), after it from end-diastole. Negative: shorter. Positive across the "
+    "wall: thicker.";
 
 constexpr Quantity shown_strain(const char* name, const char* title, double (*of)(Cell, Strain),
                                 const char* field, const char* help = strain_help) {

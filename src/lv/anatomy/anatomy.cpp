@@ -31,6 +31,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* frame_name = "frame.json";
 constexpr const char* es_contours_name = "es_contours.csv";
+constexpr const char* origin_name = "origin_in_image_space_mm";
 
 constexpr const char* assumed_septum =
     "the septum is assumed at the first point of the basal endocardial loop: regions bear the "
@@ -262,6 +263,7 @@ Shape read_shape(const Case& c) {
   if (c.anatomy.source == case_file::AnatomySource::mesh)
     return from_mesh(c);
   Shape shape;
+  shape.is_in_images = false;
   shape.wall = [e = c.anatomy.ellipsoid](double u, double theta, double t) {
     return e.point(u, theta, t);
   };
@@ -301,13 +303,15 @@ void write_anatomy(const Shape& shape, const fs::path& folder) {
   else
     report::write_surfaces(folder / "surfaces.vtu", shape.wall);
   const Mat3& axes = shape.frame.axes;
-  const nlohmann::ordered_json frame{{"origin_in_image_space_mm", numbers(shape.frame.origin)},
-                                     {"x_axis_in_image_space", numbers(axes.col(0))},
-                                     {"y_axis_in_image_space", numbers(axes.col(1))},
-                                     {"z_axis_in_image_space", numbers(axes.col(2))},
-                                     {"notes", shape.notes},
-                                     {"assumed", json_of(shape.assumed)},
-                                     {"warnings", json_of(shape.warnings)}};
+  nlohmann::ordered_json frame;
+  if (shape.is_in_images)
+    frame = {{origin_name, numbers(shape.frame.origin)},
+             {"x_axis_in_image_space", numbers(axes.col(0))},
+             {"y_axis_in_image_space", numbers(axes.col(1))},
+             {"z_axis_in_image_space", numbers(axes.col(2))}};
+  frame["notes"] = shape.notes;
+  frame["assumed"] = json_of(shape.assumed);
+  frame["warnings"] = json_of(shape.warnings);
   write_file(folder / frame_name, json_text(frame) + "\n");
   if (!shape.end_systole.empty())
     geometry::contour_table(shape.end_systole).write_csv(folder / es_contours_name);
@@ -327,9 +331,11 @@ AnatomyRecord anatomy_record(const fs::path& folder) {
       return Vec3(json.at(key).get<std::array<double, 3>>().data());
     };
     AnatomyRecord record;
-    record.frame.origin = vector("origin_in_image_space_mm");
-    record.frame.axes << vector("x_axis_in_image_space"), vector("y_axis_in_image_space"),
-        vector("z_axis_in_image_space");
+    if (json.contains(origin_name)) {
+      record.frame.emplace().origin = vector(origin_name);
+      record.frame->axes << vector("x_axis_in_image_space"), vector("y_axis_in_image_space"),
+          vector("z_axis_in_image_space");
+    }
     for (const auto& a : json.at("assumed"))
       record.assumed.push_back({a.at("part"), a.at("text")});
     for (const auto& a : json.at("warnings"))

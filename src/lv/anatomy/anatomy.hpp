@@ -19,6 +19,7 @@ struct Shape {
   std::optional<mesh::Mesh> given;  ///< that mesh
   std::vector<bool> infarcted;      ///< its elements in infarct.elements.set, if that is the source
   geometry::Frame frame;
+  bool is_in_images = true;  ///< false: the shape was thought of in the model frame itself
   std::optional<report::QualitySheet> quality;           ///< for a drawn wall
   std::shared_ptr<const CineSegmentation> segmentation;  ///< of borders that the program drew
   /// Loops at end-systole where the source shows them besides, moved as the slices were, image
@@ -42,7 +43,7 @@ void write_anatomy(const Shape& shape, const std::filesystem::path& folder);
 
 /// What write_anatomy left in a folder of a shape's frame, assumptions and warnings.
 struct AnatomyRecord {
-  geometry::Frame frame;
+  std::optional<geometry::Frame> frame;  ///< none for a shape that is in no images
   std::vector<geometry::Assumption> assumed;
   std::vector<std::string> warnings;
   std::vector<geometry::Contour> end_systole;  ///< empty where none are drawn

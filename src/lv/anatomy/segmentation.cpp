@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace lv::anatomy {
 namespace {
@@ -25,6 +26,9 @@ namespace fs = std::filesystem;
 using geometry::Contour;
 using segment::FrameBorders;
 using segment::Segmentation;
+
+constexpr const char* choices_name = "segmentation.csv";
+constexpr const char* fall_name = "segment.fall";
 
 constexpr drawing::Colour sure_colour = drawing::hex(0x56b4e9);
 constexpr drawing::Colour doubtful_colour = drawing::hex(0xe69f00);
@@ -85,6 +89,16 @@ Table volumes_table(const Segmentation& found) {
     table.add_row({std::to_string(t + 1), Table::number(1e-3 * found.volumes[t], 5),
                    Table::number(1e-3 * (whole - found.volumes[t]), 5), std::to_string(slices)});
   }
+  return table;
+}
+
+Table choices_table(const Segmentation& found) {
+  Table table({"quantity", "value"});
+  for (const auto& [name, frame] : {std::pair("end_diastole", found.phases.end_diastole),
+                                    {"end_systole", found.phases.end_systole},
+                                    {"early_diastole", found.phases.early_diastole}})
+    table.add_row({name, std::to_string(frame + 1)});
+  table.add_row({fall_name, Table::number(found.fall, 6)});
   return table;
 }
 
@@ -156,7 +170,7 @@ std::string describe(const CineSegmentation& segmentation) {
       moment("end-diastole", found.phases.end_diastole) +
       moment("end-systole", found.phases.end_systole) +
       moment("early diastole", found.phases.early_diastole) +
-      fmt::format("{}{:.3f} of the way from blood to muscle\n", segment::fall_is, found.fall);
+      fmt::format("segment.fall: {:.3f} of the way from blood to muscle\n", found.fall);
   for (const auto* notes : {&segmentation.cine.notes, &found.doubts})
     for (const std::string& note : *notes)
       text += fmt::format("note: {}\n", note);
@@ -176,7 +190,20 @@ void write_segmentation(const CineSegmentation& segmentation, const fs::path& fo
   }
   quality_table(segmentation.found).write_csv(folder / "quality.csv");
   volumes_table(segmentation.found).write_csv(folder / "volumes.csv");
+  choices_table(segmentation.found).write_csv(folder / choices_name);
   write_file(folder / "segmentation.txt", describe(segmentation));
+}
+
+std::optional<double> kept_fall(const fs::path& folder) {
+  if (!fs::exists(folder / choices_name))
+    return {};
+  const Table table = Table::read_csv(folder / choices_name);
+  const auto names = table.words("quantity");
+  const auto values = table.numbers("value");
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (names[i] == fall_name)
+      return values[i];
+  return {};
 }
 
 std::string segment_case(const Case& c, const fs::path& folder) {

@@ -3,6 +3,7 @@
 #include "lv/case_file/case.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace lv::anatomy {
@@ -34,8 +35,13 @@ struct CineSegmentation {
 ///   quality.csv            a row per slice and phase: areas, confidence of both borders, doubtful
 ///   volumes.csv            cavity and muscle per phase, areas times spacing
 ///   pictures/phase_NN.png  all slices of a phase with their borders
+///   segmentation.csv       proposed phases, from 1, and segment.fall as it was used or found
 ///   segmentation.txt       what describe says
 void write_segmentation(const CineSegmentation& segmentation, const std::filesystem::path& folder);
+
+/// segment.fall as such a folder has it; nothing where it does not say. Throws InputError for a
+/// table that is damaged.
+[[nodiscard]] std::optional<double> kept_fall(const std::filesystem::path& folder);
 
 /// Segments the cine of a case into a new folder, and says what was found. Throws InputError if the
 /// folder exists, for contours in it may have been corrected.

@@ -1,9 +1,11 @@
 #include "lv/cine/outlines.hpp"
 
+#include "lv/base/bounds.hpp"
 #include "lv/base/table.hpp"
 #include "lv/drawing/overlay.hpp"
 #include "lv/drawing/picture_files.hpp"
 #include "lv/drawing/wall_surface.hpp"
+#include "lv/geometry/contour_measures.hpp"
 #include "lv/mesh/curved.hpp"
 #include "lv/strain/measures.hpp"
 
@@ -33,15 +35,17 @@ struct Surfaces {
   std::vector<std::array<Vec3, 3>> endo, epi;
 };
 
-Surfaces surfaces(const mesh::CurvedMesh& curved, const geometry::Frame& frame,
+Surfaces surfaces(const mesh::CurvedMesh& curved, const std::optional<geometry::Frame>& frame,
                   const std::vector<Vec3>& positions) {
+  if (!frame)
+    return {};
   const std::vector<Vec3> nodes = curved.at_nodes(positions);
   const auto triangles = [&](const mesh::Surface& side) {
     const drawing::Patch patch = drawing::wall_surface(curved.mesh, nodes, side).patch;
     std::vector<std::array<Vec3, 3>> all;
     for (const auto& t : patch.triangles)
-      all.push_back({frame.to_image(patch.points[t[0]]), frame.to_image(patch.points[t[1]]),
-                     frame.to_image(patch.points[t[2]])});
+      all.push_back({frame->to_image(patch.points[t[0]]), frame->to_image(patch.points[t[1]]),
+                     frame->to_image(patch.points[t[2]])});
     return all;
   };
   return {triangles(curved.mesh.endo), triangles(curved.mesh.epi)};
@@ -59,8 +63,10 @@ std::string title(const DrawnImage& image) {
 /// A, S, I and L towards the walls of the model.
 std::vector<drawing::EdgeLetter> edge_letters(const ModelledBeat& model) {
   std::vector<drawing::EdgeLetter> letters;
+  if (!model.frame)
+    return letters;
   for (const auto& [letter, direction] : model.orientation.walls())
-    letters.push_back({letter, model.frame.axes * direction});
+    letters.push_back({letter, model.frame->axes * direction});
   return letters;
 }
 
@@ -68,7 +74,8 @@ std::vector<drawing::EdgeLetter> edge_letters(const ModelledBeat& model) {
 class Outlines {
  public:
   explicit Outlines(const ModelledBeat& model)
-      : letters_(edge_letters(model)),
+      : is_laid_(model.frame.has_value()),
+        letters_(edge_letters(model)),
         points_({"state", "slice", "source", "contour", "line", "point", "x_mm", "y_mm", "z_mm"}),
         distances_({"state", "slice", "contour", "points", "mean_mm", "rms_mm", "largest_mm"}) {}
 
@@ -83,7 +90,10 @@ class Outlines {
       pictures_.push_back(
           {state, image.slice, image.phase, drawing::cut_around(*image.picture, around)});
     }
-    drawing::write_overlays(overlays, "Outlines of the model (solid) and contours drawn (dashed)",
+    drawing::write_overlays(overlays,
+                            is_laid_ ? "Outlines of the model (solid) and contours drawn (dashed)"
+                                     : "Contours drawn (dashed); the model does not lie in the "
+                                       "space of these images",
                             picture);
   }
 
@@ -122,7 +132,8 @@ class Outlines {
       over.push_back({contour->points, drawing::hex(0x56b4e9), image.closed, true});
       write(state, image.slice, "contours", side,
             {image.closed ? closed(contour->points) : contour->points});
-      measure(state, image.slice, *contour, lines);
+      if (is_laid_)
+        measure(state, image.slice, *contour, lines);
     }
     return over;
   }
@@ -147,6 +158,7 @@ class Outlines {
       means_[state].push_back(d.mean);
   }
 
+  bool is_laid_;
   std::vector<drawing::EdgeLetter> letters_;
   Table points_, distances_;
   std::vector<drawing::PictureFile> pictures_;
@@ -177,6 +189,26 @@ std::vector<DrawnImage> images_at(const CineStudy& study, int phase, int diastol
                       false, diastolic ? &view.endo : nullptr, diastolic ? &view.epi : nullptr});
   }
   return images;
+}
+
+bool lies_in_images(const ModelledBeat& model, const CineStudy& study) {
+  if (!model.frame)
+    return false;
+  const auto box = bounds(model.beat.at(heartbeat::end_diastole).positions);
+  const double radius = box.sizes().head<2>().maxCoeff();
+  int loops = 0;
+  int inside = 0;
+  for (const Contour& loop : study.drawn.short_axis) {
+    if (loop.side != Side::endo)
+      continue;
+    const Vec3 x = model.frame->to_model(geometry::mean_of(loop.points));
+    ++loops;
+    inside += x.z() > box.min().z() && x.z() < box.max().z() + study.spacing &&
+                      std::hypot(x.x(), x.y()) < 0.5 * radius
+                  ? 1
+                  : 0;
+  }
+  return 2 * inside > loops;
 }
 
 std::string write_outlines(const ModelledBeat& model, const CineStudy& study, int diastole,

@@ -25,9 +25,15 @@ struct DrawnImage {
 /// over the cycle. The study must outlive what is returned.
 [[nodiscard]] std::vector<DrawnImage> images_at(const CineStudy& study, int phase, int diastole);
 
+/// Whether the wall lies where its images show a heart: at end-diastole more than half of the
+/// endocardial loops have their middle within the wall's length and radius. An ellipsoid does not,
+/// which is in no images, nor a mesh in a space of its own.
+[[nodiscard]] bool lies_in_images(const ModelledBeat& model, const CineStudy& study);
+
 /// Lays the model's sections with the planes of the cine over its images at end-diastole and
 /// end-systole (phases from 1): outlines.csv, outline_distances.csv, outlines_ed.png,
 /// outlines_es.png and pictures/ in `folder`. Returns how far they lie from the contours, in words.
+/// Of a model without a frame there are no sections, letters and distances.
 /// Throws RunError naming a file that cannot be written.
 [[nodiscard]] std::string write_outlines(const ModelledBeat& model, const CineStudy& study,
                                          int diastole, int systole,

@@ -8,6 +8,7 @@
 #include "lv/strain/agreement.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,7 +41,7 @@ struct ModelledBeat {
   const anatomy::MeshResult& mesh;
   const heartbeat::Beat& beat;
   const analysis::BeatFields& fields;
-  geometry::Frame frame;  ///< the model's in image space
+  std::optional<geometry::Frame> frame;  ///< the model's in image space; none: it is not there
   drawing::Orientation orientation{};
 };
 
@@ -48,7 +49,9 @@ struct ModelledBeat {
 /// outlines over the images: strain_comparison.csv, strain_agreement.json, outlines.csv,
 /// outline_distances.csv, outlines_ed.png, outlines_es.png and pictures/ (the images around the
 /// heart, for the report) in `folder`. `strain` is the folder of
-/// make_strain. Returns what was found, in words; nothing if the case has no measured strain.
+/// make_strain. A wall that does not lie in the images (lies_in_images) is not laid over them, and
+/// AHA segments alone are compared. Returns what was found, in words; nothing if the case has no
+/// measured strain.
 [[nodiscard]] std::string compare_strain(const case_file::Case& c, const ModelledBeat& model,
                                          const std::filesystem::path& strain,
                                          const std::filesystem::path& folder);

@@ -115,18 +115,19 @@ std::map<int, std::vector<bool>> in_slices(const ModelledBeat& model, const Cine
     std::vector<bool>& in = members[loops[l].slice];
     in.clear();
     for (const analysis::CellFields& cell : model.fields.at(heartbeat::end_diastole))
-      in.push_back(std::abs(plane.pixel(model.frame.to_image(cell.position)).z()) <
+      in.push_back(std::abs(plane.pixel(model.frame->to_image(cell.position)).z()) <
                    0.5 * study.spacing);
   }
   return members;
 }
 
-/// With images: a slice of the cine has the elements within half a slice spacing of its plane.
+/// With images: a slice of the cine has the elements within half a slice spacing of its plane; none
+/// if the wall is not there.
 Pairs from_images(const ModelledBeat& model, const CineStudy& study, const fs::path& strain,
                   int systole) {
   const ModelStrain strains(model, case_file::StrainMeasure::green_lagrange);
   const mesh::Regions& regions = model.mesh.regions;
-  const auto members = in_slices(model, study);
+  const auto members = model.frame ? in_slices(model, study) : std::map<int, std::vector<bool>>{};
   Pairs pairs;
   for (const Row& row : read_rows(strain, systole)) {
     const auto in = members.find(row.slice);
@@ -208,8 +209,16 @@ std::string compare_strain(const Case& c, const ModelledBeat& model, const fs::p
     return std::pair<int, int>{phases.at("end_diastole"), phases.at("end_systole")};
   });
   const CineStudy study = read_cine_study(c);
-  return write_pairs(from_images(model, study, strain, systole), "green_lagrange", folder) +
-         write_outlines(model, study, diastole, systole, folder);
+  ModelledBeat placed = model;
+  std::string text;
+  if (!lies_in_images(model, study)) {
+    placed.frame.reset();
+    text =
+        "the wall does not lie where the cine shows a heart: it is not laid over the images, and "
+        "AHA segments alone are compared\n";
+  }
+  return text + write_pairs(from_images(placed, study, strain, systole), "green_lagrange", folder) +
+         write_outlines(placed, study, diastole, systole, folder);
 }
 
 }  // namespace lv::cine

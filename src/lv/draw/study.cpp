@@ -114,19 +114,6 @@ std::vector<std::string> read_doubts(const fs::path& file) {
 /// Where borders are drawn again if no proposal tells.
 constexpr double usual_fall = 0.85;
 
-/// Where a folder of ventricle segment has its endocardium.
-double read_fall(const fs::path& file) {
-  if (!fs::exists(file))
-    return usual_fall;
-  std::istringstream text(read_file(file));
-  for (std::string line; std::getline(text, line);)
-    if (line.starts_with(segment::fall_is)) {
-      const auto number = line.substr(segment::fall_is.size());
-      return number_of<double>(number.substr(0, number.find(' '))).value_or(usual_fall);
-    }
-  return usual_fall;
-}
-
 Proposal nothing_proposed(const image::Cine& cine, const std::string& why) {
   return {Lines(cine.slices.front().frames.size()), {}, {why}, usual_fall};
 }
@@ -170,7 +157,8 @@ Proposal find_proposal(const case_file::Case& c, const image::Cine& cine) {
   if (!fs::exists(folder))
     return propose_first(c, cine, folder);
   return {read_lines(folder, cine, "proposed"), read_confidence(folder / "quality.csv"),
-          read_doubts(folder / "segmentation.txt"), read_fall(folder / "segmentation.txt")};
+          read_doubts(folder / "segmentation.txt"),
+          anatomy::kept_fall(folder).value_or(usual_fall)};
 }
 
 void write_phase(const fs::path& file, const std::vector<Contour>& lines) {

@@ -40,6 +40,10 @@ std::string Orientation::starred(const std::string& label,
   return any ? label + "*" : label;
 }
 
+std::string Orientation::at_rest() const {
+  return is_unloaded ? "the wall without load" : starred("early diastole", "early diastole");
+}
+
 std::array<Orientation::WallDirection, 4> Orientation::walls() const {
   const auto wall = [&](const char* letter, const Vec3& direction) {
     return WallDirection{starred(letter, "septum"), direction};
@@ -79,7 +83,9 @@ Plane short_axis_plane(double z) {
   return {z * Vec3::UnitZ(), -Vec3::UnitZ()};
 }
 
-std::vector<Letter> wall_letters(const Orientation& orientation, const std::vector<Vec3>& points) {
+std::vector<Letter> wall_letters(const Orientation& orientation, const std::vector<Vec3>& points,
+                                 const Vec3& view) {
+  constexpr double in_line = 0.8;  // cosine
   double radius = 0.0;
   double base = points.empty() ? 0.0 : points.front().z();
   for (const Vec3& x : points) {
@@ -89,7 +95,8 @@ std::vector<Letter> wall_letters(const Orientation& orientation, const std::vect
   const Vec3 height = (base + 0.25 * radius) * Vec3::UnitZ();
   std::vector<Letter> letters;
   for (const auto& [letter, direction] : orientation.walls())
-    letters.push_back({letter, height + 1.2 * radius * direction});
+    if (std::abs(view.normalized().dot(direction)) < in_line)
+      letters.push_back({letter, height + 1.2 * radius * direction});
   return letters;
 }
 

@@ -15,6 +15,9 @@ namespace lv::drawing {
 struct Orientation {
   double septum_angle = 0.0;  ///< as mesh::RegionParameters has it [rad]
   std::vector<geometry::Assumption> assumed{};
+  /// The wall that is free of stress was found by unloading the one that was seen; else it is taken
+  /// as that of early diastole.
+  bool is_unloaded = false;
 
   [[nodiscard]] Vec3 septal() const;
   [[nodiscard]] Vec3 anterior() const;  ///< a quarter turn further, anticlockwise from the base
@@ -24,6 +27,10 @@ struct Orientation {
   /// The same where any of these parts was.
   [[nodiscard]] std::string starred(const std::string& label,
                                     std::initializer_list<const char*> parts) const;
+
+  /// What the wall that is free of stress is called: "early diastole", with a star where that was
+  /// assumed, or "the wall without load".
+  [[nodiscard]] std::string at_rest() const;
 
   /// A letter for a wall, with a star where the septum is assumed, and the way to it from the axis.
   struct WallDirection {
@@ -66,9 +73,9 @@ struct Letter {
 };
 
 /// A, S, I and L around the base of a wall whose points are given, outside of it and a little
-/// above.
+/// above; without those that lie in line with the view, before or behind what is seen.
 [[nodiscard]] std::vector<Letter> wall_letters(const Orientation& orientation,
-                                               const std::vector<Vec3>& points);
+                                               const std::vector<Vec3>& points, const Vec3& view);
 
 /// "apex*" below the wall and "base*" above it, each where it was assumed.
 [[nodiscard]] std::vector<Letter> assumed_ends(const Orientation& orientation,

@@ -27,6 +27,15 @@ implicit::SolverParameters smooth(implicit::SolverParameters p) {
   return p;
 }
 
+/// Load steps that phases usually take: those in which muscle contracts take more.
+std::vector<double> usual_steps(const std::vector<Phase>& phases) {
+  std::vector<double> usual;
+  for (const Phase& phase : phases)
+    usual.push_back(phase.loads(phase.settled).activation > 0.0 ? StepForecast::of_contraction
+                                                                : StepForecast::of_filling);
+  return usual;
+}
+
 class QuasiStaticRun {
  public:
   QuasiStaticRun(const QuasiStaticSetup& setup, const Observers& observers)
@@ -34,7 +43,7 @@ class QuasiStaticRun {
         observers_(observers),
         phases_(phases(setup.protocol)),
         engine_(setup.mesh, setup.model, smooth(setup.parameters)),
-        forecast_(phases_.size()) {
+        forecast_(usual_steps(phases_)) {
     record({phase().loads(0.0), 0.0, 0.0, engine_.cavity_volume(), {}});
   }
 

@@ -1,15 +1,18 @@
 #pragma once
 
 #include <cstddef>
+#include <deque>
+#include <utility>
+#include <vector>
 
 namespace lv::heartbeat {
 
-/// How long a beat of load steps will still take: of the present phase the steps that are left,
-/// each as long as those of this phase were in the mean; of later phases the usual number, each as
-/// long as all steps were so far.
+/// How long a beat of load steps will still take: the steps that are left of the present phase and
+/// of later ones, each as long as the last ten were in the mean; the first of a beat take longer.
 class StepForecast {
  public:
-  explicit StepForecast(std::size_t phases) : later_(static_cast<double>(phases)) {}
+  /// Usual numbers of steps of all phases.
+  explicit StepForecast(std::vector<double> usual) : usual_(std::move(usual)) {}
 
   /// A phase begins.
   void begin();
@@ -20,21 +23,21 @@ class StepForecast {
 
   /// Of the present phase what is left of the usual number, or steps that grow from the last one if
   /// those are more; and those of later phases.
-  [[nodiscard]] double steps_left() const { return left_of_phase_ + later_ * usual_steps; }
+  [[nodiscard]] double steps_left() const;
 
   /// Negative before the first step.
   [[nodiscard]] double seconds_left() const;
 
-  static constexpr double usual_steps = 21.0;  ///< of a phase; 19 to 23 were counted
+  // of phases whose steps are short enough for curves
+  static constexpr double of_filling = 26.0;      ///< 25 and 28 were counted
+  static constexpr double of_contraction = 33.0;  ///< 29 and 37 were counted
 
  private:
-  struct Steps {
-    double number = 0.0;
-    double seconds = 0.0;
-  };
-  double later_;  ///< phases
-  double left_of_phase_ = 0.0;
-  Steps all_, phase_;
+  std::vector<double> usual_;
+  std::size_t begun_ = 0;         ///< phases
+  double done_ = 0.0;             ///< steps of the present one
+  double left_of_phase_ = 0.0;    ///< steps
+  std::deque<double> durations_;  ///< of the last steps [s]
 };
 
 }  // namespace lv::heartbeat

@@ -229,7 +229,9 @@ std::optional<FitStart> fit_coarse(const Case& c, const anatomy::MeshResult& coa
                                    const FitParameters& start,
                                    const std::filesystem::path& answers) {
   const int elements = coarse.mesh.cell_count() / 8;
-  log::info("the fit is made on a coarse wall first, of {} elements", elements);
+  log::info(
+      "the fit is made on a coarse wall first, of {} elements: what is left is said of it alone",
+      elements);
   set_seen_volume(c, coarse, task);
   task.parameters_alone = true;
   task.strains.clear();

@@ -186,6 +186,7 @@ report::RunFacts run_facts(const Case& c, const anatomy::MeshResult& mesh, const
   for (const auto& [name, place] : c.origin)
     facts.origins.emplace_back(name, std::filesystem::path(place).filename().string());
   add_marks(c, facts);
+  facts.base_is_held = c.base.kind != solid::BasalSupport::Kind::elastic;
   for (const heartbeat::NamedMoment& m : beat.beat.moments)
     if (!m.by_criterion && !beat.beat.cycle)
       facts.warnings.push_back(
@@ -300,10 +301,10 @@ std::string beside_drawn(const mesh::Mesh& mesh, const heartbeat::Beat& beat,
                          const std::filesystem::path& folder) {
   const anatomy::AnatomyRecord anatomy = anatomy_beside(folder);
   const heartbeat::NamedMoment* end = beat.find(heartbeat::end_systole);
-  if (anatomy.end_systole.empty() || end == nullptr)
+  if (anatomy.end_systole.empty() || !anatomy.frame || end == nullptr)
     return "";
   const anatomy::ShapeDistance distance =
-      anatomy::shape_distance(mesh, end->wall.positions, anatomy.frame, anatomy.end_systole);
+      anatomy::shape_distance(mesh, end->wall.positions, *anatomy.frame, anatomy.end_systole);
   anatomy::shape_distance_table(distance).write_csv(folder / "es_distance.csv");
   return anatomy::shape_distance_text(distance);
 }
@@ -331,7 +332,8 @@ std::string write_results(const Case& c, const anatomy::MeshResult& mesh, const 
   for (const auto& [name, cells] : fields.moments)
     report::write_wall(folder / (name + ".vtu"), mesh.mesh, mesh.regions, beat.beat.at(name), cells,
                        fields.at(heartbeat::end_diastole));
-  const drawing::Orientation orientation{c.regions.septum_angle, facts.assumed};
+  const drawing::Orientation orientation{c.regions.septum_angle, facts.assumed,
+                                         facts.unloaded.has_value()};
   draw(c, mesh.mesh, beat.beat, fields, orientation, folder);
   drawing::write(report::segments_figure(report::regions_table(results), orientation),
                  folder / "segments.png");

@@ -123,7 +123,7 @@ std::vector<Vec3> points_of(const std::vector<drawing::Scene>& scenes) {
 /// Pictures of scenes by one camera, with letters.
 std::vector<drawing::Picture> pictures(const std::vector<drawing::Scene>& scenes,
                                        const drawing::Look& look, const drawing::Orientation& o) {
-  auto letters = drawing::wall_letters(o, points_of(scenes));
+  auto letters = drawing::wall_letters(o, points_of(scenes), look.view);
   if (std::abs(look.view.normalized().z()) < 0.9)  // not along the axis, where they would hide it
     for (const drawing::Letter& end : drawing::assumed_ends(o, points_of(scenes)))
       letters.push_back(end);
@@ -328,8 +328,7 @@ drawing::Figure states_figure(const Mesh& mesh, const heartbeat::Beat& beat,
   const auto stretch = [](const CellFields& c) { return c.fibre_stretch; };
   const drawing::ColourScale scale{drawing::diverging(), 0.75, 1.25};
   std::vector<std::vector<double>> nodal{at_nodes(mesh, fields.early_diastole, stretch)};
-  std::vector<std::string> titles{o.starred("early diastole", "early diastole") +
-                                  ": free of stress"};
+  std::vector<std::string> titles{o.at_rest() + ": free of stress"};
   for (const auto& [name, phase, by_criterion, wall] : beat.moments) {
     nodal.push_back(at_nodes(mesh, fields.at(name), stretch));
     titles.push_back(fmt::format("{}: {:.0f} mmHg, {:.1f} ml", heartbeat::title(name),
@@ -342,7 +341,7 @@ drawing::Figure states_figure(const Mesh& mesh, const heartbeat::Beat& beat,
   return {.panels = both_axes(titles, walls, o),
           .columns = static_cast<int>(walls.size()),
           .footnote = notes(o),
-          .colour_bar = drawing::ColourBar{"fibre stretch from early diastole", scale}};
+          .colour_bar = drawing::ColourBar{"fibre stretch from " + o.at_rest(), scale}};
 }
 
 drawing::Figure stress_figure(const Mesh& mesh, const heartbeat::Beat& beat,

@@ -17,6 +17,7 @@ struct JudgedBeat {
   double muscle_density;  ///< [kg/mm^3]
   bool is_infarcted;
   bool contraction_was_steady;
+  bool base_is_held = true;  ///< in its plane and from turning
 };
 
 /// Where a quantity of a beat is expected, and where no beating heart can be. An end that is not

@@ -147,8 +147,8 @@ std::string klotz_text(const std::vector<KlotzVolume>& volumes) {
 
 std::vector<Judgement> judge(const RunFacts& facts, const heartbeat::Beat& beat, const Results& r) {
   const heartbeat::NamedMoment* end = beat.find(heartbeat::end_systole);
-  return judge(
-      JudgedBeat{r, facts.muscle_density, has_zones(r), end != nullptr && end->by_criterion});
+  return judge(JudgedBeat{r, facts.muscle_density, has_zones(r),
+                          end != nullptr && end->by_criterion, facts.base_is_held});
 }
 
 /// The end of a range; null where it has none.

@@ -81,6 +81,7 @@ struct RunFacts {
   Mark shape = Mark::assumed;                 ///< of the wall that was seen
   Mark pressure = Mark::assumed;              ///< in the cavity at the moments of the beat
   bool scar_is_measured = false;
+  bool base_is_held = true;  ///< in its plane and from turning
   std::vector<std::string> fitted_parameters, measured_parameters;  ///< names
   std::vector<FittedVolume> fitted;                                 ///< of a calibrated case
   std::vector<KlotzVolume> klotz;                                   ///< of a fit to that curve

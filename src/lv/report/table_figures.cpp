@@ -345,10 +345,10 @@ drawing::Figure bulls_eyes_figure(const Table& regions, const std::string& quant
   const drawing::ColourScale scale = scale_of(all_means(regions, quantity), quantity);
   const int digits = decimals(scale);
   const std::string label = with_unit(quantity, segments.unit);
-  const std::string strain = fmt::format(
-      "Green-Lagrange strain from {}", state == heartbeat::end_diastole
-                                           ? orientation.starred("early diastole", "early diastole")
-                                           : heartbeat::title(heartbeat::end_diastole));
+  const std::string strain =
+      fmt::format("Green-Lagrange strain from {}", state == heartbeat::end_diastole
+                                                       ? orientation.at_rest()
+                                                       : heartbeat::title(heartbeat::end_diastole));
   std::vector<std::string> parts{"septum", "apex", "base"};
   if (state == heartbeat::end_diastole && analysis::quantity(quantity).is_strain)
     parts.emplace_back("early diastole");
@@ -437,11 +437,11 @@ drawing::Orientation orientation_of(const fs::path& work) {
   if (const auto angle = recorded(work, "mesh", "regions.septum_angle"))
     o.septum_angle = std::stod(*angle) * units::degree;
   if (const fs::path file = file_of(work, "results", "summary.json"); !file.empty())
-    o.assumed = from_json_file(file, [](const auto& summary) {
-      std::vector<geometry::Assumption> assumed;
+    from_json_file(file, [&o](const auto& summary) {
       for (const auto& a : summary.at("assumptions"))
-        assumed.push_back({a.at("part"), a.at("text")});
-      return assumed;
+        o.assumed.push_back({a.at("part"), a.at("text")});
+      o.is_unloaded = summary.contains("unloaded");
+      return true;
     });
   return o;
 }

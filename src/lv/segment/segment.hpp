@@ -7,7 +7,6 @@
 #include <array>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace lv::segment {
@@ -29,9 +28,6 @@ struct Segmentation {
   image::Phases phases;
   std::vector<std::string> doubts;  ///< what an observer should look at, in sentences
 };
-
-/// What describes where the endocardium was drawn, as segmentation.txt says it.
-inline constexpr std::string_view fall_is = "segment.fall: ";
 
 /// A contour whose border agrees with the image along a smaller part (FrameBorders) is doubtful.
 inline constexpr double doubtful = 0.6;

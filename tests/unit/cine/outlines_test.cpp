@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <numbers>
+#include <optional>
 
 namespace {
 
@@ -81,16 +82,23 @@ anatomy::MeshResult mesh_of(int order, double edge_length) {
   return {mesh::wall_mesh(wall, {.edge_length = edge_length, .order = order}), {}, {}};
 }
 
-/// What write_outlines leaves in `folder` for a wall that does not move, and says.
-std::string outlined(const anatomy::MeshResult& mesh, const std::filesystem::path& folder) {
-  std::filesystem::create_directories(folder);
+/// A beat of a wall that does not move.
+heartbeat::Beat still(const anatomy::MeshResult& mesh) {
   heartbeat::Beat beat;
   for (const char* name : {heartbeat::end_diastole, heartbeat::end_systole}) {
     beat.moments.push_back({.name = name});
     beat.moments.back().wall.positions = mesh.mesh.nodes;
   }
+  return beat;
+}
+
+/// What write_outlines leaves in `folder` for a wall that does not move, and says.
+std::string outlined(const anatomy::MeshResult& mesh, const std::filesystem::path& folder,
+                     const std::optional<geometry::Frame>& in_images = frame) {
+  std::filesystem::create_directories(folder);
+  const heartbeat::Beat beat = still(mesh);
   const analysis::BeatFields fields;
-  return cine::write_outlines({mesh, beat, fields, frame}, study(), 9, 3, folder);
+  return cine::write_outlines({mesh, beat, fields, in_images}, study(), 9, 3, folder);
 }
 
 /// The farthest that points of contours on the ellipsoid are from the model's outlines [mm].
@@ -146,6 +154,31 @@ TEST_CASE("outlines on a long axis are the ventricle's, beside those on short ax
   CHECK(count("end_systole", "model") == count("end_diastole", "model"));
   CHECK(std::filesystem::exists(folder / "pictures" / "end_systole_long_axis_1.png"));
   CHECK(std::filesystem::exists(folder / "outlines_ed.png"));
+}
+
+TEST_CASE("a wall lies in images whose loops are drawn around its cavity", "[cine]") {
+  const anatomy::MeshResult mesh = mesh_of(1, 12.0);
+  const heartbeat::Beat beat = still(mesh);
+  const analysis::BeatFields fields;
+  const auto lies = [&](const std::optional<geometry::Frame>& place) {
+    return cine::lies_in_images({mesh, beat, fields, place}, study());
+  };
+  CHECK(lies(frame));
+  CHECK_FALSE(lies({}));
+  CHECK_FALSE(lies(geometry::Frame{}));
+  CHECK_FALSE(lies(geometry::Frame{frame.axes, frame.origin + 40.0 * frame.axes.col(0)}));
+  CHECK_FALSE(lies(geometry::Frame{-frame.axes, frame.origin}));  // its apex above its base
+}
+
+TEST_CASE("a wall that is in no images is not laid over them", "[cine]") {
+  const test::TemporaryFolder temporary;
+  const std::filesystem::path folder = temporary / "results";
+  CHECK(outlined(mesh_of(1, 12.0), folder, {}).empty());
+  const auto sources = Table::read_csv(folder / "outlines.csv").words("source");
+  REQUIRE_FALSE(sources.empty());  // the contours
+  CHECK(std::count(sources.begin(), sources.end(), "model") == 0);
+  CHECK(Table::read_csv(folder / "outline_distances.csv").words("slice").empty());
+  CHECK(std::filesystem::exists(folder / "pictures" / "end_diastole_4.png"));
 }
 
 TEST_CASE("outlines follow the curve of quadratic elements", "[cine]") {

@@ -1,5 +1,6 @@
 #include "lv/draw/study.hpp"
 
+#include "lv/anatomy/segmentation.hpp"
 #include "lv/base/check.hpp"
 #include "lv/base/table.hpp"
 #include "lv/draw/study_json.hpp"
@@ -105,6 +106,18 @@ TEST_CASE("what a page sends back unchanged is the drawing", "[draw]") {
         CHECK((kept.drawing.lines[t][n].points[i] - study.drawing.lines[t][n].points[i]).norm() <
               1e-3);
   }
+}
+
+TEST_CASE("where borders lie is a number of a segmentation's table", "[draw]") {
+  const test::TemporaryFolder folder;
+  CHECK_FALSE(anatomy::kept_fall(folder / "absent"));
+  const auto written = [&](const char* rows) {
+    write_file(folder / "segmentation.csv", std::string("quantity,value\n") + rows);
+    return anatomy::kept_fall(folder / "");
+  };
+  CHECK(written("end_diastole,3\nsegment.fall,0.725\n") == 0.725);
+  CHECK_FALSE(written("end_diastole,3\n"));
+  CHECK_THROWS_AS(written("segment.fall,much\n"), InputError);
 }
 
 TEST_CASE("a drawing is kept as contours that the program reads", "[draw]") {

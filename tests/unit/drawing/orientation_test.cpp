@@ -111,6 +111,7 @@ TEST_CASE("letters stand where the walls are", "[drawing]") {
   CHECK(across.at("S")[1] == Approx(across.at("L")[1]).margin(1.0));
   const auto four = letters(drawing::svg(panel(turned.anterior(), 2)));
   CHECK(four.at("S")[0] < four.at("L")[0] - 100.0);
+  CHECK(four.size() == 2);  // a letter over the open cavity would name the wall that is cut away
   const auto two = letters(drawing::svg(panel(turned.anterior(), 3)));
   CHECK(two.at("I")[0] < two.at("A")[0] - 100.0);
 }
@@ -132,6 +133,12 @@ TEST_CASE("a septum that was assumed has stars and a note", "[drawing]") {
   CHECK_THAT(mesh.title, Catch::Contains("apex*"));
   CHECK_THAT(mesh.title, !Catch::Contains("base*"));
   CHECK(drawing::star_note(turned, {"septum"}).empty());
+}
+
+TEST_CASE("a wall that was unloaded is not called early diastole", "[drawing]") {
+  CHECK(turned.at_rest() == "early diastole");
+  CHECK(Orientation{0.0, {{"early diastole", "nobody knows"}}}.at_rest() == "early diastole*");
+  CHECK(Orientation{0.0, {}, true}.at_rest() == "the wall without load");
 }
 
 TEST_CASE("an infarct that no image shows has a star", "[drawing]") {

@@ -75,6 +75,16 @@ TEST_CASE("an infarcted heart is not compared with healthy muscle, but its eject
   CHECK_FALSE(judged(beat, "fibre_shortening_percent").reason.empty());
 }
 
+TEST_CASE("a base on springs is not judged by one that is held", "[report]") {
+  analysis::Results r = healthy();
+  r.moments[1].second.base_axial_shift = 9.0;
+  report::JudgedBeat beat = of(r);
+  CHECK(judged(beat, "base_axial_shift_mm").answer == Answer::outside);
+  beat.base_is_held = false;
+  for (const char* quantity : {"base_axial_shift_mm", "apex_rotation_deg"})
+    CHECK(judged(beat, quantity).answer == Answer::not_applicable);
+}
+
 TEST_CASE("without an end-systole nothing is said of it", "[report]") {
   const analysis::Results r = healthy();
   report::JudgedBeat beat = of(r);
