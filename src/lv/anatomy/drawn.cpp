@@ -291,8 +291,12 @@ Drawn from_contour_file(const Case& c) {
   if (images)
     drawn.notes = image::remarks(*images);
   drawn.notes.insert(drawn.notes.end(), read.notes.begin(), read.notes.end());
-  drawn.moment_is_known = read.phases.size() > 1;
-  warn(end_diastole_note(c, moments, phase), drawn);
+  const bool is_marked = read.phases.size() == 1 && file.end_diastole == phase;
+  drawn.moment_is_known = read.phases.size() > 1 || is_marked;
+  warn(is_marked ? end_diastole_note(c, fmt::format("time {} is end-diastole, as {} marks it",
+                                                    phase, c.anatomy.contour_file.file))
+                 : end_diastole_note(c, moments, phase),
+       drawn);
   drawn.contours = std::move(read.phases.at(phase));
   return drawn;
 }

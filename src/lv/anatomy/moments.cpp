@@ -80,15 +80,22 @@ case_file::CaseLine unloading_line(const std::string& comment) {
           comment};
 }
 
-std::string end_diastole_note(const case_file::Case& c, const Moments& m, int chosen) {
-  if (case_file::is_loaded(c) || m.numbers.size() < 2 || chosen != m.end_diastole)
+std::string end_diastole_note(const case_file::Case& c, const std::string& which) {
+  if (case_file::is_loaded(c))
     return "";
   return fmt::format(
-      "{} seems to be end-diastole ({:.1f} ml, the largest of {}), and its shape is taken as free "
-      "of stress: a wall that is filled already will be filled once more. Set unloaded.pressure "
-      "to the pressure that it bears (such as that of protocol.ed_pressure), or choose early "
-      "diastole",
-      chosen, 1e-3 * m.volume(chosen), m.numbers.size());
+      "{}, and its shape is taken as free of stress: a wall that is filled already will be filled "
+      "once more. Set unloaded.pressure to the pressure that it bears (such as that of "
+      "protocol.ed_pressure), or choose early diastole",
+      which);
+}
+
+std::string end_diastole_note(const case_file::Case& c, const Moments& m, int chosen) {
+  if (m.numbers.size() < 2 || chosen != m.end_diastole)
+    return "";
+  return end_diastole_note(
+      c, fmt::format("{} seems to be end-diastole ({:.1f} ml, the largest of {})", chosen,
+                     1e-3 * m.volume(chosen), m.numbers.size()));
 }
 
 }  // namespace lv::anatomy

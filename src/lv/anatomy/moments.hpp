@@ -40,4 +40,7 @@ struct Moments {
 [[nodiscard]] std::string end_diastole_note(const case_file::Case& c, const Moments& moments,
                                             int chosen);
 
+/// The same of a shape that is known to be that of end-diastole; `which`: how, in words.
+[[nodiscard]] std::string end_diastole_note(const case_file::Case& c, const std::string& which);
+
 }  // namespace lv::anatomy

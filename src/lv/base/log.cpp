@@ -2,6 +2,7 @@
 
 #include "lv/base/check.hpp"
 #include "lv/base/files.hpp"
+#include "lv/base/log_file.hpp"
 #include "lv/base/parallel.hpp"
 #include "lv/base/printable.hpp"
 #include "lv/base/table.hpp"
@@ -91,6 +92,11 @@ void info(const std::string& line) {
 }
 void warn(const std::string& line) {
   write(spdlog::level::warn, line);
+}
+
+void keep(const std::string& line) {
+  if (kept().logger)
+    kept().logger->warn(kept().names(printable_lines(line)));
 }
 
 std::string duration(double seconds) {

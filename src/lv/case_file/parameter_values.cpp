@@ -9,6 +9,7 @@
 #include <cmath>
 #include <filesystem>
 #include <sstream>
+#include <string_view>
 
 namespace lv::case_file {
 namespace {
@@ -77,12 +78,19 @@ void check_range(double in_unit, const Parameter& p) {
                                             p.range.words(p.unit)));
 }
 
+/// "an angle", "a pressure"
+std::string with_article(const std::string& noun) {
+  const bool vowel = std::string_view("aeiou").find(noun.front()) != std::string_view::npos;
+  return fmt::format("{} {}", vowel ? "an" : "a", noun);
+}
+
 /// A number with a unit of the right dimension, as inner units. `shown` is an example for messages.
 double quantity_of(const toml::node& node, const Parameter& p, const std::string& shown) {
   const units::Unit expected = units::parse_unit(p.unit);
   const std::string kind = units::kind_of(expected);
   const auto without_unit = [&] {
-    return std::invalid_argument(fmt::format("has no unit; write a {} such as {}", kind, shown));
+    return std::invalid_argument(
+        fmt::format("has no unit; write {} such as {}", with_article(kind), shown));
   };
   if (!node.is_string()) {
     number_of(node);
@@ -92,8 +100,9 @@ double quantity_of(const toml::node& node, const Parameter& p, const std::string
   if (!quantity.has_unit)
     throw without_unit();
   if (quantity.unit.dimension != expected.dimension)
-    throw std::invalid_argument(fmt::format("is a {}; it must be a {} such as {}",
-                                            units::kind_of(quantity.unit), kind, shown));
+    throw std::invalid_argument(fmt::format("is {}; it must be {} such as {}",
+                                            with_article(units::kind_of(quantity.unit)),
+                                            with_article(kind), shown));
   check_range(quantity.value / expected.factor, p);
   return quantity.value;
 }

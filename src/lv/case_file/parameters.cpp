@@ -548,10 +548,20 @@ constexpr Group of_infarct[]{
     {mechanics,
      {&infarcted},
      {
-         number("infarct.stiffening", LV_AT(infarct.stiffening), "", not_negative,
+         number("infarct.stiffening", LV_AT(infarct.stiffening), "", between(0.0, 1e6),
                 "an infarct of extent M is (1 + stiffening M) times as stiff", "2.23"),
      }},
 };
+
+// Of muscle: wide enough for any experiment, from gel to tendon (1 GPa), with exponents and
+// tensions far beyond all that were ever fitted; finite, so that a slip of digits or units is told
+// here and not by an exponential that overflows.
+constexpr Range of_stiffness = above_up_to(0.0, 1e6);  // [kPa]
+constexpr Range of_perhaps_stiffness = between(0.0, 1e6);
+constexpr Range of_exponent = above_up_to(0.0, 1e3);
+constexpr Range of_perhaps_exponent = between(0.0, 1e3);
+constexpr Range of_stiffness_factor = above_up_to(0.0, 1e4);
+constexpr Range of_tension = between(0.0, 1e4);  // [kPa]
 
 constexpr Group of_muscle[]{
     {mechanics,
@@ -563,45 +573,45 @@ constexpr Group of_muscle[]{
     {mechanics,
      {&holzapfel_ogden},
      {
-         number("passive.C_a", LV_AT(passive.C_a), "", positive, "factor of a_f, a_s and a_fs",
-                "2.25"),
+         number("passive.C_a", LV_AT(passive.C_a), "", of_stiffness_factor,
+                "factor of a_f, a_s and a_fs", "2.25"),
      }},
     {mechanics,
      {&holzapfel_ogden},
      {
-         number("passive.holzapfel_ogden.a", LV_AT(passive.holzapfel_ogden.a), "kPa", positive,
+         number("passive.holzapfel_ogden.a", LV_AT(passive.holzapfel_ogden.a), "kPa", of_stiffness,
                 "isotropic stiffness", "2.14"),
-         number("passive.holzapfel_ogden.b", LV_AT(passive.holzapfel_ogden.b), "", positive,
+         number("passive.holzapfel_ogden.b", LV_AT(passive.holzapfel_ogden.b), "", of_exponent,
                 "isotropic exponent", "2.14"),
          number("passive.holzapfel_ogden.a_f", LV_AT(passive.holzapfel_ogden.a_f), "kPa",
-                not_negative, "fibre stiffness", "2.14"),
-         number("passive.holzapfel_ogden.b_f", LV_AT(passive.holzapfel_ogden.b_f), "", positive,
+                of_perhaps_stiffness, "fibre stiffness", "2.14"),
+         number("passive.holzapfel_ogden.b_f", LV_AT(passive.holzapfel_ogden.b_f), "", of_exponent,
                 "fibre exponent", "2.14"),
          number("passive.holzapfel_ogden.a_s", LV_AT(passive.holzapfel_ogden.a_s), "kPa",
-                not_negative, "sheet stiffness", "2.14"),
-         number("passive.holzapfel_ogden.b_s", LV_AT(passive.holzapfel_ogden.b_s), "", positive,
+                of_perhaps_stiffness, "sheet stiffness", "2.14"),
+         number("passive.holzapfel_ogden.b_s", LV_AT(passive.holzapfel_ogden.b_s), "", of_exponent,
                 "sheet exponent", "2.14"),
          number("passive.holzapfel_ogden.a_fs", LV_AT(passive.holzapfel_ogden.a_fs), "kPa",
-                not_negative, "fibre-sheet shear stiffness", "2.14"),
-         number("passive.holzapfel_ogden.b_fs", LV_AT(passive.holzapfel_ogden.b_fs), "", positive,
-                "fibre-sheet shear exponent", "2.14"),
+                of_perhaps_stiffness, "fibre-sheet shear stiffness", "2.14"),
+         number("passive.holzapfel_ogden.b_fs", LV_AT(passive.holzapfel_ogden.b_fs), "",
+                of_exponent, "fibre-sheet shear exponent", "2.14"),
      }},
     {mechanics,
      {&guccione},
      {
-         number("passive.guccione.C", LV_AT(passive.guccione.C), "kPa", positive,
+         number("passive.guccione.C", LV_AT(passive.guccione.C), "kPa", of_stiffness,
                 "overall stiffness"),
-         number("passive.guccione.b_f", LV_AT(passive.guccione.b_f), "", not_negative,
+         number("passive.guccione.b_f", LV_AT(passive.guccione.b_f), "", of_perhaps_exponent,
                 "exponent along the fibre"),
-         number("passive.guccione.b_t", LV_AT(passive.guccione.b_t), "", not_negative,
+         number("passive.guccione.b_t", LV_AT(passive.guccione.b_t), "", of_perhaps_exponent,
                 "exponent across the fibre"),
-         number("passive.guccione.b_fs", LV_AT(passive.guccione.b_fs), "", not_negative,
+         number("passive.guccione.b_fs", LV_AT(passive.guccione.b_fs), "", of_perhaps_exponent,
                 "exponent of fibre-cross-fibre shear"),
      }},
     {mechanics,
      {&neo_hookean},
      {
-         number("passive.neo_hookean.mu", LV_AT(passive.neo_hookean.mu), "kPa", positive,
+         number("passive.neo_hookean.mu", LV_AT(passive.neo_hookean.mu), "kPa", of_stiffness,
                 "shear modulus"),
      }},
     {Stages(Stage::beat),
@@ -627,15 +637,15 @@ constexpr Group of_muscle[]{
     {mechanics,
      {&prescribed_tension},
      {
-         number("active.tension", LV_AT(prescribed_tension), "kPa", not_negative,
+         number("active.tension", LV_AT(prescribed_tension), "kPa", of_tension,
                 "prescribed tension at end-systole (laws second_piola and cauchy)"),
      }},
     {mechanics,
      {&niederer},
      {
-         number("active.T_scale", LV_AT(active.T_scale), "", not_negative,
+         number("active.T_scale", LV_AT(active.T_scale), "", between(0.0, 1e3),
                 "strength of contraction, T_ref = T_scale x T_ref_unscaled", "A"),
-         number("active.T_ref_unscaled", LV_AT(active.T_ref_unscaled), "kPa", positive,
+         number("active.T_ref_unscaled", LV_AT(active.T_ref_unscaled), "kPa", above_up_to(0.0, 1e4),
                 "tension at full activation and resting length for T_scale = 1", "A"),
      }},
     {mechanics,
@@ -693,7 +703,7 @@ constexpr Group of_muscle[]{
     {mechanics,
      {&land2017},
      {
-         number("active.land2017.T_ref", LV_AT(land2017.T_ref), "kPa", not_negative,
+         number("active.land2017.T_ref", LV_AT(land2017.T_ref), "kPa", of_tension,
                 "tension at full activation and resting length"),
          number("active.land2017.Ca_50ref", LV_AT(land2017.Ca_50ref), "uM", positive,
                 "calcium at half saturation of troponin at resting length"),

@@ -142,6 +142,15 @@ class CaseReader {
                       es, ed));
   }
 
+  void check_slices() {
+    constexpr double least = 0.5;  // [mm]; seven of 1 mm are the ventricle of a mouse
+    const double spacing = case_.regions.slice_spacing;
+    rule(spacing == 0.0 || spacing >= least, "regions.slice_spacing",
+         fmt::format("is {:g} mm: seven slices so near to each other lie in the base; give {:g} mm "
+                     "or more, or 0 for the wall's length / 6.5",
+                     spacing, least));
+  }
+
   /// A pressure that may be off by more than half of itself tells nothing; the default error does
   /// not say that of a small one.
   void limit_pressure_error() {
@@ -154,6 +163,7 @@ class CaseReader {
   void check_together() {
     take_cuff();
     check_pressures();
+    check_slices();
     limit_pressure_error();
     const geometry::Ellipsoid& e = case_.anatomy.ellipsoid;
     together(e.epi_radius > e.endo_radius,
@@ -543,6 +553,30 @@ void require_files(const Case& c) {
     throw InputError(first, text, "Check the name; it is read beside the case");
 }
 
+/// Where what a line defines a second time stands first, in words; empty if it is not found. Tables
+/// are looked for in all lines before, keys in those of their table.
+std::string first_place(const std::string& text, std::size_t line) {
+  std::vector<std::string_view> lines = fields_of(text, '\n');
+  if (line < 1 || line > lines.size())
+    return "";
+  for (std::string_view& l : lines)
+    l = trimmed(l);
+  const auto key_of = [](std::string_view l) { return trimmed(l.substr(0, l.find('='))); };
+  const std::string_view second = lines[line - 1];
+  const bool is_table = second.starts_with('[');
+  const std::string_view name = is_table ? second.substr(0, second.find(']') + 1) : key_of(second);
+  for (std::size_t i = line - 1; i-- > 0;) {
+    const bool is_it =
+        is_table ? lines[i].starts_with(name)
+                 : lines[i].find('=') != std::string_view::npos && key_of(lines[i]) == name;
+    if (is_it)
+      return fmt::format(" (first in line {})", i + 1);
+    if (!is_table && lines[i].starts_with('['))
+      return "";
+  }
+  return "";
+}
+
 /// What to do about a mistake of the parser of TOML.
 std::string remedy_of(const std::string& what) {
   if (contains(what, "utf-8"))
@@ -563,7 +597,9 @@ Case parse_case(const std::string& text, const std::filesystem::path& file) {
     root = toml::parse(text, file.string());
   } catch (const toml::parse_error& error) {
     const std::string what(error.description());
-    throw InputError(fmt::format("{}:{}", file.string(), error.source().begin.line), what,
+    const auto line = error.source().begin.line;
+    throw InputError(fmt::format("{}:{}", file.string(), line),
+                     what + (contains(what, "redefine") ? first_place(text, line) : ""),
                      remedy_of(what));
   }
   return CaseReader(file).read(root);

@@ -155,12 +155,39 @@ std::size_t slice_with(const image::Cine& cine, const Contour& loop) {
   return best;
 }
 
+/// Throws InputError for a point of the septum that is none: far from all loops, or on the axis.
+void check_septum_point(const Case& c, const std::string& parameter, const Vec3& septum,
+                        const geometry::LongAxis& axis, const CineStudy& study) {
+  constexpr double most = 40.0;   // from the loops [mm]; the septum is a part of their wall
+  constexpr double least = 0.25;  // of the cavity's radius: nearer the axis it shows no direction
+  const auto refuse = [&](const std::string& what) {
+    throw InputError(case_file::place_of(c, parameter), fmt::format("{} {}", parameter, what),
+                     "Give a point of the septum, in the coordinates of the images in mm");
+  };
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Contour& loop : study.drawn.short_axis)
+    for (const Vec3& x : loop.points)
+      nearest = std::min(nearest, (x - septum).norm());
+  if (nearest > most)
+    refuse(fmt::format("lies {:.0f} mm from the contours: no point of their septum", nearest));
+  const Vec3 from_axis = septum - axis.point;
+  const double off = (from_axis - from_axis.dot(axis.up) * axis.up).norm();
+  const int basal = geometry::slices_from_base(study.drawn).front();
+  const Contour* cavity = geometry::find(study.drawn.short_axis, basal, Side::endo);
+  if (off < least * geometry::mean_radius(*cavity))
+    refuse(fmt::format("lies {:.1f} mm from the long axis: no point of the septum", off));
+}
+
 /// The direction about the long axis that sectors are counted from.
 Vec3 septum_point(const Case& c, const geometry::LongAxis& axis, CineStudy& study) {
   const auto& own = c.strain.septum_point;
   const auto& anatomy = c.anatomy.contours.fit.frame.septum;
-  if (own || anatomy)
-    return Vec3((own ? own : anatomy)->data());
+  if (own || anatomy) {
+    const Vec3 septum((own ? own : anatomy)->data());
+    check_septum_point(c, own ? "strain.septum_point" : "anatomy.contours.septum_point", septum,
+                       axis, study);
+    return septum;
+  }
   if (const auto named = anatomy::named_septum(c, study.drawn, study.notes))
     return *named;
   study.notes.emplace_back(

@@ -1,9 +1,11 @@
 #include "lv/base/check.hpp"
 #include "lv/base/json_file.hpp"
+#include "lv/base/log.hpp"
 #include "lv/base/table.hpp"
 #include "lv/cine/cine.hpp"
 #include "lv/cine/outlines.hpp"
 #include "lv/cine/strain.hpp"
+#include "lv/cine/strain_targets.hpp"
 #include "lv/strain/agreement.hpp"
 
 #include <fmt/format.h>
@@ -65,21 +67,37 @@ void add(Pair pair, double model, std::vector<Pair>& pairs) {
     pairs.push_back(std::move(pair));
 }
 
-/// With a table of strains: slice k is the model's slice k.
-Pairs from_table(const Case& c, const ModelledBeat& model) {
+/// What of a table has no element of the model to be compared with, in words; empty if nothing.
+std::string words_of_left_out(const std::vector<strain::Measured>& left, std::size_t all) {
+  if (left.empty())
+    return "";
+  std::vector<std::string> names;
+  for (const strain::Measured& m : left)
+    names.push_back(fmt::format("{} of slice {}, {}", m.component, m.slice, m.segment));
+  return fmt::format(
+      "{} of {} measured strains are not compared, for the mesh has no element there: {}; elements "
+      "about as small as a sector of a slice have one in each",
+      left.size(), all, fmt::join(names, "; "));
+}
+
+/// With a table of strains: slice k is the model's slice k. Says what is left out.
+Pairs from_table(const Case& c, const ModelledBeat& model, std::string& left_out) {
   const ModelStrain strains(model, c.strain.measured_kind);
   const mesh::Regions& regions = model.mesh.regions;
   Pairs pairs;
-  for (const strain::Measured& m : measured_strains(c)) {
+  const std::vector<strain::Measured> measured = measured_strains(c);
+  std::vector<strain::Measured> left;
+  for (const strain::Measured& m : measured) {
     const std::size_t component = m.component == "cir" ? 0 : 1;
-    add({"sector", m.slice, m.segment, m.value, 0.0},
-        strains.mean(component,
-                     [&](int i) {
-                       return regions.slice[i] == m.slice &&
-                              mesh::sector_name(m.slice, regions.sector[i]) == m.segment;
-                     }),
-        pairs[component]);
+    const double mean = strains.mean(component, [&](int i) {
+      return regions.slice[i] == m.slice &&
+             mesh::sector_name(m.slice, regions.sector[i]) == m.segment;
+    });
+    if (!std::isfinite(mean))
+      left.push_back(m);
+    add({"sector", m.slice, m.segment, m.value, 0.0}, mean, pairs[component]);
   }
+  left_out = words_of_left_out(left, measured.size());
   return pairs;
 }
 
@@ -173,8 +191,10 @@ std::string write_pairs(const Pairs& pairs, const std::string& measure, const fs
           {"lower_limit", a.lower}, {"upper_limit", a.upper}, {"correlation", a.correlation}};
       text += fmt::format(
           "{} strain at end-systole, model - measured, {} regions ({}): bias {:+.3f}, limits of "
-          "agreement {:+.3f} to {:+.3f}, correlation {:.2f}\n",
-          components[k], a.count, scheme, a.bias, a.lower, a.upper, a.correlation);
+          "agreement {:+.3f} to {:+.3f}, {}\n",
+          components[k], a.count, scheme, a.bias, a.lower, a.upper,
+          std::isnan(a.correlation) ? "no correlation: all strains of one side are the same"
+                                    : fmt::format("correlation {:.2f}", a.correlation));
     }
   }
   write_file(folder / "strain_agreement.json", json.dump(2) + "\n");
@@ -188,7 +208,8 @@ std::vector<strain::Measured> measured_strains(const Case& c) {
     throw InputError(case_file::place_of(c, "strain.measured"), "strain.measured_column is not set",
                      "Name the column of the table that holds end-systole");
   const fs::path file = case_file::beside(c, c.strain.measured);
-  std::vector<strain::Measured> measured = strain::read_measured(file, c.strain.measured_column);
+  std::vector<strain::Measured> measured =
+      strain::read_measured(file, c.strain.measured_column, measure_of(c.strain.measured_kind));
   for (const strain::Measured& m : measured)
     if (m.slice < 1 || m.slice > mesh::slice_count || mesh::sectors_of_slice(m.slice) != 6)
       throw InputError(file.string(),
@@ -201,7 +222,13 @@ std::string compare_strain(const Case& c, const ModelledBeat& model, const fs::p
                            const fs::path& folder) {
   if (!c.strain.measured.empty()) {
     const bool green = c.strain.measured_kind == case_file::StrainMeasure::green_lagrange;
-    return write_pairs(from_table(c, model), green ? "green_lagrange" : "engineering", folder);
+    std::string left_out;
+    const Pairs pairs = from_table(c, model, left_out);
+    if (!left_out.empty()) {
+      log::warn("{}: {}", c.strain.measured, left_out);
+      left_out = fmt::format("note: {}\n", left_out);
+    }
+    return left_out + write_pairs(pairs, green ? "green_lagrange" : "engineering", folder);
   }
   if (!c.strain.asked())
     return "";

@@ -28,8 +28,7 @@ class StrainFile {
  public:
   StrainFile(const Case& c, const mesh::Regions& regions)
       : regions_(regions),
-        least_(c.calibration.strain_measure == case_file::StrainMeasure::green_lagrange ? -0.5
-                                                                                        : -1.0),
+        measure_(measure_of(c.calibration.strain_measure)),
         file_(case_file::beside(c, c.calibration.strains).string()),
         lines_(file_) {
     if (!lines_.is_open())
@@ -72,13 +71,7 @@ class StrainFile {
       throw InputError(lines_.where(), fmt::format("has {} values instead of 3", fields_.size()),
                        columns_rule);
     StrainTarget target = lower_case(fields_[0]) == "aha" ? aha_segment() : sector();
-    const auto strain = number_of<double>(fields_[2]);
-    if (!strain || !(*strain > least_) || !(*strain < 2.0))
-      throw InputError(
-          lines_.where(),
-          fmt::format("strain \"{}\" is not a number above {:g} and below 2", fields_[2], least_),
-          "Strain is a fraction: -0.19 for 19% shortening");
-    target.measured.value = *strain;
+    target.measured.value = strain::strain_in(fields_[2], measure_, lines_.where());
     if (target.cells.empty())
       throw InputError(lines_.where(),
                        fmt::format("the mesh has no element in segment {}", target.measured.region),
@@ -121,13 +114,18 @@ class StrainFile {
   }
 
   const mesh::Regions& regions_;
-  double least_;
+  strain::Measure measure_;
   std::string file_;
   LineReader lines_;
   std::vector<std::string> fields_;
 };
 
 }  // namespace
+
+strain::Measure measure_of(case_file::StrainMeasure measure) {
+  return measure == case_file::StrainMeasure::green_lagrange ? strain::Measure::green_lagrange
+                                                             : strain::Measure::engineering;
+}
 
 std::vector<StrainTarget> strain_targets(const Case& c, const mesh::Regions& regions) {
   if (c.calibration.strains.empty())

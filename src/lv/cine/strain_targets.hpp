@@ -3,6 +3,7 @@
 #include "lv/calibrate/fit.hpp"
 #include "lv/case_file/case.hpp"
 #include "lv/mesh/mesh.hpp"
+#include "lv/strain/agreement.hpp"
 
 namespace lv::cine {
 
@@ -11,6 +12,9 @@ struct StrainTarget {
   calibrate::MeasuredStrain measured;
   std::vector<int> cells;
 };
+
+/// A case's word for a measure of strain.
+[[nodiscard]] strain::Measure measure_of(case_file::StrainMeasure measure);
 
 /// The targets of calibrate.strains, a CSV file with the columns slice, segment and strain:
 ///

@@ -3,6 +3,7 @@
 #include "lv/base/check.hpp"
 #include "lv/base/files.hpp"
 #include "lv/base/formats.hpp"
+#include "lv/geometry/contour_measures.hpp"
 #include "lv/image/cvi42.hpp"
 #include "lv/image/rt_structures.hpp"
 #include "lv/image/segment_mat.hpp"
@@ -68,6 +69,22 @@ std::vector<Vec3> in_space(const std::vector<Vec3>& pixels, const Plane& plane,
   return points;
 }
 
+/// Throws InputError for a loop in space that does not lie on the image that it names.
+void check_on_plane(const ForeignContours& drawn, const ForeignLoop& loop, const Plane& plane) {
+  constexpr double farthest = 1.0;  // [mm]; coordinates are written to a hundredth or better
+  double most = 0.0;
+  for (const Vec3& x : loop.points)
+    most = std::max(most, std::abs(plane.pixel(x).z()));
+  if (most > farthest)
+    throw InputError(drawn.file,
+                     fmt::format("a contour of \"{}\" lies {:.1f} mm off the plane of the image "
+                                 "that it names (SOPInstanceUID {})",
+                                 loop.name, most, loop.image_uid),
+                     "Contours or images were moved, or are of another study: give those that "
+                     "belong together, or leave anatomy.contour_file.images out, if the file has "
+                     "one time alone");
+}
+
 Placed on_image(const ForeignContours& drawn, const ForeignLoop& loop, Side side,
                 const std::map<std::string, OnImage>& images) {
   const auto found = images.find(loop.image_uid);
@@ -85,6 +102,8 @@ Placed on_image(const ForeignContours& drawn, const ForeignLoop& loop, Side side
                          : "Name the folder, and the series, of the images that the contours were "
                            "drawn on");
   const auto& [image, slice, phase] = found->second;
+  if (!drawn.in_pixels)
+    check_on_plane(drawn, loop, image->plane);
   return {{slice,
            side,
            drawn.in_pixels ? in_space(loop.points, image->plane, drawn.file) : loop.points,
@@ -154,8 +173,34 @@ void require_structure(const ForeignContours& drawn, const std::string& name,
   const auto all = structures(drawn);
   if (all.contains(name))
     return;
+  if (const auto other = drawn.not_read.find(name); other != drawn.not_read.end())
+    throw InputError(drawn.file,
+                     fmt::format("has \"{}\", but as {}: no closed contours, which alone are read",
+                                 name, other->second),
+                     "Export it as closed contours (CLOSED_PLANAR)");
   throw InputError(drawn.file, fmt::format("has no contours called \"{}\"", name),
                    fmt::format("Name one of these in {}:\n{}", parameter, describe(drawn)));
+}
+
+/// Throws InputError where the structures seem to be exchanged: wherever both are drawn on a slice
+/// the one that is named as endocardium encloses more.
+void check_sides(const ForeignContours& drawn, const std::string& endo, const std::string& epi,
+                 const std::vector<geometry::Contour>& loops) {
+  int both = 0;
+  int larger = 0;
+  for (const geometry::Contour& inner : loops) {
+    const geometry::Contour* outer = geometry::find(loops, inner.slice, Side::epi);
+    if (inner.side != Side::endo || outer == nullptr)
+      continue;
+    ++both;
+    larger += geometry::enclosed_area(inner) > geometry::enclosed_area(*outer) ? 1 : 0;
+  }
+  if (both > 0 && larger == both)
+    throw InputError(drawn.file,
+                     fmt::format("on all {} slices with both, \"{}\" (endocardium) encloses more "
+                                 "than \"{}\" (epicardium)",
+                                 both, endo, epi),
+                     "Exchange anatomy.contour_file.endo and anatomy.contour_file.epi");
 }
 
 }  // namespace
@@ -191,11 +236,17 @@ std::string describe(const ForeignContours& drawn) {
     text += fmt::format("  \"{}\": {} contour{}{}\n", name, count, count == 1 ? "" : "s",
                         phases.empty() ? "" : fmt::format(" at {} times", phases.size()));
   }
+  for (const auto& [name, what] : drawn.not_read)
+    text += fmt::format("  \"{}\": {}, no closed contours: not read\n", name, what);
   return text.empty() ? "  no contours\n" : text;
 }
 
 DrawnPhases arranged(const ForeignContours& drawn, const std::string& endo, const std::string& epi,
                      const DicomStack* images) {
+  if (endo == epi)
+    throw InputError(drawn.file, fmt::format("endocardium and epicardium are both \"{}\"", endo),
+                     "Name two structures in anatomy.contour_file.endo and "
+                     "anatomy.contour_file.epi: the wall lies between them");
   require_structure(drawn, endo, "anatomy.contour_file.endo");
   require_structure(drawn, epi, "anatomy.contour_file.epi");
   DrawnPhases arranged;
@@ -214,6 +265,8 @@ DrawnPhases arranged(const ForeignContours& drawn, const std::string& endo, cons
     geometry::drop_repeats(p.contour);
     loops.push_back(std::move(p.contour));
   }
+  for (const auto& [phase, contours] : arranged.phases)
+    check_sides(drawn, endo, epi, contours.short_axis);
   for (auto& [phase, contours] : arranged.phases)
     std::stable_sort(contours.short_axis.begin(), contours.short_axis.end(),
                      [](const auto& a, const auto& b) { return a.slice < b.slice; });

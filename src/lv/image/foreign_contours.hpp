@@ -25,6 +25,8 @@ struct ForeignContours {
   std::vector<ForeignLoop> loops;
   std::string endo, epi;  ///< names of the left ventricle's borders, where the format fixes them
   std::vector<std::string> notes;
+  std::map<std::string, std::string> not_read{};  ///< structures without a loop: what they have
+  int end_diastole = 0;  ///< the phase that the file marks as such; 0: none
 };
 
 /// Whether a file holds contours in a format of read_contours, by its content.
@@ -44,8 +46,8 @@ struct ForeignContours {
 /// The borders of the two structures by phase, slices counted from 1. With `images` slice and phase
 /// are those of the image that a loop names; else the phase is the file's, or 1, and slices are
 /// told apart by their planes, in order along their normal. Throws InputError where a structure or
-/// an image is absent, a loop that is in pixels names no image, or a border of one slice is drawn
-/// twice at one time.
+/// an image is absent, a loop that is in pixels names no image, one in space lies off its image, a
+/// border of one slice is drawn twice at one time, or the two structures are one or exchanged.
 [[nodiscard]] DrawnPhases arranged(const ForeignContours& drawn, const std::string& endo,
                                    const std::string& epi, const DicomStack* images);
 

@@ -67,11 +67,18 @@ class List {
       throw InputError(file_, "the list of points is empty", column_rule);
     const auto fields = columns_of(lines_.text());
     width_ = fields.size();
+    std::vector<std::string> header;
+    for (const std::string_view field : fields)
+      header.push_back(plain(field));
     const auto column = [&](const std::vector<std::string>& names) {
       for (const std::string& name : names)
-        for (std::size_t i = 0; i < fields.size(); ++i)
-          if (plain(fields[i]) == name)
-            return static_cast<int>(i);
+        if (const auto found = std::find(header.begin(), header.end(), name);
+            found != header.end()) {
+          if (std::find(found + 1, header.end(), name) != header.end())
+            throw InputError(lines_.where(), fmt::format("column \"{}\" is there twice", name),
+                             "Keep one of the columns");
+          return static_cast<int>(found - header.begin());
+        }
       return -1;
     };
     // "frameID" of some writers numbers the images, not the times
@@ -80,7 +87,8 @@ class List {
            column({"z"}),
            column({"contourtype", "type"}),
            column({"slice", "sliceid", "frameid"}),
-           column({"timeframe", "frame", "time"})};
+           column({"timeframe", "frame", "time"}),
+           column({"weight"})};
     const std::array<const char*, 5> needed{"x", "y", "z", "contour type", "slice"};
     for (std::size_t c = 0; c < needed.size(); ++c)
       if (at_[c] < 0)
@@ -89,8 +97,10 @@ class List {
   }
 
   [[nodiscard]] GuidePoint point() const {
-    const auto fields = columns_of(lines_.text());
-    if (fields.size() < width_)
+    auto fields = columns_of(lines_.text());
+    while (fields.size() > width_ && fields.back().empty())
+      fields.pop_back();
+    if (fields.size() != width_)
       throw InputError(lines_.where(),
                        fmt::format("{} values in a table of {} columns", fields.size(), width_),
                        "Give every line one value per column, separated by tabs");
@@ -101,14 +111,15 @@ class List {
     point.type = fields[at_[3]];
     point.slice = whole(fields[at_[4]]);
     point.frame = at_[5] < 0 ? 0 : whole(fields[at_[5]]);
+    point.weight = at_[6] < 0 ? 1.0 : number(fields[at_[6]], "Give every point a weight, as 1");
     return point;
   }
 
-  [[nodiscard]] double number(std::string_view text) const {
+  [[nodiscard]] double number(std::string_view text,
+                              const char* remedy = "Give positions in scanner millimetres") const {
     const auto value = number_of<double>(text);
     if (!value || !std::isfinite(*value))
-      throw InputError(lines_.where(), why_no_number(text, "is not a finite number"),
-                       "Give positions in scanner millimetres");
+      throw InputError(lines_.where(), why_no_number(text, "is not a finite number"), remedy);
     return *value;
   }
 
@@ -132,8 +143,21 @@ class List {
   std::string file_;
   LineReader lines_;
   std::size_t width_ = 0;
-  std::array<int, 6> at_{};
+  std::array<int, 7> at_{};
 };
+
+/// Points that their writer put out of use.
+void drop_weightless(std::vector<GuidePoint>& points, const std::string& file,
+                     std::vector<std::string>& notes) {
+  const auto before = points.size();
+  std::erase_if(points, [](const GuidePoint& p) { return p.weight <= 0.0; });
+  if (points.empty())
+    throw InputError(file, "no point of the list has a weight above 0",
+                     "Points of weight 0 are not used: give those that count a weight of 1");
+  if (points.size() < before)
+    notes.push_back(fmt::format("{} point{} of weight 0 or less: not used", before - points.size(),
+                                before - points.size() == 1 ? "" : "s"));
+}
 
 void drop_repeated(std::vector<GuidePoint>& points, std::vector<std::string>& notes) {
   constexpr double per_mm = 1e3;  // micrometres
@@ -199,6 +223,7 @@ void note_other_times(const std::vector<GuidePoint>& points, int frame,
 std::vector<GuidePoint> read_guide_point_list(const fs::path& file,
                                               std::vector<std::string>& notes) {
   std::vector<GuidePoint> points = List(file).points();
+  drop_weightless(points, file.string(), notes);
   drop_repeated(points, notes);
   return points;
 }

@@ -14,10 +14,12 @@ struct GuidePoint {
   Vec3 x;            ///< [mm]
   std::string type;  ///< "SAX_LV_ENDOCARDIAL" and so on
   int slice = 0, frame = 0, line = 0;
+  double weight = 1.0;
 };
 
 /// All points of a list, each line once. A point that is there before (same type, slice and time,
-/// less than a micrometre away) is dropped, with a note. Throws InputError with file and line.
+/// less than a micrometre away) is dropped, with a note, and so is one of weight 0 or less. Throws
+/// InputError with file and line.
 [[nodiscard]] std::vector<GuidePoint> read_guide_point_list(const std::filesystem::path& file,
                                                             std::vector<std::string>& notes);
 

@@ -20,7 +20,8 @@ struct GuidePoints {
 
 /// Reads a tab-separated list of points in scanner millimetres. The first line names the columns:
 /// x, y, z, "contour type" (or type), slice and, if there are several times, "time frame" (or
-/// frame); other columns, such as a weight, are not used. The types are
+/// frame) and weight: points of weight 0 or less are not used, all others count alike; further
+/// columns are not used. The types are
 ///
 ///   SAX_LV_ENDOCARDIAL, SAX_LV_EPICARDIAL   loops on short-axis slices
 ///   LAX_LV_ENDOCARDIAL, LAX_LV_EPICARDIAL   curves on long-axis images

@@ -116,6 +116,10 @@ Volume read_meta_image(const fs::path& file) {
   Volume volume;
   volume.file = file.string();
   set_sizes(meta, volume);
+  if (!states(file, {"ElementSpacing", "ElementSize"}))
+    throw InputError(volume.file,
+                     "does not say how large its voxels are: it has no line ElementSpacing",
+                     "Save it again with the sizes of its voxels, or write the line");
   lay_volume(meta, volume);
   require_memory(volume.file, claimed_bytes(meta));
   const auto count = volume.voxels() * static_cast<std::size_t>(volume.frames);

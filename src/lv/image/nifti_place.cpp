@@ -135,6 +135,14 @@ void note_negative_sizes(const NiftiHeader& header, Volume& volume) {
                     volume.file, three(sizes)));
 }
 
+/// Whether an axis of several voxels has no size.
+bool lacks_size(const Vec3& sizes, const Volume& volume) {
+  for (int d = 0; d < 3; ++d)
+    if (volume.size[d] > 1 && sizes[d] == 0.0)
+      return true;
+  return false;
+}
+
 /// Of an affine map that says nothing.
 void note_nothing_said(Volume& volume) {
   if (volume.spacing.isOnes() && volume.origin.isZero() && volume.directions.isApprox(to_lps()))
@@ -160,6 +168,12 @@ void lay_by_header(const NiftiHeader& header, Volume& volume) {
     lay(in_space(map), "sform", unit.name, volume);
   } else if (header.qform_code > 0) {
     lay(in_space(qform(header, sizes, volume)), "qform", unit.name, volume);
+  } else if (lacks_size(sizes, volume)) {
+    fail(volume,
+         fmt::format("does not say how large its voxels are: pixdim is {}, and there is neither "
+                     "sform nor qform",
+                     three(sizes)),
+         "Save it again with the sizes and the place of its voxels, or correct the header");
   } else {
     Affine map = Affine::Identity();
     map.diagonal() = (sizes.array() > 0.0).select(unit.mm * sizes, 1.0);

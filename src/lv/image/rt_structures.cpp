@@ -60,22 +60,38 @@ ForeignLoop loop_of(const fs::path& file, const std::string& name, const DicomVa
   return loop;
 }
 
+/// "11 OPEN_PLANAR, 2 POINT"
+std::string in_words(const std::map<std::string, int>& counts) {
+  std::vector<std::string> each;
+  for (const auto& [kind, count] : counts)
+    each.push_back(fmt::format("{} {}", count, kind.empty() ? "of no kind" : kind));
+  return fmt::format("{}", fmt::join(each, ", "));
+}
+
 ForeignContours structures_in(const fs::path& file, const DicomValues& set) {
   ForeignContours drawn{file.string(), "DICOM contours (RTSTRUCT)", false, {}, "", "", {}};
   const auto names = region_names(set);
   int others = 0;
+  std::map<std::string, std::map<std::string, int>> kinds;  // of what is not read, by structure
   for_each_item(set, Tag(0x3006, 0x0039), [&](const DicomValues& region) {
     const auto number = region.whole(Tag(0x3006, 0x0084));
     const auto name = number ? names.find(*number) : names.end();
     if (name == names.end())
       fail_structures(file, "has contours of a region of interest that it does not name");
     for_each_item(region, Tag(0x3006, 0x0040), [&](const DicomValues& contour) {
-      if (contour.text(Tag(0x3006, 0x0042)) == "CLOSED_PLANAR")
+      const std::string kind = contour.text(Tag(0x3006, 0x0042));
+      if (kind == "CLOSED_PLANAR") {
         drawn.loops.push_back(loop_of(file, name->second, contour));
-      else
+      } else {
         ++others;
+        ++kinds[name->second][kind];
+      }
     });
   });
+  for (const ForeignLoop& loop : drawn.loops)
+    kinds.erase(loop.name);
+  for (const auto& [name, counts] : kinds)
+    drawn.not_read[name] = in_words(counts);
   if (others > 0)
     drawn.notes.push_back(
         fmt::format("{}: {} points and open lines are not used", file.string(), others));

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <matio.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
@@ -178,13 +179,26 @@ void add_loops(const fs::path& file, const Stack& stack, const Lattice& lattice,
 
 constexpr std::array<const char*, 3> segment_structures{"Endo", "Epi", "RVEndo"};
 
-/// What the stack says of its times.
-void note_moments(const fs::path& file, const Stack& stack, std::vector<std::string>& notes) {
-  const auto ed = stack.numbers("EDT");
-  const auto es = stack.numbers("EST");
-  if (ed && es && ed->values.size() == 1 && es->values.size() == 1)
-    notes.push_back(fmt::format("{} marks time {:g} as end-diastole and {:g} as end-systole",
-                                file.string(), ed->values.front(), es->values.front()));
+/// What the stack says of the times that it has contours of.
+void note_moments(const Stack& stack, const std::vector<ForeignLoop>& loops,
+                  ForeignContours& drawn) {
+  const auto marked = [&](const char* field) {
+    const auto time = stack.numbers(field);
+    const auto is_it = [&](const ForeignLoop& loop) { return loop.phase == time->values.front(); };
+    return time && time->values.size() == 1 && std::any_of(loops.begin(), loops.end(), is_it)
+               ? static_cast<int>(time->values.front())
+               : 0;
+  };
+  const int ed = marked("EDT");
+  const int es = marked("EST");
+  drawn.end_diastole = ed;
+  std::vector<std::string> moments;
+  if (ed > 0)
+    moments.push_back(fmt::format("time {} as end-diastole", ed));
+  if (es > 0 && es != ed)
+    moments.push_back(fmt::format("{}{} as end-systole", ed > 0 ? "" : "time ", es));
+  if (!moments.empty())
+    drawn.notes.push_back(fmt::format("{} marks {}", drawn.file, fmt::join(moments, " and ")));
 }
 
 /// A stack's loops; none of one without contours.
@@ -215,8 +229,8 @@ ForeignContours read_stacks(const fs::path& file) {
   for (std::size_t s = 0; s < count; ++s) {
     const Stack stack(file, *setstruct, s);
     if (auto loops = loops_of(file, stack); !loops.empty()) {
+      note_moments(stack, loops, drawn);
       stacks[s] = std::move(loops);
-      note_moments(file, stack, drawn.notes);
     }
   }
   for (auto& [s, loops] : stacks)

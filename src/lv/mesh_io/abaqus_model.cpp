@@ -120,6 +120,7 @@ class ModelReader {
       scope_ = Scope::assembly;
     } else if (block.keyword == "INSTANCE") {
       scope_ = Scope::instance;
+      refuse_second_instance(block);
       if (!block.data.empty())
         model_.notes.push_back(fmt::format(
             "{}: the instance's place in the assembly is left aside; coordinates are the part's",
@@ -130,6 +131,17 @@ class ModelReader {
       return false;
     }
     return true;
+  }
+
+  /// Places in the assembly are left aside: two instances of a part would lie in each other.
+  void refuse_second_instance(const AbaqusBlock& block) {
+    const std::string part = block.option("PART");
+    const auto [first, added] = instance_of_.emplace(part, block.at);
+    if (!part.empty() && !added)
+      model_.fail(block.at,
+                  fmt::format("the part {} has a second instance (the first at {})", part,
+                              format_line(model_.files, first->second)),
+                  "A mesh is read of one instance: write the heart's part with one alone");
   }
 
   void refuse_generated(const AbaqusBlock& block) const {
@@ -310,7 +322,8 @@ class ModelReader {
   AbaqusModel model_;
   Scope scope_ = Scope::model;
   FileLine part_at_;
-  std::size_t members_ = 0;  ///< of all sets so far
+  std::map<std::string, FileLine> instance_of_;  ///< where a part has its first
+  std::size_t members_ = 0;                      ///< of all sets so far
   bool is_oriented_ = false;
 };
 

@@ -3,6 +3,7 @@
 #include "lv/base/check.hpp"
 #include "lv/base/interrupt.hpp"
 #include "lv/base/log.hpp"
+#include "lv/base/log_file.hpp"
 #include "lv/base/nearest.hpp"
 #include "lv/base/parallel.hpp"
 #include "lv/base/printable.hpp"
@@ -58,7 +59,8 @@ class Pipeline {
       log::warn("{}: {}", case_.file.string(), no_parameters);
     for (const std::string& what : case_.without_effect)
       log::warn("{}", what);
-    for (const std::string& odd : {fit_outside_heartbeats(case_), left_handed_fibres(case_)})
+    for (const std::string& odd :
+         {fit_outside_heartbeats(case_), left_handed_fibres(case_), high_filling_pressure(case_)})
       if (!odd.empty())
         log::warn("{}", odd);
     if (!case_.strain.measured.empty())  // a mistake there must not come up after the beat
@@ -385,7 +387,7 @@ void run(const Case& c, const RunOptions& options) {
   try {
     Pipeline(c, options).run();
   } catch (const std::exception& failure) {
-    log::warn("the run ended early: {}", failure.what());
+    log::keep(fmt::format("the run ended early: {}", failure.what()));  // the program tells it
     throw;
   }
 }

@@ -52,6 +52,8 @@ std::vector<Warning> warnings_of(const Case& c, const anatomy::Shape& shape, dou
     warnings.push_back({"fit outside heartbeats", std::move(outside)});
   if (std::string turned = left_handed_fibres(c); !turned.empty())
     warnings.push_back({"left-handed fibres", std::move(turned)});
+  if (std::string high = high_filling_pressure(c); !high.empty())
+    warnings.push_back({"high filling pressure", std::move(high)});
   for (const geometry::Assumption& a : shape.warnings)
     warnings.push_back({a.part == "septum"        ? "septum assumed"
                         : a.part == "orientation" ? "orientation"
@@ -160,6 +162,17 @@ std::string left_handed_fibres(const Case& c) {
       "programs count the other way; for their {0:g} and {1:g} write {2:g} and {3:g}",
       rule.helix_endo * degrees, rule.helix_epi * degrees, -rule.helix_endo * degrees,
       -rule.helix_epi * degrees);
+}
+
+std::string high_filling_pressure(const Case& c) {
+  constexpr double most = 40.0 * mmHg;
+  const double p = c.protocol.ed_pressure;
+  if (!c.origin.contains("protocol.ed_pressure") || p <= most)
+    return "";
+  return fmt::format(
+      "protocol.ed_pressure is {:g} mmHg, more than the left ventricle of a patient is filled with "
+      "({:g} mmHg, in the worst failure): is its unit right? 1 kPa is 7.5 mmHg",
+      p / mmHg, most / mmHg);
 }
 
 std::string validate(const Case& c) {

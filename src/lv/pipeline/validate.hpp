@@ -24,4 +24,8 @@ inline constexpr const char* no_parameters =
 /// negative angle here and a positive one in most other programs.
 [[nodiscard]] std::string left_handed_fibres(const case_file::Case& c);
 
+/// What is odd about an end-diastolic pressure that no patient has; empty for others. Experiments
+/// may go there, so it is no mistake.
+[[nodiscard]] std::string high_filling_pressure(const case_file::Case& c);
+
 }  // namespace lv::pipeline

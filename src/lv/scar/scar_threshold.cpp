@@ -57,6 +57,14 @@ std::string scar_by_segment(const Elements& all, double deviations) {
   return fmt::format("{} ml", fmt::join(each, ", "));
 }
 
+double brightest_of(const std::vector<double>& greys) {
+  double brightest = -std::numeric_limits<double>::infinity();
+  for (const double grey : greys)
+    if (grey > brightest)
+      brightest = grey;
+  return brightest;
+}
+
 double by_deviations(const Case& c, const Elements& all) {
   const mesh::LateEnhancement& lge = c.scar.lge;
   const std::string each = scar_by_segment(all, lge.deviations);
@@ -74,6 +82,16 @@ double by_deviations(const Case& c, const Elements& all) {
                      "Name segments between 1 and 17 that the image covers");
   log::info("late enhancement: {:.1f} ml of scar by the remote segments {}; by one alone, {}",
             scar_above(all.wall, *threshold), fmt::join(lge.remote, ", "), each);
+  const double brightest = brightest_of(all.wall.greys);
+  if (brightest <= *threshold)
+    throw InputError(
+        case_file::place_of(c, "infarct.lge.remote"),
+        fmt::format("nothing of the wall is brighter than the threshold {:.4g}, {:g} standard "
+                    "deviations above the mean of the remote segments {}: the brightest is {:.4g}",
+                    *threshold, lge.deviations, fmt::join(lge.remote, ", "), brightest),
+        "Name segments without scar in infarct.lge.remote, for scar in them raises the threshold; "
+        "an image of inverted contrast shows scar dark: invert it. A heart without scar has no "
+        "[infarct]");
   return *threshold;
 }
 
@@ -111,6 +129,16 @@ double zero_level(const Case& c, const image::Cine& image, double brightest) {
                   quantile(image, true, 0.5)));
 }
 
+/// Throws InputError for an image of one grey value.
+void check_contrast(const Case& c, const image::Cine& image) {
+  const double darkest = quantile(image, false, 0.0);
+  if (quantile(image, false, 1.0) == darkest)
+    throw InputError(case_file::place_of(c, "infarct.lge.image"),
+                     fmt::format("{} is constant: all its pixels have the grey value {:.4g}",
+                                 c.scar.lge.image, darkest),
+                     "Name the image of late enhancement");
+}
+
 }  // namespace
 
 std::optional<double> above_remote(const WallGreys& wall, const std::vector<char>& remote,
@@ -134,10 +162,7 @@ std::optional<double> above_remote(const WallGreys& wall, const std::vector<char
 
 double half_of_brightest(const Case& c, const image::Cine& image,
                          const std::vector<double>& greys) {
-  double brightest = -std::numeric_limits<double>::infinity();
-  for (const double grey : greys)
-    if (grey > brightest)
-      brightest = grey;
+  const double brightest = brightest_of(greys);
   const double zero = zero_level(c, image, brightest);
   if (zero >= brightest)
     throw InputError(
@@ -150,6 +175,7 @@ double half_of_brightest(const Case& c, const image::Cine& image,
 
 double scar_threshold(const Case& c, const mesh::Mesh& mesh, const image::Cine& image,
                       const std::vector<double>& greys) {
+  check_contrast(c, image);
   return c.scar.lge.threshold == mesh::ScarThreshold::fwhm
              ? half_of_brightest(c, image, greys)
              : by_deviations(c, elements_of(c, mesh, greys));

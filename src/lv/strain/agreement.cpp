@@ -91,7 +91,20 @@ Table pairs_table(const std::vector<Pair>& pairs) {
   return table;
 }
 
-std::vector<Measured> read_measured(const std::filesystem::path& file, const std::string& column) {
+double strain_in(const std::string& text, Measure measure, const std::string& where) {
+  constexpr double most = 2.0;
+  const double least = measure == Measure::green_lagrange ? -0.5 : -1.0;
+  const auto strain = number_of<double>(text);
+  if (!strain || !(*strain > least) || !(*strain < most))
+    throw InputError(
+        where,
+        fmt::format("strain \"{}\" is not a number above {:g} and below {:g}", text, least, most),
+        "Strain is a fraction: -0.19 for 19% shortening");
+  return *strain;
+}
+
+std::vector<Measured> read_measured(const std::filesystem::path& file, const std::string& column,
+                                    Measure measure) {
   LineReader lines(file);
   if (!lines.is_open())
     throw InputError(file.string(), "cannot be read", "Check the path and its permissions");
@@ -112,7 +125,7 @@ std::vector<Measured> read_measured(const std::filesystem::path& file, const std
           where, fmt::format("{} values in a table of {} columns", fields.size(), header.size()),
           "Give every line one value per column");
     Measured m{whole_number_in(fields[slice], where), lower_case(fields[component]),
-               lower_case(fields[segment]), number_in(fields[value], where)};
+               lower_case(fields[segment]), strain_in(fields[value], measure, where)};
     check_segment(m.segment, where);
     if (m.component != "cir" && m.component != "rad")
       throw InputError(where, fmt::format("unknown component \"{}\"", fields[component]),

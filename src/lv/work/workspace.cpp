@@ -135,6 +135,25 @@ std::optional<std::size_t> outdated_source(const fs::path& work, std::size_t sta
   return {};
 }
 
+/// Refuses folders that bear the names of stages and were not made by this program: what the
+/// remedies for damaged stages delete must be its own.
+void require_own(const fs::path& work) {
+  bool any = false;
+  for (std::size_t s = 0; s < case_file::all_stages.size(); ++s)
+    for (const fs::path& folder :
+         {work / stage_folder(s), fs::path((work / stage_folder(s)).string() + ".part")}) {
+      if (!recorded(folder).ingredients.empty())
+        return;
+      any = any || fs::exists(folder);
+    }
+  if (any)
+    throw InputError(work.string(),
+                     fmt::format("is no work folder of this program: none of its folders has a "
+                                 "stage's record ({})",
+                                 record_name),
+                     "Name a work folder of ventricle run");
+}
+
 /// Whether few cases ask for a stage.
 bool is_of_few(Stage stage) {
   return stage == Stage::circulation || stage == Stage::strain || stage == Stage::calibrate ||
@@ -285,8 +304,10 @@ void StageFolder::finish() const {
 
 std::vector<std::string> state_of(const fs::path& work) {
   constexpr auto results = static_cast<std::size_t>(Stage::results);
-  if (fs::is_directory(work))
+  if (fs::is_directory(work)) {
     check_contents(work);
+    require_own(work);
+  }
   std::vector<std::string> state;
   std::size_t found = 0;
   for (std::size_t s = 0; s <= results; ++s) {

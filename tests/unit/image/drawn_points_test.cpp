@@ -2,6 +2,7 @@
 #include "lv/geometry/contour_checks.hpp"
 #include "lv/geometry/long_axis.hpp"
 #include "lv/geometry/spline_wall.hpp"
+#include "lv/image/guide_point_list.hpp"
 #include "lv/image/guide_points.hpp"
 #include "lv/image/sunnybrook.hpp"
 
@@ -300,4 +301,22 @@ TEST_CASE("lists of points that say too little are refused", "[unit][image]") {
              Contains("p.txt:2: \"q\" is not a finite number"));
   CHECK_THAT(says("x\ty\tz\ttype\tslice\ttime frame\n1\t2\t3\tA\t1\t0\n1\t2\t3\tA\t1\t4\n"),
              Contains("has points of 2 times") && Contains("0, 4"));
+  CHECK_THAT(says("x\ty\tz\ttype\tslice\tx\n1\t2\t3\tMITRAL_VALVE\t1\t5\n"),
+             Contains("p.txt:1: column \"x\" is there twice"));
+  CHECK_THAT(says("x\ty\tz\ttype\tslice\n1\t2\t3\tMITRAL_VALVE\t1\t5\n"),
+             Contains("p.txt:2: 6 values in a table of 5 columns"));
+  CHECK_THAT(says("x\ty\tz\ttype\tslice\tweight\n1\t2\t3\tMITRAL_VALVE\t1\t0\n"),
+             Contains("no point of the list has a weight above 0"));
+}
+
+TEST_CASE("guide points of weight 0 are not used", "[unit][image]") {
+  const test::TemporaryFolder folder;
+  test::write_bytes(folder / "p.txt",
+                    "x\ty\tz\ttype\tslice\tweight\n1\t2\t3\tMITRAL_VALVE\t1\t1.0\n"
+                    "4\t2\t3\tMITRAL_VALVE\t1\t0.0\n5\t2\t3\tMITRAL_VALVE\t1\t-1\t\n");
+  std::vector<std::string> notes;
+  const auto points = read_guide_point_list(folder / "p.txt", notes);
+  REQUIRE(points.size() == 1);
+  CHECK(points.front().x.x() == 1.0);
+  CHECK(notes == std::vector<std::string>{"2 points of weight 0 or less: not used"});
 }

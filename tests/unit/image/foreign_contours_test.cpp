@@ -57,6 +57,7 @@ TEST_CASE("contours of Segment lie where its formula says, at every time", "[uni
   const ForeignContours drawn = read_drawn("x.mat", test::segment_bytes(axes));
   CHECK(drawn.endo == "Endo");
   CHECK_THAT(drawn.notes.front(), Contains("marks time 1 as end-diastole and 2 as end-systole"));
+  CHECK(drawn.end_diastole == 1);
   const DrawnPhases phases = arranged(drawn, "Endo", "Epi", nullptr);
   REQUIRE(phases.phases.size() == 2);
   REQUIRE(phases.phases.at(1).short_axis.size() == 6);
@@ -93,6 +94,32 @@ TEST_CASE("structures of RTSTRUCT are chosen by name", "[unit][image]") {
         Approx(24.0 * ring_area(15.0)).epsilon(1e-3));
   CHECK_THROWS_WITH(arranged(drawn, "LV", "LV epi", nullptr),
                     Contains("no contours called \"LV\"") && Contains("\"LV endo\": 3 contours"));
+  CHECK_THROWS_WITH(arranged(drawn, "LV epi", "LV epi", nullptr),
+                    Contains("endocardium and epicardium are both \"LV epi\""));
+  CHECK_THROWS_WITH(
+      arranged(drawn, "LV epi", "LV endo", nullptr),
+      Contains("on all 3 slices with both, \"LV epi\" (endocardium) encloses more than"));
+}
+
+TEST_CASE("structures of open lines are named with what they have", "[unit][image]") {
+  std::string bytes = test::rt_structures_bytes({{"LV endo", 15.0}, {"LV epi", 24.0}});
+  for (std::size_t at = 0; (at = bytes.find("CLOSED_PLANAR ", at)) != std::string::npos;)
+    bytes.replace(at, 14, "OPEN_PLANAR   ");
+  CHECK_THROWS_WITH(arranged(read_drawn("x", bytes), "LV endo", "LV epi", nullptr),
+                    Contains("has \"LV endo\", but as 3 OPEN_PLANAR, 1 POINT: no closed contours"));
+}
+
+TEST_CASE("contours in space lie on the images that they name", "[unit][image]") {
+  const Mat3 axes = test::oblique();
+  const test::TemporaryFolder folder;
+  const DicomStack images = image_stack(folder, axes);
+  ForeignContours drawn =
+      read_drawn("x", test::rt_structures_bytes({{"endo", 15.0}, {"epi", 24.0}}, axes, true));
+  CHECK(arranged(drawn, "endo", "epi", &images).phases.at(1).short_axis.size() == 6);
+  for (Vec3& x : drawn.loops.front().points)
+    x += 6.0 * axes.col(2);
+  CHECK_THROWS_WITH(arranged(drawn, "endo", "epi", &images),
+                    Contains("a contour of \"endo\" lies 6.0 mm off the plane of the image"));
 }
 
 TEST_CASE("RTSTRUCT of several times needs the images, which say when", "[unit][image]") {

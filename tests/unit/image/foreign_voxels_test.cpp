@@ -159,6 +159,10 @@ TEST_CASE("MetaImage is read in LPS, by its matrix and unit", "[unit][image]") {
   const Volume cm = read_voxels("a.mha", head + "DistanceUnits = cm\n" + tail + counted(24));
   CHECK(cm.point({1, 2, 3}).isApprox(Vec3(115.0, 110.0, 340.0)));
   CHECK_THAT(refusal("a.mha", head + tail + counted(20)), Contains("cannot be read as MetaImage"));
+  std::string without_sizes = head + tail + counted(24);
+  without_sizes.erase(without_sizes.find("ElementSpacing"), 25);
+  CHECK_THAT(refusal("a.mha", without_sizes),
+             Contains("does not say how large its voxels are: it has no line ElementSpacing"));
   const Volume frames = read_voxels(
       "a.mha",
       "ObjectType = Image\nNDims = 4\nBinaryData = True\nDimSize = 2 2 2 3\nElementSpacing "

@@ -182,6 +182,14 @@ TEST_CASE("lengths of the sform that are not the sizes of voxels are told apart 
                                           "sizes (pixdim) (1, 2, 10)"));
 }
 
+TEST_CASE("voxels without a size are refused as such", "[unit][image]") {
+  test::NiftiSpec spec = small(oblique());
+  spec.sform_code = 0;
+  spec.pixdim = {1.0, 2.0, 0.0};
+  CHECK_THAT(complaint(spec),
+             Contains("does not say how large its voxels are: pixdim is (1, 2, 0)"));
+}
+
 TEST_CASE("a header of ones at the origin is noted as one that says nothing", "[unit][image]") {
   test::NiftiSpec spec;
   spec.size = {2, 2, 2, 1};

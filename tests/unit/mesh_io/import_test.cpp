@@ -187,6 +187,16 @@ TEST_CASE("nodes that no cell uses are dropped and the file's numbers kept", "[u
              expected);
 }
 
+TEST_CASE("a second instance of an ABAQUS part is refused", "[unit][mesh_io]") {
+  const std::string text =
+      test::abaqus_text(test::coarse_mesh(CellKind::hexahedron), AbaqusTags::labelled_faces) +
+      "*Assembly, name=A\n*Instance, name=Wall-1, part=WALL\n*End Instance\n"
+      "*Instance, name=Wall-2, part=Wall\n90., 0., 0.\n*End Instance\n"
+      "*End Assembly\n";
+  CHECK_THROWS_WITH(import_text(".inp", text),
+                    Catch::Contains("the part WALL has a second instance (the first at "));
+}
+
 TEST_CASE("ABAQUS sets by range, by name, by instance and in included files are understood",
           "[unit][mesh_io]") {
   const Mesh mesh = test::ellipsoid_mesh({}, 8.0);

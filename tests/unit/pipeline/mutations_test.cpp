@@ -76,7 +76,7 @@ TEST_CASE("damaged tables of regional strains are read or refused", "[unit][pipe
 
 TEST_CASE("damaged tables of measured strains are read or refused", "[unit][strain][mutations]") {
   const auto read = [](const std::filesystem::path& file) {
-    static_cast<void>(strain::read_measured(file, "frame 2"));
+    static_cast<void>(strain::read_measured(file, "frame 2", strain::Measure::engineering));
   };
   try_damaged("measured.csv",
               "slice,component,segment,frame1,frame 2\n1,cir,Ant,0,-0.1\n1,rad,Ant,0,0.2\n"

@@ -131,6 +131,9 @@ TEST_CASE("the end-diastolic shape of several is worth a warning unless it is un
   const anatomy::Moments m{{1, 2, 3}, {90e3, 140e3, 60e3}, 2, 3, {}};
   CHECK(anatomy::end_diastole_note(c, m, 1).empty());
   CHECK_THAT(anatomy::end_diastole_note(c, m, 2), Contains("unloaded.pressure"));
+  CHECK_THAT(anatomy::end_diastole_note(c, "time 1 is end-diastole, as x.mat marks it"),
+             Contains("as x.mat marks it, and its shape is taken as free of stress"));
   c.unloaded.pressure = 1.0;
   CHECK(anatomy::end_diastole_note(c, m, 2).empty());
+  CHECK(anatomy::end_diastole_note(c, "time 1 is end-diastole, as x.mat marks it").empty());
 }

@@ -223,6 +223,17 @@ TEST_CASE("half of the brightest is taken from the grey value of no signal", "[u
   CHECK(volume("offset.nii") == Approx(expected).epsilon(1e-6));
   c.scar.lge.zero = 5000.0;
   CHECK_THROWS_WITH(volume("offset.nii"), Catch::Matchers::Contains("is brighter than 5000"));
+  write("constant.nii", [](const Vec3&) { return 50; });
+  CHECK_THROWS_WITH(
+      volume("constant.nii"),
+      Catch::Matchers::Contains("is constant: all its pixels have the grey value 50"));
+  write("inverted.nii", [&](const Vec3& X) { return scar(X) ? 5 : 60; });
+  c.scar.lge.threshold = mesh::ScarThreshold::sd;
+  c.scar.lge.remote = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17};
+  CHECK_THROWS_WITH(
+      volume("inverted.nii"),
+      Catch::Matchers::Contains("nothing of the wall is brighter than the threshold") &&
+          Catch::Matchers::Contains("the brightest is 60"));
 }
 
 TEST_CASE("a scar of more than half of the wall is asked about, and each remote segment told",

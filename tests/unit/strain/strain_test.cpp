@@ -92,7 +92,7 @@ TEST_CASE("a table of measured strains is refused by line", "[strain]") {
   const std::string head = "slice,component,segment,frame1,frame2\n";
   const auto read = [&](const std::string& text, const std::string& column) {
     test::write_bytes(folder / "strain.csv", text);
-    return read_measured(folder / "strain.csv", column);
+    return read_measured(folder / "strain.csv", column, Measure::engineering);
   };
   const auto good = read(head + "1,cir,InfSept,0,-0.2\n2,rad,Ant,0,0.4\n", "frame2");
   REQUIRE(good.size() == 2);
@@ -103,6 +103,17 @@ TEST_CASE("a table of measured strains is refused by line", "[strain]") {
   CHECK_THROWS_AS(read(head + "1,long,Ant,0,-0.2\n", "frame2"), InputError);
   CHECK_THROWS_AS(read(head + "1,cir,Ant,0\n", "frame2"), InputError);
   CHECK_THROWS_WITH(read(head + "1,cir,Ant,0,nan\n", "frame2"), Catch::Contains("strain.csv:2"));
+  CHECK_THROWS_WITH(read(head + "1,cir,Ant,0,-18\n", "frame2"),
+                    Catch::Contains("strain.csv:2: strain \"-18\" is not a number above -1") &&
+                        Catch::Contains("Strain is a fraction"));
+  CHECK_THROWS_AS(strain_in("-0.6", Measure::green_lagrange, "here"), InputError);
+  CHECK(strain_in("-0.6", Measure::engineering, "here") == -0.6);
+}
+
+TEST_CASE("strains of one value alone have no correlation", "[strain]") {
+  const std::vector<Pair> pairs{{"sector", 1, "ant", -0.2, -0.1}, {"sector", 1, "inf", -0.2, -0.2}};
+  CHECK(std::isnan(agreement(pairs).correlation));
+  CHECK(agreement(pairs).bias == Approx(0.05));
 }
 
 TEST_CASE("overlap and distance of circles", "[strain]") {

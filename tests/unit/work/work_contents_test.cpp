@@ -31,3 +31,11 @@ TEST_CASE("a pipe or a link that leads nowhere in a work folder is refused by na
   REQUIRE(mkfifo((work / "devices/pipe").c_str(), 0600) == 0);
   CHECK_NOTHROW(work::check_contents(work / ""));
 }
+
+TEST_CASE("folders of a stage's name that another program made are no work folder",
+          "[unit][work]") {
+  const test::TemporaryFolder work;
+  std::filesystem::create_directories(work / "03_beat");
+  test::write_bytes(work / "03_beat/stage.json", "hello");
+  CHECK_THROWS_WITH(work::state_of(work / ""), Contains("is no work folder of this program"));
+}
