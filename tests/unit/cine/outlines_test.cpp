@@ -178,7 +178,7 @@ TEST_CASE("a wall that is in no images is not laid over them", "[cine]") {
   REQUIRE_FALSE(sources.empty());  // the contours
   CHECK(std::count(sources.begin(), sources.end(), "model") == 0);
   CHECK(Table::read_csv(folder / "outline_distances.csv").words("slice").empty());
-  CHECK(std::filesystem::exists(folder / "pictures" / "end_diastole_4.png"));
+  CHECK(std::filesystem::exists(folder / "pictures" / "end_diastole_long_axis_1.png"));
 }
 
 TEST_CASE("outlines follow the curve of quadratic elements", "[cine]") {
