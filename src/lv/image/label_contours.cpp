@@ -204,7 +204,7 @@ class Tracer {
                          mm2(of_right), labels_in(picture, enclosed)),
              "anatomy.labels.muscle seems to hold the right ventricle's muscle: list that of the "
              "left ventricle alone");
-    if (share(hole.count(), body.count()) >= largest_island)
+    if (cavity.count() > 0 && share(hole.count(), body.count()) >= largest_island)
       refuse(slice,
              fmt::format("the wall encloses a hole of {:.0f} mm2, {:.0f}% of all within the "
                          "epicardium ({}): it would count to the wall",
