@@ -7,6 +7,7 @@
 #include "lv/case_file/parameters.hpp"
 #include "lv/geometry/contour_table.hpp"
 #include "lv/geometry/drawn_wall.hpp"
+#include "lv/geometry/lie_in_patient.hpp"
 #include "lv/mesh/fibres.hpp"
 #include "lv/mesh/refine.hpp"
 #include "lv/mesh_io/foreign_mesh.hpp"
@@ -19,6 +20,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <numbers>
@@ -65,47 +67,52 @@ void assume_moment(const Case& c, const std::vector<std::string>& warnings, bool
     shape.assumed.push_back({"early diastole", assumed_moment});
 }
 
-/// Whether the points of a case's anatomy are the scanner's: x to the patient's left, y to the
-/// back, z to the head. Contours and surfaces may come in any axes.
-bool is_in_patient(const Case& c) {
-  using case_file::AnatomySource;
-  const AnatomySource source = c.anatomy.source;
-  return source == AnatomySource::labels || source == AnatomySource::sunnybrook ||
-         source == AnatomySource::cine;
+/// How the wall lies in the patient. A septum_angle says where the septum is too.
+geometry::Lie lie_of(const Case& c, const geometry::Frame& frame, bool septum_is_shown) {
+  geometry::Lie lie{-frame.axes.col(2), {}};
+  const double angle = c.regions.septum_angle;
+  if (septum_is_shown || c.origin.contains("regions.septum_angle"))
+    lie.septum = std::cos(angle) * frame.axes.col(0) + std::sin(angle) * frame.axes.col(1);
+  return lie;
 }
 
-/// Warns where the wall lies in the patient as no heart does: the septum faces the left, or the
-/// anterior wall the back and the feet. A header that mirrors the image does this, and exchanges
-/// the names of regions.
-void check_orientation(const Case& c, Shape& shape) {
-  constexpr double clearly = 0.5;  // cosine
-  const Vec3 septal = shape.frame.axes.col(0);
-  const Vec3 anterior = shape.frame.axes.col(1);
-  const Vec3 up_and_front = Vec3(0.0, -1.0, 1.0).normalized();
-  const bool to_the_left = septal.x() > clearly;
-  if (!is_in_patient(c) || (!to_the_left && anterior.dot(up_and_front) > -clearly))
+/// Warns where the wall lies in the patient as no heart does. A header that mirrors the image does
+/// this, or an export in other axes, and exchanges the names of regions.
+void check_orientation(const Case& c, bool septum_is_shown, Shape& shape) {
+  using case_file::AnatomySource;
+  const std::string odd = geometry::oddity(lie_of(c, shape.frame, septum_is_shown));
+  if (odd.empty())
     return;
+  const AnatomySource source = c.anatomy.source;
+  const bool from_image = source == AnatomySource::labels || source == AnatomySource::cine ||
+                          source == AnatomySource::sunnybrook;
   shape.warnings.push_back(
       {"orientation",
-       fmt::format("in the coordinates of the image {}: the image seems mirrored or turned, and "
-                   "anterior and inferior regions exchanged; check how its header lays it in space",
-                   to_the_left ? "the septum faces the patient's left"
-                               : "the anterior wall faces the patient's back and feet")});
+       fmt::format("in the coordinates of the {} {}; {}", from_image ? "image" : "contours", odd,
+                   from_image ? "check how its header lays it in space"
+                              : "they must be LPS as in DICOM: x to the left, y to the back, z to "
+                                "the head")});
 }
 
-/// Warns of contours that the wall passes by: of a point that slipped, or a slice that lies
+/// Warns of contours that the wall passes by: of a point that slipped, or an image that lies
 /// elsewhere.
 void check_contours_met(const geometry::FitReport& fit, Shape& shape) {
   constexpr double far = 6.0;  // [mm]; breath-holds are moved back from less, or told
   std::vector<std::string> where;
-  for (const geometry::ImageReport& image : fit.short_axis)
-    for (const auto& [side, distance] : {std::pair("endo", image.endo), {"epi", image.epi}})
+  const auto add = [&](const std::string& image, const auto& endo, const auto& epi) {
+    for (const auto& [side, distance] : {std::pair("endo", endo), {"epi", epi}})
       if (distance && distance->max > far)
-        where.push_back(fmt::format("slice {} {} ({:.1f} mm)", image.slice, side, distance->max));
+        where.push_back(fmt::format("{} {} ({:.1f} mm)", image, side, distance->max));
+  };
+  for (const geometry::ImageReport& image : fit.short_axis)
+    add(fmt::format("slice {}", image.slice), image.endo, image.epi);
+  for (const geometry::ImageReport& image : fit.long_axis)
+    add(fmt::format("long axis {}", image.slice), image.endo, image.epi);
+  add("apex", fit.apex_endo, fit.apex_epi);
   if (!where.empty())
     shape.warnings.push_back(
         {"contours", fmt::format("the wall passes the contours by: {}; a point of them slipped, or "
-                                 "the slice lies elsewhere: look at fit.csv, and redraw it",
+                                 "the image lies elsewhere: look at fit.csv, and redraw it",
                                  fmt::join(where, ", "))});
 }
 
@@ -180,8 +187,7 @@ Shape from_drawn(const Case& c) {
     shape.warnings.push_back({"septum", assumed_septum});
   check_septum_point(c, shape);
   check_contours_met(wall->report(), shape);
-  if (fit.frame.septum)
-    check_orientation(c, shape);
+  check_orientation(c, fit.frame.septum.has_value(), shape);
   shape.assumed = wall->report().assumed;
   assume_moment(c, drawn.warnings, drawn.moment_is_known, shape);
   collect_remarks(shape);

@@ -33,6 +33,7 @@ constexpr double gap_ratio = 4.0;      // of a loop's closing segment to the usu
 constexpr double least_spacing = 1.0;  // of slices [mm]
 constexpr double largest_tilt = 15.0;  // of a slice against the stack's mean [degrees]
 constexpr double farthest = 200.0;     // of long-axis and apex points from the stack [mm]
+constexpr double beside = 20.0;  // of a long-axis curve from the loops: a breath moves by less
 
 std::string place(const Vec3& x) {
   return fmt::format("({:.1f}, {:.1f}, {:.1f}) mm", x.x(), x.y(), x.z());
@@ -380,6 +381,59 @@ void check_nearby(const Contours& contours, const Stack& stack) {
                            "All contours share the scanner's coordinates in mm");
 }
 
+/// The distance of a point from a closed line [mm].
+double distance_to(const Contour& loop, const Vec3& x) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < loop.points.size(); ++i) {
+    const Vec3& a = loop.points[i];
+    const Vec3 along = loop.points[(i + 1) % loop.points.size()] - a;
+    const double length2 = std::max(along.squaredNorm(), std::numeric_limits<double>::min());
+    const double part = std::clamp((x - a).dot(along) / length2, 0.0, 1.0);
+    least = std::min(least, (a + part * along - x).norm());
+  }
+  return least;
+}
+
+/// How far from the loops of its side a curve passes through their planes; of a curve that passes
+/// through none, how far its nearest point lies from them [mm].
+std::vector<double> distances_from(const Contours& contours, const Contour& curve) {
+  std::vector<double> crossings;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Contour& loop : contours.short_axis) {
+    if (loop.side != curve.side)
+      continue;
+    const Frame plane = plane_of(loop.points);
+    for (std::size_t i = 0; i < curve.points.size(); ++i) {
+      nearest = std::min(nearest, distance_to(loop, curve.points[i]));
+      const double z = plane.to_model(curve.points[i]).z();
+      const double before = i == 0 ? z : plane.to_model(curve.points[i - 1]).z();
+      if (z * before >= 0.0)
+        continue;
+      const double part = before / (before - z);
+      crossings.push_back(
+          distance_to(loop, curve.points[i - 1] + part * (curve.points[i] - curve.points[i - 1])));
+    }
+  }
+  return crossings.empty() ? std::vector{nearest} : crossings;
+}
+
+/// Long-axis curves and short-axis loops show one heart in one scanner.
+void check_curves_meet(const Contours& contours) {
+  for (const Contour& curve : contours.long_axis) {
+    const std::vector<double> all = distances_from(contours, curve);
+    const double usual = median(all);
+    if (std::isfinite(usual) && usual > beside)
+      throw InputError(
+          curve.where(),
+          fmt::format("{}: the long-axis curve passes the short-axis loops {:.0f} mm beside them "
+                      "(median; {:.0f} to {:.0f} mm in {} crossings); at most {:g} mm are accepted",
+                      label(curve), usual, *std::min_element(all.begin(), all.end()),
+                      *std::max_element(all.begin(), all.end()), all.size(), beside),
+          "All contours share the scanner's coordinates, LPS in mm: those of one file seem to be "
+          "mirrored, turned (RAS) or of another heart");
+  }
+}
+
 /// A curve on a long-axis image runs from the base over the apex to the base: its ends are apart.
 void check_open(const Contour& curve) {
   double length = 0.0;
@@ -421,6 +475,7 @@ void check_contours(const Contours& contours) {
   check_order(stack);
   check_apart(stack);
   check_nearby(contours, stack);
+  check_curves_meet(contours);
   check_lone_epicardium(contours);
   check_enough_epicardium(contours);
 }

@@ -13,7 +13,9 @@ namespace lv::geometry {
 /// endocardium, unless it lies beyond the cavity at the apex; a single epicardium, where no
 /// long-axis curve shows it besides; an endocardium that crosses, encloses or lies beside its
 /// epicardium; slices that are not parallel, not in order, or share a plane; long-axis curves or
-/// apex points far from the slices. A slice without epicardium is accepted. @throws InputError
+/// apex points far from the slices; long-axis curves that pass the loops more than 20 mm beside
+/// them (the median of where they cross the slices' planes). A slice without epicardium is
+/// accepted. @throws InputError
 void check_contours(const Contours& contours);
 
 /// Slices (of endocardial loops) that lie much farther apart than usual, the usual distance being

@@ -8,11 +8,13 @@
 
 #include <Eigen/Eigenvalues>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <set>
 #include <utility>
 
 namespace lv::image {
@@ -24,6 +26,8 @@ using Vec2 = Eigen::Vector2d;
 
 constexpr double largest_island = 0.2;          // of the largest part
 constexpr double largest_hole = 0.3;            // of the filled cavity
+constexpr double largest_enclosed_right = 0.5;  // of a slice's right ventricle, within the wall
+constexpr double least_enclosed = 0.05;         // of the cavity: less is a slip of the brush
 constexpr std::size_t least_border_points = 8;  // of a border
 constexpr double noted_angle = 15.0;            // of the slices' normal to the long axis [degrees]
 constexpr double largest_obliqueness = 25.0;
@@ -34,6 +38,15 @@ PlaneMask mask_of(const Picture& picture, const std::vector<int>& labels) {
   for (std::size_t p = 0; p < mask.inside.size(); ++p)
     mask.inside[p] = is_one_of(picture.values[p], labels) ? 1 : 0;
   return mask;
+}
+
+/// "label 3" or "labels 0, 3": those that a part of a slice has.
+std::string labels_in(const Picture& picture, const PlaneMask& part) {
+  std::set<int> found;
+  for (std::size_t p = 0; p < part.inside.size(); ++p)
+    if (part.inside[p] != 0)
+      found.insert(static_cast<int>(picture.values[p]));
+  return fmt::format("label{} {}", found.size() == 1 ? "" : "s", fmt::join(found, ", "));
 }
 
 PlaneMask united(const PlaneMask& a, const PlaneMask& b) {
@@ -164,6 +177,49 @@ class Tracer {
     return cavity;
   }
 
+  /// What the wall encloses belongs to it, but for a right ventricle, whose own wall closes round
+  /// it, and for holes too large to be slips of the brush.
+  void fill_holes(const Picture& picture, const PlaneMask& body, const PlaneMask& part,
+                  const PlaneMask& cavity, const Slice& slice) {
+    PlaneMask hole = body;
+    for (std::size_t p = 0; p < hole.inside.size(); ++p)
+      if (part.inside[p] != 0)
+        hole.inside[p] = 0;
+    const PlaneMask right = mask_of(picture, meaning_.right_ventricle);
+    PlaneMask enclosed = right;
+    for (std::size_t p = 0; p < enclosed.inside.size(); ++p)
+      enclosed.inside[p] &= hole.inside[p];
+    const std::size_t of_right = enclosed.count();
+    const auto mm2 = [&](std::size_t pixels) {
+      return static_cast<double>(pixels) * slice.pixel_area();
+    };
+    const auto share = [](std::size_t pixels, std::size_t of) {
+      return static_cast<double>(pixels) / static_cast<double>(std::max<std::size_t>(of, 1));
+    };
+    if (share(of_right, right.count()) > largest_enclosed_right &&
+        share(of_right, cavity.count()) > least_enclosed)
+      refuse(slice,
+             fmt::format("the wall encloses {:.0f} mm2 of what anatomy.labels.right_ventricle "
+                         "names ({}): they would count to the wall",
+                         mm2(of_right), labels_in(picture, enclosed)),
+             "anatomy.labels.muscle seems to hold the right ventricle's muscle: list that of the "
+             "left ventricle alone");
+    if (cavity.count() > 0 && share(hole.count(), body.count()) >= largest_island)
+      refuse(slice,
+             fmt::format("the wall encloses a hole of {:.0f} mm2, {:.0f}% of all within the "
+                         "epicardium ({}): it would count to the wall",
+                         mm2(hole.count()), 100.0 * share(hole.count(), body.count()),
+                         labels_in(picture, hole)),
+             "If it is muscle, as a scar is, list its label under anatomy.labels.muscle; if it is "
+             "the right ventricle, list the left one's muscle alone");
+    note(slice,
+         fmt::format("holes of {:.0f} mm2 in the wall filled{}", mm2(hole.count()),
+                     of_right == 0 ? ""
+                                   : fmt::format(", {:.0f} mm2 of them labelled as right "
+                                                 "ventricle ({})",
+                                                 mm2(of_right), labels_in(picture, enclosed))));
+  }
+
   void trace_body(const Picture& picture, const PlaneMask& cavity, Slice& slice) {
     const PlaneMask muscle = mask_of(picture, meaning_.muscle);
     if (muscle.count() == 0) {
@@ -176,9 +232,7 @@ class Tracer {
     if (touches_edge(body))
       note(slice, "the wall reaches the edge of the image; what lies beyond is missing");
     if (body.count() > part.count())
-      note(slice,
-           fmt::format("holes of {:.0f} mm2 in the wall filled",
-                       static_cast<double>(body.count() - part.count()) * slice.pixel_area()));
+      fill_holes(picture, body, part, cavity, slice);
     slice.epi = outline(body);
     if (slice.epi.size() < least_border_points)
       slice.epi.clear();

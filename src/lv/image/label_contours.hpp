@@ -33,6 +33,9 @@ struct LabelContours {
 ///   than 30% of a slice is refused, for then the labels seem swapped.
 /// - Of several parts the largest is taken and the rest dropped; a second part of 20% or more is
 ///   refused, unless the largest is too small for a border.
+/// - Holes of the wall count to it, with a note. They are refused where they hold more than half of
+///   the right ventricle of a slice (and more than a twentieth of the cavity), or a fifth of all
+///   within the epicardium.
 /// - Where the muscle is open on part of a slice the loops touch or cross: see close_walls.
 /// - A gap of one slice in the cavity is left to the fit; behind a wider one parts of less than 20%
 ///   of the cavity are dropped, larger ones refused.

@@ -88,7 +88,22 @@ double unit_of(const MetaImage& meta) {
   }
 }
 
+/// Throws InputError for a negative size: some programs mean a mirrored axis by it, which is what
+/// TransformMatrix is for, others nothing.
+void check_sizes(const MetaImage& meta, const Volume& volume) {
+  const int n = std::min(meta.NDims(), 3);
+  for (int d = 0; d < n; ++d)
+    if (meta.ElementSpacing(d) < 0.0)
+      throw InputError(
+          volume.file,
+          fmt::format("has the negative voxel size {:g} (ElementSpacing, axis {})",
+                      meta.ElementSpacing(d), d + 1),
+          "Give sizes without a sign; where the axis runs the other way, turn the sign of its "
+          "direction in TransformMatrix: else the heart may be mirrored");
+}
+
 void lay_volume(const MetaImage& meta, Volume& volume) {
+  check_sizes(meta, volume);
   const int n = meta.NDims();
   const double unit = unit_of(meta);
   Affine map = Affine::Identity();

@@ -33,10 +33,42 @@ namespace fs = std::filesystem;
 /// A file as the library of the format has read it.
 using Loaded = std::unique_ptr<Nrrd, Nrrd* (*)(Nrrd*)>;
 
+constexpr const char* state_space =
+    "Set \"space: left-posterior-superior\" or \"space: right-anterior-superior\" in its header, "
+    "whichever is true: else the heart may be mirrored";
+
+/// Throws InputError for a header with directions of which no line before says in what space they
+/// are: the library of the format takes them for damaged.
+void check_space_is_stated(const fs::path& file) {
+  constexpr std::size_t enough = 65536;  // a header ends with its first empty line
+  const std::string text = first_bytes(file, enough);
+  const auto lines = fields_of(text, '\n');
+  const auto end = std::find_if(lines.begin(), lines.end(),
+                                [](std::string_view line) { return trimmed(line).empty(); });
+  const auto find = [&](std::initializer_list<std::string_view> keys) {
+    return std::find_if(lines.begin(), end, [&](std::string_view line) {
+      return std::any_of(keys.begin(), keys.end(), [&](std::string_view key) {
+        return line.starts_with(key) && trimmed(line.substr(key.size())).starts_with(':');
+      });
+    });
+  };
+  const auto space = find({"space", "space dimension"});
+  const auto placed = find({"space directions", "space origin"});
+  if (placed == end || space < placed)
+    return;
+  if (space == end)
+    fail(file.string(), "does not state the space of its directions", state_space);
+  fail(file.string(),
+       fmt::format("states its space in line {}, behind line {}, which needs it",
+                   space - lines.begin() + 1, placed - lines.begin() + 1),
+       fmt::format("Put \"{}\" before it", printable(trimmed(*space))));
+}
+
 Loaded load(const fs::path& file) {
   Loaded nrrd(nrrdNew(), nrrdNuke);
   if (nrrdLoad(nrrd.get(), file.c_str(), nullptr) == 0)
     return nrrd;
+  check_space_is_stated(file);
   const std::unique_ptr<char, void (*)(void*)> said(biffGetDone(NRRD), std::free);
   std::string last = said ? said.get() : "";
   last = std::string(trimmed(last));
@@ -107,8 +139,7 @@ Vec3 to_lps(const Nrrd& nrrd, const std::string& file) {
       fail(file,
            nrrd.space == nrrdSpaceUnknown ? "does not state the space of its directions"
                                           : "states a space that is not the patient's",
-           "Set \"space: left-posterior-superior\" or \"space: right-anterior-superior\" in its "
-           "header, whichever is true: else the heart may be mirrored");
+           state_space);
   }
 }
 

@@ -54,8 +54,15 @@ vtkSmartPointer<vtkImageData> read_image(const std::string& file) {
   if (ending != ".vti" && ending != ".vtk")
     throw InputError(file, fmt::format("has the unknown ending \"{}\"", ending),
                      fmt::format("Labelled volumes are read from {}", formats::label_volumes));
-  return read_by_vtk(
+  const vtkSmartPointer<vtkImageData> image = read_by_vtk(
       file, [&] { return ending == ".vti" ? read_xml_image(file) : read_legacy_image(file); });
+  const double* sizes = image->GetSpacing();
+  for (int d = 0; d < 3; ++d)
+    if (sizes[d] < 0.0)
+      throw InputError(file, fmt::format("has the negative voxel size {:g}", sizes[d]),
+                       "Give sizes without a sign: a negative one may mean that the volume is "
+                       "mirrored, or nothing");
+  return image;
 }
 
 /// The names of the arrays at points and in cells.

@@ -2,6 +2,7 @@
 
 #include "lv/base/check.hpp"
 #include "lv/base/log.hpp"
+#include "lv/base/median.hpp"
 #include "lv/case_file/case_lines.hpp"
 #include "lv/image/dicom_study.hpp"
 #include "lv/image/lookup.hpp"
@@ -22,6 +23,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <optional>
 
 namespace lv::scar {
@@ -248,12 +250,46 @@ void move_slices(image::Cine& image, const std::vector<SliceMove>& moves) {
     image.slices[s].frames.front().plane.origin += moves[s].move;
 }
 
+/// Warns where most slices of a late-enhancement image, which stay where they are, show the wall
+/// clearly elsewhere, or none shows it.
+void ask_whether_met(const Case& c, const anatomy::Shape& shape, const Mesh& mesh,
+                     const image::Cine& image) {
+  constexpr double far = 5.0;  // [mm]; breath-holds differ by less
+  const double tried = mesh::LateEnhancement{}.largest_shift;
+  const std::vector<SliceMove> moves = register_slices(image, in_images(c, shape, mesh, mesh.endo),
+                                                       in_images(c, shape, mesh, mesh.epi), tried);
+  std::vector<double> clear;
+  int beyond = 0;
+  int weak = 0;
+  for (const SliceMove& m : moves) {
+    if (m.evidence == Evidence::clear)
+      clear.push_back(m.move.norm());
+    beyond += m.evidence == Evidence::at_limit ? 1 : 0;
+    weak += m.evidence == Evidence::weak ? 1 : 0;
+  }
+  const auto off = static_cast<int>(
+      std::count_if(clear.begin(), clear.end(), [](double move) { return move > far; }));
+  const int told = static_cast<int>(clear.size()) + beyond;
+  if (told + weak == 0 || (2 * (off + beyond) <= told && told > 0))
+    return;
+  log::warn(
+      "late enhancement: {} does not show the wall where it lies: of {} slices that cross it {} "
+      "fit "
+      "it better {:g} to {:g} mm away, {} farther away than that, and {} nowhere clearly. Check "
+      "that "
+      "both share the scanner's coordinates; infarct.lge.in_plane moves slices onto the wall, "
+      "infarct.shift all of them",
+      c.scar.lge.image, told + weak, off, far, tried, beyond, weak);
+}
+
 /// Moves the slices of `stack` onto the wall as an image shows it, if the case asks for it, and
 /// tells how.
 std::optional<Table> settle(const Case& c, const anatomy::Shape& shape, const Mesh& mesh,
                             const image::Cine& image, image::Cine& stack) {
-  if (!c.scar.lge.in_plane)
+  if (!c.scar.lge.in_plane) {
+    ask_whether_met(c, shape, mesh, image);
     return {};
+  }
   const std::vector<SliceMove> moves = moves_onto_wall(c, shape, mesh, image);
   move_slices(stack, moves);
   return table_of(image, moves);
@@ -276,6 +312,46 @@ void check_extent(const Case& c, const Mesh& mesh, const Infarct& infarct, doubl
                     100.0 * part, threshold, c.scar.lge.image, 100.0 * c.scar.lge.largest_part),
         "Check infarct.lge.threshold, zero, remote and deviations; if so large a scar is meant, "
         "raise infarct.lge.largest_part");
+}
+
+/// The median brightness of the blood: on the long axis, and on the way to the endocardium up to
+/// 0.6 of it, clear of papillary muscles. NaN where the image shows nothing of it.
+double brightness_of_blood(const Case& c, const anatomy::Shape& shape, const Mesh& mesh,
+                           const image::Cine& lge) {
+  std::vector<double> greys;
+  for (int f = 0; f < mesh.endo.size(); ++f) {
+    const auto nodes = mesh.endo.face(f);
+    Vec3 x = Vec3::Zero();
+    for (const int node : nodes)
+      x += mesh.nodes[node] / static_cast<double>(nodes.size());
+    for (const double part : {0.0, 0.3, 0.6}) {
+      const Vec3 inside(part * x.x(), part * x.y(), x.z());
+      if (const double grey = image::sample(lge, in_images(c, shape, inside)); !std::isnan(grey))
+        greys.push_back(grey);
+    }
+  }
+  return greys.empty() ? std::nan("") : median(std::move(greys));
+}
+
+/// Warns where blood is brighter than all of the wall: half of the brightest is then that of its
+/// rim at the endocardium, which blood brightens.
+void ask_whether_blood_is_bright(const Case& c, const anatomy::Shape& shape, const Mesh& mesh,
+                                 const image::Cine& lge, const std::vector<double>& values) {
+  if (c.scar.lge.threshold != mesh::ScarThreshold::fwhm)
+    return;
+  double brightest = -std::numeric_limits<double>::infinity();
+  for (const double value : values)
+    brightest = value > brightest ? value : brightest;
+  const double blood = brightness_of_blood(c, shape, mesh, lge);
+  if (blood > brightest)
+    log::warn(
+        "late enhancement: the blood is brighter ({:.4g}, the median within the endocardium) than "
+        "anything of the wall (at most {:.4g}), as where there is no scar or the blood was not "
+        "dimmed: half of the brightest then marks the rim of the endocardium, which blood "
+        "brightens. "
+        "Look at the scar; threshold = \"sd\" with remote segments, or a scar that is drawn "
+        "(infarct.lge.drawn), do not depend on it",
+        blood, brightest);
 }
 
 Infarct with_dark_core(const Mesh& mesh, Infarct infarct) {
@@ -312,6 +388,7 @@ Infarct by_brightness(const Case& c, const anatomy::Shape& shape, const Mesh& me
                      "Check that both share the scanner's coordinates");
   check_shown(mesh, c.scar.lge.image, [&](int cell) { return !std::isnan(values[cell]); });
   const double threshold = scar_threshold(c, mesh, lge, values);
+  ask_whether_blood_is_bright(c, shape, mesh, lge, values);
   log::info("late enhancement: scar is brighter than {:.4g}", threshold);
   Infarct infarct = within(
       c, shape, mesh,
@@ -354,6 +431,23 @@ void ask_if_large(const Case& c, const Mesh& mesh, const Infarct& infarct) {
   const double part = part_of_wall(mesh, infarct.part);
   if (from_file && part > large)
     log::warn("the infarct is {:.1f}% of the wall: is so large a scar meant?", 100.0 * part);
+}
+
+/// A border zone of most of the wall surrounds many small patches, not one scar.
+void ask_if_scattered(const Case& c, const Mesh& mesh, const Infarct& infarct,
+                      const std::vector<double>& field) {
+  constexpr double large = 0.5;  // of the wall
+  if (c.scar.source == InfarctSource::described)
+    return;
+  Mesh bordered = mesh;
+  bordered.infarct = field;
+  const mesh::InfarctVolumes v = mesh::infarct_volumes(bordered, infarct.part);
+  if (v.border > large * v.wall)
+    log::warn(
+        "the border zone is {:.1f}% of the wall ({:.2f} ml) around {:.2f} ml of infarct: is the "
+        "scar "
+        "scattered, as by noise or blood at the endocardium, or infarct.border ({:g} mm) too wide?",
+        100.0 * v.border / v.wall, 1e-3 * v.border, 1e-3 * v.infarct, c.scar.border);
 }
 
 Infarct infarcted(const Case& c, const anatomy::Shape& shape, const Mesh& mesh) {
@@ -447,8 +541,9 @@ InfarctExtent infarct_extent(const Case& c, const anatomy::Shape& shape, const M
   require_infarct(c);
   Infarct infarct = infarcted(c, shape, mesh);
   ask_if_large(c, mesh, infarct);
-  return {mesh::infarct_field(mesh, infarct.elements, c.scar.border), std::move(infarct.part),
-          std::move(infarct.slice_moves)};
+  std::vector<double> field = mesh::infarct_field(mesh, infarct.elements, c.scar.border);
+  ask_if_scattered(c, mesh, infarct, field);
+  return {std::move(field), std::move(infarct.part), std::move(infarct.slice_moves)};
 }
 
 Table infarct_table(const Case& c, const anatomy::MeshResult& wall) {

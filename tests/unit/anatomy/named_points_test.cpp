@@ -10,6 +10,7 @@
 #include "geometry/drawn_ellipsoid.hpp"
 #include "support/temporary_folder.hpp"
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -96,4 +97,41 @@ TEST_CASE("exchanged insertions are noted, a tip that is shown twice is refused"
   geometry::contour_table({point}).write_csv(folder / "apex.csv");
   const auto twice = case_of(folder, drawing, {tip}, "apex_endo = \"apex.csv\"\n");
   CHECK_THROWS_WITH(anatomy::read_drawn(twice), Contains("shown by another file too"));
+}
+
+TEST_CASE("contours in other axes than LPS are warned of, with what explains them", "[anatomy]") {
+  Drawing drawing = loops_alone();
+  Mat3 usual;  // as hearts lie
+  usual.col(2) = -Vec3(0.6, -0.6, -0.53).normalized();
+  const Vec3 septum(-0.75, -0.66, 0.0);
+  usual.col(0) = (septum - septum.dot(usual.col(2)) * usual.col(2)).normalized();
+  usual.col(1) = usual.col(2).cross(usual.col(0));
+  drawing.frame = {usual, Vec3(40.0, 10.0, -5.0)};
+  const auto warnings = [&](const Vec3& signs, bool with_septum) {
+    const test::TemporaryFolder folder;
+    geometry::Contours contours = draw(drawing);
+    for (geometry::Contour& loop : contours.short_axis)
+      for (Vec3& x : loop.points)
+        x = x.cwiseProduct(signs);
+    geometry::contour_table(contours.short_axis).write_csv(folder / "loops.csv");
+    const Vec3 point = drawing.frame.to_image({35.0, 0.0, -20.0}).cwiseProduct(signs);
+    write_file(
+        folder / "heart.toml",
+        "[anatomy]\nsource = \"contours\"\n[anatomy.contours]\nshort_axis = \"loops.csv\"\n" +
+            (with_septum ? fmt::format("septum_point = [\"{} mm\", \"{} mm\", \"{} mm\"]\n",
+                                       point.x(), point.y(), point.z())
+                         : ""));
+    std::string all;
+    for (const auto& a :
+         anatomy::make_anatomy(case_file::read_case(folder / "heart.toml")).warnings)
+      all += a.part == "orientation" ? a.text : "";
+    return all;
+  };
+  CHECK(warnings({1, 1, 1}, true) == "");
+  CHECK(warnings({1, 1, 1}, false) == "");
+  CHECK_THAT(warnings({-1, 1, 1}, true), Contains("right for left") && Contains("must be LPS"));
+  CHECK_THAT(warnings({1, -1, 1}, true), Contains("back for front"));
+  CHECK_THAT(warnings({1, 1, -1}, true), Contains("head for feet"));
+  CHECK_THAT(warnings({-1, -1, 1}, true), Contains("as where RAS is taken for LPS"));
+  CHECK_THAT(warnings({1, 1, -1}, false), Contains("only its septum would tell"));
 }

@@ -341,3 +341,24 @@ TEST_CASE("long-axis and apex points far from the slices are refused", "[unit][g
       lv::geometry::check_contours(contours),
       Contains("slice 1, epi: the point (") && Contains("mm from the short-axis slices"));
 }
+
+TEST_CASE("long-axis curves in other axes than the slices are refused with the distance",
+          "[unit][geometry]") {
+  Drawing drawing = in_scanner();
+  drawing.frame.origin = {40.0, 15.0, -20.0};
+  CHECK_NOTHROW(lv::geometry::check_contours(draw(drawing)));
+  for (const Vec3& signs : {Vec3(-1, -1, 1), Vec3(-1, 1, 1), Vec3(1, -1, 1)}) {
+    Contours contours = draw(drawing);
+    for (Contour& curve : contours.long_axis)
+      for (Vec3& x : curve.points)
+        x = x.cwiseProduct(signs);
+    CHECK_THROWS_WITH(lv::geometry::check_contours(contours),
+                      Contains("the long-axis curve passes the short-axis loops") &&
+                          Contains("at most 20 mm are accepted") && Contains("turned (RAS)"));
+  }
+  Contours far_below = draw(drawing);
+  for (Vec3& x : far_below.long_axis[2].points)
+    x -= 150.0 * drawing.frame.axes.col(2);
+  CHECK_THROWS_WITH(lv::geometry::check_contours(far_below),
+                    Contains("slice 2, endo: the long-axis curve passes the short-axis loops"));
+}

@@ -72,6 +72,10 @@ TEST_CASE("NRRD that does not state its space or its place is refused with the r
   CHECK_THAT(
       refusal("a.nrrd", test::nrrd_bytes("space dimension: 3\n" + box_in_space, counted(24))),
       Contains("does not state the space") && Contains("space: left-posterior-superior"));
+  CHECK_THAT(refusal("a.nrrd", test::nrrd_bytes(box_in_space, counted(24))),
+             Contains("does not state the space") && Contains("space: left-posterior-superior"));
+  CHECK_THAT(refusal("a.nrrd", test::nrrd_bytes(box_in_space + "\nspace: LPS", counted(24))),
+             Contains("states its space in line ") && Contains("Put \"space: LPS\" before it"));
   CHECK_THAT(
       refusal("a.nrrd", test::nrrd_bytes("space: 3D-right-handed\n" + box_in_space, counted(24))),
       Contains("states a space that is not the patient's"));
@@ -163,6 +167,11 @@ TEST_CASE("MetaImage is read in LPS, by its matrix and unit", "[unit][image]") {
   without_sizes.erase(without_sizes.find("ElementSpacing"), 25);
   CHECK_THAT(refusal("a.mha", without_sizes),
              Contains("does not say how large its voxels are: it has no line ElementSpacing"));
+  std::string negative = head;
+  negative.replace(negative.find("1.5 2 3"), 7, "1.5 -2 3");
+  CHECK_THAT(refusal("a.mha", negative + tail + counted(24)),
+             Contains("has the negative voxel size -2 (ElementSpacing, axis 2)") &&
+                 Contains("TransformMatrix"));
   const Volume frames = read_voxels(
       "a.mha",
       "ObjectType = Image\nNDims = 4\nBinaryData = True\nDimSize = 2 2 2 3\nElementSpacing "

@@ -39,8 +39,9 @@ int ventricle(const geometry::Ellipsoid& e, const Vec3& X) {
   return inside(e.endo_radius, e.endo_length) ? 1 : inside(e.epi_radius, e.epi_length) ? 2 : 0;
 }
 
-/// The map of a ventricle that lies askew, slices 8 mm apart across axis `along`.
-Volume askew(int along, const std::function<int(const Vec3&, int)>& change) {
+/// The map of a ventricle that lies askew, slices 8 mm apart across axis `along`, so many pixels
+/// wide.
+Volume askew(int along, const std::function<int(const Vec3&, int)>& change, int wide = 60) {
   const geometry::Ellipsoid e;
   const geometry::Frame frame = drawn::oblique_frame();
   Mat3 directions;
@@ -49,9 +50,9 @@ Volume askew(int along, const std::function<int(const Vec3&, int)>& change) {
   directions.col((along + 2) % 3) = -frame.axes.col(1);
   Vec3 spacing(1.4, 1.4, 1.4);
   spacing[along] = 8.0;
-  std::array<int, 3> size{60, 60, 60};
+  std::array<int, 3> size{wide, wide, wide};
   size[along] = 14;
-  Vec3 middle(30.0, 30.0, 30.0);
+  Vec3 middle = Vec3::Constant(0.5 * wide);
   middle[along] = 0.0;
   const Vec3 origin =
       frame.to_image({0.0, 0.0, 4.0 + 8.0}) - directions * spacing.cwiseProduct(middle);
@@ -265,6 +266,37 @@ TEST_CASE("swapped labels and a cavity in two parts are refused", "[unit][image]
   CHECK_THROWS_WITH(
       traced([](const Vec3& X, int label) { return X.z() < -20.0 && X.z() > -45.0 ? 0 : label; }),
       Contains("more than one slice apart"));
+}
+
+TEST_CASE("a wall that closes round the right ventricle, or round a large hole, is refused",
+          "[unit][image]") {
+  // a chamber beside the ventricle, with a wall of its own
+  const auto chamber = [](const Vec3& X, int label, int blood) {
+    const double r = (X - Vec3(-45.0, 0.0, X.z())).norm();
+    if (label != 0 || X.z() > 0.0 || X.z() < -45.0 || r > 24.0)
+      return label;
+    return r < 20.0 ? blood : 2;
+  };
+  const auto with_right = [&](const std::vector<int>& right, const auto& change) {
+    return trace_labels(askew(2, change, 110), {{1}, {2}, right}, 0);
+  };
+  const auto named = [&](const Vec3& X, int label) { return chamber(X, label, 3); };
+  CHECK_THROWS_WITH(with_right({3}, named),
+                    Contains("slice ") &&
+                        Contains("of what anatomy.labels.right_ventricle names "
+                                 "(label 3)") &&
+                        Contains("the right ventricle's muscle"));
+  CHECK_THROWS_WITH(with_right({}, named),
+                    Contains("the wall encloses a hole of ") && Contains("(label 3)"));
+  CHECK_THROWS_WITH(with_right({}, [&](const Vec3& X, int label) { return chamber(X, label, 0); }),
+                    Contains("the wall encloses a hole of ") && Contains("(label 0)"));
+  // slips of the brush beside a right ventricle whose own wall is not labelled
+  const LabelContours slips = with_right({3}, [](const Vec3& X, int label) {
+    if (label == 2 && (X - Vec3(0.0, 27.0, -12.0)).norm() < 2.0)
+      return 3;
+    return label == 0 && X.z() < 0.0 && (X - Vec3(-50.0, 0.0, X.z())).norm() < 12.0 ? 3 : label;
+  });
+  CHECK_THAT(all(slips.notes), Contains("of them labelled as right ventricle (label 3)"));
 }
 
 TEST_CASE("a wall that is open over a sector is bridged, over more it is left to other slices",

@@ -1,5 +1,7 @@
 #include "lv/scar/infarct.hpp"
 
+#include "lv/base/files.hpp"
+#include "lv/base/log.hpp"
 #include "lv/geometry/contours.hpp"
 #include "lv/mesh/cell.hpp"
 #include "lv/mesh/infarct.hpp"
@@ -19,6 +21,7 @@
 namespace {
 
 using namespace lv;
+using Catch::Matchers::Contains;
 using mesh::InfarctSource;
 
 // An image space in which the ventricle lies askew, and a box of scar in it.
@@ -323,6 +326,48 @@ TEST_CASE("slices of a late-enhancement image are moved onto the wall", "[unit][
     }
   CHECK_THROWS_WITH(volume("flat.nii", true),
                     Catch::Matchers::Contains("shows the wall clearly within 3 mm"));
+}
+
+TEST_CASE("late enhancement that shows no scar, bright blood or the wall elsewhere is warned of",
+          "[unit][scar]") {
+  const geometry::Ellipsoid ellipsoid;
+  const mesh::Mesh wall = test::ellipsoid_mesh(ellipsoid, 4.0);
+  const auto inside = [&](double a, double c, const Vec3& X) {
+    const double z = X.z() + ellipsoid.base_height;
+    return X.head<2>().squaredNorm() / (a * a) + z * z / (c * c) < 1.0;
+  };
+  const auto brightness = [&](const Vec3& X, int blood, int scar) {
+    if (inside(ellipsoid.endo_radius, ellipsoid.endo_length, X))
+      return blood;
+    if (inside(ellipsoid.epi_radius, ellipsoid.epi_length, X))
+      return X.y() > 0.0 && std::abs(X.x()) < 12.0 && X.z() > -50.0 ? scar : 15;
+    return 40;
+  };
+  const test::TemporaryFolder folder;
+  case_file::Case c;
+  c.file = folder / "case.toml";
+  c.scar.source = InfarctSource::lge;
+  c.scar.lge.threshold = mesh::ScarThreshold::fwhm;
+  c.scar.lge.image = "lge.nii";
+  const auto said = [&](int blood, int scar, const Vec3& shift) {
+    test::write_bytes(
+        folder / "lge.nii",
+        test::nifti_bytes(test::label_map(
+            {100, 100, 14}, Mat3::Identity(), Vec3(1.4, 1.4, 8.0), Vec3(-69.3, -69.3, -92.0),
+            [&](const Vec3& x) { return brightness(x - shift, blood, scar); })));
+    const auto log = folder / fmt::format("log{}_{}_{}.txt", blood, scar, shift.x());
+    log::to_file(log, {});
+    static_cast<void>(scar::infarct_extent(c, {}, wall));
+    return read_file(log);
+  };
+  const std::string as_it_should = said(100, 200, Vec3::Zero());
+  CHECK_THAT(as_it_should, !Contains("warning"));
+  CHECK_THAT(said(200, 15, Vec3::Zero()),
+             Contains("the blood is brighter (200") && Contains("the border zone is "));
+  CHECK_THAT(said(250, 120, Vec3::Zero()), Contains("the blood is brighter (250"));
+  CHECK_THAT(said(100, 200, Vec3(20.0, 0.0, 0.0)),
+             Contains("does not show the wall where it lies"));
+  CHECK_THAT(said(100, 200, Vec3(7.0, 0.0, 0.0)), Contains("does not show the wall where it lies"));
 }
 
 TEST_CASE("the infarct's file is among what the mesh depends on", "[unit][scar]") {
