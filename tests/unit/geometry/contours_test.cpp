@@ -345,9 +345,9 @@ TEST_CASE("long-axis and apex points far from the slices are refused", "[unit][g
 TEST_CASE("long-axis curves in other axes than the slices are refused with the distance",
           "[unit][geometry]") {
   Drawing drawing = in_scanner();
-  drawing.frame.origin = {40.0, 15.0, -20.0};
+  drawing.frame.origin = {45.0, -45.0, -20.0};
   CHECK_NOTHROW(lv::geometry::check_contours(draw(drawing)));
-  for (const Vec3& signs : {Vec3(-1, -1, 1), Vec3(-1, 1, 1), Vec3(1, -1, 1)}) {
+  for (const Vec3& signs : {Vec3(-1, -1, 1), Vec3(-1, 1, 1)}) {
     Contours contours = draw(drawing);
     for (Contour& curve : contours.long_axis)
       for (Vec3& x : curve.points)
@@ -358,7 +358,7 @@ TEST_CASE("long-axis curves in other axes than the slices are refused with the d
   }
   Contours far_below = draw(drawing);
   for (Vec3& x : far_below.long_axis[2].points)
-    x -= 150.0 * drawing.frame.axes.col(2);
+    x -= 120.0 * drawing.frame.axes.col(2);
   CHECK_THROWS_WITH(lv::geometry::check_contours(far_below),
                     Contains("slice 2, endo: the long-axis curve passes the short-axis loops"));
 }
