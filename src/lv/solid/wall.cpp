@@ -384,9 +384,9 @@ Pack PackedElements<E>::at_point(const NodalScalar& nodal, int q) {
 /// Of the stresses at the quadrature points.
 template <class E>
 template <class Law>
-[[gnu::flatten]] void PackedElements<E>::point_forces(const Law& law, const Group& group, const Nodal& x,
-                                     const NodalScalar& tension, Nodal& force,
-                                     PackRange& J_range) const {
+[[gnu::flatten]] void PackedElements<E>::point_forces(const Law& law, const Group& group,
+                                                      const Nodal& x, const NodalScalar& tension,
+                                                      Nodal& force, PackRange& J_range) const {
   for (int q = 0; q < E::points; ++q) {
     const Point& point = group.points[q];
     const Tensor<Pack> F = dx_dxi(x, rule.gradient[q]) * point.K;
