@@ -426,9 +426,9 @@ void check_curves_meet(const Contours& contours) {
       throw InputError(
           curve.where(),
           fmt::format("{}: the long-axis curve passes the short-axis loops {:.0f} mm beside them "
-                      "(median; {:.0f} to {:.0f} mm in {} crossings); at most {:g} mm are accepted",
+                      "(median, of {:.0f} to {:.0f} mm); at most {:g} mm are accepted",
                       label(curve), usual, *std::min_element(all.begin(), all.end()),
-                      *std::max_element(all.begin(), all.end()), all.size(), beside),
+                      *std::max_element(all.begin(), all.end()), beside),
           "All contours share the scanner's coordinates, LPS in mm: those of one file seem to be "
           "mirrored, turned (RAS) or of another heart");
   }
