@@ -89,9 +89,9 @@ class Wall::Elements {
   virtual ~Elements() = default;
   [[nodiscard]] virtual std::span<const double> nodal_volumes() const = 0;
   virtual void add_stretch(std::span<const Vec3> positions, std::span<double> integrals) const = 0;
-  virtual VolumeRange add_elastic_forces(std::span<const Vec3> positions,
-                                         std::span<const double> tension,
-                                         std::span<Vec3> forces) const = 0;
+  [[nodiscard]] virtual VolumeRange add_elastic_forces(std::span<const Vec3> positions,
+                                                       std::span<const double> tension,
+                                                       std::span<Vec3> forces) const = 0;
   [[nodiscard]] virtual std::vector<PointSample> sample(std::span<const Vec3> positions,
                                                         std::span<const double> tension) const = 0;
 };
@@ -108,8 +108,9 @@ class PackedElements final : public Wall::Elements {
 
   [[nodiscard]] std::span<const double> nodal_volumes() const override { return nodal_volumes_; }
   void add_stretch(std::span<const Vec3> positions, std::span<double> integrals) const override;
-  VolumeRange add_elastic_forces(std::span<const Vec3> positions, std::span<const double> tension,
-                                 std::span<Vec3> forces) const override;
+  [[nodiscard]] VolumeRange add_elastic_forces(std::span<const Vec3> positions,
+                                               std::span<const double> tension,
+                                               std::span<Vec3> forces) const override;
   [[nodiscard]] std::vector<PointSample> sample(std::span<const Vec3> positions,
                                                 std::span<const double> tension) const override;
 
@@ -154,8 +155,8 @@ class PackedElements final : public Wall::Elements {
   static void subtract_force(const Tensor<Pack>& P, const Point& point, const Gradients& gradient,
                              Nodal& force);
   template <class Law>
-  PackRange add_forces(const Law& law, std::span<const Vec3> positions,
-                       std::span<const double> tension, std::span<Vec3> forces) const;
+  [[nodiscard]] PackRange add_forces(const Law& law, std::span<const Vec3> positions,
+                                     std::span<const double> tension, std::span<Vec3> forces) const;
   template <class Law>
   void point_forces(const Law& law, const Group& group, const Nodal& x, const NodalScalar& tension,
                     Nodal& force, PackRange& J_range) const;
