@@ -155,27 +155,36 @@ std::size_t slice_with(const image::Cine& cine, const Contour& loop) {
   return best;
 }
 
-/// Throws InputError for a point of the septum that is none: far from all loops, or on the axis.
-void check_septum_point(const Case& c, const std::string& parameter, const Vec3& septum,
-                        const geometry::LongAxis& axis, const CineStudy& study) {
-  constexpr double most = 40.0;   // from the loops [mm]; the septum is a part of their wall
-  constexpr double least = 0.25;  // of the cavity's radius: nearer the axis it shows no direction
-  const auto refuse = [&](const std::string& what) {
-    throw InputError(case_file::place_of(c, parameter), fmt::format("{} {}", parameter, what),
-                     "Give a point of the septum, in the coordinates of the images in mm");
-  };
+[[noreturn]] void refuse_septum(const Case& c, const std::string& parameter,
+                                const std::string& what) {
+  throw InputError(case_file::place_of(c, parameter),
+                   fmt::format("{} {}: no point of the septum", parameter, what),
+                   "Give a point of the septum, in the coordinates of the images in mm");
+}
+
+/// Throws InputError for strain.septum_point far from all loops. Whether that of the anatomy lies
+/// on its wall is the anatomy's to judge; here its direction counts.
+void check_near_contours(const Case& c, const Vec3& septum, const CineStudy& study) {
+  constexpr double most = 40.0;  // [mm]; the septum is a part of their wall
   double nearest = std::numeric_limits<double>::infinity();
   for (const Contour& loop : study.drawn.short_axis)
     for (const Vec3& x : loop.points)
       nearest = std::min(nearest, (x - septum).norm());
   if (nearest > most)
-    refuse(fmt::format("lies {:.0f} mm from the contours: no point of their septum", nearest));
+    refuse_septum(c, "strain.septum_point",
+                  fmt::format("lies {:.0f} mm from the contours", nearest));
+}
+
+/// Throws InputError for a point so near to the axis that it shows no direction.
+void check_off_axis(const Case& c, const std::string& parameter, const Vec3& septum,
+                    const geometry::LongAxis& axis, const CineStudy& study) {
+  constexpr double least = 0.25;  // of the basal cavity's radius
   const Vec3 from_axis = septum - axis.point;
   const double off = (from_axis - from_axis.dot(axis.up) * axis.up).norm();
   const int basal = geometry::slices_from_base(study.drawn).front();
   const Contour* cavity = geometry::find(study.drawn.short_axis, basal, Side::endo);
   if (off < least * geometry::mean_radius(*cavity))
-    refuse(fmt::format("lies {:.1f} mm from the long axis: no point of the septum", off));
+    refuse_septum(c, parameter, fmt::format("lies {:.1f} mm from the long axis", off));
 }
 
 /// The direction about the long axis that sectors are counted from.
@@ -184,8 +193,10 @@ Vec3 septum_point(const Case& c, const geometry::LongAxis& axis, CineStudy& stud
   const auto& anatomy = c.anatomy.contours.fit.frame.septum;
   if (own || anatomy) {
     const Vec3 septum((own ? own : anatomy)->data());
-    check_septum_point(c, own ? "strain.septum_point" : "anatomy.contours.septum_point", septum,
-                       axis, study);
+    if (own)
+      check_near_contours(c, septum, study);
+    check_off_axis(c, own ? "strain.septum_point" : "anatomy.contours.septum_point", septum, axis,
+                   study);
     return septum;
   }
   if (const auto named = anatomy::named_septum(c, study.drawn, study.notes))
