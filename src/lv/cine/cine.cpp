@@ -192,7 +192,7 @@ Vec3 septum_point(const Case& c, const geometry::LongAxis& axis, CineStudy& stud
   const auto& own = c.strain.septum_point;
   const auto& anatomy = c.anatomy.contours.fit.frame.septum;
   if (own || anatomy) {
-    const Vec3 septum((own ? own : anatomy)->data());
+    Vec3 septum((own ? own : anatomy)->data());
     if (own)
       check_near_contours(c, septum, study);
     check_off_axis(c, own ? "strain.septum_point" : "anatomy.contours.septum_point", septum, axis,
