@@ -112,8 +112,7 @@ std::string explained(const Lie& lie) {
   const double left = turn(best->undone);
   if (!lie.septum)
     return ": it seems mirrored or turned; which of both, and so whether regions are exchanged, "
-           "only "
-           "its septum would tell";
+           "only its septum would tell";
   if (left > explained_turn || left > turn(lie) - clear_gain)
     return ": it seems mirrored or turned, and anterior and inferior regions exchanged";
   return fmt::format(": it seems {}", best->what);

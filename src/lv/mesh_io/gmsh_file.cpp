@@ -168,7 +168,7 @@ class GmshReader {
   }
 
   void read_format() {
-    by_entity_ = cursor_.word() == "4.1";
+    by_entity_ = cursor_.written<double>() == 4.1;
     const int kind = cursor_.written<int>();
     const int bytes_of_size = cursor_.written<int>();
     static_cast<void>(cursor_.line());

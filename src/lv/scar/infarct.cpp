@@ -23,7 +23,6 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <optional>
 
 namespace lv::scar {
@@ -35,8 +34,8 @@ using mesh::InfarctSource;
 using mesh::Mesh;
 
 std::string format_box(const Eigen::AlignedBox3d& box) {
-  const Vec3 lower = box.min();
-  const Vec3 upper = box.max();
+  const Vec3& lower = box.min();
+  const Vec3& upper = box.max();
   return fmt::format("from ({:.1f}, {:.1f}, {:.1f}) to ({:.1f}, {:.1f}, {:.1f}) mm", lower.x(),
                      lower.y(), lower.z(), upper.x(), upper.y(), upper.z());
 }
@@ -274,11 +273,9 @@ void ask_whether_met(const Case& c, const anatomy::Shape& shape, const Mesh& mes
     return;
   log::warn(
       "late enhancement: {} does not show the wall where it lies: of {} slices that cross it {} "
-      "fit "
-      "it better {:g} to {:g} mm away, {} farther away than that, and {} nowhere clearly. Check "
-      "that "
-      "both share the scanner's coordinates; infarct.lge.in_plane moves slices onto the wall, "
-      "infarct.shift all of them",
+      "fit it better {:g} to {:g} mm away, {} farther away than that, and {} nowhere clearly. "
+      "Check that both share the scanner's coordinates; infarct.lge.in_plane moves slices onto the "
+      "wall, infarct.shift all of them",
       c.scar.lge.image, told + weak, off, far, tried, beyond, weak);
 }
 
@@ -339,18 +336,15 @@ void ask_whether_blood_is_bright(const Case& c, const anatomy::Shape& shape, con
                                  const image::Cine& lge, const std::vector<double>& values) {
   if (c.scar.lge.threshold != mesh::ScarThreshold::fwhm)
     return;
-  double brightest = -std::numeric_limits<double>::infinity();
-  for (const double value : values)
-    brightest = value > brightest ? value : brightest;
+  const double brightest = brightest_of(values);
   const double blood = brightness_of_blood(c, shape, mesh, lge);
   if (blood > brightest)
     log::warn(
         "late enhancement: the blood is brighter ({:.4g}, the median within the endocardium) than "
         "anything of the wall (at most {:.4g}), as where there is no scar or the blood was not "
         "dimmed: half of the brightest then marks the rim of the endocardium, which blood "
-        "brightens. "
-        "Look at the scar; threshold = \"sd\" with remote segments, or a scar that is drawn "
-        "(infarct.lge.drawn), do not depend on it",
+        "brightens. Look at the scar; threshold = \"sd\" with remote segments, or a scar that is "
+        "drawn (infarct.lge.drawn), do not depend on it",
         blood, brightest);
 }
 
@@ -445,8 +439,8 @@ void ask_if_scattered(const Case& c, const Mesh& mesh, const Infarct& infarct,
   if (v.border > large * v.wall)
     log::warn(
         "the border zone is {:.1f}% of the wall ({:.2f} ml) around {:.2f} ml of infarct: is the "
-        "scar "
-        "scattered, as by noise or blood at the endocardium, or infarct.border ({:g} mm) too wide?",
+        "scar scattered, as by noise or blood at the endocardium, or infarct.border ({:g} mm) too "
+        "wide?",
         100.0 * v.border / v.wall, 1e-3 * v.border, 1e-3 * v.infarct, c.scar.border);
 }
 

@@ -57,14 +57,6 @@ std::string scar_by_segment(const Elements& all, double deviations) {
   return fmt::format("{} ml", fmt::join(each, ", "));
 }
 
-double brightest_of(const std::vector<double>& greys) {
-  double brightest = -std::numeric_limits<double>::infinity();
-  for (const double grey : greys)
-    if (grey > brightest)
-      brightest = grey;
-  return brightest;
-}
-
 double by_deviations(const Case& c, const Elements& all) {
   const mesh::LateEnhancement& lge = c.scar.lge;
   const std::string each = scar_by_segment(all, lge.deviations);
@@ -140,6 +132,14 @@ void check_contrast(const Case& c, const image::Cine& image) {
 }
 
 }  // namespace
+
+double brightest_of(const std::vector<double>& greys) {
+  double brightest = -std::numeric_limits<double>::infinity();
+  for (const double grey : greys)
+    if (grey > brightest)
+      brightest = grey;
+  return brightest;
+}
 
 std::optional<double> above_remote(const WallGreys& wall, const std::vector<char>& remote,
                                    double deviations) {

@@ -21,6 +21,9 @@ struct WallGreys {
                                                  const std::vector<char>& remote,
                                                  double deviations);
 
+/// The largest of grey values, of which those outside an image are NaN.
+[[nodiscard]] double brightest_of(const std::vector<double>& greys);
+
 /// z + (b - z)/2, with z the grey value of no signal and b the brightest of some places of the
 /// wall. Throws InputError as scar_threshold does.
 [[nodiscard]] double half_of_brightest(const case_file::Case& c, const image::Cine& image,
