@@ -9,7 +9,8 @@ function(lv_precompile target)
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
 endfunction()
 
-# The same headers as another target, not parsed again: its options are the same but for those of the optimiser.
+# The same headers as another target with the same options, not parsed again. With another level of optimisation GCC 12 takes them too, but
+# compiles what includes them a third more slowly than without any precompiled header.
 function(lv_precompile_as target other)
   target_precompile_headers(${target} REUSE_FROM ${other})
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
