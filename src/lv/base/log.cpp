@@ -2,7 +2,6 @@
 
 #include "lv/base/check.hpp"
 #include "lv/base/files.hpp"
-#include "lv/base/log_file.hpp"
 #include "lv/base/parallel.hpp"
 #include "lv/base/printable.hpp"
 #include "lv/base/table.hpp"

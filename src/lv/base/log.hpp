@@ -20,6 +20,10 @@ void silence();
 void info(const std::string& line);
 void warn(const std::string& line);
 
+/// Writes a warning to the file of to_file alone, if there is one: of what the terminal is told by
+/// other means.
+void keep(const std::string& line);
+
 template <class... Args>
 void info(fmt::format_string<Args...> format, Args&&... args) {
   info(fmt::format(format, std::forward<Args>(args)...));

@@ -3,7 +3,6 @@
 #include "lv/base/check.hpp"
 #include "lv/base/interrupt.hpp"
 #include "lv/base/log.hpp"
-#include "lv/base/log_file.hpp"
 #include "lv/base/nearest.hpp"
 #include "lv/base/parallel.hpp"
 #include "lv/base/printable.hpp"

@@ -23,6 +23,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <optional>
 
@@ -36,6 +37,16 @@ using units::mmHg;
 struct Warning {
   std::string name, text;
 };
+
+/// What the last line calls a warning of the shape, by the part of the anatomy that it is about.
+std::string name_of(const geometry::Assumption& warning) {
+  static const std::map<std::string, std::string> names{{"septum", "septum assumed"},
+                                                        {"orientation", "orientation"},
+                                                        {"contours", "contours off the wall"},
+                                                        {"fibres", "fibres out of the wall"},
+                                                        {"early diastole", "end-diastolic shape"}};
+  return names.at(warning.part);
+}
 
 /// A cavity that fills by less than this from early to end-diastole is worth a question.
 constexpr double little_filling = 1.25;
@@ -55,12 +66,7 @@ std::vector<Warning> warnings_of(const Case& c, const anatomy::Shape& shape, dou
   if (std::string high = high_filling_pressure(c); !high.empty())
     warnings.push_back({"high filling pressure", std::move(high)});
   for (const geometry::Assumption& a : shape.warnings)
-    warnings.push_back({a.part == "septum"        ? "septum assumed"
-                        : a.part == "orientation" ? "orientation"
-                        : a.part == "contours"    ? "contours off the wall"
-                        : a.part == "fibres"      ? "fibres out of the wall"
-                                                  : "end-diastolic shape",
-                        a.text});
+    warnings.push_back({name_of(a), a.text});
   const double edv = c.calibration.edv;
   if (c.calibration.passive != calibrate::FittedPassive::none && !case_file::is_loaded(c) &&
       edv < little_filling * cavity)
