@@ -3,7 +3,7 @@
 file(GLOB_RECURSE sources RELATIVE ${ROOT} ${ROOT}/src/* ${ROOT}/app/* ${ROOT}/cmake/*)
 list(SORT sources)
 set(hashes "")
-foreach(source IN LISTS sources ITEMS CMakeLists.txt web/dist/page.html)
+foreach(source IN LISTS sources ITEMS CMakeLists.txt web/dist/page.html web/dist/draw.html)
   file(SHA256 ${ROOT}/${source} hash)
   string(APPEND hashes "${source} ${hash}\n")
 endforeach()

@@ -24,6 +24,13 @@ class RunError : public std::runtime_error {
   RunError(const std::string& what, const std::string& what_to_do);
 };
 
+/// Nature has no answer to what was looked for (no equilibrium, no root): what a search for another
+/// one may go on from, which no other RunError is.
+class NoSolution : public RunError {
+ public:
+  using RunError::RunError;
+};
+
 /// The computation cannot go on because another rank failed, which says why.
 class FailedElsewhere : public std::runtime_error {
  public:

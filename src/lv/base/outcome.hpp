@@ -27,11 +27,11 @@ class [[nodiscard]] Outcome {
   const T* operator->() const { return &**this; }
   [[nodiscard]] const Unsolved& why() const { return std::get<Unsolved>(content_); }
 
-  /// For whom there is no other way: throws RunError where there is no answer.
+  /// For whom there is no other way: throws NoSolution where there is no answer.
   // NOLINTNEXTLINE(modernize-use-nodiscard): some ask for it to throw alone
   const T& value() const {
     if (!*this)
-      throw RunError(why().what, why().what_to_do);
+      throw NoSolution(why().what, why().what_to_do);
     return **this;
   }
 

@@ -452,8 +452,9 @@ class Fitter {
       if (std::abs(step) < converged)
         return;
     }
-    throw RunError("The fit of scale and exponent to the Klotz curve does not converge",
-                   "Set calibrate.passive = \"scale\", which the end-diastolic volume determines");
+    throw NoSolution(
+        "The fit of scale and exponent to the Klotz curve does not converge",
+        "Set calibrate.passive = \"scale\", which the end-diastolic volume determines");
   }
 
   /// d ln scale/d ln exponent at constant end-diastolic volume, which is off by `misfit`.
@@ -535,13 +536,13 @@ class Fitter {
 
   void check(const std::string& which, double volume, double target) const {
     if (std::abs(volume / target - 1.0) > plan_.tolerance)
-      throw RunError(fmt::format("The fitted model's {} volume is {:.2f} ml and misses {:.2f} ml "
-                                 "by more than calibrate.tolerance",
-                                 which, 1e-3 * volume, 1e-3 * target),
-                     plan_.passive == FittedPassive::klotz
-                         ? "Widen the ranges in [calibrate], or check unloaded.pressure"
-                         : "Widen the ranges in [calibrate], or set calibrate.passive = "
-                           "\"scale\"");
+      throw NoSolution(fmt::format("The fitted model's {} volume is {:.2f} ml and misses {:.2f} ml "
+                                   "by more than calibrate.tolerance",
+                                   which, 1e-3 * volume, 1e-3 * target),
+                       plan_.passive == FittedPassive::klotz
+                           ? "Widen the ranges in [calibrate], or check unloaded.pressure"
+                           : "Widen the ranges in [calibrate], or set calibrate.passive = "
+                             "\"scale\"");
   }
 
   const Plan& plan_;

@@ -116,8 +116,8 @@ struct Fit {
 /// by Levenberg-Marquardt in their logarithms (the points of the Klotz curve count as volumes). It
 /// need not meet the volumes within the tolerance.
 ///
-/// Throws OutOfReach for a volume out of reach and RunError when a fitted model misses the measured
-/// volumes, to which alone it was fitted, by more than the tolerance.
+/// Throws OutOfReach for a volume out of reach and NoSolution when a fitted model misses the
+/// measured volumes, to which alone it was fitted, by more than the tolerance.
 [[nodiscard]] Fit fit(const Model& model, const FitParameters& start, const Plan& plan);
 
 }  // namespace lv::calibrate

@@ -87,7 +87,7 @@ Minimum least_squares(const Residuals& residuals, const Eigen::VectorXd& start,
   const auto status = search.minimize(minimum.x);
   using namespace Eigen::LevenbergMarquardtSpace;
   if (status == TooManyFunctionEvaluation || status == ImproperInputParameters)
-    throw RunError(
+    throw NoSolution(
         fmt::format("The least-squares fit did not come to an end in {} equilibria, |r| = {:.4g}",
                     bounded.evaluations, search.fnorm),
         "Fit fewer parameters, or start nearer to the values that are expected");

@@ -18,7 +18,7 @@ struct Minimum {
 using Residuals = std::function<Outcome<Eigen::VectorXd>(const Eigen::VectorXd&)>;
 
 /// Levenberg-Marquardt within bounds, with forward differences. A step to where there are no
-/// residuals is shortened. Throws RunError when it does not come to an end, or has none to start
+/// residuals is shortened. Throws NoSolution when it does not come to an end, or has none to start
 /// from.
 ///
 /// `difference` is the step of the derivatives and `longest` the first trust region, in units of x.

@@ -45,10 +45,11 @@ class UnloadedSearch {
         refuse();
       x = next;
     }
-    throw RunError(fmt::format("The search for the {} with which the wall holds {:.2f} ml without "
-                               "load does not come to an end",
-                               unknown_.name, 1e-3 * target_.volume),
-                   "Lower quasi_static.tolerance, or raise calibrate.tolerance");
+    throw NoSolution(
+        fmt::format("The search for the {} with which the wall holds {:.2f} ml without "
+                    "load does not come to an end",
+                    unknown_.name, 1e-3 * target_.volume),
+        "Lower quasi_static.tolerance, or raise calibrate.tolerance");
   }
 
  private:

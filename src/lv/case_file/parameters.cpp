@@ -117,10 +117,11 @@ constexpr Group of_anatomy[]{
          value("anatomy.contours.correct_shifts", LV_AT(anatomy.contours.fit.correct_shifts),
                "move short-axis slices in their planes to agree with the long-axis "
                "contours (different breath-holds)"),
-         value("anatomy.contours.align_slices", LV_AT(anatomy.contours.fit.align_slices),
-               "without two long-axis images, move short-axis slices in their planes to "
-               "make the wall smooth; a tilt of the whole stack cannot be seen in this way "
-               "and stays"),
+         whether_set(value("anatomy.contours.align_slices",
+                           LV_AT(anatomy.contours.fit.align_slices),
+                           "without two long-axis images, move short-axis slices in their planes "
+                           "to make the wall smooth; a tilt of the whole stack cannot be seen in "
+                           "this way and stays")),
      }},
     {Stages(Stage::strain, Stage::anatomy, Stage::mesh, Stage::calibrate, Stage::unload),
      {&fitted_or_moved},
@@ -1220,10 +1221,10 @@ constexpr Group of_protocol[]{
     {Stages(Stage::calibrate, Stage::beat),
      {&paper_protocol},
      {
-         number("protocol.ed_pressure", LV_AT(protocol.ed_pressure), "mmHg", between(0.0, 500.0),
-                "end-diastolic pressure", "2.4"),
-         number("protocol.es_pressure", LV_AT(protocol.es_pressure), "mmHg", between(0.0, 500.0),
-                "end-systolic pressure", "2.4"),
+         whether_set(number("protocol.ed_pressure", LV_AT(protocol.ed_pressure), "mmHg",
+                            between(0.0, 500.0), "end-diastolic pressure", "2.4")),
+         whether_set(number("protocol.es_pressure", LV_AT(protocol.es_pressure), "mmHg",
+                            between(0.0, 500.0), "end-systolic pressure", "2.4")),
          number("protocol.cuff_systolic", LV_AT(cuff_systolic), "mmHg", between(0.0, 400.0),
                 "systolic pressure of a cuff on the arm, in place of es_pressure, which is then "
                 "taken to be 0.9 of it (Kelly et al., Circulation 86:513, 1992); 0: none"),
@@ -1352,8 +1353,8 @@ constexpr Group of_circulation[]{
     {joined,
      {&circuit},
      {
-         number("circulation.period", LV_AT(circulation.period), "s", between(0.2, 3.0),
-                "length of a beat, RR"),
+         whether_set(number("circulation.period", LV_AT(circulation.period), "s", between(0.2, 3.0),
+                            "length of a beat, RR")),
      }},
     {Stages(Stage::circulation),
      {&circuit},
@@ -1535,6 +1536,11 @@ const Parameter* find_parameter(const std::string& name) {
   const auto found =
       std::find_if(all.begin(), all.end(), [&](const Parameter& p) { return p.name == name; });
   return found == all.end() ? nullptr : &*found;
+}
+
+bool is_set(const Case& c, const std::string& parameter) {
+  LV_CHECK(find_parameter(parameter)->whether_set_counts);
+  return c.origin.contains(parameter);
 }
 
 const std::vector<Parameter>& parameters() {

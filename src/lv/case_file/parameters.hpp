@@ -130,6 +130,10 @@ struct Section {
 /// Takes the folders of a case, of its files and of its work out of texts that are kept.
 [[nodiscard]] NamesAlone names_alone(const Case& c, const std::filesystem::path& work = {});
 
+/// Whether the case sets a parameter whose being set says something (whether_set_counts; of others
+/// no stage may ask, for its record would not hold the answer).
+[[nodiscard]] bool is_set(const Case& c, const std::string& parameter);
+
 /// Gives one case's value of a parameter to another.
 void copy(const Parameter& p, const Case& from, Case& to);
 

@@ -28,7 +28,7 @@ struct Cycle {
 [[nodiscard]] std::span<const Sample> samples_of(const Cycle& cycle, int beat);
 
 /// Runs a circulation whose left ventricle is an elastance, by implicit steps of second order.
-/// Throws RunError as implicit_step does, and Interrupted between beats.
+/// Throws NoSolution as implicit_step does, and Interrupted between beats.
 [[nodiscard]] Cycle run_alone(const CircuitParameters& parameters);
 
 /// The same with another ventricle.

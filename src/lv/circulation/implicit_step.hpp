@@ -52,7 +52,7 @@ struct ImplicitStep {
 };
 
 /// Solves y = known + weight f(y, p) by Newton's method, from a guess. `f` takes N numbers and p as
-/// Dual<N + 1>. Throws RunError when it does not converge.
+/// Dual<N + 1>. Throws NoSolution when it does not converge.
 template <int N, class Rates>
 ImplicitStep<N> implicit_step(const Rates& f, const BackwardDifference<N>& difference, double p,
                               const std::array<double, N>& guess) {
@@ -82,8 +82,8 @@ ImplicitStep<N> implicit_step(const Rates& f, const BackwardDifference<N>& diffe
     if (done)
       return s;
   }
-  throw RunError("A step of the circulation has no solution that Newton's method finds",
-                 "Lower circulation.step, or widen circulation.valves.smoothing");
+  throw NoSolution("A step of the circulation has no solution that Newton's method finds",
+                   "Lower circulation.step, or widen circulation.valves.smoothing");
 }
 
 }  // namespace lv::circulation

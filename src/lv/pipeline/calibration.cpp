@@ -208,7 +208,7 @@ calibrate::OtherPressure fit_at(double pressure, Case c, const anatomy::MeshResu
     return {pressure, fit.parameters, fit.unloaded_volume, ""};
   } catch (const InputError& failure) {
     return {pressure, {}, 0.0, failure.what()};
-  } catch (const RunError& failure) {
+  } catch (const NoSolution& failure) {
     return {pressure, {}, 0.0, failure.what()};
   }
 }
@@ -249,7 +249,7 @@ std::optional<FitStart> fit_coarse(const Case& c, const anatomy::MeshResult& coa
       return FitStart{failure.parameters()};
   } catch (const InputError& failure) {
     log::info("{}", failure.what());
-  } catch (const RunError& failure) {
+  } catch (const NoSolution& failure) {
     log::info("{}", failure.what());
   }
   log::info("the coarse wall says nothing of this fit");
@@ -263,7 +263,7 @@ std::vector<geometry::Assumption> assumed_pressures(const Case& c) {
     return {};
   std::vector<geometry::Assumption> assumed;
   const auto left_out = [&](const char* parameter, const char* moment, double pressure) {
-    if (!c.origin.contains(parameter))
+    if (!case_file::is_set(c, parameter))
       assumed.push_back(
           {fmt::format("{} pressure", moment), fmt::format("the default, {:g} mmHg; {} is not set",
                                                            pressure / units::mmHg, parameter)});
@@ -286,7 +286,7 @@ void add_beats(const HeartbeatFit& fit, const Case& c, FitRecord& record) {
       record.beats.push_back({d.name, d.unit, d.measured, d.model});
   for (const std::string& sentence : fit.left_alone)
     record.assumed.push_back({"heartbeats", sentence});
-  if (!c.origin.contains("circulation.period"))
+  if (!case_file::is_set(c, "circulation.period"))
     record.assumed.push_back(
         {"heart rate", fmt::format("the default, {:.0f} beats a minute; circulation.period is not "
                                    "set",

@@ -102,7 +102,7 @@ Estimate tried(const Trial& trial) {
     return trial();
   } catch (const InputError& failure) {
     return {"", fmt::format("cannot run it ({})", failure.what()), 0.0};
-  } catch (const RunError& failure) {
+  } catch (const NoSolution& failure) {
     return {"", fmt::format("cannot run it ({})", failure.what()), 0.0};
   }
 }

@@ -16,6 +16,7 @@
 #include "lv/pipeline/heartbeat_fit.hpp"
 #include "lv/pipeline/measured_volumes.hpp"
 #include "lv/pipeline/stages.hpp"
+#include "lv/pipeline/study.hpp"
 #include "lv/pipeline/unloading.hpp"
 #include "lv/pipeline/validate.hpp"
 #include "lv/report/paraview_script.hpp"
@@ -62,6 +63,9 @@ class Pipeline {
          {fit_outside_heartbeats(case_), left_handed_fibres(case_), high_filling_pressure(case_)})
       if (!odd.empty())
         log::warn("{}", odd);
+    if (const int members = check_study(case_); members > 0)
+      log::info("this is the case of [study] as it stands; ventricle study runs its {} cases",
+                members);
     if (!case_.strain.measured.empty())  // a mistake there must not come up after the beat
       on_root([&] { static_cast<void>(cine::measured_strains(case_)); });
     const std::vector<Planned> stages = plan();

@@ -126,7 +126,7 @@ void check_elements(const mesh::Mesh& wall) {
   const mesh::Quality q = mesh::quality(wall);
   if (q.scaled_jacobian.min > 0.0)
     return;
-  throw RunError(
+  throw NoSolution(
       fmt::format("Element {} at ({:.1f}, {:.1f}, {:.1f}) mm is turned inside out in the "
                   "wall without load",
                   q.worst_cell, q.worst_place.x(), q.worst_place.y(), q.worst_place.z()),

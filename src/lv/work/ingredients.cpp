@@ -153,7 +153,7 @@ Ingredients ingredients(const Case& c, Stage stage, FileContents& files) {
     else
       all[p.name] = p.get(c);
     if (p.whether_set_counts)
-      all[fmt::format("whether {} is set", p.name)] = c.origin.contains(p.name) ? "yes" : "no";
+      all[fmt::format("whether {} is set", p.name)] = case_file::is_set(c, p.name) ? "yes" : "no";
   }
   return all;
 }

@@ -5,6 +5,7 @@
 #include "lv/analysis/wall_fields.hpp"
 #include "lv/base/check.hpp"
 #include "lv/case_file/read_case.hpp"
+#include "lv/circulation/cycle.hpp"
 #include "lv/heartbeat/protocol.hpp"
 #include "lv/pipeline/calibration.hpp"
 #include "lv/pipeline/stages.hpp"
@@ -375,10 +376,28 @@ TEST_CASE("the record of a stage changes with whatever the stage sees, and with 
     }
 }
 
-TEST_CASE("that a parameter is set is in the record where that counts", "[unit][case_file]") {
-  const Case silent = parsed({});
-  const Case said = parsed({{"regions.septum_angle", "\"0 deg\""}});
-  CHECK(record(silent, Stage::anatomy) != record(said, Stage::anatomy));
+TEST_CASE("that a parameter is set is in the record of every stage that may ask",
+          "[unit][case_file]") {
+  std::set<std::string> untried;
+  for (const Parameter& p : case_file::parameters())
+    if (p.whether_set_counts)
+      untried.insert(p.name);
+  CHECK(untried.size() >= 6);
+  for (const Lines& base : bases()) {
+    const Case silent = parsed(base);
+    for (const Parameter& p : case_file::parameters())
+      for (const Stage stage : case_file::all_stages) {
+        if (!p.whether_set_counts || base.contains(p.name) || !counts(p, silent, stage))
+          continue;
+        INFO(p.name);
+        const Case said = parsed(with(base, p.name, p.get(silent)));
+        CHECK_FALSE(is_set(silent, p.name));
+        CHECK(is_set(said, p.name));
+        CHECK(record(silent, stage) != record(said, stage));
+        untried.erase(p.name);
+      }
+  }
+  CHECK(untried == std::set<std::string>{});
 }
 
 TEST_CASE("the pressure's error is at most half of a small pressure, unless it is set",
@@ -587,6 +606,19 @@ Numbers immersed_beat_of(const Case& c) {
   return numbers;
 }
 
+/// A beat of the circuit by itself, and how long it would beat.
+Numbers circuit_of(const Case& c) {
+  circulation::CircuitParameters circuit = c.circulation;
+  Numbers numbers{static_cast<double>(circuit.beats), circuit.tolerance};
+  circuit.beats = 1;
+  for (const circulation::Sample& sample : circulation::run_alone(circuit).samples) {
+    const circulation::Signals& seen = sample.signals;
+    numbers.insert(numbers.end(), {sample.time, seen.volume, seen.pressure, seen.aortic_pressure});
+    numbers.insert(numbers.end(), seen.others.begin(), seen.others.end());
+  }
+  return numbers;
+}
+
 /// Everything of a case without files, from the whole case or from what each stage sees.
 Numbers computed(const Case& c, bool by_views) {
   const auto seen_by = [&](Stage stage) { return by_views ? work::stage_view(c, stage) : c; };
@@ -595,6 +627,8 @@ Numbers computed(const Case& c, bool by_views) {
     numbers.insert(numbers.end(), more.begin(), more.end());
   };
   add(mesh_of(seen_by(Stage::anatomy), seen_by(Stage::mesh)));
+  if (has_stage(c, Stage::circulation))
+    add(circuit_of(seen_by(Stage::circulation)));
   const Case beat = seen_by(Stage::beat);
   add(c.engine == case_file::Engine::immersed ? immersed_beat_of(beat) : static_beat_of(beat));
   if (c.calibration.cycle)
@@ -658,6 +692,9 @@ std::vector<Lines> cases_without_files() {
                            {"calibrate.edv", "\"120 ml\""}}));
   all.push_back(
       with(with(static_engine, "quasi_static.order", "1"), "mesh.edge_length", "\"9 mm\""));
+  for (const char* law : {"quadratic", "arctangent"})
+    all.push_back(with(with(coarse, "circulation.kind", "\"closed_loop\""),
+                       "circulation.valves.law", fmt::format("\"{}\"", law)));
   for (const Lines& immersed : {beating_immersed, held_immersed})
     all.push_back(with(immersed, "mesh.edge_length", "\"9 mm\""));
   return all;
@@ -681,7 +718,6 @@ bool is_tried_elsewhere(const std::string& name) {
                                                "infarct.shift",
                                                "infarct.length_unit",
                                                "calibrate.",
-                                               "circulation.",
                                                "cycle.beats",
                                                "cycle.tolerance",
                                                "cycle.step",
