@@ -5,6 +5,7 @@
 #include "lv/base/nearest.hpp"
 #include "lv/base/units.hpp"
 #include "lv/mesh/cell.hpp"
+#include "lv/mesh/undeformed_wall.hpp"
 
 #include <fmt/format.h>
 
@@ -115,26 +116,11 @@ Site site_of(const std::string& words) {
       words, nearest.empty() ? "" : fmt::format("; did you mean \"{}\"?", nearest)));
 }
 
-std::vector<Mat3> cell_frames(const mesh::Mesh& mesh, const mesh::FibreRule& fibres) {
-  const int n = mesh::nodes_per_cell(mesh.kind);
-  const std::vector<double> phi(n, 1.0 / n);
-  const std::vector<Vec3> radial_at_nodes = mesh.kind == mesh::CellKind::tetrahedron
-                                                ? mesh::radial_directions(mesh)
-                                                : std::vector<Vec3>{};
+std::vector<Mat3> cell_frames(const mesh::Mesh& mesh) {
+  const mesh::UndeformedWall wall(mesh);
   std::vector<Mat3> frames;
-  for (int c = 0; c < mesh.cell_count(); ++c) {
-    const auto nodes = mesh.cell(c);
-    Vec3 radial = Vec3::Zero();
-    if (radial_at_nodes.empty())
-      radial = mesh::mean_gradient(mesh, c, mesh.transmural);
-    double t = 0.0;
-    for (const int node : nodes) {
-      t += mesh.transmural[node] / n;
-      if (!radial_at_nodes.empty())
-        radial += radial_at_nodes[node] / n;
-    }
-    frames.push_back(mesh::fibre_frame(mesh, fibres, {c, nodes, phi, mesh::wall_axes(radial), t}));
-  }
+  for (int c = 0; c < mesh.cell_count(); ++c)
+    frames.push_back(wall.frame_of_cell(c));
   return frames;
 }
 

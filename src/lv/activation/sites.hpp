@@ -1,7 +1,6 @@
 #pragma once
 
 #include "lv/activation/front.hpp"
-#include "lv/mesh/fibres.hpp"
 #include "lv/mesh/regions.hpp"
 
 #include <string>
@@ -29,7 +28,7 @@ using Site = std::variant<Segment, Point, Endocardium>;
 [[nodiscard]] Site site_of(const std::string& words);
 
 /// The fibre frame [f0 s0 n0] at the centre of every cell.
-[[nodiscard]] std::vector<Mat3> cell_frames(const mesh::Mesh& mesh, const mesh::FibreRule& fibres);
+[[nodiscard]] std::vector<Mat3> cell_frames(const mesh::Mesh& mesh);
 
 /// A wall that activation spreads in.
 struct ActivatedWall {

@@ -123,7 +123,7 @@ FieldAnalysis::FieldAnalysis(const mesh::Mesh& mesh, const solid::CardiacModel& 
                              std::vector<double> activation_times)
     : mesh_(mesh),
       activation_times_(std::move(activation_times)),
-      wall_(mesh, model.fibres, without_penalty(model.myocardium)),
+      wall_(mesh, without_penalty(model.myocardium)),
       supports_(mesh, model.base, model.surroundings) {}
 
 std::vector<CellFields> FieldAnalysis::fields(const heartbeat::Snapshot& snapshot) const {

@@ -202,23 +202,23 @@ Shape from_drawn(const Case& c) {
 void check_fibres(Shape& shape) {
   constexpr double most = 25.0;  // [degrees]; directions at random have 33, fibres less than 15
   const mesh::Mesh& m = *shape.given;
-  if (m.fibres.f0.empty())
+  if (m.fibres.given.f0.empty())
     return;
   const std::vector<Vec3> radial = mesh::radial_directions(m);
   const auto out_of_wall = [](const Vec3& f, const Vec3& r) {
     return std::asin(std::min(1.0, std::abs(f.dot(r)))) * 180.0 / std::numbers::pi;
   };
   double sum = 0.0;
-  for (std::size_t i = 0; i < m.fibres.f0.size(); ++i) {
+  for (std::size_t i = 0; i < m.fibres.given.f0.size(); ++i) {
     Vec3 r = Vec3::Zero();
-    if (m.fibres.at == mesh::GivenFibres::At::nodes)
+    if (m.fibres.given.at == mesh::GivenFibres::At::nodes)
       r = radial[i];
     else
       for (const int node : m.cell(static_cast<int>(i)))
         r += radial[node];
-    sum += out_of_wall(m.fibres.f0[i], r.normalized());
+    sum += out_of_wall(m.fibres.given.f0[i], r.normalized());
   }
-  const double mean = sum / static_cast<double>(m.fibres.f0.size());
+  const double mean = sum / static_cast<double>(m.fibres.given.f0.size());
   if (mean > most)
     shape.warnings.push_back(
         {"fibres", fmt::format("the fibres of anatomy.mesh.fibres lead out of the wall's surface, "

@@ -61,7 +61,7 @@ void write_mesh_result(const MeshResult& result, const std::filesystem::path& fo
   archive.set("transmural", m.transmural);
   archive.set("infarct", m.infarct);
   archive.set("infarcted", result.infarcted);
-  store(m.fibres, archive);
+  store(m.fibres.given, archive);
   store(m.endo, "endo", archive);
   store(m.epi, "epi", archive);
   store(m.base, "base", archive);
@@ -73,7 +73,7 @@ void write_mesh_result(const MeshResult& result, const std::filesystem::path& fo
     result.slice_moves->write_csv(folder / "slice_moves.csv");
 }
 
-MeshResult read_mesh_result(const std::filesystem::path& folder) {
+MeshResult read_mesh_result(const std::filesystem::path& folder, const mesh::FibreRule& rule) {
   const Archive archive = Archive::read(folder / "mesh.bin");
   MeshResult result;
   mesh::Mesh& m = result.mesh;
@@ -94,7 +94,7 @@ MeshResult read_mesh_result(const std::filesystem::path& folder) {
   m.base = load_surface(archive, "base", nodes);
   const auto cells = static_cast<std::size_t>(m.cell_count());
   result.infarcted = archive.get_rows("infarcted", 1, cells, part);
-  m.fibres = load_fibres(archive, m);
+  m.fibres = {rule, load_fibres(archive, m)};
   result.regions = {archive.get_whole("slice", cells, {1.0, mesh::slice_count}),
                     archive.get_whole("sector", cells, {1.0, mesh::sectors_of_slice(1)}),
                     archive.get_whole("aha", cells, {1.0, 17.0})};

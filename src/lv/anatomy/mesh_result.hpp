@@ -19,7 +19,11 @@ struct MeshResult {
 };
 
 void write_mesh_result(const MeshResult& result, const std::filesystem::path& folder);
-/// Throws RunError when the folder's mesh is absent, damaged or none.
-[[nodiscard]] MeshResult read_mesh_result(const std::filesystem::path& folder);
+
+/// The mesh of a folder, with the fibres' rule, which is the case's: a folder holds given
+/// directions alone and stays as it is when the rule changes. Throws RunError when the mesh is
+/// absent, damaged or none.
+[[nodiscard]] MeshResult read_mesh_result(const std::filesystem::path& folder,
+                                          const mesh::FibreRule& rule);
 
 }  // namespace lv::anatomy

@@ -33,7 +33,7 @@ class Kernels {
       : mesh_(mesh),
         p_(p),
         slab_(fluid::slab_of(p.grid, parallel::rank(), parallel::size())),
-        wall_(mesh, {}, material),
+        wall_(mesh, material),
         endocardium_(mesh),
         strength_(solid::strength(mesh, material.infarct)),
         contraction_({}, {mesh.nodes, wall_.nodal_volumes(), strength_}, p.blood.density,
@@ -105,7 +105,7 @@ class Kernels {
 
 double whole_step(const mesh::Mesh& mesh, const immersed::ModelParameters& p,
                   const material::Myocardium& material) {
-  immersed::Model model(mesh, {{}, material, {}}, p);
+  immersed::Model model(mesh, {material, {}}, p);
   model.relax(0.01);
   double calcium = 0.01;
   return median_seconds(

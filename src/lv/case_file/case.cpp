@@ -71,12 +71,12 @@ mesh::WallMeshParameters mesh_parameters(const Case& c) {
 }
 
 solid::CardiacModel cardiac_model(const Case& c) {
-  return {c.fibres, myocardium(c), c.engine == Engine::immersed ? c.base : quasi_static_support(c),
+  return {myocardium(c), c.engine == Engine::immersed ? c.base : quasi_static_support(c),
           c.surroundings};
 }
 
 implicit::StaticModel static_model(const Case& c) {
-  implicit::StaticModel model({c.fibres, myocardium(c), quasi_static_support(c), c.surroundings},
+  implicit::StaticModel model({myocardium(c), quasi_static_support(c), c.surroundings},
                               c.protocol.calcium, c.quasi_static.stabilisation);
   if (c.bulk_modulus > 0.0)
     model.compressibility.kappa = c.bulk_modulus;

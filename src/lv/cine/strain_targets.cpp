@@ -137,7 +137,7 @@ std::vector<double> regional_strains(const Case& c, const mesh::Mesh& wall,
                                      const std::vector<StrainTarget>& targets,
                                      const std::vector<Vec3>& end_diastole,
                                      const std::vector<Vec3>& end_systole) {
-  const solid::Wall elements(wall, c.fibres, case_file::myocardium(c));
+  const solid::Wall elements(wall, case_file::myocardium(c));
   const auto then = analysis::shape_fields(elements, wall, end_diastole);
   const auto now = analysis::shape_fields(elements, wall, end_systole);
   std::vector<double> E_cc;

@@ -24,7 +24,7 @@ Model::Model(const mesh::Mesh& mesh, const solid::CardiacModel& heart,
              const ModelParameters& parameters)
     : parameters_(parameters),
       slab_(fluid::slab_of(parameters.grid, parallel::rank(), parallel::size())),
-      wall_(mesh, heart.fibres, heart.myocardium),
+      wall_(mesh, heart.myocardium),
       active_(heart.myocardium.active),
       strength_(solid::strength(mesh, heart.myocardium.infarct)),
       contraction_(kinetics(active_), {mesh.nodes, wall_.nodal_volumes(), strength_},

@@ -98,7 +98,7 @@ class PartTables {
 }  // namespace
 
 std::vector<CellStress> Equations::cell_stress(const State& state, const TensionAt& tension) const {
-  const PointMaker maker(mesh_, model_.heart.fibres);
+  const PointMaker maker(mesh_);
   PartTables tables(mesh_);
   const int parts = mesh_.order == 2 ? 8 : 1;
   std::vector<CellStress> result(mesh_.cell_count());
@@ -108,7 +108,7 @@ std::vector<CellStress> Equations::cell_stress(const State& state, const Tension
     const ElementState s = element_state(wall_, e, state);
     for (int cell = parts * e; cell < parts * (e + 1); ++cell) {
       const PartShapes& shapes = tables.of(cell, nodes);
-      const auto points = maker.points(shapes.displacement, e, nodes);
+      const auto points = maker.points(shapes.displacement, parts * e, nodes);
       const double volume =
           std::accumulate(points.begin(), points.end(), 0.0,
                           [](double sum, const Point& point) { return sum + point.volume; });

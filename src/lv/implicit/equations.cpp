@@ -202,7 +202,7 @@ ElementState element_state(const ReferenceWall& wall, int e, const State& state)
 
 Equations::Equations(const mesh::Mesh& mesh, const StaticModel& model)
     : mesh_(mesh),
-      wall_(reference_wall(mesh, model.heart.fibres)),
+      wall_(reference_wall(mesh)),
       endocardium_(mesh),
       model_(for_order(model, mesh.order)),
       supports_(mesh, model.heart.base, model.heart.surroundings),

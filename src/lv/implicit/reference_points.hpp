@@ -1,6 +1,6 @@
 #pragma once
 
-#include "lv/mesh/fibres.hpp"
+#include "lv/mesh/undeformed_wall.hpp"
 #include "lv/solid/shape_table.hpp"
 
 #include <vector>
@@ -18,17 +18,15 @@ struct Point {
 /// Makes the points of one element after the other. The mesh must outlive it.
 class PointMaker {
  public:
-  PointMaker(const mesh::Mesh& mesh, const mesh::FibreRule& fibres);
+  explicit PointMaker(const mesh::Mesh& mesh) : undeformed_(mesh) {}
 
-  /// The points of a table of the element's shapes. Throws InputError for an inverted or collapsed
-  /// element, naming it.
-  [[nodiscard]] std::vector<Point> points(const solid::ShapeTable& shapes, int element,
+  /// The points of a table of an element's shapes; the element has these nodes, and `cell` is its
+  /// first part. Throws InputError for an inverted or collapsed element, naming it.
+  [[nodiscard]] std::vector<Point> points(const solid::ShapeTable& shapes, int cell,
                                           std::span<const int> nodes) const;
 
  private:
-  const mesh::Mesh& mesh_;
-  mesh::FibreRule fibres_;
-  std::vector<Vec3> radial_;  ///< per node of tetrahedra, whose own grad t may vanish
+  mesh::UndeformedWall undeformed_;
 };
 
 }  // namespace lv::implicit

@@ -32,7 +32,7 @@ mesh::ElementNodes number_pressures(const mesh::Mesh& mesh, const mesh::ElementN
 
 }  // namespace
 
-ReferenceWall reference_wall(const mesh::Mesh& mesh, const mesh::FibreRule& fibres) {
+ReferenceWall reference_wall(const mesh::Mesh& mesh) {
   if (mesh.kind == CellKind::tetrahedron && mesh.order == 1)
     throw InputError("anatomy.mesh.refinements",
                      "is 0, but linear tetrahedra lock in the quasi-static engine",
@@ -44,13 +44,14 @@ ReferenceWall reference_wall(const mesh::Mesh& mesh, const mesh::FibreRule& fibr
   wall.pressure_count =
       *std::max_element(wall.pressures.nodes.begin(), wall.pressures.nodes.end()) + 1;
   wall.owners = partition(wall.elements, parallel::size());
-  const PointMaker maker(mesh, fibres);
+  const int parts = mesh.order == 2 ? 8 : 1;
+  const PointMaker maker(mesh);
   const solid::ShapeTable shapes = solid::element_shapes(mesh.kind, mesh.order);
   for (int e = 0; e < wall.elements.size(); ++e) {
     if (wall.owners[e] != parallel::rank())
       continue;
     wall.own.push_back(e);
-    wall.points.push_back(maker.points(shapes, e, wall.elements.element(e)));
+    wall.points.push_back(maker.points(shapes, parts * e, wall.elements.element(e)));
   }
   return wall;
 }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "lv/implicit/reference_points.hpp"
-#include "lv/mesh/fibres.hpp"
 #include "lv/mesh/quadratic.hpp"
 #include "lv/solid/shape_table.hpp"
 
@@ -26,6 +25,6 @@ struct ReferenceWall {
 
 /// Throws InputError for an inverted or collapsed element, naming it, and for linear tetrahedra,
 /// which lock.
-[[nodiscard]] ReferenceWall reference_wall(const mesh::Mesh& mesh, const mesh::FibreRule& fibres);
+[[nodiscard]] ReferenceWall reference_wall(const mesh::Mesh& mesh);
 
 }  // namespace lv::implicit

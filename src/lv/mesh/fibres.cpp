@@ -101,7 +101,7 @@ class Turning {
       for (int d = 0; d < 3; ++d)
         F_.back().row(d) = mean_gradient(mesh, c, x[d]);
     }
-    if (mesh.fibres.at == GivenFibres::At::nodes)
+    if (mesh.fibres.given.at == GivenFibres::At::nodes)
       spread_to_nodes(mesh);
   }
 
@@ -130,8 +130,8 @@ Mat3 fibre_frame(const FibreRule& rule, const WallAxes& axes, double t) {
   return frame_of(f0, rule_sheet(rule, axes, t));
 }
 
-Mat3 fibre_frame(const Mesh& mesh, const FibreRule& rule, const WallPoint& point) {
-  const GivenFibres& given = mesh.fibres;
+Mat3 fibre_frame(const Mesh& mesh, const WallPoint& point) {
+  const auto& [rule, given] = mesh.fibres;
   if (given.f0.empty())
     return fibre_frame(rule, point.axes, point.t);
   const Vec3 f0 = direction_at(given, given.f0, point);
@@ -152,10 +152,10 @@ Vec3 mean_direction(std::span<const Vec3> directions, std::span<const double> we
 
 Mesh with_nodes(const Mesh& mesh, std::vector<Vec3> nodes) {
   Mesh moved = mesh;
-  if (!mesh.fibres.f0.empty()) {
+  if (!mesh.fibres.given.f0.empty()) {
     const Turning turning(mesh, nodes);
-    turning.turn(moved.fibres.f0);
-    turning.turn(moved.fibres.s0);
+    turning.turn(moved.fibres.given.f0);
+    turning.turn(moved.fibres.given.s0);
   }
   moved.nodes = std::move(nodes);
   return moved;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "lv/base/tensor.hpp"
-#include "lv/base/units.hpp"
 #include "lv/mesh/mesh.hpp"
 
 #include <span>
@@ -27,24 +26,6 @@ struct WallAxes {
 /// unstructured meshes have cells with all nodes on one side.
 [[nodiscard]] std::vector<Vec3> radial_directions(const Mesh& mesh);
 
-/// Rule-based fibres (section 2.2; Potse et al., IEEE Trans. Biomed. Eng. 53:2425, 2006). Angles in
-/// radians.
-///
-/// The helix angle grows linearly through the wall from `helix_endo` to `helix_epi`. It is the
-/// paper's angle: from -60 degrees at the endocardium to +60 at the epicardium, positive when the
-/// fibre, followed anticlockwise as seen from the base, goes down towards the apex. So -60 at the
-/// endocardium is a right-handed helix there, as in every human heart, and the apex turns
-/// anticlockwise as seen from the apex in systole. LDRB tools use the opposite sign.
-///
-///   f0 = cos(helix) c - sin(helix) l
-///   s0 = the part normal to f0 of  cos(sheet) r + sin(sheet) l,  normalised;   n0 = f0 x s0
-struct FibreRule {
-  double helix_endo = -1.0471975511965976;  ///< -60 degrees
-  double helix_epi = 1.0471975511965976;    ///< +60 degrees
-  double sheet_endo = -0.7853981633974483;  ///< -45 degrees
-  double sheet_epi = 0.7853981633974483;    ///< +45 degrees
-};
-
 /// The fibre frame at transmural position t: columns f0, s0, n0.
 [[nodiscard]] Mat3 fibre_frame(const FibreRule& rule, const WallAxes& axes, double t);
 
@@ -57,11 +38,10 @@ struct WallPoint {
   double t = 0.0;  ///< transmural coordinate
 };
 
-/// The fibre frame at a point: the directions that the mesh brings, if it does, else the rule's.
-/// Directions at nodes are interpolated as lines, whose sign does not count: the mean is the
-/// principal direction of sum phi_a f_a (x) f_a. Without sheets of its own the mesh's fibres get
-/// the rule's.
-[[nodiscard]] Mat3 fibre_frame(const Mesh& mesh, const FibreRule& rule, const WallPoint& point);
+/// The frame of a mesh's fibres at a point: the directions that are given, if there are any, else
+/// the rule's. Directions at nodes are interpolated as lines, whose sign does not count: the mean
+/// is the principal direction of sum phi_a f_a (x) f_a. Given fibres without sheets get the rule's.
+[[nodiscard]] Mat3 fibre_frame(const Mesh& mesh, const WallPoint& point);
 
 /// The principal direction of the sum of w_i d_i (x) d_i; of one direction, that direction.
 [[nodiscard]] Vec3 mean_direction(std::span<const Vec3> directions,

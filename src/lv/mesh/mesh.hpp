@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lv/base/tensor.hpp"
+#include "lv/mesh/fibre_rule.hpp"
 
 #include <array>
 #include <span>
@@ -38,6 +39,12 @@ struct GivenFibres {
   std::vector<Vec3> s0;  ///< across the fibres in the sheets; empty: sheets follow a rule
 };
 
+/// Where the fibres of a wall run and its sheets lie: as a rule says, but for what is given.
+struct Fibres {
+  FibreRule rule;
+  GivenFibres given;
+};
+
 /// The wall of the left ventricle at early diastole in the model frame: z along the long axis, the
 /// base in the plane z = 0, the apex at negative z [mm].
 struct Mesh {
@@ -51,7 +58,7 @@ struct Mesh {
   int order = 1;
   std::vector<double> transmural;  ///< per node: 0 on the endocardium, 1 on the epicardium
   std::vector<double> infarct;     ///< per node: M(X) of (2.11), 0 in healthy muscle
-  GivenFibres fibres;
+  Fibres fibres;
 
   [[nodiscard]] int cell_count() const {
     return static_cast<int>(cells.size()) / nodes_per_cell(kind);

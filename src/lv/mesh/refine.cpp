@@ -28,9 +28,9 @@ class Refiner {
     fine_.transmural = coarse.transmural;
     fine_.infarct = coarse.infarct;
     fine_.fibres = coarse.fibres;
-    if (coarse.fibres.at == GivenFibres::At::cells) {
-      fine_.fibres.f0 = eightfold(coarse.fibres.f0);
-      fine_.fibres.s0 = eightfold(coarse.fibres.s0);
+    if (coarse.fibres.given.at == GivenFibres::At::cells) {
+      fine_.fibres.given.f0 = eightfold(coarse.fibres.given.f0);
+      fine_.fibres.given.s0 = eightfold(coarse.fibres.given.s0);
     }
   }
 
@@ -78,9 +78,9 @@ class Refiner {
     fine_.nodes.push_back(X / n);
     fine_.transmural.push_back(t / n);
     fine_.infarct.push_back(M / n);
-    if (coarse_.fibres.at == GivenFibres::At::nodes) {
-      add_mean_direction(of, coarse_.fibres.f0, fine_.fibres.f0);
-      add_mean_direction(of, coarse_.fibres.s0, fine_.fibres.s0);
+    if (coarse_.fibres.given.at == GivenFibres::At::nodes) {
+      add_mean_direction(of, coarse_.fibres.given.f0, fine_.fibres.given.f0);
+      add_mean_direction(of, coarse_.fibres.given.s0, fine_.fibres.given.s0);
     }
   }
 

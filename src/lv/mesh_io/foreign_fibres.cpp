@@ -23,7 +23,7 @@ void refuse(const ForeignMesh& foreign, const std::vector<bool>& bad, const std:
   if (count == 0)
     return;
   const int first = static_cast<int>(std::find(bad.begin(), bad.end(), true) - bad.begin());
-  const bool in_cells = foreign.mesh.fibres.at == mesh::GivenFibres::At::cells;
+  const bool in_cells = foreign.mesh.fibres.given.at == mesh::GivenFibres::At::cells;
   throw InputError(
       in_cells ? foreign.where_cell(first) : foreign.where_node(first),
       fmt::format("{} of the {} directions of {}, the first at {}", count, bad.size(), what,
@@ -51,7 +51,7 @@ double angle_between(const Vec3& a, const Vec3& b) {
 }  // namespace
 
 void make_orthonormal(ForeignMesh& foreign) {
-  mesh::GivenFibres& fibres = foreign.mesh.fibres;
+  mesh::GivenFibres& fibres = foreign.mesh.fibres.given;
   normalise(foreign, "fibres", fibres.f0);
   normalise(foreign, "sheets", fibres.s0);
   std::vector<bool> along;

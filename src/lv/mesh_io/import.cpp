@@ -68,9 +68,9 @@ void drop_unused_nodes(ForeignMesh& foreign) {
   };
   keep(mesh.nodes);
   keep(mesh.infarct);
-  if (mesh.fibres.at == mesh::GivenFibres::At::nodes) {
-    keep(mesh.fibres.f0);
-    keep(mesh.fibres.s0);
+  if (mesh.fibres.given.at == mesh::GivenFibres::At::nodes) {
+    keep(mesh.fibres.given.f0);
+    keep(mesh.fibres.given.s0);
   }
   keep(foreign.node_numbers);
   keep(foreign.node_lines);
@@ -107,7 +107,8 @@ void scale(ForeignMesh& foreign, double unit) {
   foreign.scale = unit * signs;
   for (Vec3& X : foreign.mesh.nodes)
     X = X.cwiseProduct(foreign.scale);
-  for (std::vector<Vec3>* directions : {&foreign.mesh.fibres.f0, &foreign.mesh.fibres.s0})
+  for (std::vector<Vec3>* directions :
+       {&foreign.mesh.fibres.given.f0, &foreign.mesh.fibres.given.s0})
     for (Vec3& direction : *directions)
       direction = direction.cwiseProduct(signs);
   if (foreign.in_ras)
@@ -351,7 +352,8 @@ ImportedMesh to_model(ForeignMesh&& foreign, const Sides& sides, const mesh::Pla
   imported.mesh = std::move(foreign.mesh);
   for (Vec3& X : imported.mesh.nodes)
     X = imported.frame.to_model(X);
-  for (std::vector<Vec3>* directions : {&imported.mesh.fibres.f0, &imported.mesh.fibres.s0})
+  for (std::vector<Vec3>* directions :
+       {&imported.mesh.fibres.given.f0, &imported.mesh.fibres.given.s0})
     for (Vec3& direction : *directions)
       direction = imported.frame.axes.transpose() * direction;
   std::tie(imported.mesh.endo, imported.mesh.epi, imported.mesh.base) =

@@ -178,7 +178,7 @@ void read_vtk_fibres(const mesh::ImportParameters& parameters, vtkUnstructuredGr
                      "has fibres and sheets of which one stands at cells and one at "
                      "points",
                      "Write both at cells or both at points");
-  foreign.mesh.fibres = {fibres.at, std::move(fibres.vectors), std::move(sheets.vectors)};
+  foreign.mesh.fibres.given = {fibres.at, std::move(fibres.vectors), std::move(sheets.vectors)};
 }
 
 }  // namespace lv::mesh_io

@@ -18,7 +18,7 @@ std::vector<double> times_by_front(const Case& c, const anatomy::MeshResult& mes
   const activation::Speeds& speeds = c.activation.speeds;
   activation::ActivatedWall wall{
       mesh.mesh, mesh.regions, {}, case_file::place_of(c, "activation.sites")};
-  for (const Mat3& frame : activation::cell_frames(mesh.mesh, c.fibres))
+  for (const Mat3& frame : activation::cell_frames(mesh.mesh))
     wall.metrics.push_back(activation::travel_metric(frame, speeds));
   std::vector<activation::Start> starts;
   for (const std::string& words : c.activation.sites) {

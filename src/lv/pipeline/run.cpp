@@ -209,7 +209,7 @@ class Pipeline {
           check_room(case_, mesh.mesh);  // before a fit takes its time
           anatomy::write_mesh_result(mesh, part);
         });
-        show_mesh(anatomy::read_mesh_result(part), c, part);
+        show_mesh(anatomy::read_mesh_result(part, c.fibres), c, part);
         break;
       case Stage::calibrate:
         calibrate(for_calibration(c), part);
@@ -229,7 +229,7 @@ class Pipeline {
       case Stage::results: {
         const auto beat = folder(Stage::beat);
         const auto wall = wall_of(beat);
-        const anatomy::MeshResult mesh = anatomy::read_mesh_result(wall);
+        const anatomy::MeshResult mesh = anatomy::read_mesh_result(wall, c.fibres);
         text_ = make_results(fitted(c, calibration(), beat), mesh, read_beat(beat, mesh.mesh),
                              fit_record(case_, calibration(), beat), unloaded_shape(wall), part);
         on_root([&] { write_file(part / "summary.txt", text_); });
@@ -251,7 +251,7 @@ class Pipeline {
     on_root([&] { anatomy::write_mesh_result(make_mesh(fitting, shape()), part); });
     const auto of_muscle = part / coarse_name;
     const auto of_beats = part / coarse_wall_name;
-    make_calibration(fitting, anatomy::read_mesh_result(part),
+    make_calibration(fitting, anatomy::read_mesh_result(part, fitting.fibres),
                      {coarse_wall(on_coarse_wall(fitting), of_muscle),
                       coarse_wall(with_coarse_wall(fitting), of_beats)},
                      part);
@@ -280,7 +280,7 @@ class Pipeline {
     });
     if (!root_says(std::filesystem::exists(elements)))
       return {};
-    return anatomy::read_mesh_result(elements);
+    return anatomy::read_mesh_result(elements, coarse->fibres);
   }
 
   void run_beat(const Case& c, const std::filesystem::path& part) {
@@ -290,7 +290,7 @@ class Pipeline {
       return;
     }
     on_root([&] {
-      check_room(case_, anatomy::read_mesh_result(wall_of(part)).mesh);
+      check_room(case_, anatomy::read_mesh_result(wall_of(part), c.fibres).mesh);
     });  // the box may be new
     heartbeat::Beat beat;
     bool again = false;
@@ -299,7 +299,7 @@ class Pipeline {
           root_says(std::filesystem::exists(part / confirmation_name)))
         unload(part,
                folder(Stage::unload) / elements_name);  // with corrected parameters
-      const anatomy::MeshResult mesh = anatomy::read_mesh_result(wall_of(part));
+      const anatomy::MeshResult mesh = anatomy::read_mesh_result(wall_of(part), c.fibres);
       beat = make_beat(fitted(c, calibration(), part), mesh, part);
       log::info("beat: {} steps in {}", beat.steps, log::duration(beat.wall_clock));
       on_root([&] {
@@ -316,10 +316,10 @@ class Pipeline {
 
   /// The wall without load for the parameters in use, into a folder.
   void unload(const std::filesystem::path& part, const std::filesystem::path& elements) const {
+    const Case c = with_muscle(work::stage_view(case_, Stage::unload), calibration(), part);
     make_unloading(
-        with_muscle(work::stage_view(case_, Stage::unload), calibration(), part),
-        anatomy::read_mesh_result(folder(Stage::mesh)), anatomy::read_mesh_result(elements).mesh,
-        part,
+        c, anatomy::read_mesh_result(folder(Stage::mesh), c.fibres),
+        anatomy::read_mesh_result(elements, c.fibres).mesh, part,
         case_.calibration.asked() ? calibration() / unloaded_shape_name : std::filesystem::path());
   }
 

@@ -355,6 +355,7 @@ anatomy::MeshResult make_mesh(const Case& c, const anatomy::Shape& shape) {
   anatomy::MeshResult result;
   result.mesh =
       shape.given ? *shape.given : mesh::wall_mesh(shape.wall, case_file::mesh_parameters(c));
+  result.mesh.fibres.rule = c.fibres;
   scar::InfarctExtent infarct = scar::infarct_extent(c, shape, result.mesh);
   result.mesh.infarct = std::move(infarct.M);
   result.infarcted = std::move(infarct.part);
@@ -373,7 +374,7 @@ anatomy::MeshResult make_mesh(const Case& c, const anatomy::Shape& shape) {
 void show_mesh(const anatomy::MeshResult& result, const Case& c,
                const std::filesystem::path& folder) {
   const mesh::Mesh& m = result.mesh;
-  const auto undeformed = analysis::FieldAnalysis(m, {c.fibres, {}, {}}).at_rest();  // directions
+  const auto undeformed = analysis::FieldAnalysis(m, {}).at_rest();  // directions
   parallel::on_root([&] {
     report::write_mesh(folder / "mesh.vtu", m, result.regions, undeformed);
     report::quality_table(mesh::quality(m)).write_csv(folder / "quality.csv");

@@ -1,7 +1,7 @@
 #include "lv/solid/wall.hpp"
 
 #include "lv/base/parallel.hpp"
-#include "lv/mesh/cell.hpp"
+#include "lv/mesh/undeformed_wall.hpp"
 #include "lv/solid/element.hpp"
 
 #include <Eigen/LU>
@@ -10,39 +10,6 @@
 
 namespace lv::solid {
 namespace {
-
-/// Geometry and directions of the undeformed wall at one quadrature point.
-struct ReferencePoint {
-  Mat3 dX_dxi;
-  Vec3 X;
-  double t;  ///< transmural coordinate
-  double M;  ///< infarct
-  mesh::WallAxes axes;
-};
-
-/// `radial` per node, or empty where the transmural coordinate's own gradient serves.
-template <class Rule>
-ReferencePoint reference_point(const mesh::Mesh& mesh, std::span<const Vec3> radial, int cell,
-                               const Rule& rule, int q) {
-  ReferencePoint point{Mat3::Zero(), Vec3::Zero(), 0.0, 0.0, {}};
-  Vec3 dt_dxi = Vec3::Zero();
-  Vec3 mean_radial = Vec3::Zero();
-  const auto nodes = mesh.cell(cell);
-  for (std::size_t a = 0; a < nodes.size(); ++a) {
-    const int node = nodes[a];
-    const Vec3 gradient(rule.gradient[q][a].data());
-    point.dX_dxi += mesh.nodes[node] * gradient.transpose();
-    point.X += rule.value[q][a] * mesh.nodes[node];
-    point.t += rule.value[q][a] * mesh.transmural[node];
-    point.M += rule.value[q][a] * mesh.infarct[node];
-    dt_dxi += mesh.transmural[node] * gradient;
-    if (!radial.empty())
-      mean_radial += rule.value[q][a] * radial[node];
-  }
-  point.axes =
-      mesh::wall_axes(radial.empty() ? point.dX_dxi.inverse().transpose() * dt_dxi : mean_radial);
-  return point;
-}
 
 double lane(const Pack& pack, int i) {
   return pack.get(i);
@@ -103,8 +70,7 @@ namespace {
 template <class E>
 class PackedElements final : public Wall::Elements {
  public:
-  PackedElements(const mesh::Mesh& mesh, const mesh::FibreRule& fibres,
-                 const material::Myocardium& material);
+  PackedElements(const mesh::Mesh& mesh, const material::Myocardium& material);
 
   [[nodiscard]] std::span<const double> nodal_volumes() const override { return nodal_volumes_; }
   void add_stretch(std::span<const Vec3> positions, std::span<double> integrals) const override;
@@ -142,8 +108,11 @@ class PackedElements final : public Wall::Elements {
   [[nodiscard]] int cell_of(int group, int i) const {
     return std::min(cells_.begin + group * pack_size + i, cells_.end - 1);
   }
-  [[nodiscard]] Mat3 fibre_frame(const ReferencePoint& X, int cell, int q) const {
-    return mesh::fibre_frame(mesh_, fibres_, {cell, mesh_.cell(cell), rule.value[q], X.axes, X.t});
+  [[nodiscard]] mesh::ElementPoint element_point(int cell, int q) const {
+    return {cell,
+            mesh_.cell(cell),
+            rule.value[q],
+            {rule.gradient[q].front().data(), 3 * static_cast<std::size_t>(E::nodes)}};
   }
   void set_point(Point& point, int i, int cell, int q, double weight);
   void set_means(Group& group, int i, int cell, double weight);
@@ -170,22 +139,19 @@ class PackedElements final : public Wall::Elements {
                                          double tension) const;
 
   const mesh::Mesh& mesh_;
-  mesh::FibreRule fibres_;
+  mesh::UndeformedWall undeformed_;
   material::Myocardium material_;
   parallel::Range cells_;
-  std::vector<Vec3> radial_;  ///< per node of tetrahedra, else empty
   std::vector<Group> groups_;
   std::vector<double> nodal_volumes_;
 };
 
 template <class E>
-PackedElements<E>::PackedElements(const mesh::Mesh& mesh, const mesh::FibreRule& fibres,
-                                  const material::Myocardium& material)
+PackedElements<E>::PackedElements(const mesh::Mesh& mesh, const material::Myocardium& material)
     : mesh_(mesh),
-      fibres_(fibres),
+      undeformed_(mesh),
       material_(material),
-      cells_(parallel::share(mesh.cell_count(), parallel::rank(), parallel::size())),
-      radial_(E::nodes == 4 ? mesh::radial_directions(mesh) : std::vector<Vec3>{}) {
+      cells_(parallel::share(mesh.cell_count(), parallel::rank(), parallel::size())) {
   groups_.resize((cells_.size() + pack_size - 1) / pack_size);
   for (int g = 0; g < static_cast<int>(groups_.size()); ++g) {
     for (int i = 0; i < pack_size; ++i) {
@@ -203,15 +169,12 @@ PackedElements<E>::PackedElements(const mesh::Mesh& mesh, const mesh::FibreRule&
 
 template <class E>
 void PackedElements<E>::set_point(Point& point, int i, int cell, int q, double weight) {
-  const ReferencePoint X = reference_point(mesh_, radial_, cell, rule, q);
-  const double det = X.dX_dxi.determinant();
-  if (!(det > 0.0))
-    mesh::fail_inverted(cell, det, X.X);
-  const Mat3 K = X.dX_dxi.inverse() * fibre_frame(X, cell, q);
+  const mesh::ReferencePoint X = undeformed_.at(element_point(cell, q));
+  const Mat3 K = X.dX_dxi.inverse() * X.frame;
   for (int r = 0; r < 3; ++r)
     for (int c = 0; c < 3; ++c)
       set_lane(point.K(r, c), i, K(r, c));
-  set_lane(point.volume, i, weight * det);
+  set_lane(point.volume, i, weight * X.det);
   set_lane(point.infarct, i, X.M);
 }
 
@@ -221,7 +184,7 @@ void PackedElements<E>::set_means(Group& group, int i, int cell, double weight) 
   integral.fill(Vec3::Zero());
   double volume = 0.0;
   for (int q = 0; q < E::points; ++q) {
-    const Mat3 dX_dxi = reference_point(mesh_, radial_, cell, rule, q).dX_dxi;
+    const Mat3 dX_dxi = mesh::jacobian(mesh_, element_point(cell, q));
     const double dX = rule.weight[q] * dX_dxi.determinant();
     const Mat3 to_X = dX_dxi.inverse().transpose();
     for (int a = 0; a < E::nodes; ++a)
@@ -450,7 +413,7 @@ template <class E>
 PointSample PackedElements<E>::sample_point(int group, int q, int i, const Tensor<Pack>& F,
                                             double tension) const {
   const Point& point = groups_[group].points[q];
-  const ReferencePoint X = reference_point(mesh_, radial_, cell_of(group, i), rule, q);
+  const mesh::ReferencePoint X = undeformed_.at(element_point(cell_of(group, i), q));
   const Mat3 F_fibre = lane(F, i);
   PointSample s;
   s.cell = cell_of(group, i);
@@ -459,7 +422,7 @@ PointSample PackedElements<E>::sample_point(int group, int q, int i, const Tenso
   s.transmural = X.t;
   s.infarct = X.M;
   s.axes = X.axes;
-  s.fibre_frame = fibre_frame(X, s.cell, q);
+  s.fibre_frame = X.frame;
   s.F = F_fibre * s.fibre_frame.transpose();
   s.stress = material::with_point_law(material_, material_.volumetric, [&](const auto& law) {
     return point_stress(law, F_fibre, tension * law.infarct.active(X.M), X.M);
@@ -488,18 +451,17 @@ std::vector<PointSample> PackedElements<E>::sample(std::span<const Vec3> positio
   return samples;
 }
 
-std::unique_ptr<Wall::Elements> make_elements(const mesh::Mesh& mesh, const mesh::FibreRule& fibres,
+std::unique_ptr<Wall::Elements> make_elements(const mesh::Mesh& mesh,
                                               const material::Myocardium& material) {
   if (mesh.kind == mesh::CellKind::hexahedron)
-    return std::make_unique<PackedElements<Hex8>>(mesh, fibres, material);
-  return std::make_unique<PackedElements<Tet4>>(mesh, fibres, material);
+    return std::make_unique<PackedElements<Hex8>>(mesh, material);
+  return std::make_unique<PackedElements<Tet4>>(mesh, material);
 }
 
 }  // namespace
 
-Wall::Wall(const mesh::Mesh& mesh, const mesh::FibreRule& fibres,
-           const material::Myocardium& material)
-    : elements_(make_elements(mesh, fibres, material)) {}
+Wall::Wall(const mesh::Mesh& mesh, const material::Myocardium& material)
+    : elements_(make_elements(mesh, material)) {}
 Wall::~Wall() = default;
 Wall::Wall(Wall&&) noexcept = default;
 Wall& Wall::operator=(Wall&&) noexcept = default;

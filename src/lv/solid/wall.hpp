@@ -38,7 +38,7 @@ class Wall {
  public:
   /// The mesh must outlive the wall. Throws InputError for an element that is inverted or
   /// collapsed, naming it.
-  Wall(const mesh::Mesh& mesh, const mesh::FibreRule& fibres, const material::Myocardium& material);
+  Wall(const mesh::Mesh& mesh, const material::Myocardium& material);
   ~Wall();
   Wall(Wall&&) noexcept;
   Wall& operator=(Wall&&) noexcept;

@@ -170,12 +170,12 @@ implicit::StaticModel model_of(const ArosticaConstants& c) {
 mesh::Mesh with_fibres(mesh::Mesh mesh, const ArosticaWall& wall, const ArosticaConstants& c) {
   const mesh::FibreRule rule{c.helix_endo, c.helix_epi, 0.5 * std::numbers::pi,
                              0.5 * std::numbers::pi};
-  mesh.fibres.at = mesh::GivenFibres::At::nodes;
+  mesh.fibres.given.at = mesh::GivenFibres::At::nodes;
   for (std::size_t a = 0; a < mesh.nodes.size(); ++a) {
     const double t = mesh.transmural[a];
     const Mat3 frame = mesh::fibre_frame(rule, mesh::wall_axes(wall.normal(mesh.nodes[a], t)), t);
-    mesh.fibres.f0.push_back(frame.col(0));
-    mesh.fibres.s0.push_back(frame.col(1));
+    mesh.fibres.given.f0.push_back(frame.col(0));
+    mesh.fibres.given.s0.push_back(frame.col(1));
   }
   return mesh;
 }

@@ -42,7 +42,7 @@ calibrate::Plan both_parameters() {
 /// Mean circumferential strains of the segments of the three middle slices.
 std::vector<double> segment_strains(const mesh::Mesh& mesh, const mesh::Regions& regions,
                                     const std::vector<Vec3>& ed, const std::vector<Vec3>& es) {
-  const solid::Wall wall(mesh, {}, {});
+  const solid::Wall wall(mesh, {});
   const auto then = analysis::shape_fields(wall, mesh, ed);
   const auto now = analysis::shape_fields(wall, mesh, es);
   std::vector<double> E_cc;

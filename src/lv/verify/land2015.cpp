@@ -51,12 +51,12 @@ mesh::Mesh LandBeam::mesh() const {
   mesh::Mesh coarse = block(40, 4, 4);
   coarse.endo = faces_where(coarse, [](const Vec3& X) { return X.z() == 0.0; });
   coarse.base = faces_where(coarse, [](const Vec3& X) { return X.x() == 0.0; });
+  coarse.fibres.rule = {0.0, 0.0, 0.0, 0.0};
   return mesh::refine(coarse);
 }
 
 solid::CardiacModel LandBeam::heart() const {
   solid::CardiacModel heart;
-  heart.fibres = {0.0, 0.0, 0.0, 0.0};
   heart.myocardium.passive = material::Guccione{.C = 2.0, .b_f = 8.0, .b_t = 2.0, .b_fs = 4.0};
   heart.myocardium.active = material::PrescribedTension{0.0};
   return heart;
@@ -108,8 +108,8 @@ LandProblem land_contraction() {
   p.heart.myocardium.active = material::PrescribedTension{60.0};
   p.heart.myocardium.active_form = material::ActiveForm::second_piola;
   // the benchmark's angle has the opposite sign of the paper's
-  p.heart.fibres.helix_endo = -0.5 * std::numbers::pi;
-  p.heart.fibres.helix_epi = 0.5 * std::numbers::pi;
+  p.fibres.helix_endo = -0.5 * std::numbers::pi;
+  p.fibres.helix_epi = 0.5 * std::numbers::pi;
   p.pressure = 15.0;
   return p;
 }

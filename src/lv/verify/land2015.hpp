@@ -37,7 +37,8 @@ struct LandEllipsoid {
 /// What problems 2 and 3 ask of that ventricle.
 struct LandProblem {
   solid::CardiacModel heart;  ///< its tension is S = T f0 (x) f0
-  double pressure = 0.0;      ///< [kPa]
+  mesh::FibreRule fibres = {};
+  double pressure = 0.0;  ///< [kPa]
 };
 
 /// Problem 2: isotropic, 10 kPa.

@@ -62,7 +62,8 @@ heartbeat::BeatSetup setup(const LandProblem& problem, const Protocol& protocol,
 void compare(const LandProblem& problem, const Protocol& protocol, const std::string& moment,
              const LandReference& reference, Findings& found) {
   for (const double h : {1.0, 0.7}) {
-    const mesh::Mesh mesh = LandEllipsoid::mesh({.edge_length = 0.9 * h});
+    mesh::Mesh mesh = LandEllipsoid::mesh({.edge_length = 0.9 * h});
+    mesh.fibres.rule = problem.fibres;
     log::info("{} elements, mesh width {} mm", mesh.cell_count(), h);
     const auto beat = heartbeat::run_immersed_beat(setup(problem, protocol, mesh, h),
                                                    found.scratch() / fmt::format("{}", h), {});

@@ -111,7 +111,8 @@ Engine inflated(const mesh::Mesh& mesh, const LandProblem& problem) {
 void compare(const LandProblem& problem, const LandReference& reference, double fraction,
              mesh::Mesh (*make_mesh)(const mesh::WallMeshParameters&), Findings& found) {
   for (const double edge : {2.0, 1.5}) {
-    const mesh::Mesh mesh = make_mesh({.edge_length = 0.5 * edge, .order = 2});
+    mesh::Mesh mesh = make_mesh({.edge_length = 0.5 * edge, .order = 2});
+    mesh.fibres.rule = problem.fibres;
     const Engine engine = inflated(mesh, problem);
     const LandApex here = land_apex(mesh, engine.state().positions);
     const std::string which = fmt::format(", {} quadratic elements", mesh.cell_count() / 8);

@@ -21,7 +21,7 @@ struct Ventricle {
 
   [[nodiscard]] activation::ActivatedWall wall() const {
     activation::ActivatedWall wall{mesh, regions, {}, "case.toml:3"};
-    for (const Mat3& frame : activation::cell_frames(mesh, {}))
+    for (const Mat3& frame : activation::cell_frames(mesh))
       wall.metrics.push_back(activation::travel_metric(frame, {}));
     return wall;
   }

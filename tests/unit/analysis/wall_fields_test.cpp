@@ -43,8 +43,9 @@ std::vector<double> pressures(const Mesh& mesh) {
 
 /// Fields of a block deformed by X -> F X + (1, 2, 3).
 std::vector<CellFields> uniform(CellKind kind, const Mat3& F) {
-  const Mesh mesh = test::block_mesh(kind, 2);
-  const solid::Wall wall(mesh, parallel_fibres, {});
+  Mesh mesh = test::block_mesh(kind, 2);
+  mesh.fibres.rule = parallel_fibres;
+  const solid::Wall wall(mesh, {});
   return analysis::cell_fields(wall, snapshot(mesh, test::moved(mesh.nodes, F, {1, 2, 3})),
                                pressures(mesh));
 }
@@ -98,7 +99,7 @@ TEST_CASE("a cell's J is its deformed over its undeformed volume, whatever the d
           "[unit][analysis]") {
   for (const CellKind kind : kinds) {
     Mesh mesh = test::block_mesh(kind, 2);
-    const solid::Wall wall(mesh, {}, {});
+    const solid::Wall wall(mesh, {});
     const auto positions =
         test::displaced(mesh.nodes, test::RandomValues(1).vectors(mesh.nodes.size(), 0.3), 1.0);
     const auto cells = analysis::cell_fields(wall, snapshot(mesh, positions), pressures(mesh));

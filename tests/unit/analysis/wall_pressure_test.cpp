@@ -36,7 +36,7 @@ double error(int around, int layers) {
   material::Myocardium material;
   material.passive = material::NeoHookean{shell.mu};
   material.volumetric.beta_s = 0.0;
-  const solid::Wall wall(mesh, {}, material);
+  const solid::Wall wall(mesh, material);
   heartbeat::Snapshot s;
   s.pressure = shell.radial_compression(shell.A);
   for (const Vec3& X : mesh.nodes)

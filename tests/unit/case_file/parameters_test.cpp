@@ -461,7 +461,7 @@ Numbers mesh_of(const Case& shown, const Case& c) {
   numbers.insert(numbers.end(), made.infarcted.begin(), made.infarcted.end());
   for (const auto* regions : {&made.regions.slice, &made.regions.sector, &made.regions.aha})
     numbers.insert(numbers.end(), regions->begin(), regions->end());
-  const analysis::FieldAnalysis analysis(made.mesh, {c.fibres, {}, {}});
+  const analysis::FieldAnalysis analysis(made.mesh, {});
   for (const analysis::CellFields& cell : analysis.at_rest())
     numbers.insert(numbers.end(), cell.fibre_frame.data(), cell.fibre_frame.data() + 9);
   if (c.scar.source == mesh::InfarctSource::described)

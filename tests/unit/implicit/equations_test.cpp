@@ -138,7 +138,7 @@ TEST_CASE("quadratic elements fill the wall and follow its surfaces", "[unit][im
   const auto wall = [&](double u, double theta, double t) { return ellipsoid.point(u, theta, t); };
   const Mesh mesh = mesh::wall_mesh(wall, {.edge_length = 4.0, .order = 2});
   CHECK(mesh.cell_count() % 8 == 0);
-  const auto reference = implicit::reference_wall(mesh, {});
+  const auto reference = implicit::reference_wall(mesh);
   double volume = 0.0;
   for (const auto& element : reference.points)
     for (const auto& point : element)
@@ -181,5 +181,5 @@ TEST_CASE("cells have the stress of the elements they are parts of", "[unit][imp
 
 TEST_CASE("linear tetrahedra are refused", "[unit][implicit]") {
   const Mesh mesh = test::block_mesh(CellKind::tetrahedron, 1);
-  CHECK_THROWS_AS(implicit::reference_wall(mesh, {}), InputError);
+  CHECK_THROWS_AS(implicit::reference_wall(mesh), InputError);
 }

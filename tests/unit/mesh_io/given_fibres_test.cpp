@@ -91,18 +91,18 @@ double angle(const Vec3& a, const Vec3& b) {
 /// A coarse ventricle whose fibres run as the paper's do, sign by sign at random.
 Mesh with_rule_at_nodes(CellKind kind) {
   Mesh mesh = test::coarse_mesh(kind);
-  mesh.fibres.at = At::nodes;
+  mesh.fibres.given.at = At::nodes;
   const std::vector<Vec3> radial = mesh::radial_directions(mesh);
   for (std::size_t a = 0; a < mesh.nodes.size(); ++a) {
     const Mat3 frame = mesh::fibre_frame({}, mesh::wall_axes(radial[a]), mesh.transmural[a]);
-    mesh.fibres.f0.emplace_back((a % 3 == 0 ? -1.0 : 1.0) * frame.col(0));
-    mesh.fibres.s0.emplace_back((a % 5 == 0 ? -1.0 : 1.0) * frame.col(1));
+    mesh.fibres.given.f0.emplace_back((a % 3 == 0 ? -1.0 : 1.0) * frame.col(0));
+    mesh.fibres.given.s0.emplace_back((a % 5 == 0 ? -1.0 : 1.0) * frame.col(1));
   }
   return mesh;
 }
 
 std::vector<solid::PointSample> samples(const Mesh& mesh) {
-  const solid::Wall wall(mesh, {}, {});
+  const solid::Wall wall(mesh, {});
   return wall.sample(mesh.nodes, std::vector<double>(mesh.nodes.size(), 0.0));
 }
 
@@ -119,7 +119,7 @@ TEST_CASE(
         X = turn * X + Vec3(120.0, -35.0, 410.0);
       const ImportedMesh imported =
           test::import_text(".vtu", vtu_with_fibres(mesh, at), with_fibres(test::by_cells()));
-      const GivenFibres& fibres = imported.mesh.fibres;
+      const GivenFibres& fibres = imported.mesh.fibres.given;
       REQUIRE(fibres.at == at);
       REQUIRE(fibres.f0.size() ==
               (at == At::nodes ? mesh.nodes.size() : static_cast<std::size_t>(mesh.cell_count())));
@@ -151,8 +151,8 @@ TEST_CASE("fibres and sheets come from SimVascular's files of the same cells", "
   parameters.fibres = fibres.path();
   parameters.sheets = sheets.path();
   const ImportedMesh imported = test::import_text(".vtu", plain, parameters);
-  REQUIRE(imported.mesh.fibres.f0.size() == static_cast<std::size_t>(mesh.cell_count()));
-  CHECK(angle(imported.frame.axes * imported.mesh.fibres.f0[7],
+  REQUIRE(imported.mesh.fibres.given.f0.size() == static_cast<std::size_t>(mesh.cell_count()));
+  CHECK(angle(imported.frame.axes * imported.mesh.fibres.given.f0[7],
               along(mesh.nodes[mesh.cell(7)[0]])) < 1e-9);
 
   Mesh other = mesh;
@@ -241,7 +241,8 @@ TEST_CASE("the given fibres hold at every point of an element, whatever their si
     // one element of 8 mm or two take the wall's 120 degrees; at the apex the rule turns within one
     CHECK(mean < 0.15);
     Mesh in_cells = given;
-    in_cells.fibres = {At::cells, std::vector<Vec3>(given.cell_count(), Vec3(0.6, 0.0, 0.8)), {}};
+    in_cells.fibres.given = {
+        At::cells, std::vector<Vec3>(given.cell_count(), Vec3(0.6, 0.0, 0.8)), {}};
     for (const solid::PointSample& s : samples(in_cells)) {
       CHECK(angle(s.fibre_frame.col(0), Vec3(0.6, 0.0, 0.8)) < 1e-9);
       CHECK((s.fibre_frame.transpose() * s.fibre_frame - Mat3::Identity()).norm() < 1e-12);
@@ -252,10 +253,10 @@ TEST_CASE("the given fibres hold at every point of an element, whatever their si
 TEST_CASE("sheets that are not given follow the rule's angle across the given fibres",
           "[unit][mesh_io]") {
   Mesh mesh = test::coarse_mesh(CellKind::hexahedron);
-  mesh.fibres = {At::cells, {}, {}};
+  mesh.fibres.given = {At::cells, {}, {}};
   for (const solid::PointSample& s : samples(mesh))
-    if (static_cast<int>(mesh.fibres.f0.size()) == s.cell)
-      mesh.fibres.f0.emplace_back(s.fibre_frame.col(0));
+    if (static_cast<int>(mesh.fibres.given.f0.size()) == s.cell)
+      mesh.fibres.given.f0.emplace_back(s.fibre_frame.col(0));
   const Mesh ruled = test::coarse_mesh(CellKind::hexahedron);
   const auto given = samples(mesh);
   const auto by_rule = samples(ruled);
@@ -268,15 +269,15 @@ TEST_CASE("both engines take the fibres that a mesh brings", "[unit][mesh_io]") 
     for (const At at : {At::cells, At::nodes}) {
       Mesh mesh = test::coarse_mesh(kind);
       const std::size_t count = at == At::nodes ? mesh.nodes.size() : mesh.cell_count();
-      mesh.fibres = {at, std::vector<Vec3>(count, Vec3(0.6, 0.0, 0.8)),
-                     std::vector<Vec3>(count, Vec3(0.0, 1.0, 0.0))};
+      mesh.fibres.given = {at, std::vector<Vec3>(count, Vec3(0.6, 0.0, 0.8)),
+                           std::vector<Vec3>(count, Vec3(0.0, 1.0, 0.0))};
       const Mesh fine = mesh::refine(mesh);
       CHECK(angle(samples(fine).back().fibre_frame.col(0), Vec3(0.6, 0.0, 0.8)) < 1e-9);
       const auto elements = mesh::elements(fine);
-      const implicit::PointMaker maker(fine, {});
+      const implicit::PointMaker maker(fine);
       const int e = elements.size() / 2;
       const auto point =
-          maker.points(solid::element_shapes(fine.kind, fine.order), e, elements.element(e))[0];
+          maker.points(solid::element_shapes(fine.kind, fine.order), 8 * e, elements.element(e))[0];
       Eigen::Matrix3Xd X(3, elements.nodes_per_element);
       for (int a = 0; a < elements.nodes_per_element; ++a)
         X.col(a) = fine.nodes[elements.element(e)[a]];
@@ -291,16 +292,16 @@ TEST_CASE("refining keeps directions: cells hand theirs on, those at nodes are i
   for (const CellKind kind : kinds) {
     const Mesh at_nodes = with_rule_at_nodes(kind);
     const Mesh fine = mesh::refine(at_nodes);
-    REQUIRE(fine.fibres.f0.size() == fine.nodes.size());
-    REQUIRE(fine.fibres.s0.size() == fine.nodes.size());
-    CHECK((fine.fibres.f0[5] == at_nodes.fibres.f0[5]));
+    REQUIRE(fine.fibres.given.f0.size() == fine.nodes.size());
+    REQUIRE(fine.fibres.given.s0.size() == fine.nodes.size());
+    CHECK((fine.fibres.given.f0[5] == at_nodes.fibres.given.f0[5]));
     Mesh in_cells = test::coarse_mesh(kind);
     for (int c = 0; c < in_cells.cell_count(); ++c)
-      in_cells.fibres.f0.push_back(along(in_cells.nodes[in_cells.cell(c)[0]]).normalized());
+      in_cells.fibres.given.f0.push_back(along(in_cells.nodes[in_cells.cell(c)[0]]).normalized());
     const Mesh finer = mesh::refine(in_cells);
-    REQUIRE(finer.fibres.f0.size() == static_cast<std::size_t>(finer.cell_count()));
-    CHECK((finer.fibres.f0[8 * 6 + 3] == in_cells.fibres.f0[6]));
-    CHECK(finer.fibres.s0.empty());
+    REQUIRE(finer.fibres.given.f0.size() == static_cast<std::size_t>(finer.cell_count()));
+    CHECK((finer.fibres.given.f0[8 * 6 + 3] == in_cells.fibres.given.f0[6]));
+    CHECK(finer.fibres.given.s0.empty());
   }
 }
 
@@ -316,8 +317,8 @@ TEST_CASE("directions turn with a wall that moves", "[unit][mesh_io]") {
     const Mesh moved = mesh::with_nodes(mesh, nodes);
     CHECK((moved.nodes == nodes));
     for (std::size_t a = 0; a < mesh.nodes.size(); ++a)
-      CHECK(angle(moved.fibres.f0[a], F * mesh.fibres.f0[a]) < 1e-9);
-    mesh.fibres = {At::cells, std::vector<Vec3>(mesh.cell_count(), Vec3(0.6, 0.0, 0.8)), {}};
-    CHECK(angle(mesh::with_nodes(mesh, nodes).fibres.f0[3], F * Vec3(0.6, 0.0, 0.8)) < 1e-9);
+      CHECK(angle(moved.fibres.given.f0[a], F * mesh.fibres.given.f0[a]) < 1e-9);
+    mesh.fibres.given = {At::cells, std::vector<Vec3>(mesh.cell_count(), Vec3(0.6, 0.0, 0.8)), {}};
+    CHECK(angle(mesh::with_nodes(mesh, nodes).fibres.given.f0[3], F * Vec3(0.6, 0.0, 0.8)) < 1e-9);
   }
 }

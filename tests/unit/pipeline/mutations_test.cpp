@@ -87,7 +87,7 @@ TEST_CASE("damaged tables of measured strains are read or refused", "[unit][stra
 TEST_CASE("a damaged mesh of an earlier run is read or refused",
           "[unit][pipeline][mutations][records]") {
   const auto read = [](const std::filesystem::path& file) {
-    static_cast<void>(anatomy::read_mesh_result(file.parent_path()));
+    static_cast<void>(anatomy::read_mesh_result(file.parent_path(), {}));
   };
   const std::string bytes = made(
       "mesh.bin", [](const auto& folder) { anatomy::write_mesh_result(mesh_result(), folder); });
@@ -157,7 +157,7 @@ TEST_CASE("damaged records of earlier stages are read or refused",
 TEST_CASE("a damaged mesh of an earlier run that is read is one",
           "[unit][pipeline][mutations][records]") {
   const auto use = [](const std::filesystem::path& file) {
-    const anatomy::MeshResult result = anatomy::read_mesh_result(file.parent_path());
+    const anatomy::MeshResult result = anatomy::read_mesh_result(file.parent_path(), {});
     static_cast<void>(mesh::quality(result.mesh));
     static_cast<void>(mesh::divide(result.mesh, {}));
     static_cast<void>(solid::EndocardialSurface(result.mesh).volume(result.mesh.nodes));

@@ -148,9 +148,10 @@ TEST_CASE("a uniform deformation is in equilibrium inside a distorted wall", "[u
       INFO("hexahedra " << (kind == kinds[0]) << ", mean dilatation "
                         << (points == volumetric_points[1]));
       Mesh mesh = test::block_mesh(kind);
+      mesh.fibres.rule = parallel_fibres;
       mesh.infarct.assign(mesh.nodes.size(), 0.1);
       const Myocardium material = material_of(material::HolzapfelOgden{}, points);
-      const Wall wall(mesh, parallel_fibres, material);
+      const Wall wall(mesh, material);
       const auto positions = test::moved(mesh.nodes, F, {1, 2, 3});
       const std::vector<double> tension(positions.size(), 30.0);
       const auto forces = elastic_forces(wall, positions, tension);
@@ -178,7 +179,7 @@ TEST_CASE("the wall's force is minus the derivative of its energy", "[unit][soli
             material::AnyPassiveLaw(material::NeoHookean{5.0})}) {
         const Mesh mesh = infarcted(test::block_mesh(kind));
         const Myocardium material = material_of(law, points);
-        const Wall wall(mesh, {}, material);
+        const Wall wall(mesh, material);
         const auto positions = test::displaced(test::moved(mesh.nodes, some_deformation()),
                                                random.vectors(mesh.nodes.size(), 0.1), 1.0);
         const auto forces =
@@ -202,7 +203,7 @@ TEST_CASE("the wall's force does the work of the stresses it reports", "[unit][s
   test::RandomValues random(6);
   for (const CellKind kind : kinds) {
     const Mesh mesh = infarcted(test::block_mesh(kind));
-    const Wall wall(mesh, {}, material_of(material::HolzapfelOgden{}, VolumetricPoints::full));
+    const Wall wall(mesh, material_of(material::HolzapfelOgden{}, VolumetricPoints::full));
     const auto tension = uneven_tension(mesh);
     const auto positions = test::displaced(test::moved(mesh.nodes, some_deformation()),
                                            random.vectors(mesh.nodes.size(), 0.1), 1.0);
@@ -222,7 +223,7 @@ TEST_CASE("the wall exerts no net force and no torque on itself", "[unit][solid]
   for (const CellKind kind : kinds) {
     for (const VolumetricPoints points : volumetric_points) {
       const Mesh mesh = infarcted(test::block_mesh(kind));
-      const Wall wall(mesh, {}, material_of(material::HolzapfelOgden{}, points));
+      const Wall wall(mesh, material_of(material::HolzapfelOgden{}, points));
       const auto positions = test::displaced(test::moved(mesh.nodes, some_deformation()),
                                              random.vectors(mesh.nodes.size(), 0.2), 1.0);
       const auto forces = elastic_forces(wall, positions, uneven_tension(mesh));
@@ -237,7 +238,7 @@ TEST_CASE("moving or turning the wall as a whole makes no force", "[unit][solid]
   for (const CellKind kind : kinds) {
     for (const VolumetricPoints points : volumetric_points) {
       const Mesh mesh = infarcted(test::block_mesh(kind));
-      const Wall wall(mesh, {}, material_of(material::HolzapfelOgden{}, points));
+      const Wall wall(mesh, material_of(material::HolzapfelOgden{}, points));
       const auto positions =
           test::moved(mesh.nodes, test::RandomValues(9).rotation(), {10, -20, 5});
       const std::vector<double> relaxed(positions.size(), 0.0);
@@ -255,9 +256,9 @@ TEST_CASE("the scar neither contracts nor keeps its softness", "[unit][solid]") 
   const std::vector<double> active(positions.size(), 60.0);
   Myocardium material;
   material.volumetric.beta_s = 0.0;
-  const auto healthy = elastic_forces(Wall(mesh, {}, material), positions, relaxed);
+  const auto healthy = elastic_forces(Wall(mesh, material), positions, relaxed);
   mesh.infarct.assign(mesh.nodes.size(), 1.0);
-  const Wall scar(mesh, {}, material);
+  const Wall scar(mesh, material);
   const auto passive = elastic_forces(scar, positions, relaxed);
   const auto activated = elastic_forces(scar, positions, active);
   for (std::size_t a = 0; a < passive.size(); ++a) {
@@ -269,7 +270,7 @@ TEST_CASE("the scar neither contracts nor keeps its softness", "[unit][solid]") 
 TEST_CASE("nodal volumes add up to the wall's", "[unit][solid]") {
   for (const CellKind kind : kinds) {
     const Mesh mesh = test::block_mesh(kind);
-    const Wall wall(mesh, {}, {});
+    const Wall wall(mesh, {});
     double sum = 0.0;
     for (const double V : wall.nodal_volumes()) {
       CHECK(V > 0.0);
@@ -283,8 +284,9 @@ TEST_CASE("in a uniform deformation every node has the stretch |F f0| and every 
           "[unit][solid]") {
   const Mat3 F = some_deformation();
   for (const CellKind kind : kinds) {
-    const Mesh mesh = test::block_mesh(kind);
-    const Wall wall(mesh, parallel_fibres, {});
+    Mesh mesh = test::block_mesh(kind);
+    mesh.fibres.rule = parallel_fibres;
+    const Wall wall(mesh, {});
     const auto positions = test::moved(mesh.nodes, F, {1, 2, 3});
     std::vector<double> stretch(positions.size());
     wall.nodal_stretch(positions, stretch);
@@ -301,8 +303,9 @@ TEST_CASE("in a uniform deformation every node has the stretch |F f0| and every 
 TEST_CASE("samples cover the wall and know where they are", "[unit][solid]") {
   const Mat3 F = some_deformation();
   for (const CellKind kind : kinds) {
-    const Mesh mesh = infarcted(test::block_mesh(kind));
-    const Wall wall(mesh, parallel_fibres, {});
+    Mesh mesh = infarcted(test::block_mesh(kind));
+    mesh.fibres.rule = parallel_fibres;
+    const Wall wall(mesh, {});
     const std::vector<double> tension(mesh.nodes.size(), 40.0);
     double volume = 0.0;
     for (const auto& p : wall.sample(test::moved(mesh.nodes, F, {1, 2, 3}), tension)) {
@@ -321,6 +324,6 @@ TEST_CASE("samples cover the wall and know where they are", "[unit][solid]") {
 TEST_CASE("an inverted element is refused by number", "[unit][solid]") {
   Mesh mesh = test::block_mesh(CellKind::tetrahedron);
   std::swap(mesh.cells[4 * 17], mesh.cells[4 * 17 + 1]);
-  CHECK_THROWS_AS(Wall(mesh, {}, {}), InputError);
-  CHECK_THROWS_WITH(Wall(mesh, {}, {}), Catch::Matchers::Contains("element 17 "));
+  CHECK_THROWS_AS(Wall(mesh, {}), InputError);
+  CHECK_THROWS_WITH(Wall(mesh, {}), Catch::Matchers::Contains("element 17 "));
 }

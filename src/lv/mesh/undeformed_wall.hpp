@@ -1,0 +1,53 @@
+#pragma once
+
+#include "lv/mesh/fibres.hpp"
+
+#include <span>
+#include <vector>
+
+namespace lv::mesh {
+
+/// A point of an element of any order: the element's nodes, and its shapes there.
+struct ElementPoint {
+  int cell = 0;  ///< of the mesh: the element, or its first part
+  std::span<const int> nodes;
+  std::span<const double> phi;       ///< phi_a of each node
+  std::span<const double> gradient;  ///< d phi_a/d xi_d, three numbers for each node
+};
+
+/// What the undeformed wall is at a point.
+struct ReferencePoint {
+  Mat3 dX_dxi;
+  double det;     ///< of dX/dxi, positive [mm^3]
+  Vec3 X;         ///< [mm]
+  double t;       ///< transmural coordinate
+  double M;       ///< extent of the infarct, from 0 to 1 whatever the shapes do between the nodes
+  WallAxes axes;  ///< circumferential, longitudinal, radial
+  Mat3 frame;     ///< columns f0, s0, n0
+};
+
+/// Geometry and directions of the undeformed wall between its nodes, the same for both engines. The
+/// radial direction is that of the transmural coordinate's own gradient in hexahedra; in
+/// tetrahedra, where that may vanish, of radial_directions. The mesh must outlive it.
+class UndeformedWall {
+ public:
+  explicit UndeformedWall(const Mesh& mesh);
+
+  /// Throws InputError for an inverted or collapsed element, naming it.
+  [[nodiscard]] ReferencePoint at(const ElementPoint& point) const;
+
+  /// The fibre frame at the centre of a cell, with the mean of grad t over it.
+  [[nodiscard]] Mat3 frame_of_cell(int cell) const;
+
+ private:
+  [[nodiscard]] WallAxes axes(std::span<const int> nodes, std::span<const double> phi,
+                              const Vec3& gradient_of_t) const;
+
+  const Mesh& mesh_;
+  std::vector<Vec3> radial_;  ///< per node of tetrahedra
+};
+
+/// dX/dxi of an element at a point.
+[[nodiscard]] Mat3 jacobian(const Mesh& mesh, const ElementPoint& point);
+
+}  // namespace lv::mesh
