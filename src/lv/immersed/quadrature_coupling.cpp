@@ -3,30 +3,15 @@
 #include "lv/base/check.hpp"
 #include "lv/base/parallel.hpp"
 #include "lv/mesh/cell.hpp"
+#include "lv/mesh/gauss.hpp"
 #include "lv/solid/element.hpp"
 
 #include <Eigen/LU>
-#include <boost/math/special_functions/legendre.hpp>
 
 #include <algorithm>
 
 namespace lv::immersed {
 namespace {
-
-/// Abscissae and weights of the n-point Gauss rule on [0, 1].
-std::vector<std::array<double, 2>> gauss_rule(int n) {
-  std::vector<std::array<double, 2>> points;
-  const auto add = [&](double x) {
-    const double slope = boost::math::legendre_p_prime(n, x);
-    points.push_back({0.5 * (1.0 + x), 1.0 / ((1.0 - x * x) * slope * slope)});
-  };
-  for (const double x : boost::math::legendre_p_zeros<double>(n)) {
-    add(x);
-    if (x != 0.0)
-      add(-x);
-  }
-  return points;
-}
 
 template <class Point, class Shapes>
 void set_shapes(Point& point, const Shapes& shapes) {
@@ -55,9 +40,8 @@ void QuadratureCoupling::assemble_mass() {
   for (int c = 0; c < mesh_.cell_count(); ++c) {
     const auto cell = mesh_.cell(c);
     for (const ReferencePoint& point : exact) {
-      Mat3 dX_dxi = Mat3::Zero();
-      for (std::size_t a = 0; a < cell.size(); ++a)
-        dX_dxi += mesh_.nodes[cell[a]] * Vec3(point.gradient[a].data()).transpose();
+      const Mat3 dX_dxi = mesh::jacobian(
+          mesh_, {c, cell, point.phi, {point.gradient.front().data(), 3 * cell.size()}});
       const double volume = point.weight * dX_dxi.determinant();
       for (std::size_t a = 0; a < cell.size(); ++a)
         for (std::size_t b = 0; b < cell.size(); ++b)
@@ -97,9 +81,9 @@ const QuadratureCoupling::Rule& QuadratureCoupling::rule(const std::array<int, 3
 /// Products of Gauss rules; on tetrahedra collapsed onto the simplex, (r, s(1-r), t(1-r)(1-s)).
 QuadratureCoupling::Rule QuadratureCoupling::make_rule(const std::array<int, 3>& points) const {
   Rule rule;
-  for (const auto& [r, wr] : gauss_rule(points[0]))
-    for (const auto& [s, ws] : gauss_rule(points[1]))
-      for (const auto& [t, wt] : gauss_rule(points[2])) {
+  for (const auto& [r, wr] : mesh::gauss(points[0]))
+    for (const auto& [s, ws] : mesh::gauss(points[1]))
+      for (const auto& [t, wt] : mesh::gauss(points[2])) {
         ReferencePoint point{};
         if (mesh_.kind == mesh::CellKind::hexahedron) {
           point.weight = wr * ws * wt;

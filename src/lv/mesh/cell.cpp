@@ -1,6 +1,7 @@
 #include "lv/mesh/cell.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/mesh/gauss.hpp"
 #include "lv/mesh/shapes.hpp"
 
 #include <Eigen/Geometry>
@@ -42,10 +43,7 @@ Vec3 edge_vector(const Mesh& mesh, int cell, const std::array<int, 2>& edge) {
 /// dX/dxi
 Mat3 hexahedron_gradient(const Mesh& mesh, int cell, const Vec3& xi) {
   const auto shapes = hexahedron_shapes({xi.x(), xi.y(), xi.z()});
-  Mat3 gradient = Mat3::Zero();
-  for (int a = 0; a < 8; ++a)
-    gradient += mesh.nodes[mesh.cell(cell)[a]] * Vec3(shapes.gradient[a].data()).transpose();
-  return gradient;
+  return jacobian(mesh, point_of(mesh, cell, shapes));
 }
 
 /// df/dxi
@@ -65,14 +63,15 @@ Mat3 tetrahedron_gradient(const Mesh& mesh, int cell) {
   return gradient;
 }
 
-/// The corners of a cube of side `side` about the centre of the unit cube.
-Vec3 cube_corner(int corner, double side) {
-  const Vec3 sign((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1,
-                  (corner & 4) != 0 ? 1 : -1);
-  return Vec3::Constant(0.5) + 0.5 * side * sign;
-}
+/// Two places along each edge of the unit cube: its corners, and the points of the Gauss rule that
+/// has all weights the same.
+using Pair = std::array<double, 2>;
+constexpr Pair ends{0.0, 1.0};
+constexpr Pair gauss_places{gauss<2>()[0].x, gauss<2>()[1].x};
 
-const double gauss_side = 1.0 / std::sqrt(3.0);
+Vec3 cube_point(int number, const Pair& places) {
+  return {places[number & 1], places[(number >> 1) & 1], places[(number >> 2) & 1]};
+}
 
 double product_of_lengths(const Mat3& edges) {
   return edges.col(0).norm() * edges.col(1).norm() * edges.col(2).norm();
@@ -130,7 +129,7 @@ double cell_volume(const Mesh& mesh, int cell) {
     return tetrahedron_gradient(mesh, cell).determinant() / 6.0;
   double volume = 0.0;
   for (int q = 0; q < 8; ++q)
-    volume += hexahedron_gradient(mesh, cell, cube_corner(q, gauss_side)).determinant() / 8.0;
+    volume += hexahedron_gradient(mesh, cell, cube_point(q, gauss_places)).determinant() / 8.0;
   return volume;
 }
 
@@ -143,7 +142,7 @@ Vec3 mean_gradient(const Mesh& mesh, int cell, std::span<const double> field) {
   }
   Vec3 integral = Vec3::Zero();
   for (int q = 0; q < 8; ++q) {
-    const Vec3 xi = cube_corner(q, gauss_side);
+    const Vec3 xi = cube_point(q, gauss_places);
     const Mat3 dX_dxi = hexahedron_gradient(mesh, cell, xi);
     integral += dX_dxi.determinant() / 8.0 * dX_dxi.inverse().transpose() *
                 hexahedron_derivative(mesh, cell, field, xi);
@@ -156,9 +155,9 @@ double smallest_jacobian(const Mesh& mesh, int cell) {
     return cell_volume(mesh, cell);
   double smallest = std::numeric_limits<double>::max();
   for (int q = 0; q < 8; ++q)
-    for (const double side : {1.0, gauss_side})
+    for (const Pair& places : {ends, gauss_places})
       smallest =
-          std::min(smallest, hexahedron_gradient(mesh, cell, cube_corner(q, side)).determinant());
+          std::min(smallest, hexahedron_gradient(mesh, cell, cube_point(q, places)).determinant());
   return smallest;
 }
 
@@ -175,7 +174,7 @@ double scaled_jacobian(const Mesh& mesh, int cell) {
     return tetrahedron_scaled_jacobian(mesh, cell);
   double smallest = 1.0;
   for (int q = 0; q < 8; ++q) {
-    const Mat3 edges = hexahedron_gradient(mesh, cell, cube_corner(q, 1.0));
+    const Mat3 edges = hexahedron_gradient(mesh, cell, cube_point(q, ends));
     smallest = std::min(smallest, ratio(edges.determinant(), product_of_lengths(edges)));
   }
   return smallest;

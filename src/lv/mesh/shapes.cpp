@@ -26,6 +26,13 @@ Shapes shapes(CellKind kind, int order, const std::array<double, Dim>& xi) {
 template Shapes shapes<2>(CellKind, int, const std::array<double, 2>&);
 template Shapes shapes<3>(CellKind, int, const std::array<double, 3>&);
 
+Mat3 jacobian(const Mesh& mesh, const ElementPoint& point) {
+  Mat3 dX_dxi = Mat3::Zero();
+  for (std::size_t a = 0; a < point.nodes.size(); ++a)
+    dX_dxi += mesh.nodes[point.nodes[a]] * Vec3(point.gradient.data() + 3 * a).transpose();
+  return dX_dxi;
+}
+
 std::vector<Vec3> node_places(CellKind kind, int order) {
   std::vector<Vec3> places;
   if (kind == CellKind::hexahedron) {

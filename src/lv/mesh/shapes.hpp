@@ -3,6 +3,7 @@
 #include "lv/mesh/mesh.hpp"
 
 #include <array>
+#include <span>
 #include <vector>
 
 /// The shape functions of all finite elements and of their sides: Lagrange polynomials on the unit
@@ -115,6 +116,23 @@ struct Shapes {
 };
 template <int Dim>
 [[nodiscard]] Shapes shapes(CellKind kind, int order, const std::array<double, Dim>& xi);
+
+/// A point of an element of any order: the element's nodes, and its shapes there.
+struct ElementPoint {
+  int cell = 0;  ///< of the mesh: the element, or its first part
+  std::span<const int> nodes;
+  std::span<const double> phi;       ///< phi_a of each node
+  std::span<const double> gradient;  ///< d phi_a/d xi_d, three numbers for each node
+};
+
+/// The point of a mesh's cell that these shapes are of.
+template <int N>
+[[nodiscard]] ElementPoint point_of(const Mesh& mesh, int cell, const ShapesAt<N, 3>& shapes) {
+  return {cell, mesh.cell(cell), shapes.value, {shapes.gradient.front().data(), 3 * N}};
+}
+
+/// dX/dxi of an element at a point.
+[[nodiscard]] Mat3 jacobian(const Mesh& mesh, const ElementPoint& point);
 
 /// Where an element's nodes lie in the reference element, in the order of mesh::elements.
 [[nodiscard]] std::vector<Vec3> node_places(CellKind kind, int order);

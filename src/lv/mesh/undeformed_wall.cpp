@@ -8,13 +8,6 @@
 
 namespace lv::mesh {
 
-Mat3 jacobian(const Mesh& mesh, const ElementPoint& point) {
-  Mat3 dX_dxi = Mat3::Zero();
-  for (std::size_t a = 0; a < point.nodes.size(); ++a)
-    dX_dxi += mesh.nodes[point.nodes[a]] * Vec3(point.gradient.data() + 3 * a).transpose();
-  return dX_dxi;
-}
-
 UndeformedWall::UndeformedWall(const Mesh& mesh)
     : mesh_(mesh),
       radial_(mesh.kind == CellKind::tetrahedron ? radial_directions(mesh) : std::vector<Vec3>{}) {}

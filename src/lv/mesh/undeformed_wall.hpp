@@ -1,19 +1,12 @@
 #pragma once
 
 #include "lv/mesh/fibres.hpp"
+#include "lv/mesh/shapes.hpp"
 
 #include <span>
 #include <vector>
 
 namespace lv::mesh {
-
-/// A point of an element of any order: the element's nodes, and its shapes there.
-struct ElementPoint {
-  int cell = 0;  ///< of the mesh: the element, or its first part
-  std::span<const int> nodes;
-  std::span<const double> phi;       ///< phi_a of each node
-  std::span<const double> gradient;  ///< d phi_a/d xi_d, three numbers for each node
-};
 
 /// What the undeformed wall is at a point.
 struct ReferencePoint {
@@ -46,8 +39,5 @@ class UndeformedWall {
   const Mesh& mesh_;
   std::vector<Vec3> radial_;  ///< per node of tetrahedra
 };
-
-/// dX/dxi of an element at a point.
-[[nodiscard]] Mat3 jacobian(const Mesh& mesh, const ElementPoint& point);
 
 }  // namespace lv::mesh

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "lv/mesh/gauss.hpp"
 #include "lv/mesh/shapes.hpp"
 
 #include <array>
@@ -31,12 +32,13 @@ struct Hex8 {
   }
 
   static constexpr Quadrature<8, 8> full_quadrature() {
-    constexpr std::array<double, 2> gauss{0.21132486540518712, 0.78867513459481288};
+    constexpr auto line = mesh::gauss<2>();
     Quadrature<8, 8> rule;
-    for (int q = 0; q < 8; ++q)
-      rule.set(q, 0.125,
-               shapes({gauss[mesh::corner_place(q, 0)], gauss[mesh::corner_place(q, 1)],
-                       gauss[mesh::corner_place(q, 2)]}));
+    for (int q = 0; q < 8; ++q) {
+      const std::array at{line[mesh::corner_place(q, 0)], line[mesh::corner_place(q, 1)],
+                          line[mesh::corner_place(q, 2)]};
+      rule.set(q, at[0].weight * at[1].weight * at[2].weight, shapes({at[0].x, at[1].x, at[2].x}));
+    }
     return rule;
   }
 };

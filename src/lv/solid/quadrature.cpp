@@ -1,34 +1,24 @@
 #include "lv/solid/quadrature.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/mesh/gauss.hpp"
 
 namespace lv::solid {
 namespace {
 
-using Points1 = std::vector<QuadraturePoint<1>>;
 using Points2 = std::vector<QuadraturePoint<2>>;
 using Points3 = std::vector<QuadraturePoint<3>>;
 
-/// Gauss and Legendre's points on the unit interval.
-Points1 gauss(int count) {
-  LV_CHECK(count == 2 || count == 3);
-  if (count == 2)
-    return {{{0.21132486540518711775}, 0.5}, {{0.78867513459481288225}, 0.5}};
-  return {{{0.11270166537925831148}, 5.0 / 18.0},
-          {{0.5}, 4.0 / 9.0},
-          {{0.88729833462074168852}, 5.0 / 18.0}};
-}
-
-/// The same in every direction.
+/// The points of a line in every direction.
 template <int Dim>
-std::vector<QuadraturePoint<Dim>> product(const Points1& line) {
+std::vector<QuadraturePoint<Dim>> product(const std::vector<mesh::LinePoint>& line) {
   const auto n = line.size();
   std::vector<QuadraturePoint<Dim>> points;
   for (std::size_t i = 0; i < (Dim == 2 ? n * n : n * n * n); ++i) {
     QuadraturePoint<Dim> point{{}, 1.0};
     std::size_t place = i;
     for (int d = 0; d < Dim; ++d, place /= n) {
-      point.xi[d] = line[place % n].xi[0];
+      point.xi[d] = line[place % n].x;
       point.weight *= line[place % n].weight;
     }
     points.push_back(point);
@@ -86,9 +76,9 @@ Points3 tetrahedron_of_degree_5() {
 
 template <int Dim>
 std::vector<QuadraturePoint<Dim>> quadrature(mesh::CellKind kind, int order) {
-  if (kind == mesh::CellKind::hexahedron)
-    return product<Dim>(gauss(order + 1));
   LV_CHECK(order == 1 || order == 2);
+  if (kind == mesh::CellKind::hexahedron)
+    return product<Dim>(mesh::gauss(order + 1));
   if constexpr (Dim == 2)
     return order == 1 ? triangle_of_degree_3 : triangle_of_degree_5();
   else
