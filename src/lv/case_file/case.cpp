@@ -56,6 +56,7 @@ material::Myocardium myocardium(const Case& c) {
   material.volumetric = c.volumetric;
   material.volumetric_points = c.volumetric_points;
   material.infarct = c.infarct;
+  material.viscosity = c.viscosity;
   set_active(c, material);
   return material;
 }
@@ -80,7 +81,6 @@ implicit::StaticModel static_model(const Case& c) {
                               c.protocol.calcium, c.quasi_static.stabilisation);
   if (c.bulk_modulus > 0.0)
     model.compressibility.kappa = c.bulk_modulus;
-  model.viscosity = c.viscosity;
   if (c.protocol.cycle.inertia)
     model.density = c.muscle_density;
   return model;

@@ -22,6 +22,10 @@ double shear_modulus(const Tangent<double>& C, const Mat3& F) {
   return 0.1 * (C.trace() - volumetric.dot(C * volumetric));
 }
 
+bool is_viscous(const StaticModel& model) {
+  return model.heart.myocardium.viscosity.eta > 0.0;
+}
+
 /// What a motion adds to one element.
 struct ElementMotion {
   Eigen::Matrix3Xd v;            ///< of its nodes [mm/s]
@@ -68,10 +72,10 @@ class ElementTangent {
                  const std::optional<ElementMotion>& motion) {
     const Mat3 F = s.x * point.gradient.transpose();
     const Eigen::VectorXd N = pressure_shapes.row(q);
-    Tangent<double> dP_dF = law.tangent(F, point.infarct);
-    if (motion && law.model.viscosity.eta > 0.0)
-      dP_dF +=
-          law.model.viscosity.tangent(F, motion->v * point.gradient.transpose(), motion->slope);
+    Rate rate;
+    if (motion && is_viscous(law.model))
+      rate = RateOfF{motion->v * point.gradient.transpose(), motion->slope};
+    const Tangent<double> dP_dF = law.tangent(F, point.infarct, rate);
     const Tangent<double> C = point.volume * (dP_dF + N.dot(s.p) * material::cofactor_tangent(F));
     pressure_mass_ += point.volume / std::max(shear_modulus(dP_dF, F), 1e-3) * N * N.transpose();
     if (const double compliance = law.model.compressibility.slope(N.dot(s.p)); compliance > 0.0) {
@@ -255,9 +259,10 @@ Equations::Inside Equations::inside(const State& state, const TensionAt& tension
       result.inverted = result.inverted || !(J > 0.0);
       const Eigen::VectorXd N = wall_.pressure_shapes.value.row(static_cast<Eigen::Index>(q));
       const Constitution law{model_, tension, i, q};
-      Mat3 P = law.stress(F, J, point.infarct) + N.dot(s.p) * cofactor(F);
-      if (!v.empty() && model_.viscosity.eta > 0.0)
-        P += model_.viscosity.stress(F, rates * point.gradient.transpose());
+      Rate rate;
+      if (!v.empty() && is_viscous(model_))
+        rate = RateOfF{rates * point.gradient.transpose()};
+      const Mat3 P = law.stress(F, J, point.infarct, rate) + N.dot(s.p) * cofactor(F);
       force.noalias() += point.volume * P * point.gradient;
       swelling += point.volume * (J - model_.compressibility.J(N.dot(s.p))) * N;
     }
@@ -369,7 +374,7 @@ double Equations::mean_tension(const State& state, const TensionAt& tension) con
       const Point& point = wall_.points[i][q];
       const Constitution law{model_, tension, i, q};
       const Mat3 F = s.x * point.gradient.transpose();
-      sums[0] += point.volume * law.tension(F, point.infarct).value;
+      sums[0] += point.volume * law.tension_left(F, point.infarct);
       sums[1] += point.volume;
     }
   }
@@ -422,7 +427,7 @@ double Equations::support_work(const Moving& from, const Moving& to) const {
 }
 
 double Equations::viscous_work(const Moving& from, const Moving& to) const {
-  if (model_.viscosity.eta == 0.0)
+  if (!is_viscous(model_))
     return 0.0;
   double work = 0.0;
   for (std::size_t i = 0; i < wall_.points.size(); ++i) {
@@ -437,8 +442,10 @@ double Equations::viscous_work(const Moving& from, const Moving& to) const {
     for (const Point& point : wall_.points[i]) {
       const Mat3 F = x[0] * point.gradient.transpose();
       const Mat3 dF = x[1] * point.gradient.transpose() - F;
-      const Mat3 P = model_.viscosity.stress(F, v[0] * point.gradient.transpose()) +
-                     model_.viscosity.stress(F + dF, v[1] * point.gradient.transpose());
+      const Mat3 P = with_law(model_, [&](const auto& law) -> Mat3 {
+        return law.viscous(F, v[0] * point.gradient.transpose()) +
+               law.viscous(F + dF, v[1] * point.gradient.transpose());
+      });
       work += 0.5 * point.volume * P.cwiseProduct(dF).sum();
     }
   }
@@ -454,13 +461,8 @@ double Equations::stored_energy(const State& state) const {
       const Mat3 F = s.x * point.gradient.transpose();
       const Eigen::VectorXd N = wall_.pressure_shapes.value.row(static_cast<Eigen::Index>(q));
       energy += point.volume * model_.compressibility.energy(N.dot(s.p));
-      energy +=
-          point.volume * material::with_point_law(
-                             model_.heart.myocardium, model_.stabilisation, [&](const auto& law) {
-                               return model_.heart.myocardium.infarct.passive(point.infarct) *
-                                          law.law.energy(F) +
-                                      law.volumetric.energy(F);
-                             });
+      energy += point.volume *
+                with_law(model_, [&](const auto& law) { return law.energy(F, point.infarct); });
     }
   }
   return parallel::sum(energy);

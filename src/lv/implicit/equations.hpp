@@ -5,7 +5,6 @@
 #include "lv/implicit/reference_wall.hpp"
 #include "lv/implicit/sparse.hpp"
 #include "lv/material/compressibility.hpp"
-#include "lv/material/viscosity.hpp"
 #include "lv/solid/cardiac_model.hpp"
 #include "lv/solid/cell_stress.hpp"
 #include "lv/solid/endocardial_surface.hpp"
@@ -44,12 +43,12 @@ struct StaticModel {
   Contractility contractility;
   material::Volumetric stabilisation;
   material::Compressibility compressibility = {};
-  material::Viscosity viscosity = {};
   double density = 0.0;  ///< of the wall [kg/mm^3]; 0: without inertia
 
   /// Whether its forces depend on rates.
   [[nodiscard]] bool has_rates() const {
-    return density > 0.0 || viscosity.eta > 0.0 || heart.surroundings.has_dashpots();
+    return density > 0.0 || heart.myocardium.viscosity.eta > 0.0 ||
+           heart.surroundings.has_dashpots();
   }
 };
 

@@ -2,6 +2,8 @@
 
 #include "lv/material/active_law.hpp"
 #include "lv/material/law.hpp"
+#include "lv/material/tension.hpp"
+#include "lv/material/viscosity.hpp"
 #include "lv/material/volumetric.hpp"
 
 namespace lv::material {
@@ -19,47 +21,81 @@ struct Myocardium {
   VolumetricPoints volumetric_points = VolumetricPoints::mean;
   InfarctScaling infarct;
   ActiveForm active_form = ActiveForm::niederer;  ///< what the tension means
+  Viscosity viscosity;  ///< of motions of the implicit engine; the immersed engine's is the blood's
 };
 
-/// The sum of stresses at one point of the wall, with M of the infarct and the tension T_MI that is
-/// left there (2.13), (2.21)-(2.24):
+/// The sum of stresses at one point of the wall, with M of the infarct and the tension T of muscle
+/// without one, of which T_MI = (1 - M) T is left (2.13), (2.21)-(2.24):
 ///
-///   P = (1 + stiffening M) P_passive(F) + g T_MI f (x) f0 + P_volumetric(F)       [kPa]
+///   P = (1 + stiffening M) P_passive(F) + g T_MI f (x) f0 + P_volumetric(F) + P_viscous(F, F')     [kPa]
+///   W = (1 + stiffening M) W_passive(F) + U_volumetric(F)                                        [kPa]
 ///
-/// The second index of F and P is in the fibre frame; J = det F.
+/// The second index of F, F' and P is in the fibre frame; J = det F. The immersed engine's loops
+/// take the sum for a pack of points, and without rates.
 template <PassiveLaw Law>
 struct PointLaw {
   const Law& law;
   InfarctScaling infarct;
   ActiveForm active_form;
   Volumetric volumetric;  ///< none where beta_s = 0
+  Viscosity viscosity;    ///< none where eta = 0
 
   template <class T>
   [[nodiscard]] Tensor<T> passive(const Tensor<T>& F, const T& M) const {
     return law.stress(F) * infarct.passive(M);
   }
 
-  /// The first column of the active part, the only one that is not zero.
+  /// T_MI.
   template <class T>
-  [[nodiscard]] Vector<T> active(const Tensor<T>& F, const T& J, const T& tension) const {
-    return active_stress_column(F, J, tension, active_form);
+  [[nodiscard]] T tension_left(const T& tension, const T& M) const {
+    return tension * infarct.active(M);
   }
 
+  /// The first column of the active part, the only one that is not zero.
+  template <class T>
+  [[nodiscard]] Vector<T> active(const Tensor<T>& F, const T& J, const T& tension,
+                                 const T& M) const {
+    return active_stress_column(F, J, tension_left(tension, M), active_form);
+  }
+
+  /// What does not go by the rate.
   template <class T>
   [[nodiscard]] Tensor<T> stress(const Tensor<T>& F, const T& J, const T& tension,
                                  const T& M) const {
     Tensor<T> P = passive(F, M);
-    P.col(0) += active(F, J, tension);
+    P.col(0) += active(F, J, tension, M);
     if (volumetric.beta_s > 0.0)
       P += volumetric.stress(F);
     return P;
   }
 
-  /// dP/dF [kPa], with the slope dT_MI/dlambda of the tension [kPa].
-  [[nodiscard]] Tangent<double> tangent(const Mat3& F, double tension, double slope,
-                                        double M) const {
+  /// All of it, at a rate of F [1/s].
+  [[nodiscard]] Mat3 stress(const Mat3& F, double J, double tension, double M,
+                            const Mat3& rate) const {
+    return stress(F, J, tension, M) + viscous(F, rate);
+  }
+
+  /// P_viscous.
+  [[nodiscard]] Mat3 viscous(const Mat3& F, const Mat3& rate) const {
+    return viscosity.stress(F, rate);
+  }
+
+  /// dP/dF of what does not go by the rate [kPa], with the tension's slope dT/dlambda.
+  [[nodiscard]] Tangent<double> tangent(const Mat3& F, const Tension& tension, double M) const {
     return volumetric.tangent(F) + infarct.passive(M) * law.tangent(F) +
-           active_tangent(F, tension, slope, active_form);
+           active_tangent(F, tension_left(tension.value, M), tension_left(tension.derivative, M),
+                          active_form);
+  }
+
+  /// dP/dF of all of it [kPa], where the rate follows F, dF' = slope dF [1/s].
+  [[nodiscard]] Tangent<double> tangent(const Mat3& F, const Tension& tension, double M,
+                                        const Mat3& rate, double slope) const {
+    return tangent(F, tension, M) + viscosity.tangent(F, rate, slope);
+  }
+
+  /// W.
+  [[nodiscard]] double energy(const Mat3& F, double M) const {
+    return infarct.passive(M) * law.energy(F) + volumetric.energy(F);
   }
 };
 
@@ -68,7 +104,8 @@ template <class F>
 decltype(auto) with_point_law(const Myocardium& m, const Volumetric& volumetric, const F& f) {
   return std::visit(
       [&](const auto& law) -> decltype(auto) {
-        return f(PointLaw<std::decay_t<decltype(law)>>{law, m.infarct, m.active_form, volumetric});
+        return f(PointLaw<std::decay_t<decltype(law)>>{law, m.infarct, m.active_form, volumetric,
+                                                       m.viscosity});
       },
       m.passive);
 }

@@ -18,12 +18,18 @@ struct Volumetric {
     return beta_s * log_J * log_J;
   }
 
+  /// dU/dJ = 2 beta_s ln J / J, a tension [kPa].
+  template <class T>
+  [[nodiscard]] T tension(const T& J) const {
+    using std::log;
+    return 2.0 * beta_s * log(J) / J;
+  }
+
   template <class T>
   [[nodiscard]] Tensor<T> stress(const Tensor<T>& F) const {
-    using std::log;
     const Tensor<T> cof = cofactor(F);
     const T J = F.col(0).dot(cof.col(0));
-    return (2.0 * beta_s * log(J) / J) * cof;
+    return tension(J) * cof;
   }
 
   /// dP/dF = 2 beta_s/J [(1 - ln J)/J cof F (x) cof F + ln J d cof(F)/dF]   [kPa]

@@ -26,7 +26,8 @@ struct CellStress {
 };
 static_assert(sizeof(CellStress) == CellStress::numbers * sizeof(double));
 
-/// The stresses that a material::PointLaw makes of F with its second index in the fibre frame, so
+/// The stresses that a material::PointLaw makes of F and the tension of muscle without an infarct.
+/// F has its second index in the fibre frame, so
 /// that sigma = P F^T / J and f = F f0 is its first column. Its volumetric part, which is
 /// spherical, is given as a pressure.
 template <class PointLaw>
@@ -34,10 +35,10 @@ CellStress point_stress(const PointLaw& law, const Mat3& F, double tension, doub
   const double J = determinant(F);
   const Vec3 f = F.col(0).normalized();
   CellStress s;
-  s.tension = tension;
+  s.tension = law.tension_left(tension, M);
   s.pressure = -(law.volumetric.stress(F) * F.transpose()).trace() / (3.0 * J);
   s.cauchy_passive = law.passive(F, M) * F.transpose() / J;
-  s.cauchy_active = law.active(F, J, tension) * F.col(0).transpose() / J;
+  s.cauchy_active = law.active(F, J, tension, M) * F.col(0).transpose() / J;
   s.fibre_stress_passive = f.dot(s.cauchy_passive * f);
   s.fibre_stress_active = f.dot(s.cauchy_active * f);
   return s;

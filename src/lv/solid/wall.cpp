@@ -356,8 +356,8 @@ template <class Law>
     const Tensor<Pack> F = dx_dxi(x, rule.gradient[q]) * point.K;
     const Pack J = determinant(F);
     J_range.include(J);
-    const Pack T = at_point(tension, q) * law.infarct.active(point.infarct);
-    subtract_force(law.stress(F, J, T, point.infarct), point, rule.gradient[q], force);
+    subtract_force(law.stress(F, J, at_point(tension, q), point.infarct), point, rule.gradient[q],
+                   force);
   }
 }
 
@@ -383,10 +383,9 @@ std::vector<double> PackedElements<E>::nodal_pressure(std::span<const Vec3> posi
     scatter(group, volume, J);
   }
   parallel::sum(J);
-  for (std::size_t a = 0; a < J.size(); ++a) {
-    J[a] /= nodal_volumes_[a];
-    J[a] = 2.0 * (1.0 - own_share) * material_.volumetric.beta_s * std::log(J[a]) / J[a];
-  }
+  const material::Volumetric shared{(1.0 - own_share) * material_.volumetric.beta_s};
+  for (std::size_t a = 0; a < J.size(); ++a)
+    J[a] = shared.tension(J[a] / nodal_volumes_[a]);
   return J;
 }
 
@@ -425,7 +424,7 @@ PointSample PackedElements<E>::sample_point(int group, int q, int i, const Tenso
   s.fibre_frame = X.frame;
   s.F = F_fibre * s.fibre_frame.transpose();
   s.stress = material::with_point_law(material_, material_.volumetric, [&](const auto& law) {
-    return point_stress(law, F_fibre, tension * law.infarct.active(X.M), X.M);
+    return point_stress(law, F_fibre, tension, X.M);
   });
   return s;
 }

@@ -160,7 +160,7 @@ implicit::StaticModel model_of(const ArosticaConstants& c) {
       return wall.facet_scatter(X, wall.facet_edge(X, edge), ArosticaWall::gmsh_tilt);
     };
   model.heart.surroundings.base = solid::Support::in_all_directions(c.k_base, c.c_base);
-  model.viscosity.eta = c.eta;
+  model.heart.myocardium.viscosity.eta = c.eta;
   model.density = c.rho;
   return model;
 }

@@ -500,7 +500,8 @@ Numbers static_muscle_of(const Case& c) {
   for (const double stretch : {0.7, 0.9, 1.05, 1.2})
     for (const double activation : {0.0, 0.6})
       numbers.push_back(model.contractility.at(stretch, activation).value);
-  numbers.insert(numbers.end(), {model.compressibility.kappa, model.viscosity.eta, model.density});
+  numbers.insert(numbers.end(), {model.compressibility.kappa, model.heart.myocardium.viscosity.eta,
+                                 model.density});
   const implicit::SolverParameters& solver = c.quasi_static.solver;
   numbers.insert(numbers.end(), {model.stabilisation.beta_s, solver.first_step,
                                  solver.newton.tolerance, solver.newton.linear.tolerance});

@@ -61,7 +61,7 @@ CycleSetup moving(const mesh::Mesh& mesh) {
   setup.model.heart.surroundings.base = {20.0, 5.0, 0.05, 0.05, {}};
   setup.model.heart.surroundings.epicardium = {
       0.2, 0.0, 0.05, 0.0, {solid::AxialWeight::Shape::sigmoid, 0.3}};
-  setup.model.viscosity.eta = 1.0;
+  setup.model.heart.myocardium.viscosity.eta = 1.0;
   setup.model.density = 1.05e-6;
   for (const double t : mesh.transmural)
     setup.activation_times.push_back(0.02 * t);

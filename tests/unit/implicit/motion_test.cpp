@@ -49,7 +49,7 @@ implicit::StaticModel everything() {
   model.heart.surroundings.epicardium = {
       3.0, 0.2, 0.05, 0.01, {solid::AxialWeight::Shape::linear, 0.5}};
   model.heart.surroundings.base = solid::Support::in_all_directions(0.7, 0.02);
-  model.viscosity.eta = 0.08;
+  model.heart.myocardium.viscosity.eta = 0.08;
   model.density = 1e-3;
   return model;
 }
@@ -166,7 +166,7 @@ TEST_CASE("a slow step with inertia, or with dashpots alone, ends at the equilib
   for (const double density : {0.0, 1e-6}) {
     implicit::StaticModel moving = still;
     moving.density = density;
-    moving.viscosity.eta = 1e-3;
+    moving.heart.myocardium.viscosity.eta = 1e-3;
     implicit::TimeEngine time(mesh, moving, {}, 0.0);
     CHECK(time.balance() == 1.0);  // of radius 0: balanced at the end
     for (int i = 0; i < 6; ++i)
