@@ -8,18 +8,6 @@
 #include <cmath>
 
 namespace lv::immersed {
-namespace {
-
-/// A law without kinetics leaves the contractile state alone.
-material::KineticLaw kinetics(const material::ActiveLaw& law) {
-  if (const auto* land = std::get_if<material::Land2017>(&law))
-    return *land;
-  const auto* niederer = std::get_if<material::NiedererHunterSmith>(&law);
-  return niederer != nullptr ? *niederer : material::NiedererHunterSmith{};
-}
-
-}  // namespace
-
 Model::Model(const mesh::Mesh& mesh, const solid::CardiacModel& heart,
              const ModelParameters& parameters)
     : parameters_(parameters),
@@ -27,7 +15,7 @@ Model::Model(const mesh::Mesh& mesh, const solid::CardiacModel& heart,
       wall_(mesh, heart.myocardium),
       active_(heart.myocardium.active),
       strength_(solid::strength(mesh, heart.myocardium.infarct)),
-      contraction_(kinetics(active_), {mesh.nodes, wall_.nodal_volumes(), strength_},
+      contraction_(active_, {mesh.nodes, wall_.nodal_volumes(), strength_},
                    parameters.blood.density, parameters.grid.spacing.minCoeff()),
       supports_(mesh, heart.base, heart.surroundings),
       longest_step_(heart.surroundings.longest_step(parameters.blood.density *

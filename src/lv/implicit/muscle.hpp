@@ -1,9 +1,8 @@
 #pragma once
 
-#include "lv/material/active_law.hpp"
+#include "lv/material/muscle_states.hpp"
 
 #include <span>
-#include <variant>
 #include <vector>
 
 namespace lv::implicit {
@@ -32,7 +31,7 @@ class Muscle {
   Muscle(const material::ActiveLaw& law, std::size_t points);
 
   /// Brings every point to its steady state at its stretch.
-  void relax(double Ca, std::span<const double> stretch);
+  void relax(double Ca, std::span<const double> stretch) { states_.relax(Ca, stretch); }
 
   /// The tension of a point after a step to a stretch [kPa].
   [[nodiscard]] material::Tension after(const TimeStep& step, std::size_t point,
@@ -45,21 +44,12 @@ class Muscle {
   void advance(const TimeStep& step, std::span<const double> stretch);
 
   /// The states as numbers, so many a point, and back: for checkpoints.
-  [[nodiscard]] std::size_t numbers_per_point() const;
-  [[nodiscard]] std::vector<double> numbers() const;
-  void set_numbers(std::span<const double> numbers);
+  [[nodiscard]] std::size_t numbers_per_point() const { return states_.numbers_per_point(); }
+  [[nodiscard]] std::vector<double> numbers() const { return states_.numbers(); }
+  void set_numbers(std::span<const double> numbers) { states_.set_numbers(numbers); }
 
  private:
-  template <class Law>
-  struct Points {
-    Law law;
-    std::vector<typename Law::template State<double>> states;
-  };
-  using States = std::variant<std::monostate, Points<material::NiedererHunterSmith>,
-                              Points<material::Land2017>>;
-  static States states_of(const material::ActiveLaw& law, std::size_t points);
-
-  States states_;
+  material::MuscleStates<double> states_;
 };
 
 }  // namespace lv::implicit

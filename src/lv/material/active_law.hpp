@@ -12,10 +12,7 @@ struct PrescribedTension {
   double T_max = 0.0;  ///< [kPa]
 };
 
-/// The laws with kinetics, which go by calcium.
-using KineticLaw = std::variant<NiedererHunterSmith, Land2017>;
-
-/// The active law of a wall: one with kinetics or one without.
+/// The active law of a wall: one with kinetics, which goes by calcium, or one without.
 using ActiveLaw = std::variant<NiedererHunterSmith, Land2017, PrescribedTension>;
 
 }  // namespace lv::material

@@ -5,13 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <tuple>
-#include <utility>
 
 namespace lv::solid {
 namespace {
-
-using Lanes = std::array<double, pack_size>;
 
 /// Damping rate of the waves that the filter removes, per step; explicit damping is stable to about
 /// ten times this.
@@ -19,26 +15,10 @@ constexpr double damping_number = 0.3;
 
 /// Packs of values[first + lane], repeating the last value beyond the end.
 Pack load(std::span<const double> values, std::size_t first) {
-  alignas(Pack) Lanes lanes;
+  alignas(Pack) std::array<double, pack_size> lanes;
   for (std::size_t i = 0; i < pack_size; ++i)
     lanes[i] = values[std::min(first + i, values.size() - 1)];
   return Pack::load_aligned(lanes.data());
-}
-
-/// Takes the states of so many nodes from numbers, node by node, after which one more follows.
-template <class State>
-void set_fields(std::span<const double> numbers, std::size_t nodes, std::vector<State>& packs) {
-  constexpr std::size_t per_node = std::tuple_size_v<decltype(std::declval<State>().fields())>;
-  LV_CHECK(numbers.size() == nodes * per_node + 1);
-  for (std::size_t g = 0; g < packs.size(); ++g) {
-    const auto to = packs[g].fields();
-    for (std::size_t f = 0; f < per_node; ++f) {
-      alignas(Pack) Lanes lanes;
-      for (std::size_t i = 0; i < pack_size; ++i)
-        lanes[i] = numbers[std::min(g * pack_size + i, nodes - 1) * per_node + f];
-      *to[f] = Pack::load_aligned(lanes.data());
-    }
-  }
 }
 
 }  // namespace
@@ -51,16 +31,9 @@ std::vector<double> strength(const mesh::Mesh& mesh, const material::InfarctScal
   return result;
 }
 
-Contraction::Contraction(const material::KineticLaw& law, const ContractingNodes& nodes,
+Contraction::Contraction(const material::ActiveLaw& law, const ContractingNodes& nodes,
                          double density, double shortest_wave)
-    : muscle_(std::visit(
-          [&](const auto& kinetics) -> decltype(muscle_) {
-            const std::size_t packs = (nodes.positions.size() + pack_size - 1) / pack_size;
-            Muscle<std::decay_t<decltype(kinetics)>> muscle{kinetics, {}};
-            muscle.packs.resize(packs);
-            return muscle;
-          },
-          law)),
+    : muscle_(law, nodes.positions.size()),
       density_(density),
       shortest_wave_(shortest_wave),
       filter_(nodes.positions, nodes.volumes),
@@ -71,47 +44,27 @@ Contraction::Contraction(const material::KineticLaw& law, const ContractingNodes
       damping_(nodes.positions.size(), 0.0) {}
 
 void Contraction::relax(double Ca) {
-  std::visit(
-      [&](auto& muscle) {
-        auto rest = muscle.law.steady_state(Ca, 1.0);
-        typename std::decay_t<decltype(muscle.packs)>::value_type pack;
-        const auto to = pack.fields();
-        for (std::size_t f = 0; f < to.size(); ++f)
-          *to[f] = Pack(*rest.fields()[f]);
-        std::fill(muscle.packs.begin(), muscle.packs.end(), pack);
-      },
-      muscle_);
+  constexpr std::array at_rest{1.0};
+  muscle_.relax(Ca, at_rest);
   publish_tension();
 }
 
 void Contraction::relax(double Ca, std::span<const double> stretch) {
-  std::vector<double> numbers;
-  std::visit(
-      [&](const auto& muscle) {
-        for (const double s : stretch) {
-          auto rest = muscle.law.steady_state(Ca, s);
-          for (const double* field : rest.fields())
-            numbers.push_back(*field);
-        }
-      },
-      muscle_);
-  numbers.push_back(filter_width_);
-  set_state(numbers);
+  muscle_.relax(Ca, stretch);
+  std::fill(damping_.begin(), damping_.end(), 0.0);
+  publish_tension();
 }
 
 void Contraction::advance(std::span<const double> stretch, double Ca_before, double Ca_after,
                           double dt) {
-  std::visit(
-      [&](auto& muscle) {
-        for (std::size_t a = 0; a < stretch.size(); ++a)
-          stretch_rate_[a] =
-              (stretch[a] - muscle.packs[a / pack_size].stretch.get(a % pack_size)) / dt;
-        damp_what_is_smoothed_away(dt);
-        for (std::size_t g = 0; g < muscle.packs.size(); ++g)
-          muscle.law.advance(muscle.packs[g], load(stretch, g * pack_size),
-                             load(stretch_rate_, g * pack_size), Ca_before, Ca_after, dt);
-      },
-      muscle_);
+  muscle_.visit([&](const auto& law, auto& packs) {
+    for (std::size_t a = 0; a < stretch.size(); ++a)
+      stretch_rate_[a] = (stretch[a] - packs[a / pack_size].stretch.get(a % pack_size)) / dt;
+    damp_what_is_smoothed_away(dt);
+    for (std::size_t g = 0; g < packs.size(); ++g)
+      law.advance(packs[g], load(stretch, g * pack_size), load(stretch_rate_, g * pack_size),
+                  Ca_before, Ca_after, dt);
+  });
   publish_tension();
 }
 
@@ -136,37 +89,26 @@ double Contraction::wave_speed() const {
 }
 
 void Contraction::publish_tension() {
-  std::visit(
-      [&](const auto& muscle) {
-        for (std::size_t g = 0; g < muscle.packs.size(); ++g) {
-          const Pack stiffness = muscle.law.sudden_stiffness(muscle.packs[g]);
-          for (std::size_t a = g * pack_size; a < std::min((g + 1) * pack_size, tension_.size());
-               ++a) {
-            tension_[a] = muscle.packs[g].tension.get(a % pack_size) + damping_[a];
-            stiffness_[a] = strength_[a] * stiffness.get(a % pack_size);
-          }
-        }
-      },
-      muscle_);
+  muscle_.visit([&](const auto& law, const auto& packs) {
+    for (std::size_t g = 0; g < packs.size(); ++g) {
+      const Pack stiffness = law.sudden_stiffness(packs[g]);
+      for (std::size_t a = g * pack_size; a < std::min((g + 1) * pack_size, tension_.size()); ++a) {
+        tension_[a] = packs[g].tension.get(a % pack_size) + damping_[a];
+        stiffness_[a] = strength_[a] * stiffness.get(a % pack_size);
+      }
+    }
+  });
 }
 
 std::vector<double> Contraction::state() const {
-  std::vector<double> numbers;
-  std::visit(
-      [&](const auto& muscle) {
-        for (std::size_t a = 0; a < tension_.size(); ++a) {
-          auto pack = muscle.packs[a / pack_size];
-          for (const Pack* field : pack.fields())
-            numbers.push_back(field->get(a % pack_size));
-        }
-      },
-      muscle_);
+  std::vector<double> numbers = muscle_.numbers();
   numbers.push_back(filter_width_);
   return numbers;
 }
 
 void Contraction::set_state(std::span<const double> numbers) {
-  std::visit([&](auto& muscle) { set_fields(numbers, tension_.size(), muscle.packs); }, muscle_);
+  LV_CHECK(!numbers.empty());
+  muscle_.set_numbers(numbers.first(numbers.size() - 1));
   filter_width_ = numbers.back();
   std::fill(damping_.begin(), damping_.end(), 0.0);
   publish_tension();

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "lv/material/active_law.hpp"
 #include "lv/material/law.hpp"
+#include "lv/material/muscle_states.hpp"
 #include "lv/mesh/mesh.hpp"
 #include "lv/solid/rate_filter.hpp"
 
@@ -37,7 +37,8 @@ struct ContractingNodes {
 class Contraction {
  public:
   /// `density` of the muscle [kg/mm^3]; `shortest_wave` h, the grid's spacing [mm].
-  Contraction(const material::KineticLaw& law, const ContractingNodes& nodes, double density,
+  /// A law without kinetics leaves the tension to prescribe().
+  Contraction(const material::ActiveLaw& law, const ContractingNodes& nodes, double density,
               double shortest_wave);
 
   /// Brings every node to its steady state at this calcium [uM] and a stretch of 1.
@@ -66,17 +67,10 @@ class Contraction {
   void set_state(std::span<const double> numbers);
 
  private:
-  /// A law and its states at the nodes, pack_size each.
-  template <class Law>
-  struct Muscle {
-    Law law;
-    std::vector<typename Law::template State<Pack>> packs;
-  };
-
   void damp_what_is_smoothed_away(double dt);
   void publish_tension();
 
-  std::variant<Muscle<material::NiedererHunterSmith>, Muscle<material::Land2017>> muscle_;
+  material::MuscleStates<Pack> muscle_;  ///< at the nodes
   double density_;
   double shortest_wave_;
   RateFilter filter_;

@@ -18,7 +18,7 @@ constexpr std::size_t count = 3 * pack_size + 1;  // the last pack is not full
 constexpr double density = 1e-6;
 
 /// Muscle at nodes in a row, 2 mm apart.
-Contraction row_of_nodes(const material::KineticLaw& law = NiedererHunterSmith{}) {
+Contraction row_of_nodes(const material::ActiveLaw& law = NiedererHunterSmith{}) {
   std::vector<Vec3> nodes;
   for (std::size_t i = 0; i < count; ++i)
     nodes.emplace_back(2.0 * static_cast<double>(i), 0.0, 0.0);
@@ -118,4 +118,15 @@ TEST_CASE("the wave speed is that of the strongest node", "[unit][solid]") {
   muscle.relax(1.0);
   const double T_0 = NiedererHunterSmith{}.steady_state(1.0, 1.0).tension;
   CHECK(muscle.wave_speed() == Approx(std::sqrt(1.35 * 238.0 * T_0 / density)).epsilon(1e-10));
+}
+
+TEST_CASE("muscle without kinetics has the tension that is prescribed, and no states",
+          "[unit][solid]") {
+  Contraction muscle = row_of_nodes(material::PrescribedTension{60.0});
+  muscle.relax(1.0);
+  CHECK(tension_of(muscle) == std::vector<double>(count, 0.0));
+  muscle.prescribe(20.0);
+  CHECK(tension_of(muscle) == std::vector<double>(count, 20.0));
+  CHECK(muscle.wave_speed() == 0.0);
+  CHECK(muscle.state().size() == 1);  // the filter's width
 }
