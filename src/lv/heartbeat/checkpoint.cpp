@@ -47,6 +47,7 @@ immersed::ModelState load_model_state(const Archive& archive, immersed::Model& m
   state.dt = steps[0];
   state.dt_before = steps[1];
   state.calcium = steps[2];
+  state.slack = false;
   if (!model.inside_box(state.positions))
     throw RunError("the archive has a wall that is not inside the box",
                    "Delete it to start this stage again");
@@ -62,6 +63,7 @@ immersed::ModelState load_model_state(const Archive& archive, immersed::Model& m
 }
 
 Archive archived(const immersed::ModelState& state, const fluid::BoxTransform& transform) {
+  LV_CHECK(!state.slack);  // muscle is while a wall is filled, of which no archive is made
   Archive archive;
   archive.set("positions", flat(state.positions));
   archive.set("node_velocities", flat(state.node_velocities));

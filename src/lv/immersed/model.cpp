@@ -49,7 +49,7 @@ void Model::relax(double calcium) {
 }
 
 void Model::balance(double calcium) {
-  slack_ = false;
+  state_.slack = false;
   wall_.nodal_stretch(state_.positions, stretch_);
   contraction_.relax(calcium, stretch_);
   state_.calcium = calcium;
@@ -86,7 +86,7 @@ StepReport Model::finished(StepReport report, const solid::VolumeRange& J,
 }
 
 void Model::activate(const solid::Loads& loads) {
-  if (slack_) {
+  if (state_.slack) {
     contraction_.prescribe(0.0);
   } else if (const auto* prescribed = std::get_if<material::PrescribedTension>(&active_)) {
     contraction_.prescribe(loads.activation * prescribed->T_max);

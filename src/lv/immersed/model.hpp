@@ -33,6 +33,7 @@ struct ModelState {
   double dt = 0.0;         ///< of the last step [s]
   double dt_before = 0.0;  ///< of the one before [s]
   double calcium = 0.0;    ///< at the last step [uM]
+  bool slack = false;      ///< without tension, see Model::slacken
 };
 
 /// What a step says about itself; the same on all ranks.
@@ -112,7 +113,7 @@ class Model {
   void relax(double calcium);
 
   /// Muscle without any tension, whatever the calcium, until it is brought to a balance.
-  void slacken() { slack_ = true; }
+  void slacken() { state_.slack = true; }
 
   /// Brings the muscle to its steady state at this calcium [uM] and the stretch that it now has.
   void balance(double calcium);
@@ -163,7 +164,6 @@ class Model {
   std::vector<Vec3> node_forces_, midpoints_;
   fluid::FaceField velocity_, force_;
   fluid::ModeField force_modes_;
-  bool slack_ = false;
 
   /// What a unit pressure in the cavity does in a step.
   struct Response {

@@ -168,6 +168,20 @@ TEST_CASE("a closed valve is held over many steps with an old response", "[unit]
   CHECK(largest_jump < 0.5);  // [kPa]
 }
 
+TEST_CASE("that muscle is slack is part of the state", "[unit][immersed]") {
+  const mesh::Mesh mesh = coarse_mesh();
+  Model model(mesh, {}, verify::in_default_box(mesh, cells));
+  model.relax(1.0);
+  model.slacken();
+  static_cast<void>(model.step({0.0, 0.0, 1.0}, 2e-4));
+  const immersed::ModelState slack = model.state();
+  model.balance(1.0);
+  CHECK(model.mean_tension() > 1.0);
+  model.restore(slack);
+  static_cast<void>(model.step({0.0, 0.0, 1.0}, 2e-4));
+  CHECK(model.mean_tension() == 0.0);
+}
+
 TEST_CASE("slack muscle has no tension until it is balanced at its stretch", "[unit][immersed]") {
   const mesh::Mesh mesh = coarse_mesh();
   solid::CardiacModel heart;
