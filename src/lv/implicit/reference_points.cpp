@@ -10,7 +10,7 @@ std::vector<Point> PointMaker::points(const solid::ShapeTable& shapes, int cell,
   for (int q = 0; q < shapes.points(); ++q) {
     const Eigen::MatrixXd& to_xi = shapes.gradient[q];
     const Eigen::VectorXd phi = shapes.value.row(q);
-    const mesh::ReferencePoint X =
+    const mesh::UndeformedPoint X =
         undeformed_.at({cell, nodes, {phi.data(), nodes.size()}, {to_xi.data(), 3 * nodes.size()}});
     result.push_back({X.frame.transpose() * (X.dX_dxi.inverse().transpose() * to_xi),
                       X.det * shapes.weight[q], X.M});

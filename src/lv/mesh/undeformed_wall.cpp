@@ -22,9 +22,9 @@ WallAxes UndeformedWall::axes(std::span<const int> nodes, std::span<const double
   return wall_axes(radial);
 }
 
-ReferencePoint UndeformedWall::at(const ElementPoint& point) const {
+UndeformedPoint UndeformedWall::at(const ElementPoint& point) const {
   const auto& [cell, nodes, phi, gradient] = point;
-  ReferencePoint result{jacobian(mesh_, point), 0.0, Vec3::Zero(), 0.0, 0.0, {}, {}};
+  UndeformedPoint result{jacobian(mesh_, point), 0.0, Vec3::Zero(), 0.0, 0.0, {}, {}};
   Vec3 dt_dxi = Vec3::Zero();
   for (std::size_t a = 0; a < nodes.size(); ++a) {
     result.X += phi[a] * mesh_.nodes[nodes[a]];

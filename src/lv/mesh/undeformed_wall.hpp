@@ -9,7 +9,7 @@
 namespace lv::mesh {
 
 /// What the undeformed wall is at a point.
-struct ReferencePoint {
+struct UndeformedPoint {
   Mat3 dX_dxi;
   double det;     ///< of dX/dxi, positive [mm^3]
   Vec3 X;         ///< [mm]
@@ -27,7 +27,7 @@ class UndeformedWall {
   explicit UndeformedWall(const Mesh& mesh);
 
   /// Throws InputError for an inverted or collapsed element, naming it.
-  [[nodiscard]] ReferencePoint at(const ElementPoint& point) const;
+  [[nodiscard]] UndeformedPoint at(const ElementPoint& point) const;
 
   /// The fibre frame at the centre of a cell, with the mean of grad t over it.
   [[nodiscard]] Mat3 frame_of_cell(int cell) const;

@@ -169,7 +169,7 @@ PackedElements<E>::PackedElements(const mesh::Mesh& mesh, const material::Myocar
 
 template <class E>
 void PackedElements<E>::set_point(Point& point, int i, int cell, int q, double weight) {
-  const mesh::ReferencePoint X = undeformed_.at(element_point(cell, q));
+  const mesh::UndeformedPoint X = undeformed_.at(element_point(cell, q));
   const Mat3 K = X.dX_dxi.inverse() * X.frame;
   for (int r = 0; r < 3; ++r)
     for (int c = 0; c < 3; ++c)
@@ -412,7 +412,7 @@ template <class E>
 PointSample PackedElements<E>::sample_point(int group, int q, int i, const Tensor<Pack>& F,
                                             double tension) const {
   const Point& point = groups_[group].points[q];
-  const mesh::ReferencePoint X = undeformed_.at(element_point(cell_of(group, i), q));
+  const mesh::UndeformedPoint X = undeformed_.at(element_point(cell_of(group, i), q));
   const Mat3 F_fibre = lane(F, i);
   PointSample s;
   s.cell = cell_of(group, i);

@@ -14,7 +14,8 @@ using mesh::CellKind;
 using mesh::Mesh;
 
 /// The point of a linear cell at a place of the reference element.
-mesh::ReferencePoint reference_point(const Mesh& mesh, int cell, const std::array<double, 3>& xi) {
+mesh::UndeformedPoint undeformed_point(const Mesh& mesh, int cell,
+                                       const std::array<double, 3>& xi) {
   const mesh::UndeformedWall wall(mesh);
   if (mesh.kind == CellKind::hexahedron) {
     const auto shapes = mesh::hexahedron_shapes(xi);
@@ -32,7 +33,7 @@ TEST_CASE("the directions at a point are those of the depth's gradient and the r
     Mesh mesh = test::block_mesh(kind);
     mesh.fibres.rule = {0.4, 0.4, 0.3, 0.3};
     for (const int cell : {0, mesh.cell_count() / 2, mesh.cell_count() - 1}) {
-      const mesh::ReferencePoint p = reference_point(mesh, cell, {0.25, 0.25, 0.25});
+      const mesh::UndeformedPoint p = undeformed_point(mesh, cell, {0.25, 0.25, 0.25});
       if (kind == CellKind::tetrahedron) {
         CHECK((p.X - mesh::cell_centre(mesh, cell)).norm() < 1e-12);
         CHECK(p.det == Approx(6.0 * mesh::cell_volume(mesh, cell)).epsilon(1e-12));
@@ -69,8 +70,8 @@ TEST_CASE("a collapsed element is named", "[unit][mesh]") {
     const Vec3 there = mesh.nodes[cell[0]];
     for (const int node : cell)
       mesh.nodes[node] = there;
-    CHECK_THROWS_AS(reference_point(mesh, 5, {0.25, 0.25, 0.25}), InputError);
-    CHECK_THROWS_WITH(reference_point(mesh, 5, {0.25, 0.25, 0.25}),
+    CHECK_THROWS_AS(undeformed_point(mesh, 5, {0.25, 0.25, 0.25}), InputError);
+    CHECK_THROWS_WITH(undeformed_point(mesh, 5, {0.25, 0.25, 0.25}),
                       Catch::Matchers::Contains("element 5 "));
   }
 }
