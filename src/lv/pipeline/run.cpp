@@ -20,6 +20,7 @@
 #include "lv/pipeline/unloading.hpp"
 #include "lv/pipeline/validate.hpp"
 #include "lv/report/paraview_script.hpp"
+#include "lv/report/stage_facts.hpp"
 #include "lv/report/table_figures.hpp"
 #include "lv/scar/infarct.hpp"
 #include "lv/work/ingredients.hpp"
@@ -208,6 +209,9 @@ class Pipeline {
           const anatomy::MeshResult mesh = make_mesh(c, shape());
           check_room(case_, mesh.mesh);  // before a fit takes its time
           anatomy::write_mesh_result(mesh, part);
+          report::write_facts(report::MeshFacts{c.regions.septum_angle, mesh.mesh.order,
+                                                c.engine == case_file::Engine::immersed},
+                              part);
         });
         show_mesh(anatomy::read_mesh_result(part), c, part);
         break;

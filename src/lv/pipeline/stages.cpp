@@ -20,6 +20,7 @@
 #include "lv/pipeline/circulation.hpp"
 #include "lv/report/fields_vtk.hpp"
 #include "lv/report/heart_figures.hpp"
+#include "lv/report/stage_facts.hpp"
 #include "lv/report/summary.hpp"
 #include "lv/report/table_figures.hpp"
 #include "lv/report/tables_csv.hpp"
@@ -334,6 +335,7 @@ std::string write_results(const Case& c, const anatomy::MeshResult& mesh, const 
                        fields.at(heartbeat::end_diastole));
   const drawing::Orientation orientation{c.regions.septum_angle, facts.assumed,
                                          facts.unloaded.has_value()};
+  report::write_facts(orientation, folder);
   draw(c, mesh.mesh, beat.beat, fields, orientation, folder);
   drawing::write(report::segments_figure(report::regions_table(results), orientation),
                  folder / "segments.png");
@@ -395,6 +397,7 @@ void show_mesh(const anatomy::MeshResult& result, const Case& c,
 heartbeat::Beat make_beat(const Case& c, const anatomy::MeshResult& mesh,
                           const std::filesystem::path& folder) {
   const bool is_cycle = case_file::is_cycle(c);
+  parallel::on_root([&] { report::write_facts(report::BeatFacts{is_cycle}, folder); });
   if (c.engine == case_file::Engine::quasi_static && !is_cycle && parallel::is_root())
     std::filesystem::remove_all(folder / "fields");  // of a beat that was stopped: it starts anew
   const std::vector<double> activated =

@@ -1,11 +1,10 @@
 #include "lv/report/table_figures.hpp"
 
 #include "lv/analysis/quantities.hpp"
-#include "lv/base/json_file.hpp"
-#include "lv/base/units.hpp"
 #include "lv/heartbeat/beat.hpp"
 #include "lv/material/stress_stretch.hpp"
 #include "lv/report/cycle_tables.hpp"
+#include "lv/report/stage_facts.hpp"
 #include "lv/report/work_folder.hpp"
 #include "lv/strain/agreement.hpp"
 
@@ -222,10 +221,11 @@ drawing::LineChart bland_altman(const drawing::Series& points, const strain::Agr
 // ---- files ----
 
 CurveFacts curve_facts(const fs::path& work) {
-  const bool is_cycle = recorded(work, "beat", "protocol.kind") == "cycle";
-  return {recorded(work, "mesh", "engine") == "quasi_static" && !is_cycle,
+  const bool has_valves = beat_facts(work).value_or(BeatFacts{}).has_valves;
+  const auto mesh = mesh_facts(work);
+  return {mesh && !mesh->is_immersed && !has_valves,
           time_of(work, heartbeat::end_diastole).value_or(missing),
-          time_of(work, heartbeat::end_systole).value_or(missing), is_cycle};
+          time_of(work, heartbeat::end_systole).value_or(missing), has_valves};
 }
 
 /// Writes the figures of what is there.
@@ -430,20 +430,6 @@ drawing::Figure agreement_figure(const Table& table, const std::string& componen
               orientation.starred(scheme == "sector" ? "sectors of slices" : "AHA segments",
                                   {"septum", "apex", "base"})),
           .footnote = with_stars("", orientation)};
-}
-
-drawing::Orientation orientation_of(const fs::path& work) {
-  drawing::Orientation o;
-  if (const auto angle = recorded(work, "mesh", "regions.septum_angle"))
-    o.septum_angle = std::stod(*angle) * units::degree;
-  if (const fs::path file = file_of(work, "results", "summary.json"); !file.empty())
-    from_json_file(file, [&o](const auto& summary) {
-      for (const auto& a : summary.at("assumptions"))
-        o.assumed.push_back({a.at("part"), a.at("text")});
-      o.is_unloaded = summary.contains("unloaded");
-      return true;
-    });
-  return o;
 }
 
 void write_figures(const fs::path& work, const fs::path& folder) {

@@ -54,10 +54,6 @@ struct CurveFacts {
                                                const std::string& scheme,
                                                const drawing::Orientation& orientation);
 
-/// How the ventricle of a run lies, by the record of its mesh, and what of it was assumed, by its
-/// summary.json; nothing is known of what is not there.
-[[nodiscard]] drawing::Orientation orientation_of(const std::filesystem::path& work);
-
 /// Writes every chart and bull's-eye of a work folder as SVG into `folder`, and nothing for what is
 /// missing. Throws RunError naming a file that cannot be written.
 void write_figures(const std::filesystem::path& work, const std::filesystem::path& folder);

@@ -1,7 +1,5 @@
 #include "lv/report/work_folder.hpp"
 
-#include "lv/base/json_file.hpp"
-
 #include <algorithm>
 
 namespace lv::report {
@@ -49,20 +47,6 @@ std::optional<double> time_of(const fs::path& work, const std::string& moment) {
   if (found == names.end())
     return {};
   return moments->numbers("time_s").at(static_cast<std::size_t>(found - names.begin()));
-}
-
-std::optional<std::string> recorded(const fs::path& work, const std::string& stage,
-                                    const std::string& parameter) {
-  const fs::path record = file_of(work, stage, "stage.json");
-  if (record.empty())
-    return {};
-  std::string value = from_json_file(record, [&](const auto& json) -> std::string {
-    return json.at("ingredients").value(parameter, "");
-  });
-  std::erase(value, '"');
-  if (value.empty())
-    return {};
-  return value;
 }
 
 }  // namespace lv::report

@@ -26,10 +26,4 @@ namespace lv::report {
 [[nodiscard]] std::optional<double> time_of(const std::filesystem::path& work,
                                             const std::string& moment);
 
-/// The value of a parameter as the record of a stage has it, without quotation marks; nothing when
-/// the stage is not finished or does not read it.
-[[nodiscard]] std::optional<std::string> recorded(const std::filesystem::path& work,
-                                                  const std::string& stage,
-                                                  const std::string& parameter);
-
 }  // namespace lv::report
