@@ -385,6 +385,15 @@ Json quantities_json() {
   return list;
 }
 
+/// The moments that beats may come to, in its words.
+Json moments_json() {
+  Json list = Json::array();
+  for (const heartbeat::MomentWords& w : heartbeat::moment_words)
+    list.push_back(
+        {{"name", w.moment}, {"title", w.title}, {"mark", w.mark}, {"volume", w.volume}});
+  return list;
+}
+
 /// What beats.csv holds, in its words.
 Json beat_measures_json() {
   Json list = Json::array();
@@ -409,6 +418,7 @@ std::string page(const std::vector<PageCase>& cases, const std::string& version)
                     Json{{"version", version},
                          {"cases", cases.size()},
                          {"quantities", quantities_json()},
+                         {"moments", moments_json()},
                          {"infarct_floor", analysis::infarct_floor},
                          {"beat_measures", beat_measures_json()}}
                         .dump()),

@@ -115,10 +115,9 @@ std::vector<ConfirmedVolume> volumes_of(const calibrate::RecordedFit& fit,
                                         const heartbeat::Beat& beat) {
   std::vector<ConfirmedVolume> volumes;
   for (const calibrate::RecordedVolume& v : fit.volumes)
-    if (v.name == "EDV" || v.name == "ESV")
-      volumes.push_back(
-          {v.name, v.target, v.model,
-           beat.at(v.name == "EDV" ? heartbeat::end_diastole : heartbeat::end_systole).volume});
+    for (const heartbeat::MomentWords& at : heartbeat::moment_words)
+      if (v.name == at.volume)
+        volumes.push_back({v.name, v.target, v.model, beat.at(at.moment).volume});
   return volumes;
 }
 

@@ -264,9 +264,10 @@ void check_spacing(const Case& c, const mesh::Mesh& m) {
 void draw(const Case& c, const mesh::Mesh& mesh, const heartbeat::Beat& beat,
           const analysis::BeatFields& fields, const drawing::Orientation& orientation,
           const std::filesystem::path& folder) {
-  const report::CurveFacts facts{c.engine == case_file::Engine::quasi_static && !beat.cycle,
-                                 beat.at(heartbeat::end_diastole).time,
-                                 beat.at(heartbeat::end_systole).time, beat.cycle.has_value()};
+  report::CurveFacts facts{
+      c.engine == case_file::Engine::quasi_static && !beat.cycle, beat.cycle.has_value(), {}};
+  for (const heartbeat::NamedMoment& m : beat.moments)
+    facts.moments.emplace_back(m.name, m.wall.time);
   interrupt::check();
   drawing::write(report::states_figure(mesh, beat, fields, orientation), folder / "states.png");
   interrupt::check();

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -79,19 +80,27 @@ drawing::Panel curve_panel(const Abscissa& a, const std::string& label,
                                         .phases = a.phases}};
 }
 
-/// A marker at the row whose time is the nearest to one that is known.
-void mark(const Table& curves, double time, const char* label, drawing::Marker marker,
+/// A marker for every moment, at the row whose time is the nearest.
+void mark(const Table& curves, const std::vector<std::pair<std::string, double>>& moments,
           drawing::LineChart& path) {
+  constexpr std::array<drawing::Marker, 3> markers{drawing::Marker::circle, drawing::Marker::square,
+                                                   drawing::Marker::triangle};
   const auto times = curves.numbers("time_s");
-  if (std::isnan(time) || times.empty())
+  if (times.empty())
     return;
-  const auto nearest = std::min_element(times.begin(), times.end(), [&](double a, double b) {
-    return std::abs(a - time) < std::abs(b - time);
-  });
-  const drawing::Series& all = path.series.front();
-  const auto row = static_cast<std::size_t>(nearest - times.begin());
-  path.series.push_back(
-      {.label = label, .x = {all.x[row]}, .y = {all.y[row]}, .width = 0.0, .marker = marker});
+  const drawing::Series all = path.series.front();
+  for (std::size_t k = 0; k < moments.size(); ++k) {
+    const auto& [name, time] = moments[k];
+    const auto nearest = std::min_element(
+        times.begin(), times.end(),
+        [t = time](double a, double b) { return std::abs(a - t) < std::abs(b - t); });
+    const auto row = static_cast<std::size_t>(nearest - times.begin());
+    path.series.push_back({.label = heartbeat::title(name),
+                           .x = {all.x[row]},
+                           .y = {all.y[row]},
+                           .width = 0.0,
+                           .marker = markers[k % markers.size()]});
+  }
 }
 
 // ---- bull's-eyes ----
@@ -223,9 +232,7 @@ drawing::LineChart bland_altman(const drawing::Series& points, const strain::Agr
 CurveFacts curve_facts(const fs::path& work) {
   const bool has_valves = beat_facts(work).value_or(BeatFacts{}).has_valves;
   const auto mesh = mesh_facts(work);
-  return {mesh && !mesh->is_immersed && !has_valves,
-          time_of(work, heartbeat::end_diastole).value_or(missing),
-          time_of(work, heartbeat::end_systole).value_or(missing), has_valves};
+  return {mesh && !mesh->is_immersed && !has_valves, has_valves, moments_of(work)};
 }
 
 /// Writes the figures of what is there.
@@ -305,8 +312,7 @@ drawing::Figure curves_figure(const Table& curves, const CurveFacts& facts) {
   drawing::LineChart path{.x = {"cavity volume [ml]"},
                           .y = {"pressure [mmHg]"},
                           .series = {{.x = volume, .y = pressure}}};
-  mark(curves, facts.end_diastole, "end-diastole", drawing::Marker::circle, path);
-  mark(curves, facts.end_systole, "end-systole", drawing::Marker::square, path);
+  mark(curves, facts.moments, path);
   return {
       .panels = {
           curve_panel(a, "pressure [mmHg]", pressure),

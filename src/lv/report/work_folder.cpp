@@ -1,7 +1,5 @@
 #include "lv/report/work_folder.hpp"
 
-#include <algorithm>
-
 namespace lv::report {
 
 namespace fs = std::filesystem;
@@ -38,15 +36,23 @@ std::optional<Table> table_of(const fs::path& work, const std::string& stage,
   return table;
 }
 
+std::vector<std::pair<std::string, double>> moments_of(const fs::path& work) {
+  const auto table = table_of(work, "beat", "moments.csv");
+  if (!table)
+    return {};
+  const auto names = table->words("moment");
+  const auto times = table->numbers("time_s");
+  std::vector<std::pair<std::string, double>> moments;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    moments.emplace_back(names[i], times[i]);
+  return moments;
+}
+
 std::optional<double> time_of(const fs::path& work, const std::string& moment) {
-  const auto moments = table_of(work, "beat", "moments.csv");
-  if (!moments)
-    return {};
-  const auto names = moments->words("moment");
-  const auto found = std::find(names.begin(), names.end(), moment);
-  if (found == names.end())
-    return {};
-  return moments->numbers("time_s").at(static_cast<std::size_t>(found - names.begin()));
+  for (const auto& [name, time] : moments_of(work))
+    if (name == moment)
+      return time;
+  return {};
 }
 
 }  // namespace lv::report

@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace lv::report {
 
@@ -20,6 +22,10 @@ namespace lv::report {
 /// A table of a stage; nothing where it is missing or has no row.
 [[nodiscard]] std::optional<Table> table_of(const std::filesystem::path& work,
                                             const std::string& stage, const std::string& file);
+
+/// The moments of the beat, with their times, by its moments.csv [s].
+[[nodiscard]] std::vector<std::pair<std::string, double>> moments_of(
+    const std::filesystem::path& work);
 
 /// When the beat was at a moment of that name, by its moments.csv; nothing when it has not been
 /// there [s].
