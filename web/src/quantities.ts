@@ -18,10 +18,8 @@ export const quantities: Quantity[] = about.quantities;
 /** What a clinic says of a heartbeat, by columns of beats.csv: see src/lv/report/cycle_tables.cpp. */
 export const beatMeasures: { name: string; title: string; unit: string; help: string }[] = about.beat_measures;
 
-export const infarct: Quantity = {
-  name: "infarct", title: "infarct M", unit: "1", signed: false, middle: 0, floor: about.infarct_floor,
-  help: "Extent of the infarct: 1 in it, falling to 0 across the border zone; it does not change with time.",
-};
+/** An infarct's extent, which does not change with time. */
+export const infarct: Quantity = about.infarct;
 
 export function quantity(name: string): Quantity {
   return [...quantities, infarct].find((q) => q.name === name)!;

@@ -370,18 +370,17 @@ Data case_html(const PageCase& shown, int number, std::size_t count) {
   return arrays.data;
 }
 
+Json quantity_json(const analysis::Quantity& q) {
+  return {{"name", q.name},     {"title", q.title}, {"unit", q.unit}, {"signed", q.is_signed},
+          {"middle", q.middle}, {"floor", q.floor}, {"help", q.help}};
+}
+
 /// The quantities that the page shows, in its words.
 Json quantities_json() {
   Json list = Json::array();
   for (const analysis::Quantity& q : analysis::quantities())
     if (q.is_shown)
-      list.push_back({{"name", q.name},
-                      {"title", q.title},
-                      {"unit", q.unit},
-                      {"signed", q.is_signed},
-                      {"middle", q.middle},
-                      {"floor", q.floor},
-                      {"help", q.help}});
+      list.push_back(quantity_json(q));
   return list;
 }
 
@@ -419,7 +418,7 @@ std::string page(const std::vector<PageCase>& cases, const std::string& version)
                          {"cases", cases.size()},
                          {"quantities", quantities_json()},
                          {"moments", moments_json()},
-                         {"infarct_floor", analysis::infarct_floor},
+                         {"infarct", quantity_json(analysis::infarct_extent())},
                          {"beat_measures", beat_measures_json()}}
                         .dump()),
             "", ""};

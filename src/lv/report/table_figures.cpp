@@ -23,15 +23,6 @@ namespace fs = std::filesystem;
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
-std::string spaced(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
-}
-
-std::string with_unit(const std::string& name, const std::string& unit) {
-  return unit == "1" || unit.empty() ? spaced(name) : fmt::format("{} [{}]", spaced(name), unit);
-}
-
 // ---- curves ----
 
 /// The phases as curves.csv has them.
@@ -106,24 +97,16 @@ void mark(const Table& curves, const std::vector<std::pair<std::string, double>>
 // ---- bull's-eyes ----
 
 /// A quantity at a state in the regions of one scheme.
-struct RegionalMeans {
-  std::vector<double> values;
-  std::string unit;
-};
-
-RegionalMeans means(const Table& regions, const std::string& quantity, const std::string& state,
-                    const std::string& scheme) {
+std::vector<double> means(const Table& regions, const std::string& quantity,
+                          const std::string& state, const std::string& scheme) {
   const auto states = regions.words("state");
   const auto schemes = regions.words("scheme");
   const auto quantities = regions.words("quantity");
-  const auto units = regions.words("unit");
   const auto mean = regions.numbers("mean");
-  RegionalMeans found;
+  std::vector<double> found;
   for (std::size_t i = 0; i < mean.size(); ++i)
-    if (states[i] == state && schemes[i] == scheme && quantities[i] == quantity) {
-      found.values.push_back(mean[i]);
-      found.unit = units[i];
-    }
+    if (states[i] == state && schemes[i] == scheme && quantities[i] == quantity)
+      found.push_back(mean[i]);
   return found;
 }
 
@@ -187,10 +170,10 @@ drawing::Panel bulls_eye_panel(const std::string& title, const std::vector<doubl
 /// The value of every AHA segment at end-systole.
 drawing::Panel segment_panel(const Table& regions, const std::string& quantity, int digits,
                              const drawing::Orientation& orientation) {
-  const RegionalMeans found = means(regions, quantity, heartbeat::end_systole, "aha17");
-  const drawing::ColourScale scale = scale_of(found.values, quantity);
-  const std::string label = with_unit(quantity, found.unit);
-  drawing::Panel panel = bulls_eye_panel(label, found.values, scale, digits, orientation);
+  const std::vector<double> found = means(regions, quantity, heartbeat::end_systole, "aha17");
+  const drawing::ColourScale scale = scale_of(found, quantity);
+  const std::string label = analysis::label(analysis::quantity(quantity));
+  drawing::Panel panel = bulls_eye_panel(label, found, scale, digits, orientation);
   panel.colour_bar = drawing::ColourBar{label, scale};
   return panel;
 }
@@ -269,7 +252,7 @@ class FigureFolder {
     const std::set<std::string> moments(states.begin(), states.end());
     for (const analysis::Quantity& q : analysis::quantities())
       for (const std::string& moment : moments)
-        if (q.is_shown && !means(*table, q.name, moment, "aha17").values.empty())
+        if (q.is_shown && !means(*table, q.name, moment, "aha17").empty())
           write(bulls_eyes_figure(*table, q.name, moment, orientation),
                 fmt::format("bulls_eyes_{}_{}", q.name, moment));
   }
@@ -346,11 +329,11 @@ drawing::Figure segments_figure(const Table& regions, const drawing::Orientation
 drawing::Figure bulls_eyes_figure(const Table& regions, const std::string& quantity,
                                   const std::string& state,
                                   const drawing::Orientation& orientation) {
-  const RegionalMeans slices = means(regions, quantity, state, "sector");
-  const RegionalMeans segments = means(regions, quantity, state, "aha17");
+  const std::vector<double> slices = means(regions, quantity, state, "sector");
+  const std::vector<double> segments = means(regions, quantity, state, "aha17");
   const drawing::ColourScale scale = scale_of(all_means(regions, quantity), quantity);
   const int digits = decimals(scale);
-  const std::string label = with_unit(quantity, segments.unit);
+  const std::string label = analysis::label(analysis::quantity(quantity));
   const std::string strain =
       fmt::format("Green-Lagrange strain from {}", state == heartbeat::end_diastole
                                                        ? orientation.at_rest()
@@ -358,13 +341,12 @@ drawing::Figure bulls_eyes_figure(const Table& regions, const std::string& quant
   std::vector<std::string> parts{"septum", "apex", "base"};
   if (state == heartbeat::end_diastole && analysis::quantity(quantity).is_strain)
     parts.emplace_back("early diastole");
-  return {
-      .panels = {bulls_eye_panel("seven slices", slices.values, scale, digits, orientation),
-                 bulls_eye_panel("17 segments (AHA)", segments.values, scale, digits, orientation)},
-      .title = fmt::format("{}, mean at {}", label, heartbeat::title(state)),
-      .footnote =
-          with_stars(analysis::quantity(quantity).is_strain ? strain : "", orientation, parts),
-      .colour_bar = drawing::ColourBar{label, scale}};
+  return {.panels = {bulls_eye_panel("seven slices", slices, scale, digits, orientation),
+                     bulls_eye_panel("17 segments (AHA)", segments, scale, digits, orientation)},
+          .title = fmt::format("{}, mean at {}", label, heartbeat::title(state)),
+          .footnote =
+              with_stars(analysis::quantity(quantity).is_strain ? strain : "", orientation, parts),
+          .colour_bar = drawing::ColourBar{label, scale}};
 }
 
 drawing::Figure rotation_figure(const Table& rotation, const drawing::Orientation& orientation) {
