@@ -280,7 +280,7 @@ void draw(const Case& c, const mesh::Mesh& mesh, const heartbeat::Beat& beat,
 
 /// What the anatomy's stage left beside the folder of another stage.
 anatomy::AnatomyRecord anatomy_beside(const std::filesystem::path& folder) {
-  const auto stage = work::stage_folder(static_cast<std::size_t>(case_file::Stage::anatomy));
+  const auto stage = stage_folder(static_cast<std::size_t>(case_file::Stage::anatomy));
   return anatomy::anatomy_record(folder.parent_path() / stage);
 }
 
@@ -292,7 +292,7 @@ std::string beside_measured(const Case& c, const anatomy::MeshResult& mesh, cons
   if (!c.strain.asked() && c.strain.measured.empty())
     return "";
   const auto strain =
-      folder.parent_path() / work::stage_folder(static_cast<std::size_t>(case_file::Stage::strain));
+      folder.parent_path() / stage_folder(static_cast<std::size_t>(case_file::Stage::strain));
   return "\n" + cine::compare_strain(
                     c, {mesh, beat.beat, fields, anatomy_beside(folder).frame, orientation}, strain,
                     folder);

@@ -27,7 +27,7 @@ using case_file::Member;
 using case_file::Stage;
 
 fs::path folder_in(const fs::path& work, Stage stage) {
-  return work / work::stage_folder(static_cast<std::size_t>(stage));
+  return work / stage_folder(static_cast<std::size_t>(stage));
 }
 
 bool has_beat(const fs::path& work) {

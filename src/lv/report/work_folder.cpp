@@ -1,23 +1,15 @@
 #include "lv/report/work_folder.hpp"
 
+#include "lv/base/stage_folders.hpp"
+
 namespace lv::report {
 
 namespace fs = std::filesystem;
 
 fs::path folder_of(const fs::path& work, const std::string& stage) {
-  constexpr const char* digits = "0123456789";
-  fs::path unfinished;
-  for (const auto& entry : fs::directory_iterator(work)) {
-    const std::string name = entry.path().filename();  // "03_beat", "02b_calibrate"
-    const std::size_t number = name.find('_');
-    if (number == std::string::npos || name.find_first_of(digits) != 0)
-      continue;
-    if (name.substr(number + 1) == stage)
-      return entry.path();
-    if (name.substr(number + 1) == stage + ".part")
-      unfinished = entry.path();
-  }
-  return unfinished;
+  const fs::path finished = work / stage_folder(stage);
+  const fs::path unfinished = finished.string() + ".part";
+  return fs::exists(finished) ? finished : fs::exists(unfinished) ? unfinished : fs::path();
 }
 
 fs::path file_of(const fs::path& work, const std::string& stage, const std::string& file) {

@@ -367,7 +367,7 @@ TEST_CASE("the record of a stage changes with whatever the stage sees, and with 
       for (const Stage stage : case_file::all_stages) {
         if (!case_file::has_stage(before, stage) || stage >= Stage::results)
           continue;
-        INFO(p.name << ", stage " << work::stage_names.at(static_cast<std::size_t>(stage)));
+        INFO(p.name << ", stage " << lv::stage_names.at(static_cast<std::size_t>(stage)));
         const bool sees = seen(before, stage) != seen(after, stage);
         const bool may_differ = sees && p.changes_results;
         if (p.text != case_file::Text::path)  // whose files count, not their names
