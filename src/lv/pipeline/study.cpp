@@ -7,6 +7,7 @@
 #include "lv/base/table.hpp"
 #include "lv/base/time_left.hpp"
 #include "lv/case_file/family.hpp"
+#include "lv/case_file/parameters.hpp"
 #include "lv/circulation/cycle.hpp"
 #include "lv/pipeline/beat_result.hpp"
 #include "lv/pipeline/calibration.hpp"
