@@ -333,7 +333,7 @@ std::vector<std::string> fitted_names(const Case& c) {
 }
 
 Case for_calibration(Case c) {
-  c.engine = case_file::Engine::quasi_static;
+  c.engine = case_file::EngineChoice::quasi_static;
   return c;
 }
 

@@ -209,7 +209,7 @@ class Pipeline {
           check_room(case_, mesh.mesh);  // before a fit takes its time
           anatomy::write_mesh_result(mesh, part);
           report::write_facts(report::MeshFacts{c.regions.septum_angle, mesh.mesh.order,
-                                                c.engine == case_file::Engine::immersed},
+                                                c.engine == case_file::EngineChoice::immersed},
                               part);
         });
         show_mesh(anatomy::read_mesh_result(part), c, part);

@@ -169,11 +169,11 @@ report::RunFacts run_facts(const Case& c, const anatomy::MeshResult& mesh, const
   report::RunFacts facts;
   facts.case_name = c.name;
   facts.version = work::version();
-  facts.engine = c.engine == case_file::Engine::immersed ? "immersed" : "quasi-static";
+  facts.engine = c.engine == case_file::EngineChoice::immersed ? "immersed" : "quasi-static";
   facts.ranks = beat.ranks;
   facts.nodes = static_cast<int>(mesh.mesh.nodes.size());
   facts.cells = mesh.mesh.cell_count();
-  if (c.engine == case_file::Engine::immersed) {
+  if (c.engine == case_file::EngineChoice::immersed) {
     facts.grid = fmt::format("{} x {} x {}", c.box.cells[0], c.box.cells[1], c.box.cells[2]);
     facts.mesh_width = case_file::model_parameters(c, mesh.mesh).grid.spacing.minCoeff();
   }
@@ -265,7 +265,7 @@ void draw(const Case& c, const mesh::Mesh& mesh, const heartbeat::Beat& beat,
           const analysis::BeatFields& fields, const drawing::Orientation& orientation,
           const std::filesystem::path& folder) {
   report::CurveFacts facts{
-      c.engine == case_file::Engine::quasi_static && !beat.cycle, beat.cycle.has_value(), {}};
+      c.engine == case_file::EngineChoice::quasi_static && !beat.cycle, beat.cycle.has_value(), {}};
   for (const heartbeat::NamedMoment& m : beat.moments)
     facts.moments.emplace_back(m.name, m.wall.time);
   interrupt::check();
@@ -348,7 +348,7 @@ std::string write_results(const Case& c, const anatomy::MeshResult& mesh, const 
 }  // namespace
 
 void check_room(const Case& c, const mesh::Mesh& mesh) {
-  if (c.engine != case_file::Engine::immersed)
+  if (c.engine != case_file::EngineChoice::immersed)
     return;
   check_box(c, mesh);
   check_spacing(c, mesh);
@@ -362,7 +362,7 @@ anatomy::MeshResult make_mesh(const Case& c, const anatomy::Shape& shape) {
   result.mesh.infarct = std::move(infarct.M);
   result.infarcted = std::move(infarct.part);
   result.slice_moves = std::move(infarct.slice_moves);
-  if (c.engine == case_file::Engine::immersed) {
+  if (c.engine == case_file::EngineChoice::immersed) {
     result.mesh.order = 1;  // the parts of a refined given mesh are its elements
   } else if (c.quasi_static.order == 2 && result.mesh.order == 1) {
     // each element of a given mesh becomes a quadratic one
@@ -399,7 +399,7 @@ heartbeat::Beat make_beat(const Case& c, const anatomy::MeshResult& mesh,
                           const std::filesystem::path& folder) {
   const bool is_cycle = case_file::is_cycle(c);
   parallel::on_root([&] { report::write_facts(report::BeatFacts{is_cycle}, folder); });
-  if (c.engine == case_file::Engine::quasi_static && !is_cycle && parallel::is_root())
+  if (c.engine == case_file::EngineChoice::quasi_static && !is_cycle && parallel::is_root())
     std::filesystem::remove_all(folder / "fields");  // of a beat that was stopped: it starts anew
   const std::vector<double> activated =
       is_cycle ? activation_times(c, mesh) : std::vector<double>{};
@@ -408,7 +408,7 @@ heartbeat::Beat make_beat(const Case& c, const anatomy::MeshResult& mesh,
                                        [&](const heartbeat::RunState& run) { writer.curves(run); }};
   if (is_cycle)
     return make_cycle(c, mesh.mesh, activated, folder, observers);
-  if (c.engine == case_file::Engine::quasi_static)
+  if (c.engine == case_file::EngineChoice::quasi_static)
     return heartbeat::run_quasi_static_beat(
         {mesh.mesh, case_file::static_model(c), c.quasi_static.solver, c.protocol,
          c.output.frame_interval},

@@ -182,7 +182,7 @@ void make_unloading(const case_file::Case& c, const anatomy::MeshResult& seen,
                     const std::filesystem::path& start) {
   const Unloaded unloaded = find_unloaded(c, elements, folder, start);
   anatomy::MeshResult result = seen;
-  result.mesh = mesh::with_nodes(seen.mesh, c.engine == case_file::Engine::quasi_static
+  result.mesh = mesh::with_nodes(seen.mesh, c.engine == case_file::EngineChoice::quasi_static
                                                 ? unloaded.nodes
                                                 : carried(elements, unloaded.nodes, seen.mesh));
   check_elements(result.mesh);
