@@ -140,7 +140,7 @@ int bench(const Command& command, int argc, char** argv) {
 template <class Run>
 int run_parallel(Command& command, const Run& run, int argc, char** argv) {
   const lv::case_file::Case c = lv::case_file::read_case(command.case_file);
-  const int most = c.engine == lv::case_file::Engine::immersed
+  const int most = c.engine == lv::case_file::EngineChoice::immersed
                        ? lv::pipeline::most_ranks(c.box.cells)
                        : most_ranks;
   if (!command.run.dry_run)  // which is done at once

@@ -195,7 +195,7 @@ def normalised(path):
 def contents(work):
     """Of all that a user looks at. The log and the records of the work folder tell how it came about; beat.bin and the
     page hold the time it took."""
-    skipped = {"log.txt", "stage.json", ".lock", "beat.bin", "report.html", "confirmation.json"}
+    skipped = {"log.txt", "stage.json", ".lock", "beat.bin", "report.html", "confirmation.json", "confirmation.bin"}
     return {str(p.relative_to(work)): normalised(p) for p in sorted(work.rglob("*")) if p.is_file() and p.name not in skipped}
 
 

@@ -2,6 +2,7 @@
 // whose lateral wall is 6 mm thick.
 import { mkdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
+import { writeArchive } from "./archive.mjs";
 
 const around = 48;
 const depths = Array.from({ length: 11 }, (_, k) => -8 * k);
@@ -61,7 +62,7 @@ const series = (file) => `<VTKFile type="Collection"><Collection><DataSet timest
 export function thickSeptum(work, degrees) {
   const beat = join(work, "03_beat");
   for (const folder of ["02_mesh", "03_beat"]) mkdirSync(join(work, folder), { recursive: true });
-  writeFileSync(join(work, "02_mesh/stage.json"), JSON.stringify({ ingredients: { "engine": '"immersed"', "regions.septum_angle": `"${degrees} deg"` } }));
+  writeArchive(join(work, "02_mesh/facts.bin"), { septum_angle: [(degrees * Math.PI) / 180], order: [1], is_immersed: [1] });
   writeFileSync(join(beat, "wall.vtu"), unstructured(wallPoints((degrees * Math.PI) / 180), wallCells()));
   writeFileSync(join(beat, "blood.vti"), image());
   writeFileSync(join(beat, "wall.pvd"), series("wall.vtu"));

@@ -1,6 +1,7 @@
 // The wall as it is drawn. Parts of quadratic elements are cut once more, with new nodes where the element's shape functions put
 // them, x = sum_a phi_a(xi) x_a, so that its sides are seen curved as they are; linear elements are drawn as they are. Of the wall's
-// inside only what a section needs is cut.
+// inside only what a section needs is cut. The shape functions of quadratic elements stand here again: src/lv/mesh/shapes.hpp has them for
+// the program; tests/web/curved.mjs tries these on a ring whose places and areas are known.
 import type { Wall } from "./data.ts";
 import type { Plane } from "./section.ts";
 

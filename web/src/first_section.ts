@@ -2,7 +2,7 @@
 import { measuredOfBeat, measuredVolume } from "./calibration_section.ts";
 import { type Case, type Row, value } from "./data.ts";
 import { el, fileName, missing, table, titled } from "./dom.ts";
-import { shown } from "./quantities.ts";
+import { quantity, shown } from "./quantities.ts";
 
 interface Figure {
   title: string;
@@ -44,10 +44,10 @@ const figures: Figure[] = [
     ["aortic pressure, diastolic", "aortic_diastolic_mmHg", "mmHg", "diastolic"], ["stroke work", "stroke_work_mmHg_ml", "mmHg ml"]].map(([title, name, unit, datum]): Figure =>
     ({ title, unit, path: `cycle.last_beat.${name}`, of: (c) => c.summary?.cycle?.last_beat?.[name], measured: (c) => measuredOfBeat(c, datum) })),
   { title: "mass of the wall", unit: "g", path: "mass_g", range: "mass_g", of: (c) => c.summary?.mass_g },
-  { title: "circumferential strain", unit: "%", path: "whole_wall.end_systole", range: "circumferential_strain", of: strain("circumferential"),
+  { title: quantity("circumferential_strain").title, unit: "%", path: "whole_wall.end_systole", range: "circumferential_strain", of: strain("circumferential"),
     measured: (c) => seen(c, "circumferential") },
-  { title: "longitudinal strain", unit: "%", path: "whole_wall.end_systole", range: "longitudinal_strain", of: strain("longitudinal") },
-  { title: "radial strain", unit: "%", path: "whole_wall.end_systole", of: strain("radial"), measured: (c) => seen(c, "radial") },
+  { title: quantity("longitudinal_strain").title, unit: "%", path: "whole_wall.end_systole", range: "longitudinal_strain", of: strain("longitudinal") },
+  { title: quantity("radial_strain").title, unit: "%", path: "whole_wall.end_systole", of: strain("radial"), measured: (c) => seen(c, "radial") },
   { title: "scar, part of the wall", unit: "%", path: "infarct", of: (c) => c.summary?.infarct?.percent_of_wall },
 ];
 

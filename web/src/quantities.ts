@@ -18,10 +18,8 @@ export const quantities: Quantity[] = about.quantities;
 /** What a clinic says of a heartbeat, by columns of beats.csv: see src/lv/report/cycle_tables.cpp. */
 export const beatMeasures: { name: string; title: string; unit: string; help: string }[] = about.beat_measures;
 
-export const infarct: Quantity = {
-  name: "infarct", title: "infarct M", unit: "1", signed: false, middle: 0, floor: about.infarct_floor,
-  help: "Extent of the infarct: 1 in it, falling to 0 across the border zone; it does not change with time.",
-};
+/** An infarct's extent, which does not change with time. */
+export const infarct: Quantity = about.infarct;
 
 export function quantity(name: string): Quantity {
   return [...quantities, infarct].find((q) => q.name === name)!;
@@ -29,13 +27,18 @@ export function quantity(name: string): Quantity {
 
 export const label = (q: { title: string; unit: string }) => (q.unit === "1" ? q.title : `${q.title} (${q.unit})`);
 
-/** A moment's name for readers: "end-diastole". */
-export const stateTitle = (name: string) => name.replaceAll("_", " ").replace(/^end /, "end-");
+/** The program's list of moments: see src/lv/heartbeat/beat.hpp. */
+const moments: { name: string; title: string; mark: string; volume: string }[] = about.moments;
+const moment = (name: string) => moments.find((m) => m.name === name);
 
-const shortNames: Record<string, string> = { end_diastole: "ED", aortic_opening: "AO", end_systole: "ES", mitral_opening: "MO" };
+/** A moment's name for readers: "end-diastole". */
+export const stateTitle = (name: string) => moment(name)?.title ?? name.replaceAll("_", " ");
 
 /** A moment's short name for axes and sliders, "ED" for end_diastole, and its name. */
-export const stateMark = (name: string) => ({ title: stateTitle(name), label: shortNames[name] ?? stateTitle(name) });
+export const stateMark = (name: string) => ({ title: stateTitle(name), label: moment(name)?.mark ?? stateTitle(name) });
+
+/** What a clinic calls the volume at a moment: "EDV"; empty where it has no name for it. */
+export const volumeAt = (name: string) => moment(name)?.volume ?? "";
 
 /** Below this a number is the rounding of zero, in any unit of the page. */
 const rounding = 1e-9;

@@ -51,7 +51,8 @@ export interface Timeline {
 function ownTimeline(c: Case, times: number[]): Timeline {
   const last = Math.max(0, times.length - 1);
   const marks = times.length ? c.moments.map((m) => ({ step: nearest(times, m.time), ...stateMark(m.name) })) : [];
-  return { count: last + 1, start: marks.find((mark) => mark.label === "ES")?.step ?? last, marks,
+  const end = c.timeOf("end_systole");
+  return { count: last + 1, start: times.length && end !== undefined ? nearest(times, end) : last, marks,
     frame: (_, step) => (times.length ? step : undefined), time: (_, step) => times[step] ?? NaN };
 }
 
@@ -64,21 +65,30 @@ function beatsTimeline(cases: Case[], times: number[][]): Timeline {
     frame: (n, step) => nearest(times[n], at(n, step)), time: (n, step) => times[n][nearest(times[n], at(n, step))] };
 }
 
-/** One case: its frames. Two: 40 steps up to end-diastole and 40 from there, in each case's own time; of heartbeats even steps. */
+/** Where the times of two cases agree: their beginnings, every moment that all of them come to, and their ends, in each case's own time. */
+function knotsOf(cases: Case[], times: number[][]): { name: string; at: number[] }[] {
+  const ends = times.map((t) => t.at(-1));  // undefined without a wall
+  const common = cases[0].moments.map((m) => ({ name: m.name, at: cases.map((c) => c.timeOf(m.name) ?? NaN) }))
+    .filter(({ at }) => at.every((t, n) => t <= (ends[n] ?? Infinity) + 1e-5));
+  const ended = common.at(-1)?.at.every((t, n) => Math.abs(t - (ends[n] ?? t)) < 1e-5);
+  return [{ name: "", at: cases.map(() => 0) }, ...common, ...(ended ? [] : [{ name: "", at: ends.map((t) => t ?? NaN) }])];
+}
+
+/** One case: its frames. Two: 40 steps from moment to moment, in each case's own time; of heartbeats even steps. */
 export function timeline(cases: Case[]): Timeline {
   const times = cases.map((c) => c.wall?.times ?? []);
   if (cases.length === 1) return ownTimeline(cases[0], times[0]);
   if (cases.every((c, n) => c.isBeating && times[n].length)) return beatsTimeline(cases, times);
-  const half = 40;
+  const each = 40;
+  const knots = knotsOf(cases, times);
+  const last = each * (knots.length - 1);
   const at = (n: number, step: number) => {
-    const end = times[n].at(-1) ?? NaN;
-    const ed = cases[n].timeOf("end_diastole") ?? end;
-    return step <= half ? (step / half) * ed : ed + (step / half - 1) * (end - ed);
+    const k = Math.min(Math.floor(step / each), knots.length - 2);
+    return knots[k].at[n] + (step / each - k) * (knots[k + 1].at[n] - knots[k].at[n]);
   };
-  const everyHas = (name: string, time: (n: number) => number) => cases.every((c, n) => Math.abs((c.timeOf(name) ?? Infinity) - time(n)) < 1e-5);
-  const marks = [{ step: half, name: "end_diastole" }, { step: 2 * half, name: "end_systole" }]
-    .filter(({ step, name }) => everyHas(name, (n) => at(n, step))).map(({ step, name }) => ({ step, ...stateMark(name) }));
-  return { count: 2 * half + 1, start: 2 * half, marks,
+  const marks = knots.flatMap(({ name }, k) => (name ? [{ step: k * each, ...stateMark(name) }] : []));
+  const start = knots.findIndex(({ name }) => name === "end_systole");
+  return { count: last + 1, start: start < 0 ? last : start * each, marks,
     frame: (n, step) => (times[n].length ? nearest(times[n], at(n, step)) : undefined),
     time: (n, step) => times[n][nearest(times[n], at(n, step))] };
 }

@@ -6,7 +6,7 @@ import { answerOf, judgements, rangeOf } from "./first_section.ts";
 import { transmurality } from "./regions_section.ts";
 import type { Shared } from "./shared.ts";
 import { healthyAdults, healthySubject, type MeanSd, paper, patient, volunteers } from "./published.ts";
-import { label, quantities, quantity, shown, stateTitle } from "./quantities.ts";
+import { label, quantities, quantity, shown, stateTitle, volumeAt } from "./quantities.ts";
 
 const pm = (x: MeanSd | undefined) => (x ? `${shown(x.mean)} ± ${shown(x.sd, 2)}` : "–");
 /** As it is printed. */
@@ -39,7 +39,7 @@ function stateTable(c: Case): HTMLElement {
   const names = ["early_diastole", ...moments];
   const row = (title: string, key: string, digits = 4) => [title, ...names.map((name) => shown(c.summary[name]?.[key], digits)),
     marks(c, ...names.map((name) => `${name}.${key}`))];
-  const measured = moments.map((name) => shown(measuredVolume(c, ({ end_diastole: "EDV", end_systole: "ESV" } as Record<string, string>)[name]), 4));
+  const measured = moments.map((name) => shown(measuredVolume(c, volumeAt(name)), 4));
   return table(fileName(c.name, "states"), ["", ...names.map((name) => c.momentTitle(name)), "origin"], [
     row(c.isLoaded ? "load (no time)" : "time (s)", "time_s"), row("endocardial pressure (mmHg)", "pressure_mmHg"), row("cavity volume (ml)", "cavity_volume_ml"),
     ["measured cavity volume (ml)", "–", ...measured, "measured"],

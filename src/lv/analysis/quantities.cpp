@@ -87,7 +87,30 @@ constexpr std::array<Quantity, 16> list{
              [](Cell c, Strain) { return 1e3 * c.activation_time; }, "activation_time", false, true,
              false, 0.0, 0.0, "How long after the beginning of a beat's calcium it rises here."}};
 
+constexpr Quantity infarct{
+    "infarct",
+    "infarct M",
+    "1",
+    nullptr,
+    "",
+    false,
+    true,
+    false,
+    0.0,
+    0.005,
+    "Extent of the infarct: 1 in it, falling to 0 across the border zone; it does not change with "
+    "time."};
+
 }  // namespace
+
+const Quantity& infarct_extent() {
+  return infarct;
+}
+
+std::string label(const Quantity& quantity) {
+  const std::string title = quantity.title;
+  return std::string_view(quantity.unit) == "1" ? title : title + " [" + quantity.unit + "]";
+}
 
 std::span<const Quantity> quantities() {
   return list;

@@ -33,8 +33,12 @@ struct Quantity {
 /// when muscle is activated, which not all beats know.
 [[nodiscard]] std::span<const Quantity> quantities();
 
-/// An infarct's extent M nearer to 0 is as good as none and has no colour.
-inline constexpr double infarct_floor = 0.005;
+/// An infarct's extent M, which a wall has at its nodes and at all moments: in words and colours;
+/// it is not `of` an element and in no table.
+[[nodiscard]] const Quantity& infarct_extent();
+
+/// For axes and colour bars: "fibre stress [kPa]".
+[[nodiscard]] std::string label(const Quantity& quantity);
 
 /// Whether elements have the quantity: it is a number.
 [[nodiscard]] bool is_known(const Quantity& quantity, std::span<const CellFields> cells);

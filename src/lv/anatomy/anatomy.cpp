@@ -8,6 +8,7 @@
 #include "lv/geometry/contour_table.hpp"
 #include "lv/geometry/drawn_wall.hpp"
 #include "lv/geometry/lie_in_patient.hpp"
+#include "lv/heartbeat/archive.hpp"
 #include "lv/mesh/fibres.hpp"
 #include "lv/mesh/refine.hpp"
 #include "lv/mesh_io/foreign_mesh.hpp"
@@ -29,9 +30,11 @@ namespace lv::anatomy {
 namespace {
 
 using case_file::Case;
+using heartbeat::Archive;
 namespace fs = std::filesystem;
 
 constexpr const char* frame_name = "frame.json";
+constexpr const char* record_name = "anatomy.bin";
 constexpr const char* es_contours_name = "es_contours.csv";
 constexpr const char* origin_name = "origin_in_image_space_mm";
 
@@ -287,6 +290,41 @@ nlohmann::ordered_json json_of(const std::vector<geometry::Assumption>& list) {
   return json;
 }
 
+void store(const std::vector<geometry::Assumption>& list, const std::string& name,
+           Archive& archive) {
+  std::vector<std::string> parts;
+  std::vector<std::string> texts;
+  for (const geometry::Assumption& a : list) {
+    parts.push_back(a.part);
+    texts.push_back(printable_lines(a.text));  // it may quote files and names, and will be shown
+  }
+  archive.set_words(name + ".parts", parts);
+  archive.set_words(name + ".texts", texts);
+}
+
+std::vector<geometry::Assumption> load_assumptions(const Archive& archive,
+                                                   const std::string& name) {
+  const auto parts = archive.get_words(name + ".parts");
+  const auto texts = archive.get_words(name + ".texts");
+  if (parts.size() != texts.size())
+    archive.refuse(fmt::format("it has not a text for everything '{}'", name));
+  std::vector<geometry::Assumption> list;
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    list.push_back({parts[i], texts[i]});
+  return list;
+}
+
+/// What later stages read; the frame's origin, then its axes.
+void write_record(const Shape& shape, const fs::path& file) {
+  Archive archive;
+  const Mat3& axes = shape.frame.axes;
+  const std::array<Vec3, 4> frame{shape.frame.origin, axes.col(0), axes.col(1), axes.col(2)};
+  archive.set("frame", shape.is_in_images ? heartbeat::flat(frame) : std::vector<double>{});
+  store(shape.assumed, "assumed", archive);
+  store(shape.warnings, "warnings", archive);
+  archive.write(file);
+}
+
 }  // namespace
 
 Shape make_anatomy(const Case& c) {
@@ -319,6 +357,7 @@ void write_anatomy(const Shape& shape, const fs::path& folder) {
   frame["assumed"] = json_of(shape.assumed);
   frame["warnings"] = json_of(shape.warnings);
   write_file(folder / frame_name, json_text(frame) + "\n");
+  write_record(shape, folder / record_name);
   if (!shape.end_systole.empty())
     geometry::contour_table(shape.end_systole).write_csv(folder / es_contours_name);
   if (shape.segmentation)
@@ -332,24 +371,19 @@ void write_anatomy(const Shape& shape, const fs::path& folder) {
 }
 
 AnatomyRecord anatomy_record(const fs::path& folder) {
-  return from_json_file(folder / frame_name, [&](const nlohmann::ordered_json& json) {
-    const auto vector = [&](const char* key) {
-      return Vec3(json.at(key).get<std::array<double, 3>>().data());
-    };
-    AnatomyRecord record;
-    if (json.contains(origin_name)) {
-      record.frame.emplace().origin = vector(origin_name);
-      record.frame->axes << vector("x_axis_in_image_space"), vector("y_axis_in_image_space"),
-          vector("z_axis_in_image_space");
-    }
-    for (const auto& a : json.at("assumed"))
-      record.assumed.push_back({a.at("part"), a.at("text")});
-    for (const auto& a : json.at("warnings"))
-      record.warnings.push_back(a.at("text"));
-    if (fs::exists(folder / es_contours_name))
-      record.end_systole = geometry::read_curves(folder / es_contours_name);
-    return record;
-  });
+  const Archive archive = Archive::read(folder / record_name);
+  AnatomyRecord record;
+  if (!archive.get("frame").empty()) {
+    const auto vectors = heartbeat::vectors(archive.get_rows("frame", 3, 4));
+    record.frame.emplace().origin = vectors[0];
+    record.frame->axes << vectors[1], vectors[2], vectors[3];
+  }
+  record.assumed = load_assumptions(archive, "assumed");
+  for (geometry::Assumption& a : load_assumptions(archive, "warnings"))
+    record.warnings.push_back(std::move(a.text));
+  if (fs::exists(folder / es_contours_name))
+    record.end_systole = geometry::read_curves(folder / es_contours_name);
+  return record;
 }
 
 }  // namespace lv::anatomy

@@ -1,17 +1,21 @@
 #include "lv/calibrate/record.hpp"
 
-#include "lv/base/json_file.hpp"
-#include "lv/base/units.hpp"
-
-#include <algorithm>
-#include <array>
-
 namespace lv::calibrate {
 namespace {
 
-using Json = nlohmann::ordered_json;
-using units::ml;
-using units::mmHg;
+RecordedVolume recorded_volume(const Fit& fit, std::size_t k) {
+  const ObservedVolume& o = fit.observations[k];
+  RecordedVolume v{o.name, o.loads.pressure, o.target, fit.volumes[k], {}};
+  const auto& parameters = fit.sensitivity.parameters;
+  for (std::size_t j = 0; j < parameters.size(); ++j)
+    v.by_parameter[parameters[j].name] =
+        fit.volumes[k] *
+        fit.sensitivity.by_parameter(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(j)) /
+        (fit.parameters.*parameters[j].member);
+  return v;
+}
+
+}  // namespace
 
 const std::array<Fitted, 4>& all_parameters() {
   static const std::array<Fitted, 4> all{{{"C_a", &FitParameters::C_a},
@@ -21,74 +25,22 @@ const std::array<Fitted, 4>& all_parameters() {
   return all;
 }
 
-std::vector<Fitted> fitted_in(const Json& uncertainty) {
-  std::vector<Fitted> fitted;
-  for (const Json& u : uncertainty)
-    for (const Fitted& p : all_parameters())
-      if (u.at("parameter") == p.name)
-        fitted.push_back(p);
-  return fitted;
-}
-
-RecordedVolume volume_in(const Json& json) {
-  RecordedVolume v{json.at("name"),
-                   json.at("pressure_mmHg").get<double>() * mmHg,
-                   json.at("target_ml").get<double>() * ml,
-                   json.at("model_ml").get<double>() * ml,
-                   {}};
-  for (const auto& [name, derivative] : json.at("dV_dparameter_ml").items())
-    v.by_parameter[name] = derivative.get<double>() * ml;
-  return v;
-}
-
-OtherPressure other_pressure_in(const Json& json, const std::vector<Fitted>& fitted,
-                                const FitParameters& at) {
-  OtherPressure other{json.at("pressure_mmHg").get<double>() * mmHg, {}, 0.0, ""};
-  if (json.contains("no_fit")) {
-    other.why_not = json.at("no_fit");
-    return other;
+RecordedFit recorded(const Plan& plan, const Fit& fit) {
+  RecordedFit record{fit.parameters, fit.sensitivity.parameters, {}, {}, {}};
+  for (std::size_t k = 0; k < fit.observations.size(); ++k)
+    record.volumes.push_back(recorded_volume(fit, k));
+  if (plan.passive == FittedPassive::klotz) {
+    record.klotz_pressure = plan.ed_pressure;
+    record.other_pressures = fit.other_pressures;
   }
-  other.parameters = at;
-  for (const Fitted& p : fitted)
-    (*other.parameters).*p.member = json.at(p.name).get<double>();
-  other.unloaded_volume = json.at("unloaded_volume_ml").get<double>() * ml;
-  return other;
+  return record;
 }
 
-}  // namespace
-
-Json json_of(const FitParameters& p) {
-  Json json;
+nlohmann::ordered_json json_of(const FitParameters& p) {
+  nlohmann::ordered_json json;
   for (const Fitted& which : all_parameters())
     json[which.name] = p.*which.member;
   return json;
-}
-
-FitParameters parameters_in(const Json& json) {
-  FitParameters p;
-  for (const Fitted& which : all_parameters())
-    p.*which.member = json.at(which.name).get<double>();
-  return p;
-}
-
-FitParameters read_parameters(const std::filesystem::path& file) {
-  return from_json_file(file,
-                        [](const Json& json) { return parameters_in(json.at("parameters")); });
-}
-
-RecordedFit read_fit(const std::filesystem::path& file) {
-  return from_json_file(file, [](const Json& json) {
-    RecordedFit fit{
-        parameters_in(json.at("parameters")), fitted_in(json.at("uncertainty")), {}, {}, {}};
-    for (const Json& v : json.at("volumes"))
-      fit.volumes.push_back(volume_in(v));
-    if (json.contains("klotz")) {
-      fit.klotz_pressure = json.at("klotz").at("pressure_mmHg").get<double>() * mmHg;
-      for (const Json& other : json.at("other_pressures"))
-        fit.other_pressures.push_back(other_pressure_in(other, fit.fitted, fit.parameters));
-    }
-    return fit;
-  });
 }
 
 }  // namespace lv::calibrate

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <filesystem>
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -29,14 +29,12 @@ struct RecordedFit {
   std::vector<OtherPressure> other_pressures;  ///< the same fit for them
 };
 
-/// Reads a file of calibrate::json's text. Throws RunError when it is damaged.
-[[nodiscard]] RecordedFit read_fit(const std::filesystem::path& file);
+[[nodiscard]] RecordedFit recorded(const Plan& plan, const Fit& fit);
 
-/// The parameters alone, of such a file or another that has them under "parameters".
-[[nodiscard]] FitParameters read_parameters(const std::filesystem::path& file);
+/// All that a calibration may change, with their names.
+[[nodiscard]] const std::array<Fitted, 4>& all_parameters();
 
-/// As JSON: {"C_a": ..., "scale": ..., "exponent": ..., "T_scale": ...}, and back.
+/// As JSON: {"C_a": ..., "scale": ..., "exponent": ..., "T_scale": ...}.
 [[nodiscard]] nlohmann::ordered_json json_of(const FitParameters& p);
-[[nodiscard]] FitParameters parameters_in(const nlohmann::ordered_json& json);
 
 }  // namespace lv::calibrate

@@ -229,21 +229,15 @@ std::vector<std::string> ambiguities(const Plan& plan, const Fit& fit) {
   return words;
 }
 
-Json observation_json(const Fit& fit, std::size_t k) {
-  const ObservedVolume& o = fit.observations[k];
-  const auto row = static_cast<Eigen::Index>(k);
-  Json json{{"name", o.name},
-            {"pressure_mmHg", o.loads.pressure / mmHg},
-            {"target_ml", 1e-3 * o.target},
-            {"model_ml", 1e-3 * fit.volumes[k]},
-            {"dV_dp_ml_per_mmHg", 1e-3 * mmHg * fit.sensitivity.by_pressure[row]}};
-  const auto& parameters = fit.sensitivity.parameters;
-  for (std::size_t j = 0; j < parameters.size(); ++j) {
-    const double by_log =
-        fit.volumes[k] * fit.sensitivity.by_parameter(row, static_cast<Eigen::Index>(j));
-    json["dV_dparameter_ml"][parameters[j].name] =
-        1e-3 * by_log / (fit.parameters.*parameters[j].member);
-  }
+Json volume_json(const RecordedVolume& volume, const Fit& fit, std::size_t k) {
+  Json json{{"name", volume.name},
+            {"pressure_mmHg", volume.pressure / mmHg},
+            {"target_ml", 1e-3 * volume.target},
+            {"model_ml", 1e-3 * volume.model},
+            {"dV_dp_ml_per_mmHg",
+             1e-3 * mmHg * fit.sensitivity.by_pressure[static_cast<Eigen::Index>(k)]}};
+  for (const Fitted& p : fit.sensitivity.parameters)
+    json["dV_dparameter_ml"][p.name] = 1e-3 * volume.by_parameter.at(p.name);
   return json;
 }
 
@@ -310,8 +304,9 @@ std::string json(const Plan& plan, const Fit& fit) {
   json["engine"] = "quasi-static";
   json["parameters"] = json_of(fit.parameters);
   json["tolerance"] = plan.tolerance;
-  for (std::size_t k = 0; k < fit.observations.size(); ++k)
-    json["volumes"].push_back(observation_json(fit, k));
+  const RecordedFit record = recorded(plan, fit);
+  for (std::size_t k = 0; k < record.volumes.size(); ++k)
+    json["volumes"].push_back(volume_json(record.volumes[k], fit, k));
   for (std::size_t j = 0; j < fit.sensitivity.parameters.size(); ++j)
     json["uncertainty"].push_back(uncertainty_json(plan, fit, j));
   if (plan.passive == FittedPassive::klotz) {

@@ -12,17 +12,17 @@ solid::BasalSupport quasi_static_support(const Case& c) {
 /// The tensions of laws with kinetics are what (2.21) says.
 void set_active(const Case& c, material::Myocardium& material) {
   switch (c.active_law) {
-    case ActiveLaw::niederer:
+    case ActiveChoice::niederer:
       material.active = c.active;
       break;
-    case ActiveLaw::land2017:
+    case ActiveChoice::land2017:
       material.active = c.land2017;
       break;
-    case ActiveLaw::second_piola:
+    case ActiveChoice::second_piola:
       material.active = material::PrescribedTension{c.prescribed_tension};
       material.active_form = material::ActiveForm::second_piola;
       break;
-    case ActiveLaw::cauchy:
+    case ActiveChoice::cauchy:
       material.active = material::PrescribedTension{c.prescribed_tension};
       material.active_form = material::ActiveForm::cauchy;
       break;
@@ -43,13 +43,13 @@ std::string place_of(const Case& c, const std::string& parameter) {
 material::Myocardium myocardium(const Case& c) {
   material::Myocardium material;
   switch (c.passive.law) {
-    case PassiveLaw::holzapfel_ogden:
+    case PassiveChoice::holzapfel_ogden:
       material.passive = c.passive.holzapfel_ogden.with_anisotropy_scaled(c.passive.C_a);
       break;
-    case PassiveLaw::guccione:
+    case PassiveChoice::guccione:
       material.passive = c.passive.guccione;
       break;
-    case PassiveLaw::neo_hookean:
+    case PassiveChoice::neo_hookean:
       material.passive = c.passive.neo_hookean;
       break;
   }
@@ -62,7 +62,7 @@ material::Myocardium myocardium(const Case& c) {
 }
 
 mesh::WallMeshParameters mesh_parameters(const Case& c) {
-  if (c.engine == Engine::immersed || c.quasi_static.order == 1)
+  if (c.engine == EngineChoice::immersed || c.quasi_static.order == 1)
     return c.mesh;
   return {.edge_length = 0.5 * c.quasi_static.edge_length,
           .layers = 2 * c.quasi_static.layers,
@@ -72,7 +72,7 @@ mesh::WallMeshParameters mesh_parameters(const Case& c) {
 }
 
 solid::CardiacModel cardiac_model(const Case& c) {
-  return {myocardium(c), c.engine == Engine::immersed ? c.base : quasi_static_support(c),
+  return {myocardium(c), c.engine == EngineChoice::immersed ? c.base : quasi_static_support(c),
           c.surroundings};
 }
 

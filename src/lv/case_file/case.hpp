@@ -38,14 +38,14 @@ enum class AnatomySource {
 };
 
 /// Which passive law the wall follows.
-enum class PassiveLaw { holzapfel_ogden, guccione, neo_hookean };
+enum class PassiveChoice { holzapfel_ogden, guccione, neo_hookean };
 
 /// Which active law the wall follows; `second_piola` and `cauchy` are forms of a prescribed
 /// tension.
-enum class ActiveLaw { niederer, second_piola, cauchy, land2017 };
+enum class ActiveChoice { niederer, second_piola, cauchy, land2017 };
 
 /// Which solver runs the beat.
-enum class Engine { immersed, quasi_static };
+enum class EngineChoice { immersed, quasi_static };
 
 /// Where the base plane lies; `automatic`: as is usual for the source.
 enum class BaseChoice { automatic, slice, slab, annulus };
@@ -133,7 +133,7 @@ struct Anatomy {
 };
 
 struct Passive {
-  PassiveLaw law = PassiveLaw::holzapfel_ogden;
+  PassiveChoice law = PassiveChoice::holzapfel_ogden;
   material::HolzapfelOgden holzapfel_ogden;
   double C_a = 1.0;  ///< factor of a_f, a_s, a_fs (2.25)
   material::Guccione guccione;
@@ -222,7 +222,7 @@ struct Case {
   Passive passive;
   material::Volumetric volumetric;
   material::VolumetricPoints volumetric_points = material::VolumetricPoints::mean;
-  ActiveLaw active_law = ActiveLaw::niederer;
+  ActiveChoice active_law = ActiveChoice::niederer;
   double prescribed_tension = 60.0;  ///< of second_piola and cauchy [kPa]
   material::NiedererHunterSmith active;
   material::Land2017 land2017;
@@ -237,7 +237,7 @@ struct Case {
   solid::BasalSupport base;
   solid::Surroundings surroundings;
   activation::ActivationParameters activation;
-  Engine engine = Engine::immersed;
+  EngineChoice engine = EngineChoice::immersed;
   QuasiStatic quasi_static;
   implicit::UnloadParameters unloaded{.tolerance = 0.05};
   Calibration calibration;

@@ -12,7 +12,7 @@ using Scar = mesh::InfarctSource;
 /// A fit and the search for the wall without load work on the quasi-static engine, whatever engine
 /// runs the beat.
 inline bool is_static(const Case& c, Stage s) {
-  return c.engine == Engine::quasi_static || s == Stage::calibrate || s == Stage::unload;
+  return c.engine == EngineChoice::quasi_static || s == Stage::calibrate || s == Stage::unload;
 }
 inline bool may_have_infarct(const Case& c) {
   return c.scar.source == Scar::mesh ? c.anatomy.source == Source::mesh
@@ -30,10 +30,10 @@ inline bool has_passive_fit(const Case& c) {
   return c.calibration.passive != calibrate::FittedPassive::none;
 }
 inline bool has_kinetics(const Case& c) {
-  return c.active_law == ActiveLaw::niederer || c.active_law == ActiveLaw::land2017;
+  return c.active_law == ActiveChoice::niederer || c.active_law == ActiveChoice::land2017;
 }
 inline bool has_alpha_function(const Case& c) {
-  return c.protocol.calcium.shape == material::Calcium::Shape::alpha_function;
+  return c.protocol.calcium.shape == material::Calcium::CurveShape::alpha_function;
 }
 
 #define LV_DRAWN                                                                          \
@@ -46,11 +46,11 @@ inline bool has_alpha_function(const Case& c) {
       words};
 
 // engines
-LV_CONDITION(immersed_engine, c.engine == Engine::immersed, "with engine = \"immersed\"")
+LV_CONDITION(immersed_engine, c.engine == EngineChoice::immersed, "with engine = \"immersed\"")
 LV_CONDITION(static_engine, is_static(c, s),
              "with engine = \"quasi_static\", with a fit ([calibrate]) or with a wall to unload "
              "([unloaded])")
-LV_CONDITION(static_beat, c.engine == Engine::quasi_static, "with engine = \"quasi_static\"")
+LV_CONDITION(static_beat, c.engine == EngineChoice::quasi_static, "with engine = \"quasi_static\"")
 LV_CONDITION(iterative,
              c.quasi_static.solver.newton.linear.method == implicit::LinearMethod::iterative,
              "with quasi_static.linear_solver = \"iterative\"")
@@ -60,14 +60,16 @@ LV_CONDITION(heartbeats, beats_in(c, s), "with protocol.kind = \"cycle\"")
 LV_CONDITION(of_beats, s != Stage::calibrate || c.calibration.cycle, "of the beat")
 LV_CONDITION(paper_protocol, s == Stage::calibrate ? c.calibration.fits_muscle() : !is_cycle(c),
              "with protocol.kind = \"paper\"")
-LV_CONDITION(filled_in_time, c.engine == Engine::immersed || !is_cycle(c),
+LV_CONDITION(filled_in_time, c.engine == EngineChoice::immersed || !is_cycle(c),
              "with engine = \"immersed\" or protocol.kind = \"paper\"")
 LV_CONDITION(calcium_in_time,
-             s == Stage::calibrate ? beats_in(c, s) : c.engine == Engine::immersed || is_cycle(c),
+             s == Stage::calibrate ? beats_in(c, s)
+                                   : c.engine == EngineChoice::immersed || is_cycle(c),
              "with engine = \"immersed\" or protocol.kind = \"cycle\"")
 LV_CONDITION(
     rates,
-    (c.engine == Engine::immersed && s == Stage::beat) || (beats_in(c, s) && s != Stage::unload),
+    (c.engine == EngineChoice::immersed && s == Stage::beat) ||
+        (beats_in(c, s) && s != Stage::unload),
     "with engine = \"immersed\" or protocol.kind = \"cycle\", for without time nothing has "
     "a rate")
 LV_CONDITION(static_rates, beats_in(c, s) && s != Stage::unload,
@@ -83,10 +85,10 @@ LV_CONDITION(pericardium,
                  (rates.holds(c, s) && c.surroundings.epicardium.has_dashpots()),
              "with springs or dashpots of the pericardium")
 LV_CONDITION(weighted_pericardium,
-             c.surroundings.epicardium.weight.shape != solid::AxialWeight::Shape::even,
+             c.surroundings.epicardium.weight.shape != solid::AxialWeight::WeightShape::even,
              "with pericardium.weight = \"linear\" or \"sigmoid\"")
 LV_CONDITION(sigmoid_pericardium,
-             c.surroundings.epicardium.weight.shape == solid::AxialWeight::Shape::sigmoid,
+             c.surroundings.epicardium.weight.shape == solid::AxialWeight::WeightShape::sigmoid,
              "with pericardium.weight = \"sigmoid\"")
 LV_CONDITION(eikonal, c.activation.kind == activation::Kind::eikonal,
              "with activation.kind = \"eikonal\"")
@@ -132,7 +134,7 @@ LV_CONDITION(sheets_by_rule,
 LV_CONDITION(meshed_here, c.anatomy.source != Source::mesh,
              "for a wall that is meshed here, of every anatomy.source but \"mesh\"")
 LV_CONDITION(linear_elements,
-             c.quasi_static.order == 1 || (s == Stage::mesh && c.engine == Engine::immersed),
+             c.quasi_static.order == 1 || (s == Stage::mesh && c.engine == EngineChoice::immersed),
              "with engine = \"immersed\", or with quasi_static.order = 1")
 LV_CONDITION(quadratic_elements, c.quasi_static.order == 2, "with quasi_static.order = 2")
 
@@ -175,17 +177,17 @@ LV_CONDITION(fitted_or_moved,
              LV_DRAWN ", with strain.long_axis_cine, or with infarct.labels.in_plane")
 
 // muscle and blood
-LV_CONDITION(holzapfel_ogden, c.passive.law == PassiveLaw::holzapfel_ogden,
+LV_CONDITION(holzapfel_ogden, c.passive.law == PassiveChoice::holzapfel_ogden,
              "with passive.law = \"holzapfel_ogden\"")
-LV_CONDITION(guccione, c.passive.law == PassiveLaw::guccione, "with passive.law = \"guccione\"")
-LV_CONDITION(neo_hookean, c.passive.law == PassiveLaw::neo_hookean,
+LV_CONDITION(guccione, c.passive.law == PassiveChoice::guccione, "with passive.law = \"guccione\"")
+LV_CONDITION(neo_hookean, c.passive.law == PassiveChoice::neo_hookean,
              "with passive.law = \"neo_hookean\"")
-LV_CONDITION(niederer, c.active_law == ActiveLaw::niederer, "with active.law = \"niederer\"")
-LV_CONDITION(land2017, c.active_law == ActiveLaw::land2017, "with active.law = \"land2017\"")
+LV_CONDITION(niederer, c.active_law == ActiveChoice::niederer, "with active.law = \"niederer\"")
+LV_CONDITION(land2017, c.active_law == ActiveChoice::land2017, "with active.law = \"land2017\"")
 LV_CONDITION(prescribed_tension, !has_kinetics(c),
              "with active.law = \"second_piola\" or \"cauchy\"")
 LV_CONDITION(moving_fibres,
-             (c.engine == Engine::immersed && s == Stage::beat) ||
+             (c.engine == EngineChoice::immersed && s == Stage::beat) ||
                  (beats_in(c, s) && s != Stage::unload),
              "with engine = \"immersed\" or protocol.kind = \"cycle\"")
 LV_CONDITION(calcium_counts, has_kinetics(c) || moving_fibres.holds(c, s),

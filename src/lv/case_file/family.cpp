@@ -56,7 +56,7 @@ std::pair<const char*, double> target(const Lever& lever, double factor, const C
 
 Levers levers(const Case& c) {
   const char* contractility =
-      c.active_law == ActiveLaw::land2017 ? "active.land2017.T_ref" : "active.T_scale";
+      c.active_law == ActiveChoice::land2017 ? "active.land2017.T_ref" : "active.T_scale";
   if (c.circulation.kind == circulation::Kind::closed_loop)
     return {"circulation.start.p_ven_sys", "circulation.closed_loop.systemic.R_ar",
             "circulation.closed_loop.systemic.C_ar", contractility};

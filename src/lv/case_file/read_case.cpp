@@ -273,7 +273,7 @@ class CaseReader {
                      "hearts with up to 30 mmHg, and is not stretched beyond {:g} mmHg; check the "
                      "pressure and its unit",
                      case_.unloaded.pressure / units::mmHg, most_of_klotz / units::mmHg));
-    rule(!klotz || case_.passive.law == PassiveLaw::holzapfel_ogden, "calibrate.passive",
+    rule(!klotz || case_.passive.law == PassiveChoice::holzapfel_ogden, "calibrate.passive",
          "fits the Holzapfel-Ogden law alone; passive.law is another");
     rule(!passive || k.edv > 0.0, "calibrate.passive",
          "needs the measured volume calibrate.edv: add edv = \"... ml\" under [calibrate]");
@@ -283,11 +283,11 @@ class CaseReader {
          fmt::format("is {:g} ml, and must be less than calibrate.edv, {:g} ml: the heart ejects "
                      "what is between them; check both, and which is which",
                      k.esv / units::ml, k.edv / units::ml));
-    rule(!passive || case_.passive.law == PassiveLaw::holzapfel_ogden, "calibrate.passive",
+    rule(!passive || case_.passive.law == PassiveChoice::holzapfel_ogden, "calibrate.passive",
          "fits the Holzapfel-Ogden law alone; passive.law is another");
     rule(!passive || case_.protocol.ed_pressure > 0.0, "protocol.ed_pressure",
          "must be above zero for a passive fit");
-    rule(!k.active || case_.active_law == ActiveLaw::niederer, "calibrate.active",
+    rule(!k.active || case_.active_law == ActiveChoice::niederer, "calibrate.active",
          "fits T_scale of active.law = \"niederer\"; the case has another");
     rule(
         !is_loaded(case_) || !passive ||
@@ -310,7 +310,7 @@ class CaseReader {
     const Calibration& k = case_.calibration;
     if (!k.cycle)
       return;
-    rule(case_.engine == Engine::quasi_static, "calibrate.cycle",
+    rule(case_.engine == EngineChoice::quasi_static, "calibrate.cycle",
          "fits heartbeats of engine = \"quasi_static\" alone: those of engine = \"immersed\" are "
          "too long to be repeated so often; fit with the other engine and take its "
          "02b_calibrate/calibrated.toml, or leave it out");
@@ -389,13 +389,13 @@ class CaseReader {
     rule(case_.circulation.asked(), "protocol.kind",
          "is \"cycle\", which needs a circulation: set circulation.kind to \"windkessel\" or "
          "\"closed_loop\"");
-    rule(case_.engine == Engine::quasi_static ||
+    rule(case_.engine == EngineChoice::quasi_static ||
              case_.base.kind != solid::BasalSupport::Kind::elastic,
          "base.support",
          "is \"elastic\", which heartbeats of engine = \"immersed\" do not take yet: their circuit "
          "goes by what the endocardium sweeps, with a base that stays in its plane; take "
          "\"sliding\" or \"fixed\", or engine = \"quasi_static\"");
-    rule(case_.active_law == ActiveLaw::land2017 || case_.active_law == ActiveLaw::niederer,
+    rule(case_.active_law == ActiveChoice::land2017 || case_.active_law == ActiveChoice::niederer,
          "active.law",
          "prescribes a tension, which knows no time: a cycle takes \"land2017\" (or \"niederer\")");
     together(p.cycle.step <= 0.05 * case_.circulation.period, {"cycle.step", "circulation.period"},

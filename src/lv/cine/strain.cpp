@@ -262,6 +262,7 @@ void make_strain(const Case& c, const fs::path& folder) {
   geometry::contour_table(loops_at(slices, systole)).write_csv(folder / "contours_es.csv");
   draw(study, tasks, slices, c.strain.end_diastole, false, folder / "end_diastole.png");
   draw(study, tasks, slices, systole, true, folder / "end_systole.png");
+  write_phases({c.strain.end_diastole, systole}, folder);
   write_file(folder / "phases.json", fmt::format("{{\"end_diastole\": {}, \"end_systole\": {}}}\n",
                                                  c.strain.end_diastole, systole));
   write_file(folder / "strain.txt", words(study, slices, c.strain.end_diastole, systole) +

@@ -22,8 +22,18 @@ namespace lv::cine {
 /// Throws InputError where images, contours and tables do not fit together.
 [[nodiscard]] std::string check_strain(const case_file::Case& c);
 
+/// The images of a cine at both ends of systole, by their numbers.
+struct CinePhases {
+  int end_diastole = 0, end_systole = 0;
+};
+
+/// In phases.bin of a folder, and from there. Throws RunError when it is absent or damaged.
+void write_phases(const CinePhases& phases, const std::filesystem::path& folder);
+[[nodiscard]] CinePhases read_phases(const std::filesystem::path& folder);
+
 /// Follows the cine of a case and writes
 ///
+///   phases.bin      the images of both ends of systole; phases.json for readers
 ///   axial_motion.csv motion of the slices' muscle along the axis, if long-axis images show it
 ///   segments.csv    strain per slice, sector and AHA segment at every phase
 ///   rotation.csv    of every slice at every phase

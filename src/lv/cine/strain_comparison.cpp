@@ -6,6 +6,7 @@
 #include "lv/cine/outlines.hpp"
 #include "lv/cine/strain.hpp"
 #include "lv/cine/strain_targets.hpp"
+#include "lv/heartbeat/archive.hpp"
 #include "lv/strain/agreement.hpp"
 
 #include <fmt/format.h>
@@ -21,9 +22,11 @@ namespace lv::cine {
 namespace {
 
 using case_file::Case;
+using heartbeat::Archive;
 namespace fs = std::filesystem;
 using strain::Pair;
 
+constexpr const char* phases_name = "phases.bin";
 constexpr std::array<const char*, 2> components{"circumferential", "radial"};
 
 /// Pairs of both components, as in `components`.
@@ -203,6 +206,19 @@ std::string write_pairs(const Pairs& pairs, const std::string& measure, const fs
 
 }  // namespace
 
+void write_phases(const CinePhases& phases, const fs::path& folder) {
+  Archive archive;
+  archive.set("phases",
+              {static_cast<double>(phases.end_diastole), static_cast<double>(phases.end_systole)});
+  archive.write(folder / phases_name);
+}
+
+CinePhases read_phases(const fs::path& folder) {
+  const auto phases =
+      Archive::read(folder / phases_name).get_whole("phases", 2, heartbeat::not_negative);
+  return {phases[0], phases[1]};
+}
+
 std::vector<strain::Measured> measured_strains(const Case& c) {
   if (c.strain.measured_column.empty())
     throw InputError(case_file::place_of(c, "strain.measured"), "strain.measured_column is not set",
@@ -232,9 +248,7 @@ std::string compare_strain(const Case& c, const ModelledBeat& model, const fs::p
   }
   if (!c.strain.asked())
     return "";
-  const auto [diastole, systole] = from_json_file(strain / "phases.json", [](const auto& phases) {
-    return std::pair<int, int>{phases.at("end_diastole"), phases.at("end_systole")};
-  });
+  const auto [diastole, systole] = read_phases(strain);
   const CineStudy study = read_cine_study(c);
   ModelledBeat placed = model;
   std::string text;

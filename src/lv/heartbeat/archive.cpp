@@ -130,7 +130,8 @@ void Archive::set(const std::string& name, std::vector<double> values) {
 void Archive::set_words(const std::string& name, const std::vector<std::string>& words) {
   std::vector<double> numbers;
   for (const std::string& word : words) {
-    numbers.insert(numbers.end(), word.begin(), word.end());
+    for (const char letter : word)
+      numbers.push_back(static_cast<unsigned char>(letter));
     numbers.push_back(0.0);
   }
   set(name, std::move(numbers));
@@ -139,7 +140,7 @@ void Archive::set_words(const std::string& name, const std::vector<std::string>&
 std::vector<std::string> Archive::get_words(const std::string& name) const {
   std::vector<std::string> words;
   std::string word;
-  for (const int letter : get_whole(name, {}, {0.0, 127.0})) {
+  for (const int letter : get_whole(name, {}, {0.0, 255.0})) {
     if (letter != 0)
       word += static_cast<char>(letter);
     else

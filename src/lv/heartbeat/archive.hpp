@@ -36,7 +36,7 @@ class Archive {
   void add(const std::string& part, Archive other);
   [[nodiscard]] Archive take(const std::string& part);
 
-  /// Words of ASCII, as the numbers of their letters.
+  /// Words or sentences, as the numbers of their bytes.
   void set_words(const std::string& name, const std::vector<std::string>& words);
   [[nodiscard]] std::vector<std::string> get_words(const std::string& name) const;
 

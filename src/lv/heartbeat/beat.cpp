@@ -7,9 +7,9 @@
 namespace lv::heartbeat {
 
 std::string title(const std::string& moment) {
-  std::string words = moment;
-  std::replace(words.begin(), words.end(), '_', ' ');
-  return words.starts_with("end ") ? words.replace(3, 1, "-") : words;
+  const auto* found = std::find_if(moment_words.begin(), moment_words.end(),
+                                   [&](const MomentWords& w) { return w.moment == moment; });
+  return found == moment_words.end() ? moment : found->title;
 }
 
 const NamedMoment* Beat::find(const std::string& name) const {

@@ -4,6 +4,7 @@
 #include "lv/circulation/cycle.hpp"
 #include "lv/solid/cell_stress.hpp"
 
+#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -43,6 +44,21 @@ inline constexpr const char* end_systole = "end_systole";
 /// And those that beats of a circulation have besides.
 inline constexpr const char* aortic_opening = "aortic_opening";
 inline constexpr const char* mitral_opening = "mitral_opening";
+
+/// What is said of a moment.
+struct MomentWords {
+  const char* moment;
+  const char* title;   ///< for readers
+  const char* mark;    ///< on axes and sliders
+  const char* volume;  ///< what a clinic calls the cavity's volume then; empty: nothing
+};
+
+/// Of all moments that beats may come to, in the order of a heartbeat.
+inline constexpr std::array<MomentWords, 4> moment_words{
+    {{end_diastole, "end-diastole", "ED", "EDV"},
+     {aortic_opening, "aortic opening", "AO", ""},
+     {end_systole, "end-systole", "ES", "ESV"},
+     {mitral_opening, "mitral opening", "MO", ""}}};
 
 /// A moment's name for readers: "end-diastole".
 [[nodiscard]] std::string title(const std::string& moment);

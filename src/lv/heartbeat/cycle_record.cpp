@@ -16,9 +16,6 @@ using circulation::Sample;
 using circulation::Signals;
 using units::mmHg;
 
-constexpr std::array<const char*, 5> phase_after{"filling", "contraction", "ejection", "relaxation",
-                                                 "filling"};
-
 Archive archived(const Beat& beat) {
   Archive archive;
   store(beat.curves, archive);
@@ -144,7 +141,7 @@ CurveRow CycleRecord::row() const {
 }
 
 const char* CycleRecord::phase() const {
-  return phase_after[run_.phase];
+  return valve_events[run_.phase % valve_events.size()].ends;
 }
 
 void CycleRecord::end_beat() {

@@ -31,7 +31,8 @@ struct ValveEvent {
   }
 };
 
-/// The events of a beat, in their order.
+/// The events of a beat, in their order, and with them its phases: after the last the first comes
+/// again.
 inline constexpr std::array<ValveEvent, 4> valve_events{
     {{end_diastole, "filling", &circulation::Signals::mitral_gradient, false},
      {aortic_opening, "contraction", &circulation::Signals::aortic_gradient, true},

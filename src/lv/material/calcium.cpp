@@ -13,11 +13,11 @@ double Calcium::at(double t) const {
 }
 
 double Calcium::peak_time() const {
-  return shape == Shape::alpha_function ? tau : std::log(t_2 / t_1) / (1.0 / t_1 - 1.0 / t_2);
+  return shape == CurveShape::alpha_function ? tau : std::log(t_2 / t_1) / (1.0 / t_1 - 1.0 / t_2);
 }
 
 double Calcium::share(double t) const {
-  if (shape == Shape::alpha_function)
+  if (shape == CurveShape::alpha_function)
     return (t / tau) * std::exp(1.0 - t / tau);
   const auto difference = [&](double s) { return std::exp(-s / t_2) - std::exp(-s / t_1); };
   return difference(t) / difference(peak_time());

@@ -12,13 +12,13 @@ namespace lv::material {
 /// systole: "raised to its peak ... until a steady state"). `transient`: decays as they say.
 struct Calcium {
   enum class Mode { hold, transient };
-  enum class Shape { alpha_function, double_exponential };
+  enum class CurveShape { alpha_function, double_exponential };
 
   Mode mode = Mode::hold;
   double Ca_0 = 0.01;   ///< [uM]
   double Ca_max = 1.0;  ///< [uM]
   double tau = 0.06;    ///< [s]
-  Shape shape = Shape::alpha_function;
+  CurveShape shape = CurveShape::alpha_function;
   double t_1 = 0.04;  ///< of the rise [s]
   double t_2 = 0.22;  ///< of the decay, longer than t_1 [s]
 

@@ -14,6 +14,7 @@
 #include "lv/page/page_pictures.hpp"
 #include "lv/page/wall_series.hpp"
 #include "lv/report/cycle_tables.hpp"
+#include "lv/report/stage_facts.hpp"
 #include "lv/report/work_folder.hpp"
 
 #include <fmt/format.h>
@@ -302,31 +303,15 @@ Json files_json(const fs::path& work) {
   return json;
 }
 
-/// Where the middle of the septum is [degrees]; nothing when no mesh has been made.
-std::optional<double> septum_degrees(const fs::path& work) {
-  const auto angle = report::recorded(work, "mesh", "regions.septum_angle");
-  return angle ? std::optional(std::stod(*angle)) : std::nullopt;
-}
-
-/// The four-chamber view's.
-LongAxis flow_plane(const fs::path& work) {
-  return {septum_degrees(work).value_or(0.0) * units::degree};
-}
-
-/// Whether eight consecutive cells of the mesh are the parts of a quadratic element.
-bool is_quadratic(const fs::path& work) {
-  return report::recorded(work, "mesh", "engine") == "quasi_static" &&
-         report::recorded(work, "mesh", "quasi_static.order") == "2";
-}
-
 /// What the mesh was made with: where the septum is, and the engine.
 void add_mesh_facts(Json& json, const fs::path& work) {
-  if (const auto angle = septum_degrees(work))
-    json["septum_deg"] = *angle;
+  const auto mesh = report::mesh_facts(work);
+  if (!mesh)
+    return;
+  json["septum_deg"] = mesh->septum_angle / units::degree;
   // equilibria have shares of loads where heartbeats have times
-  const bool has_time = report::recorded(work, "beat", "protocol.kind") == "cycle";
-  if (const auto engine = report::recorded(work, "mesh", "engine"); engine && !has_time)
-    json["engine"] = *engine;
+  if (!report::beat_facts(work).value_or(report::BeatFacts{}).has_valves)
+    json["engine"] = mesh->is_immersed ? "immersed" : "quasi_static";
 }
 
 /// What the page says of a case's state.
@@ -337,6 +322,8 @@ std::vector<std::string> state_of(const PageCase& shown) {
     state.push_back(
         "03_beat has no moments.csv: strains are from early diastole at all times, and no moment "
         "has a name.");
+  for (std::string& sentence : report::missing_facts(shown.work))
+    state.push_back(std::move(sentence));
   return state;
 }
 
@@ -366,8 +353,9 @@ Data case_html(const PageCase& shown, int number, std::size_t count) {
     const WallSeries wall = read_wall_series(
         frames, report::time_of(shown.work, heartbeat::end_diastole).value_or(never));
     json["wall"] = wall_json(wall, arrays);
-    json["wall"]["order"] = is_quadratic(shown.work) ? 2 : 1;
-    const LongAxis plane = flow_plane(shown.work);
+    const auto mesh = report::mesh_facts(shown.work).value_or(report::MeshFacts{});
+    json["wall"]["order"] = mesh.order;
+    const LongAxis plane{mesh.septum_angle};  // the four-chamber view's
     const auto [lower, upper] = surroundings(wall, plane);
     // the wall's frames are the blood's borders; the undeformed mesh is none
     if (!blood.empty() && !report::file_of(shown.work, "beat", "wall.pvd").empty())
@@ -382,18 +370,26 @@ Data case_html(const PageCase& shown, int number, std::size_t count) {
   return arrays.data;
 }
 
+Json quantity_json(const analysis::Quantity& q) {
+  return {{"name", q.name},     {"title", q.title}, {"unit", q.unit}, {"signed", q.is_signed},
+          {"middle", q.middle}, {"floor", q.floor}, {"help", q.help}};
+}
+
 /// The quantities that the page shows, in its words.
 Json quantities_json() {
   Json list = Json::array();
   for (const analysis::Quantity& q : analysis::quantities())
     if (q.is_shown)
-      list.push_back({{"name", q.name},
-                      {"title", q.title},
-                      {"unit", q.unit},
-                      {"signed", q.is_signed},
-                      {"middle", q.middle},
-                      {"floor", q.floor},
-                      {"help", q.help}});
+      list.push_back(quantity_json(q));
+  return list;
+}
+
+/// The moments that beats may come to, in its words.
+Json moments_json() {
+  Json list = Json::array();
+  for (const heartbeat::MomentWords& w : heartbeat::moment_words)
+    list.push_back(
+        {{"name", w.moment}, {"title", w.title}, {"mark", w.mark}, {"volume", w.volume}});
   return list;
 }
 
@@ -421,7 +417,8 @@ std::string page(const std::vector<PageCase>& cases, const std::string& version)
                     Json{{"version", version},
                          {"cases", cases.size()},
                          {"quantities", quantities_json()},
-                         {"infarct_floor", analysis::infarct_floor},
+                         {"moments", moments_json()},
+                         {"infarct", quantity_json(analysis::infarct_extent())},
                          {"beat_measures", beat_measures_json()}}
                         .dump()),
             "", ""};

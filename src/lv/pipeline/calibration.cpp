@@ -14,6 +14,7 @@
 #include "lv/heartbeat/immersed_beat.hpp"
 #include "lv/pipeline/answer_record.hpp"
 #include "lv/pipeline/confirmation.hpp"
+#include "lv/pipeline/fit_archive.hpp"
 #include "lv/pipeline/heartbeat_fit.hpp"
 #include "lv/pipeline/unloading.hpp"
 #include "lv/solid/endocardial_surface.hpp"
@@ -83,12 +84,21 @@ std::vector<std::string> muscle_names(const case_file::Calibration& k) {
   return names;
 }
 
+/// The JSON file beside an archive.
+std::filesystem::path for_readers(std::filesystem::path archive) {
+  return archive.replace_extension(".json");
+}
+
+calibrate::RecordedFit read_fit(const std::filesystem::path& calibration) {
+  return load_fit(heartbeat::Archive::read(calibration / calibration_name));
+}
+
 /// The case with what is fitted to its heartbeats.
 Case with_beats(Case c, const std::filesystem::path& calibration) {
   if (!c.calibration.cycle)
     return c;
-  const auto file = calibration / heartbeats_name;
-  return with_values(std::move(c), read_heartbeats(file), file);
+  return with_values(std::move(c), read_heartbeats(calibration / heartbeats_name),
+                     calibration / heartbeats_json);
 }
 
 /// Lines for a case file, in place of its [calibrate].
@@ -105,10 +115,9 @@ std::vector<ConfirmedVolume> volumes_of(const calibrate::RecordedFit& fit,
                                         const heartbeat::Beat& beat) {
   std::vector<ConfirmedVolume> volumes;
   for (const calibrate::RecordedVolume& v : fit.volumes)
-    if (v.name == "EDV" || v.name == "ESV")
-      volumes.push_back(
-          {v.name, v.target, v.model,
-           beat.at(v.name == "EDV" ? heartbeat::end_diastole : heartbeat::end_systole).volume});
+    for (const heartbeat::MomentWords& at : heartbeat::moment_words)
+      if (v.name == at.volume)
+        volumes.push_back({v.name, v.target, v.model, beat.at(at.moment).volume});
   return volumes;
 }
 
@@ -324,7 +333,7 @@ std::vector<std::string> fitted_names(const Case& c) {
 }
 
 Case for_calibration(Case c) {
-  c.engine = case_file::Engine::quasi_static;
+  c.engine = case_file::EngineChoice::quasi_static;
   return c;
 }
 
@@ -369,7 +378,10 @@ void fit_muscle(const Case& c, const anatomy::MeshResult& mesh,
       std::filesystem::remove(record);
     calibrate::history_table(fit).write_csv(folder / "calibration.csv");
     write_file(folder / muscle_text, calibrate::text(task, fit));
-    write_file(folder / calibration_name, calibrate::json(task, fit));
+    write_file(for_readers(folder / calibration_name), calibrate::json(task, fit));
+    heartbeat::Archive archive;
+    store(calibrate::recorded(task, fit), archive);
+    archive.write(folder / calibration_name);  // last: what is there is whole
   });
 }
 
@@ -434,8 +446,8 @@ void make_calibration(const Case& c, const anatomy::MeshResult& mesh, const Coar
 
 Case calibrated(Case c, const std::filesystem::path& file) {
   for (const std::string& name : muscle_names(c.calibration))
-    c.origin[name] = file.string();
-  return with(std::move(c), calibrate::read_parameters(file));
+    c.origin[name] = for_readers(file).string();
+  return with(std::move(c), load_parameters(heartbeat::Archive::read(file)));
 }
 
 Case with_muscle(const Case& c, const std::filesystem::path& calibration,
@@ -454,7 +466,7 @@ Case fitted(const Case& c, const std::filesystem::path& calibration,
 
 bool correct(const Case& c, const std::filesystem::path& calibration_folder,
              const heartbeat::Beat& beat, const std::filesystem::path& folder) {
-  const calibrate::RecordedFit fit = calibrate::read_fit(calibration_folder / calibration_name);
+  const calibrate::RecordedFit fit = read_fit(calibration_folder);
   const auto file = folder / confirmation_name;
   Confirmation record{fit.parameters, 0.0, {}};
   if (std::filesystem::exists(file))
@@ -479,9 +491,8 @@ bool correct(const Case& c, const std::filesystem::path& calibration_folder,
     std::vector<std::string> names = muscle_names(c.calibration);
     Case last = calibrated(c, file);
     if (c.calibration.cycle) {
-      const auto beats_file = calibration_folder / heartbeats_name;
-      const HeartbeatFit beats = read_heartbeats(beats_file);
-      last = with_values(std::move(last), beats, beats_file);
+      const HeartbeatFit beats = read_heartbeats(calibration_folder / heartbeats_name);
+      last = with_values(std::move(last), beats, calibration_folder / heartbeats_json);
       for (const FittedValue& p : beats.parameters)
         names.push_back(p.parameter);
     }
@@ -505,7 +516,7 @@ FitRecord fit_record(const Case& c, const std::filesystem::path& calibration,
     all.volumes.push_back(
         {v.name, v.measured, v.quasi_static, v.beat, v.within(c.calibration.tolerance)});
   if (c.calibration.passive == FittedPassive::klotz)
-    add_klotz(calibrate::read_fit(calibration / calibration_name), all);
+    add_klotz(read_fit(calibration), all);
   return all;
 }
 

@@ -21,23 +21,25 @@ struct CoarseWalls {
 
 /// Fits what the case asks for: the muscle at given pressures, with the wall unloaded anew for all
 /// parameters where it was seen under load, and then heartbeats (fit_heartbeats). Writes into
-/// `folder` calibration.json and calibration.csv of the muscle (every equilibrium of the search),
-/// the files of fit_heartbeats, calibration.txt of both and calibrated.toml (for a case file);
-/// collective. A fit that was stopped goes on from the answers that it left in `folder`. With a
-/// coarse wall a fit is made there first, so that the one on `mesh` starts near its end, and a
-/// volume that is out of reach there by more than calibrate::reach_margin is refused within
-/// seconds. Throws InputError for a volume out of reach, with the volumes within reach.
+/// `folder` calibration.bin, calibration.json and calibration.csv of the muscle (every equilibrium
+/// of the search), the files of fit_heartbeats, calibration.txt of both and calibrated.toml (for a
+/// case file); collective. A fit that was stopped goes on from the answers that it left in
+/// `folder`. With a coarse wall a fit is made there first, so that the one on `mesh` starts near
+/// its end, and a volume that is out of reach there by more than calibrate::reach_margin is refused
+/// within seconds. Throws InputError for a volume out of reach, with the volumes within reach.
 void make_calibration(const case_file::Case& c, const anatomy::MeshResult& mesh,
                       const CoarseWalls& coarse, const std::filesystem::path& folder);
 
-/// The files with fitted parameters: of a calibration, and of a beat made with them.
-inline constexpr const char* calibration_name = "calibration.json";
-inline constexpr const char* confirmation_name = "confirmation.json";
+/// The archives with fitted parameters: of a calibration, and of a beat made with them. JSON files
+/// of the same names tell readers of them.
+inline constexpr const char* calibration_name = "calibration.bin";
+inline constexpr const char* confirmation_name = "confirmation.bin";
 
 /// Names of the parameters that a calibration changes.
 [[nodiscard]] std::vector<std::string> fitted_names(const case_file::Case& c);
 
-/// The case with the muscle's parameters of such a file.
+/// The case with the muscle's parameters of such an archive; the JSON file beside it stands for
+/// where they come from.
 [[nodiscard]] case_file::Case calibrated(case_file::Case c, const std::filesystem::path& file);
 
 /// The case with the muscle's parameters in use, without what is fitted to heartbeats: those of its
@@ -53,10 +55,10 @@ inline constexpr const char* confirmation_name = "confirmation.json";
                                      const std::filesystem::path& beat);
 
 /// Records a beat made with the parameters of the calibration, and its volumes beside the measured
-/// ones and the quasi-static engine's, in confirmation.json of the beat's `folder`. When they are
-/// off by more than the tolerance and the case wants confirmation, up to twice, it records
-/// corrected parameters too, removes the checkpoint and returns true: the beat must run again. The
-/// correction takes the volumes' derivatives from the quasi-static engine:
+/// ones and the quasi-static engine's, in confirmation.bin and confirmation.json of the beat's
+/// `folder`. When they are off by more than the tolerance and the case wants confirmation, up to
+/// twice, it records corrected parameters too, removes the checkpoint and returns true: the beat
+/// must run again. The correction takes the volumes' derivatives from the quasi-static engine:
 ///
 ///   sum_j x_j dV_k/dx_j d ln x_j = V_k,measured - V_k,beat
 ///

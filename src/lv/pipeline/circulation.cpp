@@ -30,7 +30,7 @@ heartbeat::Beat make_cycle(const Case& c, const mesh::Mesh& mesh,
                            const heartbeat::Observers& observers) {
   if (const std::string slow = slow_relaxation(c); !slow.empty())
     log::warn("{}", slow);
-  if (c.engine == case_file::Engine::immersed)
+  if (c.engine == case_file::EngineChoice::immersed)
     return heartbeat::run_immersed_cycle(case_file::beat_setup(c, mesh), c.circulation, folder,
                                          observers);
   return heartbeat::run_cycle(
@@ -79,7 +79,7 @@ std::vector<std::string> cycle_warnings(const Case& c, const circulation::Cycle&
 }
 
 std::string slow_relaxation(const Case& c) {
-  if (!case_file::is_cycle(c) || c.active_law != case_file::ActiveLaw::niederer)
+  if (!case_file::is_cycle(c) || c.active_law != case_file::ActiveChoice::niederer)
     return "";
   return "active.law = \"niederer\" has the rates of a rat at room temperature: its relaxation "
          "does "

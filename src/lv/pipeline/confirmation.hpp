@@ -33,7 +33,8 @@ struct Confirmation {
   std::vector<ConfirmedBeat> beats;
 };
 
-/// Writes a JSON file; reads it. Throws RunError when it is damaged.
+/// Writes an archive, and a JSON file beside it for readers; reads the archive. Throws RunError
+/// when it is damaged.
 void write_confirmation(const Confirmation& record, const std::filesystem::path& file);
 [[nodiscard]] Confirmation read_confirmation(const std::filesystem::path& file);
 

@@ -128,7 +128,7 @@ std::string preparation(const Case& c, double step) {
                      log::duration(unloading + fit));
 }
 
-Case with_engine(Case c, case_file::Engine engine) {
+Case with_engine(Case c, case_file::EngineChoice engine) {
   c.engine = engine;
   return c;
 }
@@ -136,7 +136,7 @@ Case with_engine(Case c, case_file::Engine engine) {
 }  // namespace
 
 Cost cost_of(const Case& c, const anatomy::Shape& shape, const anatomy::MeshResult& mesh) {
-  const auto mesh_of = [&](case_file::Engine engine) {
+  const auto mesh_of = [&](case_file::EngineChoice engine) {
     if (c.engine == engine)
       return mesh;
     const Case other = with_engine(c, engine);
@@ -145,14 +145,14 @@ Cost cost_of(const Case& c, const anatomy::Shape& shape, const anatomy::MeshResu
     return made;
   };
   const auto immersed = [&] {
-    return of_immersed(with_engine(c, case_file::Engine::immersed),
-                       mesh_of(case_file::Engine::immersed).mesh);
+    return of_immersed(with_engine(c, case_file::EngineChoice::immersed),
+                       mesh_of(case_file::EngineChoice::immersed).mesh);
   };
   const auto quasi_static = [&] {
-    return of_quasi_static(with_engine(c, case_file::Engine::quasi_static),
-                           mesh_of(case_file::Engine::quasi_static).mesh);
+    return of_quasi_static(with_engine(c, case_file::EngineChoice::quasi_static),
+                           mesh_of(case_file::EngineChoice::quasi_static).mesh);
   };
-  const bool is_immersed = c.engine == case_file::Engine::immersed;
+  const bool is_immersed = c.engine == case_file::EngineChoice::immersed;
   const Estimate dynamic = is_immersed ? immersed() : tried(immersed);
   const Estimate slow = is_immersed ? tried(quasi_static) : quasi_static();
   return {dynamic.details + slow.details,

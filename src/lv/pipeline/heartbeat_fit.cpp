@@ -279,7 +279,8 @@ HeartbeatFit fit_heartbeats(const Case& c, const anatomy::MeshResult& wall,
   parallel::on_root([&] {
     history.write_csv(folder / "heartbeats.csv");
     write_file(folder / heartbeats_text, text(fit));
-    write_file(folder / heartbeats_name, json(fit));
+    write_file(folder / heartbeats_json, json(fit));
+    write_heartbeats(fit, folder / heartbeats_name);
     last.remove_records();
   });
   return fit;

@@ -4,6 +4,7 @@
 #include "lv/base/dense.hpp"
 #include "lv/base/json_file.hpp"
 #include "lv/case_file/beat_fit.hpp"
+#include "lv/heartbeat/archive.hpp"
 
 #include <fmt/format.h>
 
@@ -13,6 +14,7 @@ namespace lv::pipeline {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using heartbeat::Archive;
 
 constexpr double unknown_value = std::numeric_limits<double>::quiet_NaN();
 
@@ -129,6 +131,55 @@ Json parameter_json(const HeartbeatFit& fit, std::size_t j) {
   return row;
 }
 
+void store_data(const HeartbeatFit& fit, Archive& archive) {
+  std::vector<std::string> names;
+  std::vector<std::string> data_units;
+  std::vector<double> values;
+  for (const FittedDatum& d : fit.data) {
+    names.push_back(d.name);
+    data_units.push_back(d.unit);
+    values.insert(values.end(), {d.measured, d.model});
+  }
+  archive.set_words("data.names", names);
+  archive.set_words("data.units", data_units);
+  archive.set("data", std::move(values));
+}
+
+void load_data(const Archive& archive, HeartbeatFit& fit) {
+  const auto names = archive.get_words("data.names");
+  const auto data_units = archive.get_words("data.units");
+  const auto& values = archive.get_rows("data", 2, names.size(), {.missing = true});
+  if (data_units.size() != names.size())
+    archive.refuse("it has not a unit for every datum");
+  for (std::size_t k = 0; k < names.size(); ++k)
+    fit.data.push_back({names[k], data_units[k], values[2 * k], values[2 * k + 1]});
+}
+
+/// Four words of each: its name, the same for readers, its unit, and the datum it is fitted to.
+constexpr std::size_t words_of_parameter = 4;
+
+void store_parameters(const HeartbeatFit& fit, Archive& archive) {
+  std::vector<std::string> words;
+  std::vector<double> values;
+  for (const FittedValue& p : fit.parameters) {
+    words.insert(words.end(), {p.parameter, p.words, p.unit, p.datum});
+    values.insert(values.end(), {p.before, p.fitted});
+  }
+  archive.set_words("parameters.words", words);
+  archive.set("parameters", std::move(values));
+}
+
+void load_parameters_of(const Archive& archive, HeartbeatFit& fit) {
+  const auto words = archive.get_words("parameters.words");
+  const auto& values = archive.get_rows("parameters", 2, words.size() / words_of_parameter);
+  for (std::size_t j = 0; 2 * j < values.size(); ++j) {
+    const std::string* of = &words[words_of_parameter * j];
+    if (case_file::find_parameter(of[0]) == nullptr)
+      archive.refuse(fmt::format("'{}' is no parameter", of[0]));
+    fit.parameters.push_back({of[0], of[1], of[2], of[3], values[2 * j], values[2 * j + 1]});
+  }
+}
+
 }  // namespace
 
 double HeartbeatFit::moved(std::size_t parameter, std::size_t datum, double by) const {
@@ -170,28 +221,40 @@ std::string json(const HeartbeatFit& fit) {
   return all.dump(2) + "\n";
 }
 
+void write_heartbeats(const HeartbeatFit& fit, const std::filesystem::path& file) {
+  Archive archive;
+  store_data(fit, archive);
+  store_parameters(fit, archive);
+  std::vector<double> sensitivity;
+  for (Eigen::Index k = 0; k < fit.sensitivity.rows(); ++k)
+    sensitivity.insert(sensitivity.end(), fit.sensitivity.row(k).begin(),
+                       fit.sensitivity.row(k).end());
+  archive.set("sensitivity", std::move(sensitivity));
+  archive.set_words("left_alone", fit.left_alone);
+  archive.set("tolerance", {fit.tolerance});
+  archive.set("counts", {static_cast<double>(fit.evaluations), static_cast<double>(fit.beats)});
+  archive.write(file);
+}
+
 HeartbeatFit read_heartbeats(const std::filesystem::path& file) {
-  return from_json_file(file, [&](const Json& all) {
-    HeartbeatFit fit;
-    for (const Json& d : all.at("data"))
-      fit.data.push_back(
-          {d.at("name"), d.at("unit"),
-           d.at("measured").is_null() ? unknown_value : d.at("measured").get<double>(),
-           d.at("model")});
-    for (const Json& p : all.at("parameters")) {
-      fit.parameters.push_back({p.at("parameter"), p.at("words"), p.at("unit"), p.at("fitted_to"),
-                                p.at("before"), p.at("value")});
-      if (case_file::find_parameter(fit.parameters.back().parameter) == nullptr)
-        throw RunError(fmt::format("{} names a parameter that is none", file.string()),
-                       "Delete its folder to make it again");
-    }
-    for (const Json& sentence : all.at("left_alone"))
-      fit.left_alone.push_back(sentence.get<std::string>());
-    fit.tolerance = all.at("tolerance");
-    fit.evaluations = all.at("evaluations");
-    fit.beats = all.at("beats");
-    return fit;
-  });
+  const Archive archive = Archive::read(file);
+  HeartbeatFit fit;
+  load_data(archive, fit);
+  load_parameters_of(archive, fit);
+  const std::size_t columns = fit.parameters.size();
+  const auto& sensitivity =
+      archive.get_rows("sensitivity", 1, fit.data.size() * columns, {.missing = true});
+  fit.sensitivity.resize(static_cast<Eigen::Index>(fit.data.size()),
+                         static_cast<Eigen::Index>(columns));
+  for (std::size_t n = 0; n < sensitivity.size(); ++n)
+    fit.sensitivity(static_cast<Eigen::Index>(n / columns),
+                    static_cast<Eigen::Index>(n % columns)) = sensitivity[n];
+  fit.left_alone = archive.get_words("left_alone");
+  fit.tolerance = archive.number("tolerance");
+  const auto counts = archive.get_whole("counts", 2, heartbeat::not_negative);
+  fit.evaluations = counts[0];
+  fit.beats = counts[1];
+  return fit;
 }
 
 case_file::Case with_values(case_file::Case c, const HeartbeatFit& fit,

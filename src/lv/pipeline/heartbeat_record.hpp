@@ -45,10 +45,12 @@ struct HeartbeatFit {
 [[nodiscard]] std::string text(const HeartbeatFit& fit);
 [[nodiscard]] std::string json(const HeartbeatFit& fit);
 
-/// The file in a calibration's folder, and the fit from it, without sensitivities. Throws RunError
-/// when it is damaged.
-inline constexpr const char* heartbeats_name = "heartbeats.json";
+/// The archive in a calibration's folder, and the fit from it; heartbeats.json beside it is for
+/// readers. Throws RunError when it is damaged.
+inline constexpr const char* heartbeats_name = "heartbeats.bin";
+inline constexpr const char* heartbeats_json = "heartbeats.json";
 inline constexpr const char* heartbeats_text = "heartbeats.txt";
+void write_heartbeats(const HeartbeatFit& fit, const std::filesystem::path& file);
 [[nodiscard]] HeartbeatFit read_heartbeats(const std::filesystem::path& file);
 
 /// The case with the fitted values; `file` stands for where they come from.

@@ -24,7 +24,7 @@ constexpr double longest_fibres = 1.5;
 
 /// At which the law of the case bears no tension any more.
 double shortest_fibres(const Case& c) {
-  if (c.active_law != case_file::ActiveLaw::land2017)
+  if (c.active_law != case_file::ActiveChoice::land2017)
     return 0.8;
   constexpr double least = 0.5;  // of a law that hardly depends on stretch
   return std::max(least, 0.5 * (1.87 - 1.0 / c.land2017.beta_0));  // h = 0, below 0.87
@@ -106,7 +106,7 @@ void check_fibres(const Case& c, const Measured& measured, double V_0, double V_
            fmt::format("no contractility brings {} below {:.1f} ml: its fibres have then shortened "
                        "by {} in the mean, where they bear no tension any more",
                        wall, least / ml,
-                       c.active_law == case_file::ActiveLaw::land2017
+                       c.active_law == case_file::ActiveChoice::land2017
                            ? fmt::format("{:.0f}%", 100.0 * (1.0 - shortest_fibres(c)))
                            : "a fifth"),
            remedy);

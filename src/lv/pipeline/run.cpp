@@ -20,6 +20,7 @@
 #include "lv/pipeline/unloading.hpp"
 #include "lv/pipeline/validate.hpp"
 #include "lv/report/paraview_script.hpp"
+#include "lv/report/stage_facts.hpp"
 #include "lv/report/table_figures.hpp"
 #include "lv/scar/infarct.hpp"
 #include "lv/work/ingredients.hpp"
@@ -148,23 +149,22 @@ class Pipeline {
     if (*options_.until == "unload" && !case_file::is_loaded(case_))
       throw InputError(case_.file.string(), "takes the shape of its anatomy as free of stress",
                        "Set unloaded.pressure to the pressure under which it was seen");
-    const auto found =
-        std::find(work::stage_names.begin(), work::stage_names.end(), *options_.until);
-    if (found == work::stage_names.end()) {
-      const std::string nearest = nearest_name(*options_.until, work::stage_names);
+    const auto found = std::find(stage_names.begin(), stage_names.end(), *options_.until);
+    if (found == stage_names.end()) {
+      const std::string nearest = nearest_name(*options_.until, stage_names);
       throw InputError("--until " + *options_.until, "is not a stage",
-                       fmt::format("The stages are {}{}", fmt::join(work::stage_names, ", "),
+                       fmt::format("The stages are {}{}", fmt::join(stage_names, ", "),
                                    nearest.empty() ? "" : "; did you mean " + nearest + "?"));
     }
-    return static_cast<Stage>(found - work::stage_names.begin());
+    return static_cast<Stage>(found - stage_names.begin());
   }
 
   [[nodiscard]] std::filesystem::path folder(Stage stage) const {
-    return work_ / work::stage_folder(static_cast<std::size_t>(stage));
+    return work_ / stage_folder(static_cast<std::size_t>(stage));
   }
 
   static const std::string& name_of(Stage stage) {
-    return work::stage_names.at(static_cast<std::size_t>(stage));
+    return stage_names.at(static_cast<std::size_t>(stage));
   }
 
   void run_stage(const Planned& planned) {
@@ -208,6 +208,9 @@ class Pipeline {
           const anatomy::MeshResult mesh = make_mesh(c, shape());
           check_room(case_, mesh.mesh);  // before a fit takes its time
           anatomy::write_mesh_result(mesh, part);
+          report::write_facts(report::MeshFacts{c.regions.septum_angle, mesh.mesh.order,
+                                                c.engine == case_file::EngineChoice::immersed},
+                              part);
         });
         show_mesh(anatomy::read_mesh_result(part, c.fibres), c, part);
         break;

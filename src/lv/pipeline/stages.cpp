@@ -20,6 +20,7 @@
 #include "lv/pipeline/circulation.hpp"
 #include "lv/report/fields_vtk.hpp"
 #include "lv/report/heart_figures.hpp"
+#include "lv/report/stage_facts.hpp"
 #include "lv/report/summary.hpp"
 #include "lv/report/table_figures.hpp"
 #include "lv/report/tables_csv.hpp"
@@ -168,11 +169,11 @@ report::RunFacts run_facts(const Case& c, const anatomy::MeshResult& mesh, const
   report::RunFacts facts;
   facts.case_name = c.name;
   facts.version = work::version();
-  facts.engine = c.engine == case_file::Engine::immersed ? "immersed" : "quasi-static";
+  facts.engine = c.engine == case_file::EngineChoice::immersed ? "immersed" : "quasi-static";
   facts.ranks = beat.ranks;
   facts.nodes = static_cast<int>(mesh.mesh.nodes.size());
   facts.cells = mesh.mesh.cell_count();
-  if (c.engine == case_file::Engine::immersed) {
+  if (c.engine == case_file::EngineChoice::immersed) {
     facts.grid = fmt::format("{} x {} x {}", c.box.cells[0], c.box.cells[1], c.box.cells[2]);
     facts.mesh_width = case_file::model_parameters(c, mesh.mesh).grid.spacing.minCoeff();
   }
@@ -263,9 +264,10 @@ void check_spacing(const Case& c, const mesh::Mesh& m) {
 void draw(const Case& c, const mesh::Mesh& mesh, const heartbeat::Beat& beat,
           const analysis::BeatFields& fields, const drawing::Orientation& orientation,
           const std::filesystem::path& folder) {
-  const report::CurveFacts facts{c.engine == case_file::Engine::quasi_static && !beat.cycle,
-                                 beat.at(heartbeat::end_diastole).time,
-                                 beat.at(heartbeat::end_systole).time, beat.cycle.has_value()};
+  report::CurveFacts facts{
+      c.engine == case_file::EngineChoice::quasi_static && !beat.cycle, beat.cycle.has_value(), {}};
+  for (const heartbeat::NamedMoment& m : beat.moments)
+    facts.moments.emplace_back(m.name, m.wall.time);
   interrupt::check();
   drawing::write(report::states_figure(mesh, beat, fields, orientation), folder / "states.png");
   interrupt::check();
@@ -278,7 +280,7 @@ void draw(const Case& c, const mesh::Mesh& mesh, const heartbeat::Beat& beat,
 
 /// What the anatomy's stage left beside the folder of another stage.
 anatomy::AnatomyRecord anatomy_beside(const std::filesystem::path& folder) {
-  const auto stage = work::stage_folder(static_cast<std::size_t>(case_file::Stage::anatomy));
+  const auto stage = stage_folder(static_cast<std::size_t>(case_file::Stage::anatomy));
   return anatomy::anatomy_record(folder.parent_path() / stage);
 }
 
@@ -290,7 +292,7 @@ std::string beside_measured(const Case& c, const anatomy::MeshResult& mesh, cons
   if (!c.strain.asked() && c.strain.measured.empty())
     return "";
   const auto strain =
-      folder.parent_path() / work::stage_folder(static_cast<std::size_t>(case_file::Stage::strain));
+      folder.parent_path() / stage_folder(static_cast<std::size_t>(case_file::Stage::strain));
   return "\n" + cine::compare_strain(
                     c, {mesh, beat.beat, fields, anatomy_beside(folder).frame, orientation}, strain,
                     folder);
@@ -334,6 +336,7 @@ std::string write_results(const Case& c, const anatomy::MeshResult& mesh, const 
                        fields.at(heartbeat::end_diastole));
   const drawing::Orientation orientation{c.regions.septum_angle, facts.assumed,
                                          facts.unloaded.has_value()};
+  report::write_facts(orientation, folder);
   draw(c, mesh.mesh, beat.beat, fields, orientation, folder);
   drawing::write(report::segments_figure(report::regions_table(results), orientation),
                  folder / "segments.png");
@@ -345,7 +348,7 @@ std::string write_results(const Case& c, const anatomy::MeshResult& mesh, const 
 }  // namespace
 
 void check_room(const Case& c, const mesh::Mesh& mesh) {
-  if (c.engine != case_file::Engine::immersed)
+  if (c.engine != case_file::EngineChoice::immersed)
     return;
   check_box(c, mesh);
   check_spacing(c, mesh);
@@ -360,7 +363,7 @@ anatomy::MeshResult make_mesh(const Case& c, const anatomy::Shape& shape) {
   result.mesh.infarct = std::move(infarct.M);
   result.infarcted = std::move(infarct.part);
   result.slice_moves = std::move(infarct.slice_moves);
-  if (c.engine == case_file::Engine::immersed) {
+  if (c.engine == case_file::EngineChoice::immersed) {
     result.mesh.order = 1;  // the parts of a refined given mesh are its elements
   } else if (c.quasi_static.order == 2 && result.mesh.order == 1) {
     // each element of a given mesh becomes a quadratic one
@@ -396,7 +399,8 @@ void show_mesh(const anatomy::MeshResult& result, const Case& c,
 heartbeat::Beat make_beat(const Case& c, const anatomy::MeshResult& mesh,
                           const std::filesystem::path& folder) {
   const bool is_cycle = case_file::is_cycle(c);
-  if (c.engine == case_file::Engine::quasi_static && !is_cycle && parallel::is_root())
+  parallel::on_root([&] { report::write_facts(report::BeatFacts{is_cycle}, folder); });
+  if (c.engine == case_file::EngineChoice::quasi_static && !is_cycle && parallel::is_root())
     std::filesystem::remove_all(folder / "fields");  // of a beat that was stopped: it starts anew
   const std::vector<double> activated =
       is_cycle ? activation_times(c, mesh) : std::vector<double>{};
@@ -405,7 +409,7 @@ heartbeat::Beat make_beat(const Case& c, const anatomy::MeshResult& mesh,
                                        [&](const heartbeat::RunState& run) { writer.curves(run); }};
   if (is_cycle)
     return make_cycle(c, mesh.mesh, activated, folder, observers);
-  if (c.engine == case_file::Engine::quasi_static)
+  if (c.engine == case_file::EngineChoice::quasi_static)
     return heartbeat::run_quasi_static_beat(
         {mesh.mesh, case_file::static_model(c), c.quasi_static.solver, c.protocol,
          c.output.frame_interval},

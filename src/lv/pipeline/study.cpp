@@ -7,6 +7,7 @@
 #include "lv/base/table.hpp"
 #include "lv/base/time_left.hpp"
 #include "lv/case_file/family.hpp"
+#include "lv/case_file/parameters.hpp"
 #include "lv/circulation/cycle.hpp"
 #include "lv/pipeline/beat_result.hpp"
 #include "lv/pipeline/calibration.hpp"
@@ -27,7 +28,7 @@ using case_file::Member;
 using case_file::Stage;
 
 fs::path folder_in(const fs::path& work, Stage stage) {
-  return work / work::stage_folder(static_cast<std::size_t>(stage));
+  return work / stage_folder(static_cast<std::size_t>(stage));
 }
 
 bool has_beat(const fs::path& work) {

@@ -1,7 +1,6 @@
 #include "lv/pipeline/unloading.hpp"
 
 #include "lv/base/check.hpp"
-#include "lv/base/json_file.hpp"
 #include "lv/base/log.hpp"
 #include "lv/base/parallel.hpp"
 #include "lv/base/table.hpp"
@@ -13,6 +12,9 @@
 #include "lv/solid/interpolate.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <utility>
 
 namespace lv::pipeline {
 namespace {
@@ -24,6 +26,7 @@ using units::mmHg;
 using heartbeat::Archive;
 
 constexpr const char* summary_name = "unloaded.json";
+constexpr const char* result_name = "unloading.bin";
 
 /// A cavity without load below this share of Klotz's V0 is warned of.
 constexpr double least_of_klotz = 0.8;
@@ -105,22 +108,47 @@ void warn(const case_file::Case& c, const mesh::Mesh& elements, const Unloaded& 
         1e-3 * seen_volume(elements), c.unloaded.pressure / mmHg);
 }
 
-Json summary(const case_file::Case& c, const mesh::Mesh& elements, const Unloaded& unloaded) {
+report::UnloadedShape found_shape(const case_file::Case& c, const mesh::Mesh& elements,
+                                  const Unloaded& unloaded) {
   const implicit::UnloadStep& last = unloaded.steps.back();
-  return {{"pressure_mmHg", c.unloaded.pressure / mmHg},
-          {"seen_volume_ml", 1e-3 * seen_volume(elements)},
-          {"unloaded_volume_ml", 1e-3 * last.unloaded_volume},
-          {"loaded_again_volume_ml", 1e-3 * last.volume},
-          {"largest_distance_mm", last.largest},
-          {"rms_distance_mm", last.rms},
-          {"tolerance_mm", c.unloaded.tolerance},
-          {"klotz_volume_ml", 1e-3 * klotz_volume(c, elements)},
-          {"smoothing", unloaded.smoothing},
-          {"dent_deg", last.folds.dent / units::degree},
-          {"nearest_to_itself", last.folds.approach},
-          {"largest_stretch", last.folds.stretch},
-          {"steps", unloaded.steps.size()}};
+  return {c.unloaded.pressure,
+          seen_volume(elements),
+          last.unloaded_volume,
+          last.volume,
+          last.largest,
+          last.rms,
+          klotz_volume(c, elements),
+          unloaded.smoothing,
+          last.folds};
 }
+
+std::string summary(const report::UnloadedShape& shape, double tolerance, std::size_t steps) {
+  const Json json{{"pressure_mmHg", shape.pressure / mmHg},
+                  {"seen_volume_ml", 1e-3 * shape.seen_volume},
+                  {"unloaded_volume_ml", 1e-3 * shape.unloaded_volume},
+                  {"loaded_again_volume_ml", 1e-3 * shape.loaded_volume},
+                  {"largest_distance_mm", shape.largest},
+                  {"rms_distance_mm", shape.rms},
+                  {"tolerance_mm", tolerance},
+                  {"klotz_volume_ml", 1e-3 * shape.klotz_volume},
+                  {"smoothing", shape.smoothing},
+                  {"dent_deg", shape.folds.dent / units::degree},
+                  {"nearest_to_itself", shape.folds.approach},
+                  {"largest_stretch", shape.folds.stretch},
+                  {"steps", steps}};
+  return json.dump(2) + "\n";
+}
+
+/// The numbers of a wall without load, by their names in an archive.
+constexpr std::pair<const char*, double report::UnloadedShape::*> shape_numbers[]{
+    {"pressure", &report::UnloadedShape::pressure},
+    {"seen_volume", &report::UnloadedShape::seen_volume},
+    {"unloaded_volume", &report::UnloadedShape::unloaded_volume},
+    {"loaded_volume", &report::UnloadedShape::loaded_volume},
+    {"largest", &report::UnloadedShape::largest},
+    {"rms", &report::UnloadedShape::rms},
+    {"klotz_volume", &report::UnloadedShape::klotz_volume},
+    {"smoothing", &report::UnloadedShape::smoothing}};
 
 void check_elements(const mesh::Mesh& wall) {
   const mesh::Quality q = mesh::quality(wall);
@@ -154,7 +182,7 @@ void make_unloading(const case_file::Case& c, const anatomy::MeshResult& seen,
                     const std::filesystem::path& start) {
   const Unloaded unloaded = find_unloaded(c, elements, folder, start);
   anatomy::MeshResult result = seen;
-  result.mesh = mesh::with_nodes(seen.mesh, c.engine == case_file::Engine::quasi_static
+  result.mesh = mesh::with_nodes(seen.mesh, c.engine == case_file::EngineChoice::quasi_static
                                                 ? unloaded.nodes
                                                 : carried(elements, unloaded.nodes, seen.mesh));
   check_elements(result.mesh);
@@ -162,7 +190,9 @@ void make_unloading(const case_file::Case& c, const anatomy::MeshResult& seen,
     anatomy::write_mesh_result(result, folder);
     warn(c, elements, unloaded);
     steps_table(unloaded).write_csv(folder / "unloading.csv");
-    write_file(folder / summary_name, summary(c, elements, unloaded).dump(2) + "\n");
+    const report::UnloadedShape shape = found_shape(c, elements, unloaded);
+    write_file(folder / summary_name, summary(shape, c.unloaded.tolerance, unloaded.steps.size()));
+    write_shape(shape, folder);
     std::filesystem::remove(folder / search_record);
   }
   show_mesh(result, c, folder);
@@ -212,22 +242,24 @@ Unloaded load_unloaded(const Archive& archive, std::size_t nodes) {
           archive.get_rows("unloaded.smoothing", 1, 1, heartbeat::not_negative).front()};
 }
 
+void write_shape(const report::UnloadedShape& shape, const std::filesystem::path& folder) {
+  Archive archive;
+  for (const auto& [name, member] : shape_numbers)
+    archive.set(name, {shape.*member});
+  archive.set("folds", {shape.folds.dent, shape.folds.approach, shape.folds.stretch});
+  archive.write(folder / result_name);
+}
+
 std::optional<report::UnloadedShape> unloaded_shape(const std::filesystem::path& folder) {
-  if (!std::filesystem::exists(folder / summary_name))
+  if (!std::filesystem::exists(folder / result_name))
     return {};
-  return from_json_file(folder / summary_name, [](const Json& json) {
-    return report::UnloadedShape{json.at("pressure_mmHg").get<double>() * mmHg,
-                                 1e3 * json.at("seen_volume_ml").get<double>(),
-                                 1e3 * json.at("unloaded_volume_ml").get<double>(),
-                                 1e3 * json.at("loaded_again_volume_ml").get<double>(),
-                                 json.at("largest_distance_mm").get<double>(),
-                                 json.at("rms_distance_mm").get<double>(),
-                                 1e3 * json.at("klotz_volume_ml").get<double>(),
-                                 json.at("smoothing").get<double>(),
-                                 {.dent = json.at("dent_deg").get<double>() * units::degree,
-                                  .approach = json.at("nearest_to_itself").get<double>(),
-                                  .stretch = json.at("largest_stretch").get<double>()}};
-  });
+  const Archive archive = Archive::read(folder / result_name);
+  report::UnloadedShape shape;
+  for (const auto& [name, member] : shape_numbers)
+    shape.*member = archive.number(name);
+  const auto& folds = archive.get_rows("folds", 3, 1);
+  shape.folds = {.dent = folds[0], .approach = folds[1], .stretch = folds[2]};
+  return shape;
 }
 
 }  // namespace lv::pipeline

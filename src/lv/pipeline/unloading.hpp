@@ -47,7 +47,9 @@ void store(const implicit::Unloaded& unloaded, heartbeat::Archive& archive);
 [[nodiscard]] implicit::Unloaded load_unloaded(const heartbeat::Archive& archive,
                                                std::size_t nodes);
 
-/// What make_unloading left in a folder; nothing when it was not there.
+/// What make_unloading leaves in a folder of how well it did, and the same from there; nothing when
+/// it was not there.
+void write_shape(const report::UnloadedShape& shape, const std::filesystem::path& folder);
 [[nodiscard]] std::optional<report::UnloadedShape> unloaded_shape(
     const std::filesystem::path& folder);
 

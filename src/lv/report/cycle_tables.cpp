@@ -1,6 +1,7 @@
 #include "lv/report/cycle_tables.hpp"
 
 #include "lv/base/units.hpp"
+#include "lv/heartbeat/cycle_record.hpp"
 
 #include <fmt/format.h>
 
@@ -161,13 +162,22 @@ void mark_events(const Beats& beats, const Table& measured, drawing::LineChart& 
   }
 }
 
-/// What the valves are doing.
+/// What the valves are doing: the phase that ends with what the open one does next, or with the
+/// opening of the one that comes next.
 std::string phase_name(double mitral, double aortic, bool has_ejected) {
+  const auto before = [](double circulation::Signals::*gradient, bool opens) {
+    return std::find_if(heartbeat::valve_events.begin(), heartbeat::valve_events.end(),
+                        [&](const heartbeat::ValveEvent& e) {
+                          return e.gradient == gradient && e.opens == opens;
+                        })
+        ->ends;
+  };
   if (mitral > 0.0)
-    return "filling";
+    return before(&circulation::Signals::mitral_gradient, false);
   if (aortic > 0.0)
-    return "ejection";
-  return has_ejected ? "relaxation" : "contraction";
+    return before(&circulation::Signals::aortic_gradient, false);
+  return has_ejected ? before(&circulation::Signals::mitral_gradient, true)
+                     : before(&circulation::Signals::aortic_gradient, true);
 }
 
 std::vector<drawing::Phase> valve_phases(const std::vector<double>& time,

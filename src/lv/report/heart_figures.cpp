@@ -302,7 +302,8 @@ drawing::Figure fibre_figure(const Mesh& mesh, const std::vector<CellFields>& un
 }
 
 drawing::Figure infarct_figure(const Mesh& mesh, const drawing::Orientation& o) {
-  const drawing::ColourScale scale{drawing::sequential(), 0.0, 1.0, 0.0, analysis::infarct_floor};
+  const drawing::ColourScale scale{drawing::sequential(), 0.0, 1.0, 0.0,
+                                   analysis::infarct_extent().floor};
   const mesh::CurvedMesh curved = mesh::curved(mesh);
   const PaintedWall wall({curved, mesh.nodes}, mesh.infarct, scale);
   const Vec3 middle = infarct_middle(mesh);
@@ -341,7 +342,9 @@ drawing::Figure states_figure(const Mesh& mesh, const heartbeat::Beat& beat,
   return {.panels = both_axes(titles, walls, o),
           .columns = static_cast<int>(walls.size()),
           .footnote = notes(o),
-          .colour_bar = drawing::ColourBar{"fibre stretch from " + o.at_rest(), scale}};
+          .colour_bar = drawing::ColourBar{
+              fmt::format("{} from {}", analysis::quantity("fibre_stretch").title, o.at_rest()),
+              scale}};
 }
 
 drawing::Figure stress_figure(const Mesh& mesh, const heartbeat::Beat& beat,
@@ -370,7 +373,7 @@ drawing::Figure stress_figure(const Mesh& mesh, const heartbeat::Beat& beat,
                          .footnote = notes(o)};
   for (std::size_t i = 0; i < figure.panels.size(); ++i)
     figure.panels[i].colour_bar = drawing::ColourBar{
-        i % 3 == 2 ? "active tension [kPa]" : "fibre stress [kPa]", walls[i % 3].scale};
+        analysis::label(i % 3 == 2 ? active_tension : fibre_stress), walls[i % 3].scale};
   return figure;
 }
 

@@ -1,5 +1,6 @@
 #include "lv/report/plausibility.hpp"
 
+#include "lv/analysis/quantities.hpp"
 #include "lv/base/units.hpp"
 
 #include <fmt/format.h>
@@ -97,10 +98,10 @@ std::vector<PlausibleRange> make_ranges() {
        60.0, healthy_muscle, true,
        "Gao et al., IMA J. Appl. Math. 79:978, 2014, healthy subject: fibre strain -0.19 +- 0.04 "
        "over the wall, +- 2 SD, as 1 - sqrt(1 + 2 E)"},
-      {"circumferential_strain", "circumferential strain", "1",
+      {"circumferential_strain", analysis::quantity("circumferential_strain").title, "1",
        [](const JudgedBeat& b) { return end_systolic(b, "circumferential_strain"); }, -0.280,
        -0.168, -0.5, infinity, healthy_muscle, true, tracked("-26.1 +- 3.8%", green)},
-      {"longitudinal_strain", "longitudinal strain", "1",
+      {"longitudinal_strain", analysis::quantity("longitudinal_strain").title, "1",
        [](const JudgedBeat& b) { return end_systolic(b, "longitudinal_strain"); }, -0.261, -0.110,
        -0.5, infinity, healthy_muscle, true, tracked("-21.3 +- 4.8%", green)},
       {"thickening_percent", "thickening of the wall", "%",

@@ -312,6 +312,30 @@ std::string cycle_text(const heartbeat::Beat& beat) {
              100.0 * e.error());
 }
 
+/// The wall free of stress and at every moment of the beat, a column each.
+std::string shapes_text(const RunFacts& facts, const Results& r) {
+  std::vector<std::pair<std::string, const VentricleShape*>> columns{
+      {facts.unloaded ? "unloaded" : "early diast.", &r.early_diastole}};
+  for (const auto& [moment, shape] : r.moments)
+    columns.emplace_back(heartbeat::title(moment), &shape);
+  std::size_t width = 0;
+  for (const auto& column : columns)
+    width = std::max(width, column.first.size() + 2);
+  std::string text = fmt::format("  {:<34}", "");
+  for (const auto& column : columns)
+    text += fmt::format("{:>{}}", column.first, width);
+  const auto row = [&](const char* what, double VentricleShape::*value, double unit) {
+    text += fmt::format("\n  {:<34}", what);
+    for (const auto& column : columns)
+      text += fmt::format("{:>{}.2f}", column.second->*value / unit, width);
+  };
+  row("endocardial pressure (mmHg)", &VentricleShape::pressure, mmHg);
+  row("cavity volume (ml)", &VentricleShape::cavity_volume, units::ml);
+  row("wall volume (ml)", &VentricleShape::wall_volume, units::ml);
+  row("endocardial apex z (mm)", &VentricleShape::apex_endo_z, 1.0);
+  return text + "\n";
+}
+
 /// What heartbeats were fitted to.
 std::string fitted_beats_text(const std::vector<FittedOfBeat>& fitted) {
   if (fitted.empty())
@@ -393,18 +417,7 @@ std::string summary_text(const RunFacts& facts, const heartbeat::Beat& beat, con
       "{}: {}, {} elements, {} nodes{}, {} steps in {:.0f} s on {} rank{}\n\n", facts.case_name,
       facts.engine, facts.cells, facts.nodes, facts.grid.empty() ? "" : ", grid " + facts.grid,
       beat.steps, facts.wall_clock, facts.ranks, facts.ranks == 1 ? "" : "s");
-  text += fmt::format("  {:<34}{:>14}{:>14}{:>14}\n", "",
-                      facts.unloaded ? "unloaded" : "early diast.", "end-diastole", "end-systole");
-  const auto row = [&](const char* what, double a, double b, double c) {
-    text += fmt::format("  {:<34}{:>14.2f}{:>14.2f}{:>14.2f}\n", what, a, b, c);
-  };
-  const VentricleShape& e = r.early_diastole;
-  const VentricleShape& d = r.at(heartbeat::end_diastole);
-  const VentricleShape& s = r.at(heartbeat::end_systole);
-  row("endocardial pressure (mmHg)", 0.0, d.pressure / mmHg, s.pressure / mmHg);
-  row("cavity volume (ml)", 1e-3 * e.cavity_volume, 1e-3 * d.cavity_volume, 1e-3 * s.cavity_volume);
-  row("wall volume (ml)", 1e-3 * e.wall_volume, 1e-3 * d.wall_volume, 1e-3 * s.wall_volume);
-  row("endocardial apex z (mm)", e.apex_endo_z, d.apex_endo_z, s.apex_endo_z);
+  text += shapes_text(facts, r);
   text += fmt::format(
       "\n  ejection fraction {:.1f}%, mass {:.1f} g ({:g} g/ml)\n\n", 100.0 * r.ejection_fraction(),
       1e3 * facts.muscle_density * r.early_diastole.wall_volume, 1e6 * facts.muscle_density);

@@ -1,17 +1,17 @@
 #include "lv/report/table_figures.hpp"
 
 #include "lv/analysis/quantities.hpp"
-#include "lv/base/json_file.hpp"
-#include "lv/base/units.hpp"
 #include "lv/heartbeat/beat.hpp"
 #include "lv/material/stress_stretch.hpp"
 #include "lv/report/cycle_tables.hpp"
+#include "lv/report/stage_facts.hpp"
 #include "lv/report/work_folder.hpp"
 #include "lv/strain/agreement.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -22,15 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
-
-std::string spaced(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
-}
-
-std::string with_unit(const std::string& name, const std::string& unit) {
-  return unit == "1" || unit.empty() ? spaced(name) : fmt::format("{} [{}]", spaced(name), unit);
-}
 
 // ---- curves ----
 
@@ -80,42 +71,42 @@ drawing::Panel curve_panel(const Abscissa& a, const std::string& label,
                                         .phases = a.phases}};
 }
 
-/// A marker at the row whose time is the nearest to one that is known.
-void mark(const Table& curves, double time, const char* label, drawing::Marker marker,
+/// A marker for every moment, at the row whose time is the nearest.
+void mark(const Table& curves, const std::vector<std::pair<std::string, double>>& moments,
           drawing::LineChart& path) {
+  constexpr std::array<drawing::Marker, 3> markers{drawing::Marker::circle, drawing::Marker::square,
+                                                   drawing::Marker::triangle};
   const auto times = curves.numbers("time_s");
-  if (std::isnan(time) || times.empty())
+  if (times.empty())
     return;
-  const auto nearest = std::min_element(times.begin(), times.end(), [&](double a, double b) {
-    return std::abs(a - time) < std::abs(b - time);
-  });
-  const drawing::Series& all = path.series.front();
-  const auto row = static_cast<std::size_t>(nearest - times.begin());
-  path.series.push_back(
-      {.label = label, .x = {all.x[row]}, .y = {all.y[row]}, .width = 0.0, .marker = marker});
+  const drawing::Series all = path.series.front();
+  for (std::size_t k = 0; k < moments.size(); ++k) {
+    const auto& [name, time] = moments[k];
+    const auto nearest = std::min_element(
+        times.begin(), times.end(),
+        [t = time](double a, double b) { return std::abs(a - t) < std::abs(b - t); });
+    const auto row = static_cast<std::size_t>(nearest - times.begin());
+    path.series.push_back({.label = heartbeat::title(name),
+                           .x = {all.x[row]},
+                           .y = {all.y[row]},
+                           .width = 0.0,
+                           .marker = markers[k % markers.size()]});
+  }
 }
 
 // ---- bull's-eyes ----
 
 /// A quantity at a state in the regions of one scheme.
-struct RegionalMeans {
-  std::vector<double> values;
-  std::string unit;
-};
-
-RegionalMeans means(const Table& regions, const std::string& quantity, const std::string& state,
-                    const std::string& scheme) {
+std::vector<double> means(const Table& regions, const std::string& quantity,
+                          const std::string& state, const std::string& scheme) {
   const auto states = regions.words("state");
   const auto schemes = regions.words("scheme");
   const auto quantities = regions.words("quantity");
-  const auto units = regions.words("unit");
   const auto mean = regions.numbers("mean");
-  RegionalMeans found;
+  std::vector<double> found;
   for (std::size_t i = 0; i < mean.size(); ++i)
-    if (states[i] == state && schemes[i] == scheme && quantities[i] == quantity) {
-      found.values.push_back(mean[i]);
-      found.unit = units[i];
-    }
+    if (states[i] == state && schemes[i] == scheme && quantities[i] == quantity)
+      found.push_back(mean[i]);
   return found;
 }
 
@@ -179,10 +170,10 @@ drawing::Panel bulls_eye_panel(const std::string& title, const std::vector<doubl
 /// The value of every AHA segment at end-systole.
 drawing::Panel segment_panel(const Table& regions, const std::string& quantity, int digits,
                              const drawing::Orientation& orientation) {
-  const RegionalMeans found = means(regions, quantity, heartbeat::end_systole, "aha17");
-  const drawing::ColourScale scale = scale_of(found.values, quantity);
-  const std::string label = with_unit(quantity, found.unit);
-  drawing::Panel panel = bulls_eye_panel(label, found.values, scale, digits, orientation);
+  const std::vector<double> found = means(regions, quantity, heartbeat::end_systole, "aha17");
+  const drawing::ColourScale scale = scale_of(found, quantity);
+  const std::string label = analysis::label(analysis::quantity(quantity));
+  drawing::Panel panel = bulls_eye_panel(label, found, scale, digits, orientation);
   panel.colour_bar = drawing::ColourBar{label, scale};
   return panel;
 }
@@ -222,10 +213,9 @@ drawing::LineChart bland_altman(const drawing::Series& points, const strain::Agr
 // ---- files ----
 
 CurveFacts curve_facts(const fs::path& work) {
-  const bool is_cycle = recorded(work, "beat", "protocol.kind") == "cycle";
-  return {recorded(work, "mesh", "engine") == "quasi_static" && !is_cycle,
-          time_of(work, heartbeat::end_diastole).value_or(missing),
-          time_of(work, heartbeat::end_systole).value_or(missing), is_cycle};
+  const bool has_valves = beat_facts(work).value_or(BeatFacts{}).has_valves;
+  const auto mesh = mesh_facts(work);
+  return {mesh && !mesh->is_immersed && !has_valves, has_valves, moments_of(work)};
 }
 
 /// Writes the figures of what is there.
@@ -262,7 +252,7 @@ class FigureFolder {
     const std::set<std::string> moments(states.begin(), states.end());
     for (const analysis::Quantity& q : analysis::quantities())
       for (const std::string& moment : moments)
-        if (q.is_shown && !means(*table, q.name, moment, "aha17").values.empty())
+        if (q.is_shown && !means(*table, q.name, moment, "aha17").empty())
           write(bulls_eyes_figure(*table, q.name, moment, orientation),
                 fmt::format("bulls_eyes_{}_{}", q.name, moment));
   }
@@ -305,8 +295,7 @@ drawing::Figure curves_figure(const Table& curves, const CurveFacts& facts) {
   drawing::LineChart path{.x = {"cavity volume [ml]"},
                           .y = {"pressure [mmHg]"},
                           .series = {{.x = volume, .y = pressure}}};
-  mark(curves, facts.end_diastole, "end-diastole", drawing::Marker::circle, path);
-  mark(curves, facts.end_systole, "end-systole", drawing::Marker::square, path);
+  mark(curves, facts.moments, path);
   return {
       .panels = {
           curve_panel(a, "pressure [mmHg]", pressure),
@@ -340,11 +329,11 @@ drawing::Figure segments_figure(const Table& regions, const drawing::Orientation
 drawing::Figure bulls_eyes_figure(const Table& regions, const std::string& quantity,
                                   const std::string& state,
                                   const drawing::Orientation& orientation) {
-  const RegionalMeans slices = means(regions, quantity, state, "sector");
-  const RegionalMeans segments = means(regions, quantity, state, "aha17");
+  const std::vector<double> slices = means(regions, quantity, state, "sector");
+  const std::vector<double> segments = means(regions, quantity, state, "aha17");
   const drawing::ColourScale scale = scale_of(all_means(regions, quantity), quantity);
   const int digits = decimals(scale);
-  const std::string label = with_unit(quantity, segments.unit);
+  const std::string label = analysis::label(analysis::quantity(quantity));
   const std::string strain =
       fmt::format("Green-Lagrange strain from {}", state == heartbeat::end_diastole
                                                        ? orientation.at_rest()
@@ -352,13 +341,12 @@ drawing::Figure bulls_eyes_figure(const Table& regions, const std::string& quant
   std::vector<std::string> parts{"septum", "apex", "base"};
   if (state == heartbeat::end_diastole && analysis::quantity(quantity).is_strain)
     parts.emplace_back("early diastole");
-  return {
-      .panels = {bulls_eye_panel("seven slices", slices.values, scale, digits, orientation),
-                 bulls_eye_panel("17 segments (AHA)", segments.values, scale, digits, orientation)},
-      .title = fmt::format("{}, mean at {}", label, heartbeat::title(state)),
-      .footnote =
-          with_stars(analysis::quantity(quantity).is_strain ? strain : "", orientation, parts),
-      .colour_bar = drawing::ColourBar{label, scale}};
+  return {.panels = {bulls_eye_panel("seven slices", slices, scale, digits, orientation),
+                     bulls_eye_panel("17 segments (AHA)", segments, scale, digits, orientation)},
+          .title = fmt::format("{}, mean at {}", label, heartbeat::title(state)),
+          .footnote =
+              with_stars(analysis::quantity(quantity).is_strain ? strain : "", orientation, parts),
+          .colour_bar = drawing::ColourBar{label, scale}};
 }
 
 drawing::Figure rotation_figure(const Table& rotation, const drawing::Orientation& orientation) {
@@ -430,20 +418,6 @@ drawing::Figure agreement_figure(const Table& table, const std::string& componen
               orientation.starred(scheme == "sector" ? "sectors of slices" : "AHA segments",
                                   {"septum", "apex", "base"})),
           .footnote = with_stars("", orientation)};
-}
-
-drawing::Orientation orientation_of(const fs::path& work) {
-  drawing::Orientation o;
-  if (const auto angle = recorded(work, "mesh", "regions.septum_angle"))
-    o.septum_angle = std::stod(*angle) * units::degree;
-  if (const fs::path file = file_of(work, "results", "summary.json"); !file.empty())
-    from_json_file(file, [&o](const auto& summary) {
-      for (const auto& a : summary.at("assumptions"))
-        o.assumed.push_back({a.at("part"), a.at("text")});
-      o.is_unloaded = summary.contains("unloaded");
-      return true;
-    });
-  return o;
 }
 
 void write_figures(const fs::path& work, const fs::path& folder) {

@@ -4,23 +4,23 @@
 #include "lv/drawing/figure.hpp"
 
 #include <filesystem>
-#include <limits>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace lv::report {
 
 /// What curves.csv does not say of itself.
 struct CurveFacts {
-  bool is_static = false;  ///< equilibria: the times are no times but shares of the loads
-  double end_diastole = std::numeric_limits<double>::quiet_NaN();  ///< its time; NaN: not known [s]
-  double end_systole = std::numeric_limits<double>::quiet_NaN();
+  bool is_static = false;   ///< equilibria: the times are no times but shares of the loads
   bool has_valves = false;  ///< it is a heartbeat of a circulation
+  std::vector<std::pair<std::string, double>> moments;  ///< names and times [s]
 };
 
 /// Pressure, volume and mean active tension against time (against the load where there is no time),
-/// each with an axis of its own, and pressure against volume with end-diastole and end-systole
-/// marked, from curves.csv.
+/// each with an axis of its own, and pressure against volume with the moments marked, from
+/// curves.csv.
 [[nodiscard]] drawing::Figure curves_figure(const Table& curves, const CurveFacts& facts);
 
 /// Calcium in the same way; nothing where it is missing throughout. Missing values are gaps.
@@ -53,10 +53,6 @@ struct CurveFacts {
 [[nodiscard]] drawing::Figure agreement_figure(const Table& pairs, const std::string& component,
                                                const std::string& scheme,
                                                const drawing::Orientation& orientation);
-
-/// How the ventricle of a run lies, by the record of its mesh, and what of it was assumed, by its
-/// summary.json; nothing is known of what is not there.
-[[nodiscard]] drawing::Orientation orientation_of(const std::filesystem::path& work);
 
 /// Writes every chart and bull's-eye of a work folder as SVG into `folder`, and nothing for what is
 /// missing. Throws RunError naming a file that cannot be written.

@@ -1,27 +1,15 @@
 #include "lv/report/work_folder.hpp"
 
-#include "lv/base/json_file.hpp"
-
-#include <algorithm>
+#include "lv/base/stage_folders.hpp"
 
 namespace lv::report {
 
 namespace fs = std::filesystem;
 
 fs::path folder_of(const fs::path& work, const std::string& stage) {
-  constexpr const char* digits = "0123456789";
-  fs::path unfinished;
-  for (const auto& entry : fs::directory_iterator(work)) {
-    const std::string name = entry.path().filename();  // "03_beat", "02b_calibrate"
-    const std::size_t number = name.find('_');
-    if (number == std::string::npos || name.find_first_of(digits) != 0)
-      continue;
-    if (name.substr(number + 1) == stage)
-      return entry.path();
-    if (name.substr(number + 1) == stage + ".part")
-      unfinished = entry.path();
-  }
-  return unfinished;
+  const fs::path finished = work / stage_folder(stage);
+  const fs::path unfinished = finished.string() + ".part";
+  return fs::exists(finished) ? finished : fs::exists(unfinished) ? unfinished : fs::path();
 }
 
 fs::path file_of(const fs::path& work, const std::string& stage, const std::string& file) {
@@ -40,29 +28,23 @@ std::optional<Table> table_of(const fs::path& work, const std::string& stage,
   return table;
 }
 
-std::optional<double> time_of(const fs::path& work, const std::string& moment) {
-  const auto moments = table_of(work, "beat", "moments.csv");
-  if (!moments)
+std::vector<std::pair<std::string, double>> moments_of(const fs::path& work) {
+  const auto table = table_of(work, "beat", "moments.csv");
+  if (!table)
     return {};
-  const auto names = moments->words("moment");
-  const auto found = std::find(names.begin(), names.end(), moment);
-  if (found == names.end())
-    return {};
-  return moments->numbers("time_s").at(static_cast<std::size_t>(found - names.begin()));
+  const auto names = table->words("moment");
+  const auto times = table->numbers("time_s");
+  std::vector<std::pair<std::string, double>> moments;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    moments.emplace_back(names[i], times[i]);
+  return moments;
 }
 
-std::optional<std::string> recorded(const fs::path& work, const std::string& stage,
-                                    const std::string& parameter) {
-  const fs::path record = file_of(work, stage, "stage.json");
-  if (record.empty())
-    return {};
-  std::string value = from_json_file(record, [&](const auto& json) -> std::string {
-    return json.at("ingredients").value(parameter, "");
-  });
-  std::erase(value, '"');
-  if (value.empty())
-    return {};
-  return value;
+std::optional<double> time_of(const fs::path& work, const std::string& moment) {
+  for (const auto& [name, time] : moments_of(work))
+    if (name == moment)
+      return time;
+  return {};
 }
 
 }  // namespace lv::report

@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace lv::report {
 
@@ -21,15 +23,13 @@ namespace lv::report {
 [[nodiscard]] std::optional<Table> table_of(const std::filesystem::path& work,
                                             const std::string& stage, const std::string& file);
 
+/// The moments of the beat, with their times, by its moments.csv [s].
+[[nodiscard]] std::vector<std::pair<std::string, double>> moments_of(
+    const std::filesystem::path& work);
+
 /// When the beat was at a moment of that name, by its moments.csv; nothing when it has not been
 /// there [s].
 [[nodiscard]] std::optional<double> time_of(const std::filesystem::path& work,
                                             const std::string& moment);
-
-/// The value of a parameter as the record of a stage has it, without quotation marks; nothing when
-/// the stage is not finished or does not read it.
-[[nodiscard]] std::optional<std::string> recorded(const std::filesystem::path& work,
-                                                  const std::string& stage,
-                                                  const std::string& parameter);
 
 }  // namespace lv::report

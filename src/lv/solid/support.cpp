@@ -41,9 +41,10 @@ Eigen::VectorXd gather(std::span<const Vec3> values, std::span<const int> nodes)
 }  // namespace
 
 double AxialWeight::at(double h) const {
-  const double s = shape == Shape::even     ? 1.0
-                   : shape == Shape::linear ? 1.0 - h
-                                            : 1.0 / (1.0 + std::exp(steepness * (h - middle)));
+  const double s = shape == WeightShape::even ? 1.0
+                   : shape == WeightShape::linear
+                       ? 1.0 - h
+                       : 1.0 / (1.0 + std::exp(steepness * (h - middle)));
   return at_base + (1.0 - at_base) * s;
 }
 

@@ -20,9 +20,9 @@ namespace lv::solid {
 ///   sigmoid  s = 1/(1 + exp(steepness (h - middle))), with the constants of the program
 ///            pyansys-heart, whose pericardium holds the apical third
 struct AxialWeight {
-  enum class Shape { even, linear, sigmoid };
+  enum class WeightShape { even, linear, sigmoid };
 
-  Shape shape = Shape::even;
+  WeightShape shape = WeightShape::even;
   double at_base = 0.0;                    ///< [-]
   double middle = 0.15, steepness = 25.0;  ///< of the sigmoid [-]
 

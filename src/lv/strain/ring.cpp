@@ -80,7 +80,7 @@ SliceMotion follow(const SliceWall& wall, const Deformation& motion) {
   return slice;
 }
 
-Strain strain_of(const std::vector<Ray>& rays) {
+RingStrain strain_of(const std::vector<Ray>& rays) {
   constexpr double missing = std::numeric_limits<double>::quiet_NaN();
   if (rays.empty())
     return {missing, missing, missing, missing};

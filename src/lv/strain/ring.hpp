@@ -48,7 +48,7 @@ struct SliceMotion {
 };
 
 /// Strains of a part of a slice, or of several.
-struct Strain {
+struct RingStrain {
   double circumferential = 0.0;  ///< Green-Lagrange, mean over the wall's area
   double radial = 0.0;           ///< Green-Lagrange, mean over the wall's area
   double shortening = 0.0;       ///< of the mid-wall line: length / length at end-diastole - 1
@@ -60,6 +60,6 @@ struct Strain {
 [[nodiscard]] SliceMotion follow(const SliceWall& wall, const Deformation& motion);
 
 /// Strain of the given rays, of one slice or several. NaN without rays.
-[[nodiscard]] Strain strain_of(const std::vector<Ray>& rays);
+[[nodiscard]] RingStrain strain_of(const std::vector<Ray>& rays);
 
 }  // namespace lv::strain

@@ -24,7 +24,7 @@ struct SegmentStrain {
   std::string segment;
   int phase = 0;
   double time = 0.0;  ///< NaN if not known
-  Strain strain;
+  RingStrain strain;
 };
 
 /// The paper's six sectors of every slice and the slice itself, the 16 AHA segments that lie on

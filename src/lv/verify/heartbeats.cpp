@@ -30,7 +30,7 @@ heartbeat::CycleSetup human_cycle(const mesh::Mesh& mesh, circulation::Kind kind
   const material::Calcium calcium{.mode = material::Calcium::Mode::transient,
                                   .Ca_0 = 0.1,
                                   .Ca_max = 0.7,
-                                  .shape = material::Calcium::Shape::double_exponential};
+                                  .shape = material::Calcium::CurveShape::double_exponential};
   heartbeat::CycleSetup setup{.mesh = mesh,
                               .model = {heart, calcium},
                               .solver = {},

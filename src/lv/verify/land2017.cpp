@@ -44,13 +44,13 @@ constexpr std::array<TensionRow<5>, 10> steady{
 constexpr Calcium transient_a{.mode = Calcium::Mode::transient,
                               .Ca_0 = 0.1,
                               .Ca_max = 0.7,
-                              .shape = Calcium::Shape::double_exponential,
+                              .shape = Calcium::CurveShape::double_exponential,
                               .t_1 = 0.04,
                               .t_2 = 0.22};
 constexpr Calcium transient_b{.mode = Calcium::Mode::transient,
                               .Ca_0 = 0.1,
                               .Ca_max = 0.6,
-                              .shape = Calcium::Shape::double_exponential,
+                              .shape = Calcium::CurveShape::double_exponential,
                               .t_1 = 0.02,
                               .t_2 = 0.11};
 

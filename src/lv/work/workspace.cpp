@@ -171,12 +171,6 @@ std::string last_line(const fs::path& file) {
 
 }  // namespace
 
-std::string stage_folder(std::size_t stage) {
-  static const std::array<std::string, stage_names.size()> numbers{"00",  "00", "01", "02", "02b",
-                                                                   "02c", "03", "04", "05"};
-  return numbers.at(stage) + "_" + stage_names.at(stage);
-}
-
 std::string fingerprint(const Ingredients& ingredients) {
   const std::string text = text_of(nlohmann::json(ingredients), -1);
   Checksum crc;

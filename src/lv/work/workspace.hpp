@@ -1,20 +1,13 @@
 #pragma once
 
-#include <array>
+#include "lv/base/stage_folders.hpp"
+
 #include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
 
 namespace lv::work {
-
-/// The stages in their order, as in Stage.
-inline const std::array<std::string, 9> stage_names{
-    "circulation", "strain", "anatomy", "mesh", "calibrate", "unload", "beat", "results", "report"};
-
-/// "00_circulation", "00_strain", "02b_calibrate" and "02c_unload" (only of cases that ask for
-/// them), "01_anatomy", "02_mesh", "03_beat", ...
-[[nodiscard]] std::string stage_folder(std::size_t stage);
 
 /// What a stage's result depends on: names and values as text, program version included.
 using Ingredients = std::map<std::string, std::string>;

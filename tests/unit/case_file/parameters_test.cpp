@@ -367,7 +367,7 @@ TEST_CASE("the record of a stage changes with whatever the stage sees, and with 
       for (const Stage stage : case_file::all_stages) {
         if (!case_file::has_stage(before, stage) || stage >= Stage::results)
           continue;
-        INFO(p.name << ", stage " << work::stage_names.at(static_cast<std::size_t>(stage)));
+        INFO(p.name << ", stage " << lv::stage_names.at(static_cast<std::size_t>(stage)));
         const bool sees = seen(before, stage) != seen(after, stage);
         const bool may_differ = sees && p.changes_results;
         if (p.text != case_file::Text::path)  // whose files count, not their names
@@ -522,14 +522,14 @@ Numbers static_beat_of(const Case& c) {
 }
 
 void add_kinetics(const Case& c, Numbers& numbers) {
-  if (c.active_law == case_file::ActiveLaw::niederer)
+  if (c.active_law == case_file::ActiveChoice::niederer)
     for (const double rate : {-5.0, 0.0, 20.0}) {
       material::Sarcomere<double> state = c.active.steady_state(1.0, 0.7 + 0.01 * rate);
       for (int step = 1; step <= 20; ++step)
         c.active.advance(state, state.stretch + 1e-3 * rate, 0.5, 1.0, 1e-3);
       numbers.insert(numbers.end(), {state.tension, state.z, state.Ca_trpn, state.Q[0]});
     }
-  if (c.active_law == case_file::ActiveLaw::land2017)
+  if (c.active_law == case_file::ActiveChoice::land2017)
     for (const double rate : {-5.0, 20.0}) {
       material::CrossBridges<double> state = c.land2017.steady_state(0.3, 1.0);
       for (int step = 1; step <= 20; ++step)
@@ -631,7 +631,8 @@ Numbers computed(const Case& c, bool by_views) {
   if (has_stage(c, Stage::circulation))
     add(circuit_of(seen_by(Stage::circulation)));
   const Case beat = seen_by(Stage::beat);
-  add(c.engine == case_file::Engine::immersed ? immersed_beat_of(beat) : static_beat_of(beat));
+  add(c.engine == case_file::EngineChoice::immersed ? immersed_beat_of(beat)
+                                                    : static_beat_of(beat));
   if (c.calibration.cycle)
     add(fitted_beats_of(pipeline::for_calibration(seen_by(Stage::calibrate))));
   if (!is_loaded(c))

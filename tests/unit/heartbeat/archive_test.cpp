@@ -60,6 +60,13 @@ TEST_CASE("an archive knows what it has, and names what it has not", "[unit][hea
   CHECK_THROWS_AS(archive.number("velocities"), RunError);
 }
 
+TEST_CASE("words come back with all their letters", "[unit][heartbeat]") {
+  Archive archive;
+  const std::vector<std::string> words{"filling", "", "37 µm, 5° and a Größe"};
+  archive.set_words("words", words);
+  CHECK(archive.get_words("words") == words);
+}
+
 TEST_CASE("setting an array again replaces it", "[unit][heartbeat]") {
   Archive archive = example();
   archive.set("positions", {4.0});

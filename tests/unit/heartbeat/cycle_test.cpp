@@ -31,7 +31,7 @@ CycleSetup quick(const mesh::Mesh& mesh) {
   heart.myocardium.active = material::Land2017{};
   const material::Calcium calcium{.Ca_0 = 0.1,
                                   .Ca_max = 0.7,
-                                  .shape = material::Calcium::Shape::double_exponential,
+                                  .shape = material::Calcium::CurveShape::double_exponential,
                                   .t_1 = 0.02,
                                   .t_2 = 0.08};
   CycleSetup setup{.mesh = mesh,
@@ -60,7 +60,7 @@ CycleSetup moving(const mesh::Mesh& mesh) {
   setup.model.heart.base.kind = solid::BasalSupport::Kind::elastic;
   setup.model.heart.surroundings.base = {20.0, 5.0, 0.05, 0.05, {}};
   setup.model.heart.surroundings.epicardium = {
-      0.2, 0.0, 0.05, 0.0, {solid::AxialWeight::Shape::sigmoid, 0.3}};
+      0.2, 0.0, 0.05, 0.0, {solid::AxialWeight::WeightShape::sigmoid, 0.3}};
   setup.model.heart.myocardium.viscosity.eta = 1.0;
   setup.model.density = 1.05e-6;
   for (const double t : mesh.transmural)

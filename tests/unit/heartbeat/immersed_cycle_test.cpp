@@ -25,7 +25,7 @@ BeatSetup quick_immersed(const mesh::Mesh& mesh) {
   setup.heart.myocardium.active = material::Land2017{};
   setup.protocol.calcium = {.Ca_0 = 0.1,
                             .Ca_max = 0.7,
-                            .shape = material::Calcium::Shape::double_exponential,
+                            .shape = material::Calcium::CurveShape::double_exponential,
                             .t_1 = 0.02,
                             .t_2 = 0.08};
   setup.protocol.filling_ramp = 0.1;

@@ -27,7 +27,7 @@ solid::CardiacModel held_by(const solid::Surroundings& surroundings) {
 
 solid::Surroundings springs_and_dashpots() {
   solid::Surroundings s;
-  s.epicardium = {3.0, 0.2, 0.05, 0.01, {solid::AxialWeight::Shape::sigmoid, 0.5}};
+  s.epicardium = {3.0, 0.2, 0.05, 0.01, {solid::AxialWeight::WeightShape::sigmoid, 0.5}};
   s.base = {20.0, 5.0, 0.02, 0.005, {}};
   return s;
 }

@@ -47,7 +47,7 @@ implicit::StaticModel everything() {
   implicit::StaticModel model(heart);
   model.compressibility.kappa = 60.0;
   model.heart.surroundings.epicardium = {
-      3.0, 0.2, 0.05, 0.01, {solid::AxialWeight::Shape::linear, 0.5}};
+      3.0, 0.2, 0.05, 0.01, {solid::AxialWeight::WeightShape::linear, 0.5}};
   model.heart.surroundings.base = solid::Support::in_all_directions(0.7, 0.02);
   model.heart.myocardium.viscosity.eta = 0.08;
   model.density = 1e-3;

@@ -49,7 +49,7 @@ TEST_CASE("a double-exponential transient peaks at Ca_max and starts from rest",
   const Calcium calcium{.mode = Calcium::Mode::transient,
                         .Ca_0 = 0.1,
                         .Ca_max = 0.7,
-                        .shape = Calcium::Shape::double_exponential};
+                        .shape = Calcium::CurveShape::double_exponential};
   CHECK(calcium.at(0.0) == 0.1);
   CHECK(calcium.at(calcium.peak_time()) == Approx(0.7).epsilon(1e-14));
   for (double t = 0.0; t < 2.0; t += 0.001)
@@ -58,7 +58,8 @@ TEST_CASE("a double-exponential transient peaks at Ca_max and starts from rest",
 }
 
 TEST_CASE("held double-exponential calcium stays at its peak", "[unit][material]") {
-  const Calcium calcium{.Ca_0 = 0.1, .Ca_max = 0.7, .shape = Calcium::Shape::double_exponential};
+  const Calcium calcium{
+      .Ca_0 = 0.1, .Ca_max = 0.7, .shape = Calcium::CurveShape::double_exponential};
   CHECK(calcium.at(0.5 * calcium.peak_time()) < 0.7);
   CHECK(calcium.at(1.5 * calcium.peak_time()) == 0.7);
 }

@@ -2,8 +2,8 @@
 
 #include "lv/base/check.hpp"
 #include "lv/base/table.hpp"
-#include "lv/calibrate/record.hpp"
 #include "lv/pipeline/calibration.hpp"
+#include "lv/pipeline/fit_archive.hpp"
 #include "lv/pipeline/validate.hpp"
 
 #include "support/temporary_folder.hpp"
@@ -15,7 +15,7 @@ using namespace lv;
 
 TEST_CASE("beats with fitted parameters are read as they were written", "[unit][pipeline]") {
   const test::TemporaryFolder folder;
-  const auto file = folder / "confirmation.json";
+  const auto file = folder / "confirmation.bin";
   const pipeline::Confirmation written{
       {1.25, 0.9, 1.1, 3.7},
       0.01,
@@ -30,31 +30,50 @@ TEST_CASE("beats with fitted parameters are read as they were written", "[unit][
   REQUIRE(read.beats[0].volumes.size() == 2);
   CHECK(read.beats[0].volumes[0].off() == Approx(0.025));
   CHECK(read.beats[0].volumes[1].within(0.01));
-  CHECK(calibrate::read_parameters(file) == written.parameters);
+  CHECK(pipeline::load_parameters(heartbeat::Archive::read(file)) == written.parameters);
+  CHECK_THAT(read_file(folder / "confirmation.json"), Catch::Contains("\"beat_ml\": 123.0"));
 }
 
-TEST_CASE("a fit is read with its derivatives and with other pressures", "[unit][pipeline]") {
+TEST_CASE("a fit is read with its derivatives and with other pressures, to the last bit",
+          "[unit][pipeline]") {
   const test::TemporaryFolder folder;
-  const auto file = folder / "calibration.json";
-  write_file(file,
-             R"({"parameters": {"C_a": 1, "scale": 2, "exponent": 1.5, "T_scale": 3},
- "volumes": [{"name": "ESV", "pressure_mmHg": 100, "target_ml": 60, "model_ml": 61,
-              "dV_dparameter_ml": {"scale": 0.5, "T_scale": -7}}],
- "uncertainty": [{"parameter": "scale"}, {"parameter": "T_scale"}],
- "klotz": {"pressure_mmHg": 9},
- "other_pressures": [{"pressure_mmHg": 5, "no_fit": "too soft"},
-                     {"pressure_mmHg": 13, "scale": 2.5, "T_scale": 4, "unloaded_volume_ml": 55}]})");
-  const calibrate::RecordedFit fit = calibrate::read_fit(file);
+  calibrate::RecordedFit written{{1.0, 2.0, 1.5, 1.0 / 3.0}, {}, {}, 9.0, {}};
+  for (const calibrate::Fitted& p : calibrate::all_parameters())
+    if (p.name == "scale" || p.name == "T_scale")
+      written.fitted.push_back(p);
+  written.volumes.push_back({"ESV", 13.3, 60e3, 61e3 / 7.0, {{"scale", 0.5}, {"T_scale", -7e3}}});
+  written.other_pressures.push_back({5.0, {}, 0.0, "too soft at 5\u00a0mmHg"});
+  written.other_pressures.push_back({13.0, {{1.0, 2.5, 1.5, 4.0}}, 55e3, ""});
+  heartbeat::Archive archive;
+  pipeline::store(written, archive);
+  archive.write(folder / "calibration.bin");
+  const auto fit = pipeline::load_fit(heartbeat::Archive::read(folder / "calibration.bin"));
+  CHECK(fit.parameters == written.parameters);
   REQUIRE(fit.fitted.size() == 2);
-  CHECK(fit.parameters.*fit.fitted[1].member == 3.0);
-  CHECK(fit.volumes.at(0).by_parameter.at("T_scale") == Approx(-7e3));
-  CHECK(fit.volumes.at(0).target == Approx(60e3));
+  CHECK(fit.parameters.*fit.fitted[1].member == 1.0 / 3.0);
+  CHECK(fit.volumes.at(0).by_parameter == written.volumes[0].by_parameter);
+  CHECK(fit.volumes.at(0).model == 61e3 / 7.0);
+  CHECK(fit.klotz_pressure == 9.0);
   REQUIRE(fit.other_pressures.size() == 2);
-  CHECK(fit.other_pressures[0].why_not == "too soft");
-  CHECK(fit.other_pressures[1].parameters->scale == 2.5);
-  CHECK(fit.other_pressures[1].parameters->exponent == 1.5);  // not fitted
-  write_file(file, "{\"parameters\": {\"C_a\": 1}}");
-  CHECK_THROWS_AS(calibrate::read_fit(file), RunError);
+  CHECK_FALSE(fit.other_pressures[0].parameters);
+  CHECK(fit.other_pressures[0].why_not == written.other_pressures[0].why_not);
+  CHECK(fit.other_pressures[1].parameters == written.other_pressures[1].parameters);
+  archive.set_words("fitted", {"scale", "colour"});
+  CHECK_THROWS_AS(pipeline::load_fit(archive), RunError);
+}
+
+TEST_CASE("what is recorded of a fit has the derivatives by the parameters themselves",
+          "[unit][pipeline]") {
+  calibrate::Fit fit;
+  fit.parameters.scale = 2.0;
+  fit.observations.push_back({"EDV", {1.0, 0.0}, 120e3});
+  fit.volumes = {119e3};
+  fit.sensitivity.parameters = {calibrate::all_parameters()[1]};
+  fit.sensitivity.by_parameter = Eigen::MatrixXd::Constant(1, 1, -0.25);
+  const calibrate::RecordedFit record = calibrate::recorded({}, fit);
+  REQUIRE(record.volumes.size() == 1);
+  CHECK(record.volumes[0].by_parameter.at("scale") == Approx(-0.25 * 119e3 / 2.0));
+  CHECK_FALSE(record.klotz_pressure);
 }
 
 TEST_CASE("pressures are assumed where a case leaves them out, not in heartbeats",

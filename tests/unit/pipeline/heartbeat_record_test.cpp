@@ -36,8 +36,8 @@ HeartbeatFit some_fit() {
 TEST_CASE("a fit of heartbeats is read as it was written, and its values are set",
           "[unit][pipeline]") {
   const test::TemporaryFolder folder;
-  const auto file = folder / "heartbeats.json";
-  write_file(file, pipeline::json(some_fit()));
+  const auto file = folder / "heartbeats.bin";
+  pipeline::write_heartbeats(some_fit(), file);
   const HeartbeatFit read = pipeline::read_heartbeats(file);
   REQUIRE(read.data.size() == 4);
   CHECK(read.data[0].model == 120.1);
@@ -45,6 +45,8 @@ TEST_CASE("a fit of heartbeats is read as it was written, and its values are set
   REQUIRE(read.parameters.size() == 2);
   CHECK(read.parameters[0].datum == "EDV");
   CHECK(read.left_alone == some_fit().left_alone);
+  CHECK(read.sensitivity == some_fit().sensitivity);
+  CHECK(read.moved(0, 0, 0.05) == some_fit().moved(0, 0, 0.05));
   const case_file::Case c = pipeline::with_values({}, read, file);
   CHECK(c.circulation.windkessel.p_ven == Approx(10.0 * units::mmHg));
   CHECK(c.land2017.T_ref == Approx(100.0));

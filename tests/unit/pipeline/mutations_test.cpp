@@ -4,10 +4,13 @@
 
 #include "lv/base/lines.hpp"
 #include "lv/case_file/read_case.hpp"
+#include "lv/cine/strain.hpp"
 #include "lv/cine/strain_targets.hpp"
 #include "lv/mesh/quality.hpp"
 #include "lv/mesh/regions.hpp"
 #include "lv/pipeline/calibration.hpp"
+#include "lv/pipeline/confirmation.hpp"
+#include "lv/pipeline/fit_archive.hpp"
 #include "lv/pipeline/stages.hpp"
 #include "lv/pipeline/unloading.hpp"
 #include "lv/solid/endocardial_surface.hpp"
@@ -127,31 +130,101 @@ TEST_CASE("damaged records of earlier stages are read or refused",
               "{\n \"ingredients\": {\n  \"mesh.edge_length\": \"1.4 mm\"\n },\n"
               " \"bytes\": {\n  \"mesh.bin\": 1200\n }\n}\n",
               record);
-  const auto fit = [](const std::filesystem::path& file) {
+}
+
+TEST_CASE("damaged numbers of the images and the anatomy are read or refused",
+          "[unit][pipeline][mutations][records]") {
+  const auto read_phases = [](const std::filesystem::path& file) {
+    static_cast<void>(cine::read_phases(file.parent_path()));
+  };
+  const std::string phases = made("phases.bin", [](const auto& folder) {
+    cine::write_phases({3, 14}, folder);
+    CHECK(cine::read_phases(folder).end_systole == 14);
+  });
+  try_damaged("phases.bin", phases, read_phases, {}, test::repair_checksum);
+
+  const auto read_anatomy = [](const std::filesystem::path& file) {
+    static_cast<void>(anatomy::anatomy_record(file.parent_path()));
+  };
+  const std::string anatomy = made("anatomy.bin", [](const auto& folder) {
+    const case_file::Case ellipsoid;
+    anatomy::Shape shape = anatomy::make_anatomy(ellipsoid);
+    shape.is_in_images = true;
+    shape.frame.origin = {1.0, -2.0, 1.0 / 3.0};
+    shape.assumed = {{"septum", "nothing shows it"}};
+    anatomy::write_anatomy(shape, folder);
+    const anatomy::AnatomyRecord record = anatomy::anatomy_record(folder);
+    REQUIRE(record.frame);
+    CHECK(record.frame->origin == shape.frame.origin);
+    CHECK(record.frame->axes == shape.frame.axes);
+    REQUIRE(record.assumed.size() == 1);
+    CHECK(record.assumed[0].part == "septum");
+  });
+  try_damaged("anatomy.bin", anatomy, read_anatomy, {}, test::repair_checksum);
+}
+
+TEST_CASE("damaged fits of an earlier run are read or refused",
+          "[unit][pipeline][mutations][records]") {
+  const auto& all = calibrate::all_parameters();
+  const calibrate::RecordedFit fit{
+      {1.0, 2.0, 1.5, 3.0},
+      {all[1], all[3]},
+      {{"EDV", 1.0, 12e4, 12e4, {{"scale", -1e4}, {"T_scale", 0.5}}}},
+      1.2,
+      {{2.0, {}, 0.0, "too soft"}, {0.5, {{1.0, 2.5, 1.5, 4.0}}, 9e4, ""}}};
+  const auto read_fit = [](const std::filesystem::path& file) {
+    static_cast<void>(pipeline::load_fit(heartbeat::Archive::read(file)));
     static_cast<void>(pipeline::calibrated({}, file));
   };
-  try_damaged("calibration.json",
-              "{\"parameters\": {\"C_a\": 1.5, \"scale\": 1.0, \"exponent\": 1.0, \"T_scale\": 5}}",
-              fit);
-  const auto beats = [](const std::filesystem::path& file) {
+  const std::string fitted = made("calibration.bin", [&](const auto& folder) {
+    heartbeat::Archive archive;
+    pipeline::store(fit, archive);
+    archive.write(folder / "calibration.bin");
+  });
+  try_damaged("calibration.bin", fitted, read_fit, {}, test::repair_checksum);
+
+  const pipeline::Confirmation confirmation{
+      {}, 0.01, {{{}, {{"EDV", 12e4, 12e4, 12e4}}, true}, {{}, {}, false}}};
+  const auto read_confirmation = [](const std::filesystem::path& file) {
+    static_cast<void>(pipeline::read_confirmation(file));
+  };
+  const std::string confirmed = made("confirmation.bin", [&](const auto& folder) {
+    pipeline::write_confirmation(confirmation, folder / "confirmation.bin");
+  });
+  try_damaged("confirmation.bin", confirmed, read_confirmation, {}, test::repair_checksum);
+
+  const pipeline::HeartbeatFit beats{
+      {{"EDV", "ml", 120.5, 120.0}},
+      {{"circulation.windkessel.p_ven", "filling pressure", "mmHg", "EDV", 8.0, 9.5}},
+      Eigen::MatrixXd::Constant(1, 1, 0.5),
+      {"that"},
+      0.01,
+      7,
+      20};
+  const auto read_beats = [](const std::filesystem::path& file) {
     static_cast<void>(pipeline::with_values({}, pipeline::read_heartbeats(file), file));
   };
-  try_damaged("heartbeats.json",
-              "{\"data\": [{\"name\": \"EDV\", \"unit\": \"ml\", \"measured\": 120.5, \"model\": "
-              "120}],\n\"parameters\": [{\"parameter\": \"circulation.windkessel.p_ven\", "
-              "\"words\": \"filling pressure\",\n\"unit\": \"mmHg\", \"fitted_to\": \"EDV\", "
-              "\"before\": 8, \"value\": 9.5}],\n\"left_alone\": [\"that\"], \"tolerance\": "
-              "0.01, \"evaluations\": 7, \"beats\": 20}\n",
-              beats);
-  const auto unloading = [](const std::filesystem::path& file) {
+  const std::string heartbeats = made("heartbeats.bin", [&](const auto& folder) {
+    pipeline::write_heartbeats(beats, folder / "heartbeats.bin");
+  });
+  try_damaged("heartbeats.bin", heartbeats, read_beats, {}, test::repair_checksum);
+}
+
+TEST_CASE("a damaged result of an earlier unloading is read or refused",
+          "[unit][pipeline][mutations][records]") {
+  report::UnloadedShape shape{2.0, 1e5, 9e4, 1e5, 0.1, 0.02, 79e3, 0.0, {}};
+  shape.folds.dent = 0.05;
+  const auto read = [](const std::filesystem::path& file) {
     static_cast<void>(pipeline::unloaded_shape(file.parent_path()));
   };
-  try_damaged("unloaded.json",
-              "{\"pressure_mmHg\": 2, \"seen_volume_ml\": 100.5, \"unloaded_volume_ml\": 90,\n"
-              "\"loaded_again_volume_ml\": 100.4, \"largest_distance_mm\": 0.1,\n"
-              "\"rms_distance_mm\": 0.02, \"klotz_volume_ml\": 79.0, \"smoothing\": 0.0,\n"
-              "\"dent_deg\": 3.0, \"nearest_to_itself\": 0.7, \"largest_stretch\": 1.3}\n",
-              unloading);
+  const test::TemporaryFolder folder;
+  pipeline::write_shape(shape, folder / "");
+  const auto found = pipeline::unloaded_shape(folder / "");
+  REQUIRE(found);
+  CHECK(found->rms == 0.02);
+  CHECK(found->folds.dent == 0.05);
+  try_damaged("unloading.bin", test::bytes_of(folder / "unloading.bin"), read, {},
+              test::repair_checksum);
 }
 
 TEST_CASE("a damaged mesh of an earlier run that is read is one",

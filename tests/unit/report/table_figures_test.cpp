@@ -30,6 +30,12 @@ Table curves() {
   return table;
 }
 
+report::CurveFacts both_moments() {
+  report::CurveFacts facts;
+  facts.moments = {{heartbeat::end_diastole, 1.0}, {heartbeat::end_systole, 2.0}};
+  return facts;
+}
+
 Table segments(const std::string& quantity, double least, double greatest) {
   Table table({"state", "scheme", "region", "quantity", "unit", "mean"});
   for (int i = 0; i < 38; ++i)
@@ -44,7 +50,7 @@ Table segments(const std::string& quantity, double least, double greatest) {
 }  // namespace
 
 TEST_CASE("curves are drawn from the table's columns, each with an axis of its own", "[report]") {
-  const Figure figure = report::curves_figure(curves(), {.end_diastole = 1.0, .end_systole = 2.0});
+  const Figure figure = report::curves_figure(curves(), both_moments());
   const LineChart& time = chart(figure);
   CHECK(time.series[0].y == std::vector<double>{0.0, 8.0, 150.0});
   REQUIRE(time.phases.size() == 2);
@@ -55,7 +61,7 @@ TEST_CASE("curves are drawn from the table's columns, each with an axis of its o
 }
 
 TEST_CASE("the path of pressure and volume has its end-diastole and end-systole", "[report]") {
-  const Figure figure = report::curves_figure(curves(), {.end_diastole = 1.0, .end_systole = 2.0});
+  const Figure figure = report::curves_figure(curves(), both_moments());
   const LineChart& path = chart(figure, 3);
   CHECK(figure.panels[3].title == "pressure-volume path (no valves)");
   REQUIRE(path.series.size() == 3);
@@ -72,13 +78,13 @@ TEST_CASE("equilibria are drawn against the load", "[report]") {
   table.add_row({"0.3", "filling", "8", "140", "0.01", "0"});
   table.add_row({"0.35", "contraction", "43.5", "70", "", "20"});
   table.add_row({"0.5", "contraction", "150", "60", "1", "80"});
-  const Figure figure = report::curves_figure(table, {.is_static = true});
+  const Figure figure = report::curves_figure(table, {true, false, {}});
   const LineChart& pressure = chart(figure);
   CHECK_THAT(pressure.x.label, Catch::StartsWith("load"));
   CHECK(pressure.series[0].x.at(1) == Approx(1.0));
   CHECK(pressure.series[0].x.at(2) == Approx(1.25));
   CHECK(pressure.series[0].x.at(3) == Approx(2.0));
-  const auto calcium = report::calcium_figure(table, {.is_static = true});
+  const auto calcium = report::calcium_figure(table, {true, false, {}});
   REQUIRE(calcium);
   CHECK(std::isnan(chart(*calcium).series[0].y.at(2)));  // a gap and no ramp
   CHECK(chart(*calcium).y.label == "calcium [µM]");

@@ -82,7 +82,7 @@ TEST_CASE("a support's weight changes along the long axis", "[unit][solid]") {
     X = Vec3(X.z(), X.x(), X.y());  // the surface stands upright, z from 0 to 6
   Support support = Support::in_all_directions(3.0, 0.0);
   const Vec3 even = test::resultant(forces(m, support, Vec3::UnitX(), Vec3::Zero()));
-  support.weight.shape = solid::AxialWeight::Shape::linear;
+  support.weight.shape = solid::AxialWeight::WeightShape::linear;
   const auto f = forces(m, support, Vec3::UnitX(), Vec3::Zero());
   CHECK(test::resultant(f).x() == Approx(0.5 * even.x()));
   double below = 0.0;
@@ -92,7 +92,7 @@ TEST_CASE("a support's weight changes along the long axis", "[unit][solid]") {
 }
 
 TEST_CASE("a sigmoid of the long axis holds the apex and lets the base go", "[unit][solid]") {
-  solid::AxialWeight weight{.shape = solid::AxialWeight::Shape::sigmoid};
+  solid::AxialWeight weight{.shape = solid::AxialWeight::WeightShape::sigmoid};
   CHECK(weight.at(0.0) == Approx(1.0 / (1.0 + std::exp(-25.0 * 0.15))));
   CHECK(weight.at(0.15) == Approx(0.5));
   CHECK(weight.at(1.0) < 1e-8);
@@ -127,7 +127,7 @@ TEST_CASE("a leapfrog stays within the supports' longest step and grows beyond i
 }
 
 TEST_CASE("a support's stiffness is the derivative of its forces", "[unit][solid]") {
-  const Support support{2.0, 0.5, 0.03, 0.01, {solid::AxialWeight::Shape::linear, 0.4}};
+  const Support support{2.0, 0.5, 0.03, 0.01, {solid::AxialWeight::WeightShape::linear, 0.4}};
   constexpr double slope = 25.0;
   for (const mesh::Mesh& m : meshes()) {
     const SupportedSurface surface(m, m.epi, support);

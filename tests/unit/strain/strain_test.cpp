@@ -38,7 +38,7 @@ TEST_CASE("a homogeneous stretch has its strain everywhere", "[strain]") {
   const SliceMotion m = follow(ring(20, 30), [](const Vec2& X) {
     return Moved{0.8 * X, 0.8 * Mat2::Identity()};
   });
-  const Strain s = strain_of(m.rays);
+  const RingStrain s = strain_of(m.rays);
   CHECK(s.circumferential == Approx(0.5 * (0.64 - 1.0)));
   CHECK(s.radial == Approx(0.5 * (0.64 - 1.0)));
   CHECK(s.shortening == Approx(-0.2));

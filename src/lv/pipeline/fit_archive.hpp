@@ -1,0 +1,21 @@
+#pragma once
+
+#include "lv/calibrate/record.hpp"
+#include "lv/heartbeat/archive.hpp"
+
+#include <span>
+#include <vector>
+
+namespace lv::pipeline {
+
+/// A fit as arrays of an archive, and back. Loading throws RunError for what no fit can be.
+void store(const calibrate::FitParameters& parameters, heartbeat::Archive& archive);
+[[nodiscard]] calibrate::FitParameters load_parameters(const heartbeat::Archive& archive);
+void store(const calibrate::RecordedFit& fit, heartbeat::Archive& archive);
+[[nodiscard]] calibrate::RecordedFit load_fit(const heartbeat::Archive& archive);
+
+/// Values of all parameters that a fit may change, and back.
+[[nodiscard]] std::vector<double> numbers(const calibrate::FitParameters& parameters);
+[[nodiscard]] calibrate::FitParameters parameters_of(std::span<const double, 4> numbers);
+
+}  // namespace lv::pipeline
