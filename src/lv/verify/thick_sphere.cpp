@@ -83,7 +83,7 @@ Outcome settle(int n, immersed::CouplingKind kind) {
   material::Myocardium material;
   material.passive = lv::material::NeoHookean{shell.mu};
   parameters.blood.viscosity = viscosity;
-  immersed::Model model(mesh, {{}, material, {}}, parameters);
+  immersed::Model model(mesh, {material, {}, {}}, parameters);
   immersed::ModelState state = model.state();
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
     const Vec3& X = mesh.nodes[i];
