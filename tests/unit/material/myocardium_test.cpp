@@ -107,7 +107,8 @@ TEST_CASE("packs of points have the sum of stresses that single points have", "[
     const Tensor<Pack> P = law.stress(packed, determinant(packed), Pack(50.0), Pack(extent));
     for (int i = 0; i < pack_size; ++i) {
       const Mat3 expected = law.stress(F[i], determinant(F[i]), 50.0, extent);
-      CHECK((test::lane(P, i) - expected).norm() < 1e-13 * (1.0 + expected.norm()));
+      CHECK((test::lane(P, i) - expected).norm() <
+            1e-12 * (1.0 + expected.norm()));  // the parts may cancel
     }
   });
 }
