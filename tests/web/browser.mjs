@@ -55,7 +55,7 @@ export const settled = (page) => page.evaluate(() => new Promise((done) => {
 }));
 
 /** What is drawn only when it comes into sight, by the section's id. */
-const late = { flow: "canvas, .missing", outlines: "svg.outlined, .missing" };
+export const late = { flow: "canvas, .missing", outlines: "svg.outlined, .missing" };
 
 /** Brings a section into sight and waits until it is drawn. */
 export async function inSight(page, id) {
@@ -98,6 +98,7 @@ export async function scrub(browser, page, moments = 60) {
       const t = performance.now();
       slider.value = i % count;
       slider.dispatchEvent(new Event("input"));
+      for (let k = 0; k < 20; ++k) await undefined;  // with what waits for promises that are kept already: the drawing
       script += performance.now() - t;
       await frame();
     }

@@ -1,5 +1,5 @@
 // How the page draws quadratic elements: the drawn nodes lie where the elements' shape functions put them, neighbours share theirs,
-// and a section has the area that the curved wall has.   exit code 77: skipped
+// a section has the area that the curved wall has and the outline that its surface has.   exit code 77: skipped
 import { existsSync } from "node:fs";
 import { createRequire } from "node:module";
 import { join } from "node:path";
@@ -13,7 +13,7 @@ if (!existsSync(join(web, "node_modules/esbuild"))) {
 const { buildSync } = createRequire(join(web, "/"))("esbuild");
 const { outputFiles } = buildSync({ stdin: { contents: `export * from "./src/curved.ts"; export * from "./src/section.ts";`, resolveDir: web },
   bundle: true, format: "esm", write: false });
-const { DrawnWall, cutWall, atPoints } = await import(`data:text/javascript;base64,${Buffer.from(outputFiles[0].contents).toString("base64")}`);
+const { DrawnWall, cutWall, atPoints, outline } = await import(`data:text/javascript;base64,${Buffer.from(outputFiles[0].contents).toString("base64")}`);
 
 let failed = 0;
 function check(claim, holds, detail = "") {
@@ -100,6 +100,18 @@ const radii = Array.from({ length: count }, (_, a) => a).filter((a) => drawn.ski
 check("the skin's nodes are at least six times as near to the circle as the middles of straight sides would be",
   radii.every((r) => Math.abs(r - 30) < 0.15 && Math.abs(r - 30) < (30 - 30 * Math.cos(Math.PI / 12)) / 6), Math.max(...radii.map((r) => Math.abs(r - 30))));
 check("every face of the skin in four, neighbours share their nodes", drawn.skin.length === 4 * wall.skin.length && new Set(drawn.skin).size === 5 * 24, new Set(drawn.skin).size);
+
+const rough = new DrawnWall(wall, true);
+check("roughly, its parts are straight", rough.skin === wall.skin && rough.nodes === wall.nodes && rough.near(plane, wall.positions).cells === wall.cells);
+
+// a long-axis plane on whose nodes rounding decides, as in the page's steps of 0.01 mm
+const noisy = { ...wall, positions: wall.positions.map((v, i) => (Math.abs(v) < 1e-3 ? (i % 2 ? 0.004 : -0.004) : v)) };
+const cut = cutWall(rough, noisy.positions, { normal: [0, 1, 0], offset: 0 }).section;
+const sides = outline(rough, cut);
+const at = (p) => [...cut.points.subarray(3 * p, 3 * p + 3)];
+const length = sides.reduce((sum, [p, q]) => sum + Math.hypot(...at(p).map((v, d) => v - at(q)[d])), 0);
+check("a section through nodes has the outline of the surface and no other: two lines of the wall's height", Math.abs(length - 20) < 0.02 &&
+  sides.flat().every((p) => Math.abs(Math.hypot(...at(p).slice(0, 2)) - 30) < 0.1), `${length} ${sides.length}`);
 
 const tets = tetrahedra();
 const both = new DrawnWall(tets);

@@ -4,7 +4,7 @@
 // opens with and every section, on screens of 1440 x 900, 1280 x 720 and 390 x 844 pixels, at 200% zoom, dark, and printed, and print.pdf.
 import { mkdirSync } from "node:fs";
 import { join } from "node:path";
-import { inSight, lacking, launch, openPage, screens, settled } from "./browser.mjs";
+import { inSight, lacking, late, launch, openPage, screens, settled } from "./browser.mjs";
 
 const [file, folder, ...wanted] = process.argv.slice(2);
 if (lacking) throw new Error(lacking);
@@ -42,6 +42,7 @@ for (const pair of wanted) {
 if (!wanted.length) {
   for (const [name, settings] of Object.entries(screens)) await shootScreen(name, settings);
   const page = await openPage(browser, file);
+  for (const id of Object.keys(late)) if (await page.locator(`#${id}`).count()) await inSight(page, id);
   await page.pdf({ path: join(folder, "print.pdf"), format: "A4" });
 }
 await browser.close();

@@ -12,10 +12,14 @@ export function barParts(scale: Scale, title: string, width: number): SVGElement
   const text = (x: number, y: number, anchor: string, words: string) => svg("text", { x, y, "text-anchor": anchor, fill: ink.text }, words);
   const place = (x: number) => Math.min(width, Math.max(0, ((x - scale.min) / (scale.max - scale.min)) * width));
   const [from, to] = [scale.middle - scale.floor, scale.middle + scale.floor].map(place);
+  const number = (t: number) => shown(scale.min + t * (scale.max - scale.min));
+  const letter = 8;  // width of a letter
+  const ends = letter * [0, 0.5, 1].reduce((sum, t) => sum + number(t).length + 1, 0) < width ? [0, 0.5, 1] : [0, 1];
+  const words = ends.map(number);
   return [svg("defs", {}, svg("linearGradient", { id }, ...stops)), text(0, 12, "start", title),
     svg("rect", { x: 0, y: 18, width, height: 12, fill: `url(#${id})` }),
     ...(to > from ? [svg("rect", { x: from, y: 18, width: to - from, height: 12, fill: cssOf(uncoloured) })] : []),
-    ...[0, 0.5, 1].map((t) => text(width * t, 43, t === 0 ? "start" : t === 1 ? "end" : "middle", shown(scale.min + t * (scale.max - scale.min))))];
+    ...ends.map((t, i) => text(width * t, 43, t === 0 ? "start" : t === 1 ? "end" : "middle", words[i]))];
 }
 
 export function colourBar(scale: Scale, title: string): SVGSVGElement {

@@ -34,10 +34,13 @@ export class DrawnWall {
   private weight: number[] = [];
   private known = new Map<string, number>();
 
-  constructor(readonly wall: Wall) {
-    const curved = wall.order === 2;
-    this.facesPerFace = curved ? 4 : 1;
-    [this.skin, this.skinCells] = curved ? this.cutSkin() : [wall.skin, wall.skinCells];
+  private isCurved: boolean;
+
+  /** Roughly: the parts of quadratic elements are straight. */
+  constructor(readonly wall: Wall, isRough = false) {
+    this.isCurved = wall.order === 2 && !isRough;
+    this.facesPerFace = this.isCurved ? 4 : 1;
+    [this.skin, this.skinCells] = this.isCurved ? this.cutSkin() : [wall.skin, wall.skinCells];
   }
 
   /** The wall's nodes come first. */
@@ -136,8 +139,8 @@ export class DrawnWall {
 
   /** The cells that a plane may cross; `positions` are those of the wall's nodes. */
   near({ normal: [nx, ny, nz], offset }: Plane, positions: Float32Array): Parts {
-    const { cells, nodes: n, nodesPerCell, order } = this.wall;
-    if (order !== 2) return { cells };
+    const { cells, nodes: n, nodesPerCell } = this.wall;
+    if (!this.isCurved) return { cells };
     const height = Float32Array.from({ length: n }, (_, a) => nx * positions[a] + ny * positions[n + a] + nz * positions[2 * n + a] - offset);
     const parts = { cells: [] as number[], of: [] as number[] };
     const size = partsPerElement * nodesPerCell;

@@ -8,7 +8,14 @@ export type Row = Record<string, string>;
 interface ModesJson { offset: number; step: number; largest_error: number; courses: number[][]; shapes: string[]; min?: number; max?: number }
 interface Packed { step: number; values: string }
 
+export interface Reach { radius: number; bottom: number; top: number }
+
+/** A picture of the four-chamber view, whose middle lies on the long axis half-way between bottom and top of the reach. */
+interface OpeningJson { png: string; width_mm: number }
+
 interface WallJson {
+  reach: Reach;
+  opening?: OpeningJson;
   nodes_per_cell: number;
   nodes: number;
   order?: number;  // 2: eight consecutive cells are the parts of a quadratic element; without: 1
@@ -137,12 +144,22 @@ export interface Selection { scheme: Scheme; index: number }
 export const sectorsPerRing: Record<Scheme, number[]> = { sector: [6, 6, 6, 6, 6, 4, 4], aha17: [6, 6, 4, 1] };
 
 export class Wall {
-  private constructor(
-    private json: WallJson, readonly cells: Int32Array, readonly skin: Int32Array, readonly skinCells: Int32Array,
-    readonly undeformed: Float32Array, readonly infarct: Float32Array | undefined,
-    private displacement: Series, private regions: Partial<Record<Scheme, Int16Array>>) {}
+  readonly cells!: Int32Array;
+  readonly skin!: Int32Array;
+  readonly skinCells!: Int32Array;
+  readonly undeformed!: Float32Array;
+  readonly infarct?: Float32Array;
+  private displacement!: Series;
+  private regions!: Partial<Record<Scheme, Int16Array>>;
+  private loading?: Promise<void>;
 
-  static async read(json: WallJson): Promise<Wall> {
+  constructor(private json: WallJson) {}
+
+  /** Reads the arrays, once. Until then nothing is known but what the getters of single numbers and of names say. */
+  load(): Promise<void> { return (this.loading ??= this.read()); }
+
+  private async read(): Promise<void> {
+    const { json } = this;
     const [cells, skin, skinCells, undeformed, infarct, displacement, slice, sector, aha17] = await Promise.all([
       wholes(json.cells), wholes(json.skin), wholes(json.skin_cells), scaled(json.undeformed),
       json.infarct && scaled(json.infarct),
@@ -155,9 +172,13 @@ export class Wall {
       regions.sector = slice.map((s, c) => start[s - 1] + sector[c] - 1);
     }
     if (aha17) regions.aha17 = aha17.map((a) => a - 1);
-    return new Wall(json, cells, skin, skinCells, undeformed, infarct, displacement, regions);
+    Object.assign(this, { cells, skin, skinCells, undeformed, infarct, displacement, regions });
   }
 
+  /** Of the wall about the long axis, at all moments [mm]. */
+  get reach(): Reach { return this.json.reach; }
+  /** What the page opens with, as the program has drawn it. */
+  get opening(): OpeningJson | undefined { return this.json.opening; }
   get nodes(): number { return this.json.nodes; }
   get times(): number[] { return this.json.times; }
   get nodesPerCell(): number { return this.json.nodes_per_cell; }
@@ -196,9 +217,10 @@ export class Case {
   private readonly tables = new Map<string, Row[]>();  // that have been read
   private readonly regional = new Map<string, Row>();  // rows of regions.csv by what they are of
   name: string;
-  wall?: Wall;  // once it is loaded
+  readonly wall?: Wall;
   private constructor(readonly json: CaseJson, readonly summary: any) {
     this.name = summary?.case ?? json.folder;
+    this.wall = json.wall && new Wall(json.wall);
     this.regions = this.table("regions.csv");
     for (const r of this.regions) this.regional.set([r.state, r.scheme, r.region, r.quantity].join("/"), r);
     this.moments = this.table("moments.csv").map((r) => ({ name: r.moment, time: value(r.time_s) }));
@@ -213,8 +235,6 @@ export class Case {
     const summary = json.files["summary.json"] ? JSON.parse(json.files["summary.json"]) : undefined;
     return new Case(json, summary);
   }
-
-  async loadWall(): Promise<void> { this.wall = this.json.wall && (await Wall.read(this.json.wall)); }
 
   /** Cine images with outlines; none for a case without images. */
   async pictures(): Promise<Outlined[]> {

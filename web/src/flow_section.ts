@@ -1,10 +1,11 @@
 // The flow of all cases in their long-axis planes.
-import { type Case, type Wall } from "./data.ts";
+import { DrawnWall } from "./curved.ts";
+import type { Case } from "./data.ts";
 import { el, fileName, folded, missing, overlaidPng, savePng, section } from "./dom.ts";
 import { fastestFrame, type FlowFrame, flowScale, type FlowQuantity, flowTitle, FlowView, readFlow } from "./flow_view.ts";
 import { axisName, heartOf } from "./orientation.ts";
 
-interface Shown { c: Case; wall: Wall; frame: number; data: FlowFrame; view: FlowView }
+interface Shown { c: Case; wall: DrawnWall; frame: number; data: FlowFrame; view: FlowView }
 
 const none = "There are no frames of the blood in the work folder (output.blood = false, or an engine without blood).";
 const noWall = "There are frames of the blood, but none of the wall, without which its borders are not known.";
@@ -24,14 +25,17 @@ export function flowSection(cases: Case[]): HTMLElement {
     "the base, in line with its inner rim; letters name the walls on both sides. Colours: speed with all three components, or pressure. Arrows: velocity in the plane, to the scale of the arrow at the lower " +
     "right, which is set by the fastest blood of the moment. It opens at the moment after end-diastole with the fastest blood among those the " +
     "run wrote. There are no valves and no atrium: blood passes freely through the open base, so the pattern there is not physiological.", place);
-  // drawn when it comes near the screen: the first view does not wait for it
-  const observer = new IntersectionObserver((entries) => {
-    if (!entries.some((entry) => entry.isIntersecting)) return;
+  // drawn when it comes near the screen, or soon, so that it can be printed: the first view does not wait for it
+  let isBegun = false;
+  const begin = () => {
+    if (isBegun) return;
+    isBegun = true;
     observer.disconnect();
     void fill(cases, place);
-  }, { rootMargin: "600px" });
+  };
+  const observer = new IntersectionObserver((entries) => { if (entries.some((entry) => entry.isIntersecting)) begin(); }, { rootMargin: "600px" });
   observer.observe(whole);
-  addEventListener("beforeprint", () => { observer.disconnect(); if (!place.hasChildNodes()) void fill(cases, place); });
+  setTimeout(begin, 3000);
   return whole;
 }
 
@@ -43,7 +47,8 @@ async function fill(cases: Case[], place: HTMLElement): Promise<void> {
     const view = new FlowView(c.flow, heartOf(c));
     view.canvas.className = "flow";
     view.canvas.setAttribute("role", "img");
-    found.push({ c, wall: c.wall, frame, data: await readFlow(c.flow, frame, c.wall), view });
+    const wall = new DrawnWall(c.wall);
+    found.push({ c, wall, frame, data: await readFlow(c.flow, frame, wall), view });
   }
   let what: FlowQuantity = "speed";
   const draw = () => {

@@ -2,12 +2,12 @@
 // to the left: speed or pressure as colours, velocity as arrows, the wall's section around it.
 import { barParts } from "./bar.ts";
 import { rgbOf, type Scale } from "./colours.ts";
-import { DrawnWall } from "./curved.ts";
-import { nearest, shorts, type FlowJson, type Wall } from "./data.ts";
+import type { DrawnWall } from "./curved.ts";
+import { nearest, shorts, type FlowJson } from "./data.ts";
 import { ink, svg } from "./dom.ts";
 import { type Heart, letterAt, unit } from "./orientation.ts";
 import { shown } from "./quantities.ts";
-import { cutWall, type Section } from "./section.ts";
+import { cutWall, outline, type Section } from "./section.ts";
 
 export type FlowQuantity = "speed" | "pressure";
 
@@ -31,18 +31,6 @@ async function velocityOf(flow: FlowJson, frame: number): Promise<Float32Array> 
 function speeds(velocity: Float32Array): Float32Array {
   const n = velocity.length / 3;
   return Float32Array.from({ length: n }, (_, i) => Math.hypot(velocity[i], velocity[n + i], velocity[2 * n + i]));
-}
-
-/** Sides that belong to one polygon only. */
-function outline(section: Section): [number, number][] {
-  const sides = new Map<string, [number, number]>();
-  for (const corners of section.polygons)
-    corners.forEach((p, i) => {
-      const q = corners[(i + 1) % corners.length];
-      const key = p < q ? `${p} ${q}` : `${q} ${p}`;
-      if (!sides.delete(key)) sides.set(key, [p, q]);
-    });
-  return [...sides.values()];
 }
 
 /** Height of the highest point. */
@@ -70,12 +58,13 @@ function cavityOf(flow: FlowJson, section: Section, s: Float32Array, sides: [num
 }
 
 /** A frame of the blood with the wall at the nearest moment. */
-export async function readFlow(flow: FlowJson, frame: number, wall: Wall): Promise<FlowFrame> {
+export async function readFlow(flow: FlowJson, frame: number, drawn: DrawnWall): Promise<FlowFrame> {
+  const { wall } = drawn;
   const [velocity, p] = await Promise.all([velocityOf(flow, frame), shorts(flow.pressure.frames[frame])]);
   const [c, d] = unit(flow.plane_deg ?? 0);
-  const { section } = cutWall(new DrawnWall(wall), wall.positions(nearest(wall.times, flow.times[frame])), { normal: [-d, c, 0], offset: 0 });
+  const { section } = cutWall(drawn, wall.positions(nearest(wall.times, flow.times[frame])), { normal: [-d, c, 0], offset: 0 });
   const along = section.weight.map((_, i) => c * section.points[3 * i] + d * section.points[3 * i + 1]);
-  const sides = outline(section);
+  const sides = outline(drawn, section);
   return { velocity, pressure: Float32Array.from(p, (n) => (n * flow.pressure.step) / kPaPerMmHg), section, s: along, sides,
     cavity: cavityOf(flow, section, along, sides) };
 }
@@ -221,21 +210,25 @@ export class FlowView {
     this.context.restore();
   }
 
+  /** With a light or dark rim: its tip may lie on muscle or paper. */
   private arrow(x: number, y: number, length: number, angle: number, colour: string): void {
     const { context } = this;
-    context.strokeStyle = context.fillStyle = colour;
-    context.lineWidth = 1.6;
     const tip: [number, number] = [x + length * Math.cos(angle), y + length * Math.sin(angle)];
-    context.beginPath();
-    context.moveTo(x, y);
-    context.lineTo(...tip);
-    context.stroke();
     const head = Math.min(9, 0.5 * length);
-    context.beginPath();
-    context.moveTo(...tip);
-    for (const side of [-0.45, 0.45])
-      context.lineTo(tip[0] - head * Math.cos(angle + side), tip[1] - head * Math.sin(angle + side));
-    context.fill();
+    for (const [paint, width] of [[colour === "#111" ? "rgba(255,255,255,0.6)" : "rgba(0,0,0,0.45)", 3], [colour, 1.6]] as const) {
+      context.strokeStyle = context.fillStyle = paint;
+      context.lineWidth = width;
+      context.beginPath();
+      context.moveTo(x, y);
+      context.lineTo(...tip);
+      context.stroke();
+      context.beginPath();
+      context.moveTo(...tip);
+      for (const side of [-0.45, 0.45]) context.lineTo(tip[0] - head * Math.cos(angle + side), tip[1] - head * Math.sin(angle + side));
+      context.closePath();
+      context.fill();
+      if (width > 2) context.stroke();
+    }
   }
 
   private write(what: FlowQuantity, scale: Scale, captions: string[], fastest: number): void {

@@ -34,6 +34,12 @@ function footer(cases: Case[], version: string): HTMLElement {
     "Colour maps are even in lightness and safe for colour-blind eyes. ventricle is free software under the GPL, version 3 or later.");
 }
 
+/** When the first picture is on the screen: what is done after it does not keep it waiting. Where nobody looks there is none. */
+const onScreen = () => new Promise<void>((done) => {
+  new PerformanceObserver((list) => { if (list.getEntriesByName("first-contentful-paint").length) done(); }).observe({ type: "paint", buffered: true });
+  setTimeout(done, document.hidden ? 0 : 2000);
+});
+
 /** After the screen's next frame; where nobody looks, and there is none, soon. */
 const painted = () => new Promise((done) => {
   requestAnimationFrame(() => setTimeout(done));
@@ -46,19 +52,17 @@ async function main(): Promise<void> {
   if (new Set(cases.map((c) => c.name)).size < cases.length) for (const c of cases) c.name += ` (${c.json.folder})`;
   const page = document.getElementById("page")!;
   page.className = cases.length > 1 ? "two" : "one";
-  const first = el("div", { class: "first" }, firstSection(cases), remarks(cases));
-  const nav = el("nav", { "aria-label": "sections" });
-  page.append(header(cases), first, nav);
-  await painted();
-  document.body.dataset.first = performance.now().toFixed(0);
-
-  await Promise.all(cases.map((c) => c.loadWall()));
   const time = timeline(cases);
   const quantity = ["circumferential_strain", "fibre_stress"].find((name) => cases.some((c) => c.wall?.quantities.includes(name))) ?? "infarct";
   const shared = new Shared({ quantity, step: time.start, cut: { kind: "long", angle: 0, height: -40 }, fibres: false, fixed: false });
   const wall = wallSection(cases, shared, time);
-  first.append(wall.element);
-  await wall.drawn;
+  const nav = el("nav", { "aria-label": "sections" });
+  page.append(header(cases), el("div", { class: "first" }, firstSection(cases), remarks(cases), wall.element), nav);
+  await wall.opened;
+  await onScreen();
+  document.body.dataset.first = performance.now().toFixed(0);
+
+  await wall.draw();
   await painted();
   document.body.dataset.wall = performance.now().toFixed(0);
 

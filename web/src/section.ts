@@ -75,6 +75,26 @@ export function cutWall(drawn: DrawnWall, undrawn: Float32Array, plane: Plane): 
   return { positions, section: { ...section, points: Float32Array.from(points), from: Int32Array.from(from), weight: Float32Array.from(weight) } };
 }
 
+/** Where the plane cuts the wall's surface: pairs of the section's points. (Sides of one polygon alone are no border where nodes lie in
+ * the plane: the polygons on both sides of a face in it do not meet side by side.) */
+export function outline(drawn: DrawnWall, section: Section): [number, number][] {
+  const { from } = section;
+  const [n, perFace] = [drawn.nodes, drawn.wall.nodesPerFace];
+  const pointOn = new Map<number, number>();  // an edge
+  for (let p = 0; p < from.length / 2; ++p) pointOn.set(from[2 * p] * n + from[2 * p + 1], p);
+  const sides: [number, number][] = [];
+  for (let f = 0; f < drawn.skin.length; f += perFace) {
+    const found: number[] = [];
+    for (let i = 0; i < perFace; ++i) {
+      const [a, b] = [drawn.skin[f + i], drawn.skin[f + ((i + 1) % perFace)]];
+      const point = pointOn.get(Math.min(a, b) * n + Math.max(a, b));
+      if (point !== undefined) found.push(point);
+    }
+    if (found.length === 2) sides.push([found[0], found[1]]);
+  }
+  return sides;
+}
+
 const unit = (v: number[]) => v.map((x) => x / Math.hypot(...v));
 
 /** A nodal field at a section's points. */

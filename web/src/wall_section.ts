@@ -31,6 +31,7 @@ class Panel {
   private series = new Map<string, Series | Float32Array | undefined>();
   readonly element: HTMLElement;
   private fibres?: Fibres;
+  private opening?: HTMLImageElement;  // what the program has drawn, until the wall is
   private read = el("p", { class: "read", "aria-live": "polite" });
   constructor(private c: Case, private number: number, private shared: Shared, private time: Timeline, private scale: () => Scale) {
     this.element = el("div", { class: "panel" });
@@ -38,25 +39,34 @@ class Panel {
       this.element.append(missing("No wall is shown: the work folder holds neither frames of a beat nor a mesh."));
       return;
     }
-    try {
-      this.view = new WallView(c.wall, heartOf(c));
-    } catch {
-      this.element.append(missing("The 3-D view needs WebGL, which this browser does not offer."));
-      return;
-    }
+    this.view = new WallView(c.wall, heartOf(c));
     this.overlay = new Overlay(this.view);
+    this.opening = c.wall.opening && el("img", { class: "opening", alt: "", src: `data:image/png;base64,${c.wall.opening.png}` });
+    if (this.opening) this.opening.decoding = "sync";  // it is part of the first picture of the page
     const { canvas } = this.view;
     canvas.className = "wall";
     canvas.setAttribute("role", "img");
     this.listen(canvas);
-    this.element.append(el("div", { class: "view" }, canvas, this.overlay.element), el("div", { class: "below" },
-      savePng(fileName(c.name, "wall"), () => overlaidPng(this.view!.painted(), this.overlay!.element)), this.read));
+    this.element.append(el("div", { class: "view" }, this.opening, canvas, this.overlay.element), el("div", { class: "below" },
+      savePng(fileName(c.name, "wall"), () => overlaidPng(this.view!.painted()!, this.overlay!.element)), this.read));
   }
 
   get camera() { return this.view; }
 
   /** Letters and scale bar follow the camera. */
-  follow(): void { this.overlay?.place(); }
+  follow(): void {
+    this.overlay?.place();
+    if (this.opening) this.placeOpening(this.opening);
+  }
+
+  /** The picture of the opening lies where the wall will be. */
+  private placeOpening(picture: HTMLImageElement): void {
+    const [x, y] = this.view!.middle;
+    picture.style.cssText = `left: ${x}px; top: ${y}px; width: ${this.view!.scale * this.c.wall!.opening!.width_mm}px`;
+  }
+
+  /** When the picture of the opening can be shown; at once where there is none. */
+  get opened(): Promise<void> { return this.opening?.decode().catch(() => {}) ?? Promise.resolve(); }
 
   private listen(canvas: HTMLCanvasElement): void {
     let latest: PointerEvent | undefined;
@@ -103,21 +113,42 @@ class Panel {
       row && `${shown(value(row.cavity_volume_ml))} ml`].filter(Boolean).join(", ");
   }
 
+  /** What stands over the picture. */
+  write(): void {
+    if (!this.view) return;
+    const { state } = this.shared;
+    const [q, scale] = [quantity(state.quantity), this.scale()];
+    const has = q === infarct || this.c.wall!.quantities.includes(q.name);
+    const lines = [this.c.name, this.moment(state.step), cutName(state.cut), ...(has ? [] : [`${q.title} is not in this case's frames`])];
+    this.overlay!.write(lines, scale, q === infarct && this.c.assumesInfarct ? `${label(q)}* (* assumed)` : label(q));
+    this.view.canvas.setAttribute("aria-label", `The wall in 3-D, ${label(q)}: ${lines.join("; ")}. Arrow keys turn it.`);
+  }
+
   async update(): Promise<void> {
     if (!this.view) return;
     const { state } = this.shared;
+    const wall = this.c.wall!;
+    await wall.load();
     const frame = this.time.frame(this.number, state.step)!;
     const field = await this.field(state.quantity);
     if (state.fibres && !this.fibres) {
-      const f0 = await this.c.wall!.fibres();
-      this.fibres = f0 && new Fibres(this.c.wall!, f0);
+      const f0 = await wall.fibres();
+      this.fibres = f0 && new Fibres(wall, f0);
     }
-    const [q, scale] = [quantity(state.quantity), this.scale()];
-    const lines = [this.c.name, this.moment(state.step), cutName(state.cut),
-      ...(field ? [] : [`${q.title} is not in this case's frames`])];
-    this.overlay!.write(lines, scale, q === infarct && this.c.assumesInfarct ? `${label(q)}* (* assumed)` : label(q));
-    this.view.canvas.setAttribute("aria-label", `The wall in 3-D, ${label(q)}: ${lines.join("; ")}. Arrow keys turn it.`);
-    this.view.show(frame, field, scale, state.cut, state.fibres ? this.fibres : undefined);
+    if (!this.begin()) return;
+    this.write();
+    this.view.show(frame, field, this.scale(), state.cut, state.fibres ? this.fibres : undefined);
+    this.opening?.remove();
+    this.opening = undefined;
+  }
+
+  private begin(): boolean {
+    const can = this.view?.begin() ?? false;
+    if (!can) {
+      this.view = undefined;
+      this.element.replaceChildren(missing("The 3-D view needs WebGL, which this browser does not offer."));
+    }
+    return can;
   }
 
   choose(): void {
@@ -177,7 +208,8 @@ const help = "Drag to turn, wheel or pinch to zoom, arrow keys to turn when the 
   "between. Values of elements are averaged to the nodes; what is nearly nothing has no colour. Fibres are drawn by their part in the surface " +
   "or section: short where they run through it.";
 
-export interface WallSection { element: HTMLElement; drawn: Promise<unknown>; scale: () => Scale }
+/** `opened`: its first picture can be shown, which the program has drawn; `draw`: it reads the wall and draws it. */
+export interface WallSection { element: HTMLElement; opened: Promise<unknown>; draw: () => Promise<unknown>; scale: () => Scale }
 
 export function wallSection(cases: Case[], shared: Shared, time: Timeline): WallSection {
   const scale = () => {
@@ -242,5 +274,6 @@ export function wallSection(cases: Case[], shared: Shared, time: Timeline): Wall
     el("div", { class: "cases" }, ...panels.map((panel) => panel.element)), bar.element, more);
   views.forEach((view) => view.look(looks[0].azimuth, looks[0].elevation));
   colour();
-  return { drawn: refresh(), element, scale };
+  panels.forEach((panel) => panel.write());
+  return { opened: Promise.all(panels.map((panel) => panel.opened)), draw: refresh, element, scale };
 }

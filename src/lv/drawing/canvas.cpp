@@ -36,6 +36,21 @@ void require(cairo_status_t status) {
                    "Ask for a smaller picture");
 }
 
+SurfaceOwner surface_of(const Image& image) {
+  SurfaceOwner surface =
+      own(cairo_image_surface_create(CAIRO_FORMAT_ARGB32, image.width, image.height));
+  require(cairo_surface_status(surface.get()));
+  auto* bytes = cairo_image_surface_get_data(surface.get());
+  const int stride = cairo_image_surface_get_stride(surface.get());
+  for (int y = 0; y < image.height; ++y) {
+    const auto* row = image.argb.data() + static_cast<std::ptrdiff_t>(y) * image.width;
+    auto* to = reinterpret_cast<std::uint32_t*>(bytes + static_cast<std::ptrdiff_t>(y) * stride);
+    std::copy(row, row + image.width, to);
+  }
+  cairo_surface_mark_dirty(surface.get());
+  return surface;
+}
+
 void draw_page(cairo_surface_t* surface, double pixels_per_point, const Draw& draw,
                std::string* svg_texts = nullptr) {
   const ContextOwner context(cairo_create(surface), &cairo_destroy);
@@ -197,17 +212,7 @@ void Canvas::gradient(const Box& box, const ColourMap& map) {
 }
 
 void Canvas::image(const Image& image, const Box& box) {
-  const SurfaceOwner surface =
-      own(cairo_image_surface_create(CAIRO_FORMAT_ARGB32, image.width, image.height));
-  require(cairo_surface_status(surface.get()));
-  auto* bytes = cairo_image_surface_get_data(surface.get());
-  const int stride = cairo_image_surface_get_stride(surface.get());
-  for (int y = 0; y < image.height; ++y) {
-    const auto* row = image.argb.data() + static_cast<std::ptrdiff_t>(y) * image.width;
-    auto* to = reinterpret_cast<std::uint32_t*>(bytes + static_cast<std::ptrdiff_t>(y) * stride);
-    std::copy(row, row + image.width, to);
-  }
-  cairo_surface_mark_dirty(surface.get());
+  const SurfaceOwner surface = surface_of(image);
   cairo_save(cairo_);
   cairo_translate(cairo_, box.x, box.y);
   cairo_scale(cairo_, box.width / image.width, box.height / image.height);
@@ -270,6 +275,13 @@ std::string png(double width, double height, double pixels_per_point, const Draw
       own(cairo_image_surface_create(CAIRO_FORMAT_RGB24, pixels(width), pixels(height)));
   cairo_surface_set_device_scale(surface.get(), pixels_per_point, pixels_per_point);
   draw_page(surface.get(), pixels_per_point, draw);
+  std::string bytes;
+  require(cairo_surface_write_to_png_stream(surface.get(), &append, &bytes));
+  return bytes;
+}
+
+std::string image_png(const Image& image) {
+  const SurfaceOwner surface = surface_of(image);
   std::string bytes;
   require(cairo_surface_write_to_png_stream(surface.get(), &append, &bytes));
   return bytes;

@@ -96,6 +96,9 @@ using Draw = std::function<void(Canvas&)>;
 [[nodiscard]] std::string svg(double width, double height, double pixels_per_point,
                               const Draw& draw);
 
+/// The bytes of a PNG of an image, transparent where nothing is drawn.
+[[nodiscard]] std::string image_png(const Image& image);
+
 /// The bytes of a PNG with 8 bits of grey a pixel, given row by row.
 [[nodiscard]] std::string grey_png(int columns, int rows, const std::vector<unsigned char>& levels);
 

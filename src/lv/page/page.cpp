@@ -10,6 +10,7 @@
 #include "lv/page/bundle.hpp"
 #include "lv/page/flow_series.hpp"
 #include "lv/page/modes.hpp"
+#include "lv/page/opening.hpp"
 #include "lv/page/packing.hpp"
 #include "lv/page/page_pictures.hpp"
 #include "lv/page/wall_series.hpp"
@@ -172,6 +173,12 @@ NodalSeries by_component(const NodalSeries& displacement) {
   return sorted;
 }
 
+Json reach_json(const Reach& reach) {
+  return {{"radius", rounded(reach.radius)},
+          {"bottom", rounded(reach.bottom)},
+          {"top", rounded(reach.top)}};
+}
+
 Json wall_json(const WallSeries& wall, PagedArrays& arrays) {
   constexpr double node_step = 0.01;       // [mm]
   constexpr double direction_step = 0.01;  // of unit vectors
@@ -179,7 +186,8 @@ Json wall_json(const WallSeries& wall, PagedArrays& arrays) {
   const Skin skin = skin_of(wall);
   Json json{{"nodes_per_cell", mesh::nodes_per_cell(wall.kind)},
             {"nodes", wall.undeformed.size()},
-            {"times", rounded(wall.times)}};
+            {"times", rounded(wall.times)},
+            {"reach", reach_json(reach_of(wall))}};
   json["cells"] = arrays.add(std::vector<std::int32_t>(wall.cells.begin(), wall.cells.end()));
   json["skin"] = arrays.add(skin.nodes);
   json["skin_cells"] = arrays.add(skin.cells);
@@ -202,7 +210,7 @@ Json wall_json(const WallSeries& wall, PagedArrays& arrays) {
     const Range range = range_of(series);
     if (series.size() != wall.times.size() || !(range.max > range.min))
       continue;
-    arrays.is_first = name == "circumferential_strain";  // the page opens with it
+    arrays.is_first = name == opening_quantity;
     json["quantities"][name] =
         modes_json(modes(series, quantity_tolerance * (range.max - range.min)), arrays);
     json["quantities"][name]["min"] = rounded(range.min);
@@ -336,6 +344,29 @@ std::vector<TimedFrame> wall_frames(const fs::path& work) {
   return frames;
 }
 
+/// The frame that the page opens with: end-systole's, or the last.
+std::size_t opening_frame(const WallSeries& wall, const fs::path& work) {
+  const auto time = report::time_of(work, heartbeat::end_systole);
+  if (!time)
+    return wall.times.size() - 1;
+  const auto nearest = std::min_element(
+      wall.times.begin(), wall.times.end(),
+      [&](double a, double b) { return std::abs(a - *time) < std::abs(b - *time); });
+  return static_cast<std::size_t>(nearest - wall.times.begin());
+}
+
+/// Nothing where results or the quantity are missing.
+Json opening_json(const WallSeries& wall, const report::MeshFacts& mesh, const fs::path& work) {
+  const auto scale = opening_scale(work);
+  const auto found = wall.quantities.find(opening_quantity);
+  if (!scale || found == wall.quantities.end() || found->second.size() != wall.times.size())
+    return {};
+  const Opening drawn =
+      opening(wall, skin_of(wall).nodes, mesh.order == 2, opening_frame(wall, work),
+              {.septum_angle = mesh.septum_angle}, *scale);
+  return {{"png", base64(drawn.png)}, {"width_mm", rounded(drawn.width_mm)}};
+}
+
 /// A page is passed on, and the name of a folder may be that of a patient.
 Data case_html(const PageCase& shown, int number, std::size_t count) {
   static constexpr std::array<const char*, 2> folders{"the first work folder",
@@ -355,6 +386,9 @@ Data case_html(const PageCase& shown, int number, std::size_t count) {
     json["wall"] = wall_json(wall, arrays);
     const auto mesh = report::mesh_facts(shown.work).value_or(report::MeshFacts{});
     json["wall"]["order"] = mesh.order;
+    if (count == 1)  // two cases have one scale, and moments of their own
+      if (Json first = opening_json(wall, mesh, shown.work); !first.is_null())
+        json["wall"]["opening"] = std::move(first);
     const LongAxis plane{mesh.septum_angle};  // the four-chamber view's
     const auto [lower, upper] = surroundings(wall, plane);
     // the wall's frames are the blood's borders; the undeformed mesh is none

@@ -1,0 +1,120 @@
+#include "lv/page/opening.hpp"
+
+#include "lv/analysis/quantities.hpp"
+#include "lv/base/check.hpp"
+#include "lv/base/units.hpp"
+#include "lv/drawing/canvas.hpp"
+#include "lv/drawing/wall_surface.hpp"
+#include "lv/mesh/curved.hpp"
+#include "lv/report/work_folder.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lv::page {
+namespace {
+
+/// The mesh of a series, with all its surface as one side.
+mesh::Mesh mesh_of(const WallSeries& wall, const std::vector<std::int32_t>& skin,
+                   bool is_quadratic) {
+  mesh::Mesh mesh;
+  mesh.kind = wall.kind;
+  mesh.nodes = wall.undeformed;
+  mesh.cells = wall.cells;
+  mesh.epi.nodes_per_face = wall.kind == mesh::CellKind::hexahedron ? 4 : 3;
+  mesh.epi.nodes.assign(skin.begin(), skin.end());
+  mesh.endo.nodes_per_face = mesh.base.nodes_per_face = mesh.epi.nodes_per_face;
+  mesh.order = is_quadratic ? 2 : 1;
+  mesh.transmural.assign(mesh.nodes.size(), 0.0);
+  mesh.infarct = mesh.transmural;
+  return mesh;
+}
+
+std::vector<Vec3> positions(const WallSeries& wall, std::size_t frame) {
+  std::vector<Vec3> x = wall.undeformed;
+  const std::vector<float>& u = wall.displacement[frame];
+  for (std::size_t a = 0; a < x.size(); ++a)
+    x[a] += Vec3(u[3 * a], u[3 * a + 1], u[3 * a + 2]);
+  return x;
+}
+
+/// That of the page's four-chamber view (web/src/orientation.ts).
+drawing::Camera camera_of(const Reach& reach, const drawing::Orientation& orientation) {
+  constexpr double elevation = 8.0 * units::degree;
+  const Vec3 view =
+      -std::cos(elevation) * orientation.anterior() - std::sin(elevation) * Vec3::UnitZ();
+  constexpr double margin = 2.0;  // [mm]
+  const double width = 2.0 * (reach.radius + margin);
+  // a base seen from above is an ellipse
+  const double height = reach.top - reach.bottom + width * std::sin(elevation);
+  return {.view = view,
+          .centre = {0.0, 0.0, 0.5 * (reach.bottom + reach.top)},
+          .width = width,
+          .height = height};
+}
+
+}  // namespace
+
+Reach reach_of(const WallSeries& wall) {
+  Reach reach;
+  for (std::size_t frame = 0; frame < wall.displacement.size(); ++frame)
+    for (const Vec3& x : positions(wall, frame)) {
+      reach.radius = std::max(reach.radius, std::hypot(x.x(), x.y()));
+      reach.bottom = std::min(reach.bottom, x.z());
+      reach.top = std::max(reach.top, x.z());
+    }
+  return reach;
+}
+
+std::optional<drawing::ColourScale> opening_scale(const std::filesystem::path& work) {
+  const auto regions = report::table_of(work, "results", "regions.csv");
+  if (!regions)
+    return {};
+  const auto all = analysis::quantities();
+  const auto quantity = std::find_if(all.begin(), all.end(), [](const analysis::Quantity& q) {
+    return std::string(q.name) == opening_quantity;
+  });
+  LV_CHECK(quantity != all.end());
+  const auto scheme = regions->words("scheme");
+  const auto name = regions->words("quantity");
+  const auto low = regions->numbers("p1");
+  const auto high = regions->numbers("p99");
+  double most = 0.0;
+  for (std::size_t i = 0; i < scheme.size(); ++i)
+    if (scheme[i] == "whole" && name[i] == opening_quantity)
+      for (const double value : {low[i], high[i]})
+        if (std::isfinite(value))
+          most = std::max(most, std::abs(value - quantity->middle));
+  if (most <= 0.0)
+    return {};
+  return drawing::ColourScale{drawing::diverging(), quantity->middle - most,
+                              quantity->middle + most, quantity->middle, quantity->floor};
+}
+
+Opening opening(const WallSeries& wall, const std::vector<std::int32_t>& skin, bool is_quadratic,
+                std::size_t frame, const drawing::Orientation& orientation,
+                const drawing::ColourScale& scale) {
+  constexpr double pixels_per_mm = 5.0;
+  const mesh::CurvedMesh curved = mesh::curved(mesh_of(wall, skin, is_quadratic));
+  const std::vector<Vec3> x = curved.at_nodes(positions(wall, frame));
+  const std::vector<float>& field = wall.quantities.at(opening_quantity)[frame];
+  const std::vector<double> values =
+      curved.at_nodes(std::vector<double>(field.begin(), field.end()));
+  const drawing::Plane plane = drawing::four_chamber_plane(orientation);
+  const auto item = [&](const drawing::WallPatch& patch, bool is_shaded) {
+    return drawing::Item{.patch = patch.patch,
+                         .paint = drawing::PointValues{patch.at_points(values), scale},
+                         .shaded = is_shaded};
+  };
+  const drawing::Scene scene{
+      .items = {item(drawing::wall_surface(curved.mesh, x, curved.mesh.epi), true),
+                item(drawing::wall_section(curved.mesh, x, plane), false)},
+      .cut = plane};
+  const drawing::Camera camera = camera_of(reach_of(wall), orientation);
+  const auto pixels = [&](double mm) { return static_cast<int>(std::lround(mm * pixels_per_mm)); };
+  const drawing::Image image = drawing::render(
+      scene, camera, {.width = pixels(camera.width), .height = pixels(camera.height)});
+  return {drawing::image_png(image), image.width * image.mm_per_pixel};
+}
+
+}  // namespace lv::page
