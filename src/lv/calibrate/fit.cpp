@@ -3,9 +3,10 @@
 #include "lv/base/check.hpp"
 #include "lv/base/dense.hpp"
 #include "lv/base/log.hpp"
+#include "lv/base/time_left.hpp"
 #include "lv/base/units.hpp"
 #include "lv/calibrate/fit_out_of_reach.hpp"
-#include "lv/calibrate/forecast.hpp"
+#include "lv/calibrate/fit_parts.hpp"
 #include "lv/calibrate/klotz.hpp"
 #include "lv/calibrate/least_squares.hpp"
 #include "lv/calibrate/unloaded_root.hpp"
@@ -17,6 +18,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 namespace lv::calibrate {
 namespace {
@@ -51,63 +53,32 @@ constexpr double longest_step = 0.25;
 constexpr double converged = 1e-3;
 constexpr int most_corrections = 20;
 
-/// The parts of Fitter::run, with the equilibria that each takes, roughly (docs/progress.md).
-std::vector<FitPart> parts_of(const Plan& plan) {
-  const bool passive = plan.passive != FittedPassive::none;
-  const bool curve = plan.fits_exponent();
-  std::vector<FitPart> parts;
-  const auto fit_passive = [&](bool is_near) {
-    const double trials = is_near ? 2.0 : 5.0;
-    if (passive)
-      parts.push_back({FitEnd::by_misfit, is_near, {trials, 0.0}});
-    if (curve)
-      parts.push_back({FitEnd::open, true, {15.0, 0.0}});  // those of one correction
-  };
-  fit_passive(plan.starts_near);
-  if (plan.active && !passive)
-    parts.push_back({FitEnd::counted, false, {1.0, 0.0}});
-  if (plan.active && curve && !plan.starts_near)  // between the bracket and the curve
-    parts.insert(parts.begin() + 1, {FitEnd::by_misfit, false, {0.0, 4.0}});
-  if (plan.active) {
-    parts.push_back({FitEnd::by_misfit, curve || plan.starts_near, {0.0, 5.0}});
-    fit_passive(true);
-    parts.push_back({FitEnd::by_misfit, true, {0.0, 2.0}});
-  }
-  const double fitted = (passive ? 1.0 : 0.0) + (curve ? 1.0 : 0.0) + (plan.active ? 1.0 : 0.0);
-  const double at_rest = (passive ? 1.0 : 0.0) + (curve ? 3.0 : 0.0);
-  const double at_work = plan.active ? 1.0 : 0.0;
-  if (!plan.strains.empty())
-    parts.push_back(
-        {FitEnd::open, true, {(fitted + 1.0) * (at_rest + 1.0), (fitted + 1.0) * (at_work + 1.0)}});
-  parts.push_back({FitEnd::counted, true, {std::max(1.0, at_rest), at_work}});
-  parts.push_back(
-      {FitEnd::counted, true, {2.0 * (fitted + 1.0) * at_rest, 2.0 * (fitted + 1.0) * at_work}});
-  return parts;
-}
-
 class Fitter {
  public:
-  Fitter(const Model& model, const FitParameters& start, const Plan& plan)
-      : plan_(plan), model_(model), forecast_(parts_of(plan)) {
+  Fitter(const Model& model, const FitParameters& start, const Plan& plan, FitForecast& forecast)
+      : plan_(plan), model_(model), forecast_(forecast) {
+    forecast_.begin_mesh(parts_of(plan));
     fit_.parameters = start;
+    fit_.slopes = plan.slopes;
     if (plan.strains.empty())
       model_.strains = {};
+    else
+      model_.strains = [this, &model](const FitParameters& p, const Loads& ed, const Loads& es) {
+        return timed(Sought::contracts_again, [&] { return model.strains(p, ed, es); });
+      };
     model_.volume = [this, &model](const FitParameters& p, const Loads& loads) {
-      const auto began = std::chrono::steady_clock::now();
-      const auto volume = model.volume(p, loads);
-      const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - began;
-      forecast_.record(loads.activation > 0.0 ? MuscleState::contracts : MuscleState::rests,
-                       elapsed.count());
+      const auto volume = timed(sought(p, loads), [&] { return model.volume(p, loads); });
+      last_ = p;
       if (!volume)
         return volume;
-      if (sought_ > 0.0)
-        forecast_.misfit(std::log(*volume / sought_), accuracy());
+      if (sought_ && purpose_ != of_curve)
+        forecast_.bracket(std::log(*volume / sought_->volume), sought_->accuracy);
       fit_.history.push_back({purpose_, p, loads, *volume});
       log::info(
           "{:<22} C_a {:.4g}  scale {:.4g}  exponent {:.4g}  T_scale {:.4g}  {:.2f} mmHg  "
           "{:.3f} ml{}",
           purpose_, p.C_a, p.scale, p.exponent, p.T_scale, loads.pressure / units::mmHg,
-          1e-3 * *volume, forecast_.words());
+          1e-3 * *volume, time_left(forecast_.seconds_left()));
       return volume;
     };
   }
@@ -139,7 +110,7 @@ class Fitter {
     measure();
     if (plan_.parameters_alone)
       return std::move(fit_);
-    begin("sensitivity");
+    begin(of_sensitivity);
     fit_.sensitivity = sensitivity(model_, fit_.parameters, fitted, fit_.observations,
                                    {plan_.edv.volume, ed_loads(), es_loads(), plan_.errors});
     return std::move(fit_);
@@ -153,7 +124,22 @@ class Fitter {
 
   void begin(const std::string& purpose) {
     purpose_ = purpose;
-    forecast_.begin();
+    forecast_.begin(purpose);
+  }
+
+  [[nodiscard]] Sought sought(const FitParameters& p, const Loads& loads) const {
+    if (loads.activation > 0.0)
+      return p == last_ ? Sought::contracts_again : Sought::contracts_anew;
+    return p == last_ ? Sought::rests_again : Sought::rests_anew;
+  }
+
+  template <class Ask>
+  std::invoke_result_t<Ask> timed(Sought which, const Ask& ask) {
+    const auto began = std::chrono::steady_clock::now();
+    auto answer = ask();
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - began;
+    forecast_.record(which, elapsed.count());
+    return answer;
   }
 
   /// Of `fitted`, the passive parameters.
@@ -174,7 +160,7 @@ class Fitter {
 
   /// Of muscle that was not fitted to an end-diastolic volume.
   void check_filling() {
-    begin("filling");
+    begin(of_filling);
     const double edv = model_.volume(fit_.parameters, ed_loads()).value();
     const double missing = std::log(plan_.esv.volume / edv);
     if (missing >= 0.0)
@@ -193,7 +179,7 @@ class Fitter {
   void try_contraction() {
     if (!plan_.active)
       return;
-    begin("first T_scale");
+    begin(of_first_tension);
     const double start = fit_.parameters.T_scale;
     try {
       has_tension_ =
@@ -216,7 +202,7 @@ class Fitter {
 
   void bracket(const Fitted& which, const Range& range, const Loads& loads, const Target& target,
                double first_factor) {
-    begin(fmt::format("bracket of {}", which.name));
+    begin(bracket_of(which.name));
     solve(which, range, loads, target, first_factor, accuracy()).value();
   }
 
@@ -234,9 +220,9 @@ class Fitter {
     double least = std::numeric_limits<double>::infinity();
     const auto volume = [&](double x) {
       p.*which.member = x;
-      sought_ = target.volume;
+      sought_ = {target.volume, accuracy};
       const auto found = model_.volume(p, loads);
-      sought_ = 0.0;
+      sought_.reset();
       const double misfit = found ? std::abs(std::log(*found / target.volume)) : least;
       if (misfit < least) {
         nearest = x;
@@ -258,13 +244,13 @@ class Fitter {
 
   /// Scale and exponent of a shape of end-diastole: first the scale alone, roughly.
   void fit_klotz(const std::vector<Fitted>& fitted, bool first) {
-    begin("unloaded volume");
+    begin(of_unloaded);
     FitParameters& p = fit_.parameters;
     if (first || (plan_.starts_near && !model_.volume(p, {}))) {
       reach_unloaded_volume(first_stiffness * p.scale, rough);
       try_contraction();
     }
-    begin("fit to the Klotz curve");
+    begin(of_curve);
     const Logarithms logs = logarithms(fitted);
     const auto residuals = [&](const Eigen::VectorXd& x) -> Outcome<Eigen::VectorXd> {
       const auto r = misfits(moved_to(fitted, x), 1 + ratios_below.size());
@@ -274,9 +260,12 @@ class Fitter {
       weighted[0] *= weight_of_unloaded;
       return weighted;
     };
-    const auto minimum = broyden_least_squares(residuals, logs.start, logs.low, logs.high,
-                                               {unloaded_difference, longest_step, shortest_step});
+    const auto minimum =
+        broyden_least_squares(residuals, logs.start, logs.low, logs.high,
+                              {unloaded_difference, longest_step, shortest_step, fit_.slopes,
+                               [&](double n) { forecast_.expect(n); }});
     p = moved_to(fitted, minimum.value().x);
+    fit_.slopes = minimum->slopes;
     // where no exponent brings the curve near, V0 must not pay for it
     if (std::abs(minimum->r[0]) > 0.5 * plan_.tolerance * weight_of_unloaded)
       reach_unloaded_volume(p.scale, 0.25 * plan_.tolerance);
@@ -386,7 +375,7 @@ class Fitter {
 
   /// Levenberg-Marquardt in the logarithms of the parameters.
   void fit_strains(const std::vector<Fitted>& fitted) {
-    begin("least squares");
+    begin(of_strains);
     const auto n = static_cast<Eigen::Index>(fitted.size());
     Eigen::VectorXd start(n), low(n), high(n);
     for (Eigen::Index j = 0; j < n; ++j) {
@@ -435,7 +424,7 @@ class Fitter {
   /// Gauss-Newton steps in the exponent along the line on which the scale keeps the end-diastolic
   /// volume, halved until the Klotz curve is nearer.
   void fit_exponent(const Fitted& scale, const Fitted& exponent) {
-    begin("fit to the Klotz curve");
+    begin(of_curve);
     Eigen::VectorXd r = residuals(fit_.parameters).value();
     for (int i = 0; i < most_corrections; ++i) {
       const double along = scale_along(scale, exponent, r[0]);
@@ -502,7 +491,7 @@ class Fitter {
   /// The model's volumes with the fitted parameters. Tension at rest makes the end-diastolic volume
   /// depend on T_scale a little.
   void measure() {
-    begin("result");
+    begin(of_result);
     fit_.unloaded_volume = model_.unloaded_volume(fit_.parameters).value();
     static_cast<void>(move_curve(fit_.parameters));
     fit_.edv = model_.volume(fit_.parameters, ed_loads()).value();
@@ -547,23 +536,32 @@ class Fitter {
 
   const Plan& plan_;
   Model model_;
-  FitForecast forecast_;
+  FitForecast& forecast_;
   std::string purpose_;
-  double sought_ = 0.0;       ///< by the root that is sought, otherwise 0 [mm^3]
-  bool has_tension_ = false;  ///< T_scale is near its end
+  struct Root {
+    double volume, accuracy;
+  };
+  std::optional<Root> sought_;      ///< while a bracket asks
+  FitParameters last_{.C_a = 0.0};  ///< of the last equilibrium
+  bool has_tension_ = false;        ///< T_scale is near its end
   Fitted tension_{"T_scale", &FitParameters::T_scale};
   Fit fit_;
 };
 
 }  // namespace
 
-Fit fit(const Model& model, const FitParameters& start, const Plan& plan) {
-  Fitter fitter(model, start, plan);
+Fit fit(const Model& model, const FitParameters& start, const Plan& plan, FitForecast& forecast) {
+  Fitter fitter(model, start, plan, forecast);
   try {
     return fitter.run();
   } catch (const OutOfReach& failure) {
     throw FitOutOfReach(failure, fitter.parameters());
   }
+}
+
+Fit fit(const Model& model, const FitParameters& start, const Plan& plan) {
+  FitForecast forecast(std::vector<FittedMesh>(1));
+  return fit(model, start, plan, forecast);
 }
 
 }  // namespace lv::calibrate

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lv/calibrate/bracket.hpp"
+#include "lv/calibrate/forecast.hpp"
 #include "lv/calibrate/model.hpp"
 #include "lv/calibrate/sensitivity.hpp"
 
@@ -38,6 +39,8 @@ struct Plan {
   Errors errors;
   bool starts_near = false;       ///< the start is near the end
   bool parameters_alone = false;  ///< finds no sensitivities
+  /// Of a fit near by (Fit::slopes), where the one to Klotz's V0 and curve begins with them.
+  std::optional<Eigen::MatrixXd> slopes = {};
 
   [[nodiscard]] bool fits_exponent() const {
     return passive == FittedPassive::scale_and_exponent || passive == FittedPassive::klotz;
@@ -82,6 +85,8 @@ struct Fit {
   Sensitivity sensitivity;
   std::vector<OtherPressure> other_pressures;  ///< of an end-diastolic shape; not filled by `fit`
   std::vector<Evaluation> history;
+  /// Of the fit to Klotz's V0 and curve: weighted misfits by ln scale and ln exponent.
+  std::optional<Eigen::MatrixXd> slopes;
 };
 
 /// Fits the passive parameters to the end-diastolic volume, then T_scale to the end-systolic one
@@ -118,6 +123,11 @@ struct Fit {
 ///
 /// Throws OutOfReach for a volume out of reach and NoSolution when a fitted model misses the
 /// measured volumes, to which alone it was fitted, by more than the tolerance.
+///
+/// The log says what is left of all that `forecast` knows of; this fit is its next one.
+[[nodiscard]] Fit fit(const Model& model, const FitParameters& start, const Plan& plan,
+                      FitForecast& forecast);
+/// Alone.
 [[nodiscard]] Fit fit(const Model& model, const FitParameters& start, const Plan& plan);
 
 }  // namespace lv::calibrate

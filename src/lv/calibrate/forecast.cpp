@@ -1,9 +1,6 @@
 #include "lv/calibrate/forecast.hpp"
 
-#include "lv/base/median.hpp"
-#include "lv/base/time_left.hpp"
-
-#include <fmt/format.h>
+#include "lv/base/check.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,121 +12,135 @@ namespace {
 
 constexpr std::size_t remembered = 5;       // equilibria of each kind
 constexpr double remembered_answer = 1e-3;  // of a fit that was stopped and goes on [s]
-
-constexpr double near_to_far = 0.6;         // of a neighbour's duration, before one is known
 constexpr double trials_before_root = 2.0;  // until it lies between two
+constexpr double power_of_nodes = 1.3;      // with which the time of an equilibrium grows
 
-double median_of(const std::deque<double>& values) {
-  return median({values.begin(), values.end()});
+/// What equilibria usually take, in firsts of muscle at rest, in the order of Sought and then the
+/// firsts; of walls that are free of stress, and of those that are unloaded.
+constexpr std::array<std::array<double, 6>, 2> usual{
+    {{0.10, 0.07, 0.09, 0.075, 1.0, 1.6}, {0.60, 0.15, 0.60, 0.20, 1.0, 1.0}}};
+
+double mean(const std::deque<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-void remember(double seconds, std::deque<double>& durations) {
+std::size_t first_of(std::size_t muscle) {
+  return 4 + muscle;
+}
+
+}  // namespace
+
+void FitForecast::begin_mesh(std::vector<FitPart> parts) {
+  LV_CHECK(seen_.size() < meshes_.size());
+  meshes_[seen_.size()].parts = std::move(parts);
+  seen_.emplace_back();
+  parts_begun_ = 0;
+  each_ = left_ = {};
+}
+
+void FitForecast::begin(const std::string& name) {
+  misfits_.clear();
+  each_ = left_ = {};
+  const std::vector<FitPart>& parts = meshes_[seen_.size() - 1].parts;
+  const auto rest = parts.begin() + static_cast<std::ptrdiff_t>(parts_begun_);
+  const auto part =
+      std::find_if(rest, parts.end(), [&](const FitPart& p) { return p.name == name; });
+  if (part == parts.end())
+    return;
+  parts_begun_ = static_cast<std::size_t>(part - parts.begin()) + 1;
+  each_ = part->each;
+  expect(part->trials);
+}
+
+void FitForecast::expect(double trials) {
+  for (std::size_t k = 0; k < each_.size(); ++k)
+    left_[k] = trials * each_[k];
+}
+
+void FitForecast::bracket(double misfit, double accuracy) {
+  misfits_.push_back(misfit);
+  double smallest = std::abs(misfit);
+  for (const double f : misfits_)
+    smallest = std::min(smallest, std::abs(f));
+  if (smallest <= accuracy)
+    return expect(0.0);
+  const auto [low, high] = std::minmax_element(misfits_.begin(), misfits_.end());
+  const bool is_between = *low * *high < 0.0;
+  const double digits = std::log(accuracy) / std::log(std::min(smallest, 0.5));
+  const double trials = std::ceil(std::log(digits) / std::log(std::numbers::phi));
+  expect(std::max(1.0, trials) + (is_between ? 0.0 : trials_before_root));
+}
+
+void FitForecast::record(Sought which, double seconds) {
+  const auto k = static_cast<std::size_t>(which);
+  left_[k] = std::max(0.0, left_[k] - 1.0);
+  if (seconds < remembered_answer)
+    return;
+  Seen& seen = seen_.back();
+  const std::size_t muscle = k / 2;
+  auto& durations = seen.seconds[seen.has_muscle[muscle] ? k : first_of(muscle)];
+  seen.has_muscle[muscle] = true;
   durations.push_back(seconds);
   if (durations.size() > remembered)
     durations.pop_front();
 }
 
-}  // namespace
-
-void FitForecast::begin() {
-  part_ += begun_ ? 1 : 0;
-  begun_ = true;
-  done_ = {0.0, 0.0};
-  misfits_.clear();
-  for (Muscle& muscle : muscles_)
-    muscle.near.clear();
+Equilibria FitForecast::left_on(std::size_t mesh) const {
+  const bool is_present = mesh + 1 == seen_.size();
+  Equilibria all = is_present ? left_ : Equilibria{};
+  const std::vector<FitPart>& parts = meshes_[mesh].parts;
+  for (std::size_t p = is_present ? parts_begun_ : 0; p < parts.size(); ++p)
+    for (std::size_t k = 0; k < all.size(); ++k)
+      all[k] += parts[p].trials * parts[p].each[k];
+  return all;
 }
 
-void FitForecast::record(MuscleState muscle, double seconds) {
-  const auto m = static_cast<std::size_t>(muscle);
-  done_[m] += 1.0;
-  if (seconds < remembered_answer)
-    return;
-  if (!muscles_[m].is_known) {
-    muscles_[m].is_known = true;
-    return;
-  }
-  const bool is_near = part_ < parts_.size() && parts_[part_].is_near;
-  remember(seconds, is_near ? muscles_[m].near : muscles_[m].far);
+/// Of a wall that has begun or not.
+double FitForecast::cost(std::size_t mesh, std::size_t kind) const {
+  if (mesh < seen_.size() && !seen_[mesh].seconds[kind].empty())
+    return mean(seen_[mesh].seconds[kind]);
+  return reference(mesh, kind) * slower(mesh);
 }
 
-void FitForecast::misfit(double value, double accuracy) {
-  if (part_ >= parts_.size() || parts_[part_].end != FitEnd::by_misfit)
-    return;
-  misfits_.push_back(value);
-  accuracy_ = accuracy;
+double FitForecast::reference(std::size_t mesh, std::size_t kind) const {
+  return mesh > 0 ? cost(mesh - 1, kind) : usual[meshes_[0].is_loaded ? 1 : 0][kind];
 }
 
-double FitForecast::left_of_bracket() const {
-  double smallest = std::abs(misfits_.front());
-  for (const double f : misfits_)
-    smallest = std::min(smallest, std::abs(f));
-  if (smallest <= accuracy_)
-    return 0.0;
-  const auto [low, high] = std::minmax_element(misfits_.begin(), misfits_.end());
-  const bool is_between = *low * *high < 0.0;
-  const double digits = std::log(accuracy_) / std::log(std::min(smallest, 0.5));
-  const double trials = std::ceil(std::log(digits) / std::log(std::numbers::phi));
-  return std::max(1.0, trials) + (is_between ? 0.0 : trials_before_root);
-}
-
-/// A part that takes longer than usual is taken to end soon.
-double FitForecast::left_of_part(std::size_t muscle) const {
-  const double usual = parts_[part_].equilibria[muscle];
-  if (usual == 0.0)
-    return 0.0;
-  const double least = parts_[part_].end == FitEnd::counted ? 0.0 : 1.0;
-  return misfits_.empty() ? std::max(least, usual - done_[muscle]) : left_of_bracket();
-}
-
-std::array<double, 2> FitForecast::left() const {
-  std::array<double, 2> equilibria{};
-  for (std::size_t m = 0; m < 2; ++m)
-    for (std::size_t p = part_; p < parts_.size(); ++p)
-      equilibria[m] += p > part_ ? parts_[p].equilibria[m] : left_of_part(m);
-  return equilibria;
-}
-
-/// Neighbours with parameters of their own are unloaded, others not: those of another part tell
-/// nothing.
-std::optional<double> FitForecast::duration(const Muscle& muscle, std::size_t part) const {
-  const auto& recent = muscle.near;
-  if (part == part_ && recent.size() > 1)
-    return std::accumulate(recent.begin(), recent.end(), 0.0) / static_cast<double>(recent.size());
-  if (muscle.far.empty())
-    return {};
-  return median_of(muscle.far) * (parts_[part].is_near ? near_to_far : 1.0);
-}
-
-bool FitForecast::is_open() const {
-  return std::any_of(parts_.begin() + static_cast<std::ptrdiff_t>(part_), parts_.end(),
-                     [](const FitPart& part) { return part.end == FitEnd::open; });
+double FitForecast::slower(std::size_t mesh) const {
+  double here = 0.0;
+  double there = 0.0;
+  for (std::size_t k = 0; mesh < seen_.size() && k < kinds; ++k)
+    if (const auto& seconds = seen_[mesh].seconds[k]; !seconds.empty()) {
+      here += mean(seconds);
+      there += reference(mesh, k);
+    }
+  if (here > 0.0)
+    return here / there;
+  return mesh == 0 ? 0.0
+                   : std::pow(static_cast<double>(meshes_[mesh].nodes) /
+                                  static_cast<double>(meshes_[mesh - 1].nodes),
+                              power_of_nodes);
 }
 
 double FitForecast::seconds_left() const {
-  if (is_open())
-    return -1.0;
   double seconds = 0.0;
-  for (std::size_t p = part_; p < parts_.size(); ++p)
-    for (std::size_t m = 0; m < 2; ++m) {
-      const double equilibria = p > part_ ? parts_[p].equilibria[m] : left_of_part(m);
-      if (equilibria == 0.0)
-        continue;
-      const auto each = duration(muscles_[m], p);
-      if (!each)
-        return -1.0;
-      seconds += equilibria * *each;
+  bool is_known = false;
+  for (std::size_t mesh = seen_.empty() ? 0 : seen_.size() - 1; mesh < meshes_.size(); ++mesh) {
+    is_known = is_known || slower(mesh) > 0.0;
+    Equilibria left = left_on(mesh);
+    for (std::size_t muscle = 0; muscle < 2; ++muscle) {
+      double& anew = left[2 * muscle];
+      double& again = left[2 * muscle + 1];
+      const bool is_seen = mesh < seen_.size() && seen_[mesh].has_muscle[muscle];
+      if (!is_seen && anew + again > 0.0) {
+        seconds += cost(mesh, first_of(muscle));
+        double& fewer = anew > 0.0 ? anew : again;
+        fewer = std::max(0.0, fewer - 1.0);
+      }
+      seconds += anew * cost(mesh, 2 * muscle) + again * cost(mesh, 2 * muscle + 1);
     }
-  return seconds;
-}
-
-std::string FitForecast::words() const {
-  const double seconds = seconds_left();
-  if (seconds >= 0.0)
-    return time_left(seconds);
-  const auto equilibria = left();
-  return fmt::format(", {}{:.0f} equilibria left", is_open() ? "at least " : "",
-                     equilibria[0] + equilibria[1]);
+  }
+  return is_known ? seconds : -1.0;
 }
 
 }  // namespace lv::calibrate

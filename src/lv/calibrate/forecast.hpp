@@ -3,76 +3,74 @@
 #include <array>
 #include <cstddef>
 #include <deque>
-#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace lv::calibrate {
 
-/// Which muscle an equilibrium of a fit has; they take different times.
-enum class MuscleState { rests, contracts };
+/// Which muscle an equilibrium of a fit has, and whether its parameters are others than those of
+/// the equilibrium before: a loaded shape is unloaded anew for them.
+enum class Sought { rests_anew, rests_again, contracts_anew, contracts_again };
 
-/// When a part of a fit ends.
-enum class FitEnd {
-  by_misfit,  ///< a root is bracketed: when the misfit is small enough
-  counted,    ///< after a known number of equilibria
-  open        ///< when steps become small: nobody knows after how many
-};
+/// Equilibria by Sought.
+using Equilibria = std::array<double, 4>;
 
-/// A part of a fit.
+/// A part of a fit: the same equilibria for each of so many trials, as many as are usual.
 struct FitPart {
-  FitEnd end;
-  bool is_near;                      ///< its equilibria are neighbours of known ones
-  std::array<double, 2> equilibria;  ///< by MuscleState: usual number; of open parts the least
+  std::string name;
+  Equilibria each;
+  double trials = 1.0;
 };
 
-/// How long a fit will still take: the equilibria that are left, each as long as the last ones of
-/// its muscle and kind took in the middle in this very fit. The first one of each muscle comes from
-/// afar and tells nothing of the others. How many a bracket still needs follows from its misfit:
-/// once the root lies between two trials, its digits grow by the golden ratio with each.
+/// A wall on which the muscle is fitted.
+struct FittedMesh {
+  std::size_t nodes = 0;
+  bool is_loaded = false;  ///< it is unloaded for all parameters
+  std::vector<FitPart> parts = {};
+};
+
+/// How long a fit will still take, on all its walls: the equilibria that are left, each as long as
+/// the last ones of its kind took on this wall. What was not seen there yet takes what it took on
+/// the wall before, or usually takes, times what was slower or faster here so far; before anything
+/// was, times a power of the number of nodes. The first equilibrium of each muscle on a wall comes
+/// from afar and is a kind of its own.
 class FitForecast {
  public:
-  explicit FitForecast(std::vector<FitPart> parts) : parts_(std::move(parts)) {}
+  explicit FitForecast(std::vector<FittedMesh> meshes) : meshes_(std::move(meshes)) {}
 
-  /// The next part begins.
-  void begin();
+  /// The fit on the next wall begins; its parts are these now.
+  void begin_mesh(std::vector<FitPart> parts);
+  /// The next part of this name begins; those before it are over or left out.
+  void begin(const std::string& name);
+  /// So many trials of this part are still to come, as it now looks.
+  void expect(double trials);
+  /// The same in a bracket, of which these are ln(V/V_target) so far, and the one that ends it:
+  /// once the root lies between two trials, its digits grow by the golden ratio with each.
+  void bracket(double misfit, double accuracy);
 
   /// An equilibrium was found in so many seconds.
-  void record(MuscleState muscle, double seconds);
+  void record(Sought which, double seconds);
 
-  /// In a bracket: ln(V/V_target) of the last equilibrium, and the misfit that ends it. Ignored in
-  /// other parts.
-  void misfit(double value, double accuracy);
-
-  /// Equilibria that are left, by MuscleState.
-  [[nodiscard]] std::array<double, 2> left() const;
-
-  /// Negative while some muscle that is still to come has not been seen twice, or an open part is
-  /// not over.
+  /// Negative before the first one of the fit.
   [[nodiscard]] double seconds_left() const;
 
-  /// ", about 3 min 20 s left"; ", 14 equilibria left" while the seconds are not known, ", at least
-  /// 14 equilibria left" while their number is not.
-  [[nodiscard]] std::string words() const;
-
  private:
-  /// Durations of one muscle's equilibria.
-  struct Muscle {
-    bool is_known = false;         ///< the first, from afar, has been found
-    std::deque<double> far, near;  ///< of trials; of neighbours in this part [s]
+  static constexpr std::size_t kinds = 6;  ///< Sought, and the first of each muscle
+  struct Seen {
+    std::array<std::deque<double>, kinds> seconds;  ///< of the last ones
+    std::array<bool, 2> has_muscle{};
   };
-  [[nodiscard]] bool is_open() const;
-  [[nodiscard]] double left_of_part(std::size_t muscle) const;
-  [[nodiscard]] double left_of_bracket() const;
-  [[nodiscard]] std::optional<double> duration(const Muscle& muscle, std::size_t part) const;
+  [[nodiscard]] Equilibria left_on(std::size_t mesh) const;
+  [[nodiscard]] double cost(std::size_t mesh, std::size_t kind) const;
+  [[nodiscard]] double reference(std::size_t mesh, std::size_t kind) const;
+  [[nodiscard]] double slower(std::size_t mesh) const;
 
-  std::vector<FitPart> parts_;
-  std::size_t part_ = 0;
-  bool begun_ = false;
-  std::array<double, 2> done_{};  ///< of the present part
-  std::vector<double> misfits_;   ///< of the present part
-  double accuracy_ = 0.0;
-  std::array<Muscle, 2> muscles_;
+  std::vector<FittedMesh> meshes_;
+  std::vector<Seen> seen_;
+  std::size_t parts_begun_ = 0;  ///< on the last wall of seen_
+  Equilibria each_{}, left_{};   ///< of the present part
+  std::vector<double> misfits_;  ///< of the present part
 };
 
 }  // namespace lv::calibrate

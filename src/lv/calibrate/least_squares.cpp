@@ -121,11 +121,21 @@ std::optional<Eigen::MatrixXd> differences(const Residuals& residuals, const Min
   return J;
 }
 
+/// Steps of the longest kind, and then ever shorter ones.
+double steps_left(double way, const CostlySearch& search) {
+  constexpr double usual_fall = 3.0;
+  if (way < search.shortest)
+    return 0.0;
+  const double last = std::min(way, search.longest);
+  return (way - last) / search.longest + 1.0 +
+         std::log(last / search.shortest) / std::log(usual_fall);
+}
+
 }  // namespace
 
 Outcome<Minimum> broyden_least_squares(const Residuals& residuals, const Eigen::VectorXd& start,
                                        const Eigen::VectorXd& low, const Eigen::VectorXd& high,
-                                       const StepLengths& lengths) {
+                                       const CostlySearch& search) {
   Minimum best{start.cwiseMax(low).cwiseMin(high), {}, 0};
   const Residuals counted = [&](const Eigen::VectorXd& x) {
     ++best.evaluations;
@@ -135,20 +145,23 @@ Outcome<Minimum> broyden_least_squares(const Residuals& residuals, const Eigen::
   if (!first)
     return first.why();
   best.r = *first;
-  std::optional<Eigen::MatrixXd> J = differences(counted, best, high, lengths.difference);
-  bool fresh = true;
-  double longest = lengths.longest;
+  bool fresh = !search.slopes;
+  std::optional<Eigen::MatrixXd> J =
+      search.slopes ? search.slopes : differences(counted, best, high, search.difference);
+  double longest = search.longest;
   while (J && best.evaluations < most_evaluations) {
     const Eigen::VectorXd full = -dense::least_squares(*J, best.r);
     const double shortening = std::min(1.0, longest / full.cwiseAbs().maxCoeff());
     const Eigen::VectorXd step = (best.x + shortening * full).cwiseMax(low).cwiseMin(high) - best.x;
     const double length = step.cwiseAbs().maxCoeff();
-    if (length < lengths.shortest) {
-      if (fresh || longest == lengths.longest)
+    if (search.expect)
+      search.expect(steps_left(full.cwiseAbs().maxCoeff(), search));
+    if (length < search.shortest) {
+      if (fresh || longest == search.longest)
         break;
-      J = differences(counted, best, high, lengths.difference);
+      J = differences(counted, best, high, search.difference);
       fresh = true;
-      longest = lengths.longest;
+      longest = search.longest;
       continue;
     }
     const auto r = counted(best.x + step);
@@ -158,11 +171,13 @@ Outcome<Minimum> broyden_least_squares(const Residuals& residuals, const Eigen::
       best.x += step;
       best.r = *r;
       fresh = false;
-      longest = std::min(lengths.longest, 2.0 * longest);
+      longest = std::min(search.longest, 2.0 * longest);
     } else {
       longest = 0.4 * length;
     }
   }
+  if (J)
+    best.slopes = std::move(*J);
   return best;
 }
 

@@ -5,13 +5,15 @@
 #include <Eigen/Core>
 
 #include <functional>
+#include <optional>
 
 namespace lv::calibrate {
 
 /// Where |r(x)|^2 is smallest.
 struct Minimum {
   Eigen::VectorXd x, r;
-  int evaluations = 0;  ///< of r
+  int evaluations = 0;          ///< of r
+  Eigen::MatrixXd slopes = {};  ///< dr/dx there, as it was learnt; of broyden_least_squares alone
 };
 
 /// r(x); there may be places without.
@@ -26,11 +28,14 @@ using Residuals = std::function<Outcome<Eigen::VectorXd>(const Eigen::VectorXd&)
                                     const Eigen::VectorXd& low, const Eigen::VectorXd& high,
                                     double difference, double longest);
 
-/// Lengths of steps, in units of x.
-struct StepLengths {
-  double difference = 0.0;  ///< of the derivatives
-  double longest = 0.0;     ///< of each component
-  double shortest = 0.0;    ///< with which the search ends
+/// How such a search goes. Lengths are in units of x.
+struct CostlySearch {
+  double difference = 0.0;                     ///< of the derivatives
+  double longest = 0.0;                        ///< step, of each component
+  double shortest = 0.0;                       ///< step, with which the search ends
+  std::optional<Eigen::MatrixXd> slopes = {};  ///< dr/dx from near by save the first differences
+  /// Told how many evaluations are still to come, as it looks; may be empty.
+  std::function<void(double)> expect = {};
 };
 
 /// The same for residuals that cost much: Gauss-Newton steps with one set of forward differences
@@ -39,6 +44,6 @@ struct StepLengths {
 /// without residuals at the start.
 Outcome<Minimum> broyden_least_squares(const Residuals& residuals, const Eigen::VectorXd& start,
                                        const Eigen::VectorXd& low, const Eigen::VectorXd& high,
-                                       const StepLengths& lengths);
+                                       const CostlySearch& search);
 
 }  // namespace lv::calibrate

@@ -19,27 +19,51 @@ FitParameters scaled(FitParameters p, const Fitted& which, double factor) {
 }
 
 /// df/ds at 0 by the values at `up` and -`down`; from one side alone where the other has none.
-double slope(const std::function<Outcome<double>(double)>& f, double up, double down) {
-  const Outcome<double> above = f(up);
-  const Outcome<double> below = f(-down);
+double slope(const Outcome<double>& above, const Outcome<double>& below, double up, double down,
+             const std::function<Outcome<double>()>& at_0) {
   if (above && below)
     return (*above - *below) / (up + down);
-  const double here = f(0.0).value();
+  const double here = at_0().value();
   return below ? (here - *below) / down : (above.value() - here) / up;
 }
 
-/// d ln V_k minus, where its target moves with the parameters, d ln target_k.
-double by_parameter(const Model& model, const FitParameters& at, const Fitted& which,
-                    const ObservedVolume& o) {
-  const auto misfit = [&](double s) -> Outcome<double> {
-    const FitParameters p = scaled(at, which, std::exp(s));
-    const Outcome<double> V = model.volume(p, o.loads);
-    if (!V || o.target_by_unloaded == 0.0)
-      return V ? Outcome<double>(std::log(*V)) : V;
-    const Outcome<double> V_0 = model.unloaded_volume(p);
-    return V_0 ? Outcome<double>(std::log(*V) - o.target_by_unloaded * *V_0 / o.target) : V_0;
+/// ln V minus, where its target moves with the parameters, the part of ln target that does.
+Outcome<double> misfit(const Model& model, const FitParameters& p, const ObservedVolume& o) {
+  const Outcome<double> V = model.volume(p, o.loads);
+  if (!V || o.target_by_unloaded == 0.0)
+    return V ? Outcome<double>(std::log(*V)) : V;
+  const Outcome<double> V_0 = model.unloaded_volume(p);
+  return V_0 ? Outcome<double>(std::log(*V) - o.target_by_unloaded * *V_0 / o.target) : V_0;
+}
+
+/// d ln V_k minus, where its target moves with the parameters, d ln target_k. All volumes of one
+/// muscle follow each other: a loaded shape is unloaded once for them.
+Eigen::VectorXd by_parameter(const Model& model, const FitParameters& at, const Fitted& which,
+                             const std::vector<ObservedVolume>& observations) {
+  const auto misfits = [&](double s) {
+    std::vector<Outcome<double>> all;
+    for (const ObservedVolume& o : observations)
+      all.push_back(misfit(model, scaled(at, which, std::exp(s)), o));
+    return all;
   };
-  return slope(misfit, parameter_step, parameter_step);
+  const auto above = misfits(parameter_step);
+  const auto below = misfits(-parameter_step);
+  Eigen::VectorXd slopes(static_cast<Eigen::Index>(observations.size()));
+  for (std::size_t k = 0; k < observations.size(); ++k)
+    slopes[static_cast<Eigen::Index>(k)] =
+        slope(above[k], below[k], parameter_step, parameter_step,
+              [&] { return misfit(model, at, observations[k]); });
+  return slopes;
+}
+
+/// dV/dp.
+double by_pressure(const Model& model, const FitParameters& at, const ObservedVolume& o) {
+  const auto under = [&](double dp) {
+    return model.volume(at, {o.loads.pressure + dp, o.loads.activation});
+  };
+  const double down = std::min(pressure_step, o.loads.pressure);  // no suction on a free wall
+  const Outcome<double> above = under(pressure_step);
+  return slope(above, under(-down), pressure_step, down, [&] { return under(0.0); });
 }
 
 /// Derivatives of the strains by the parameters' logarithms and by the two pressures.
@@ -92,19 +116,15 @@ Sensitivity sensitivity(const Model& model, const FitParameters& at,
   Eigen::VectorXd weight(m);
   for (Eigen::Index k = 0; k < m; ++k) {
     const ObservedVolume& o = observations[k];
-    for (Eigen::Index j = 0; j < n; ++j)
-      s.by_parameter(k, j) = by_parameter(model, at, parameters[j], o);
-    const auto under = [&](double dp) {
-      return model.volume(at, {o.loads.pressure + dp, o.loads.activation});
-    };
-    const double below = std::min(pressure_step, o.loads.pressure);  // no suction on a free wall
-    s.by_pressure[k] = slope(under, pressure_step, below);
+    s.by_pressure[k] = by_pressure(model, at, o);
     const bool systolic = o.loads.activation > 0.0;
     by_data(k, 0) = o.target_by_edv * edv / o.target;
     by_data(k, 1) = systolic ? 1.0 : 0.0;
     by_data(k, systolic ? 3 : 2) = -o.pressure_ratio * s.by_pressure[k] / o.target;
     weight[k] = o.weight;
   }
+  for (Eigen::Index j = 0; j < n; ++j)
+    s.by_parameter.col(j) = by_parameter(model, at, parameters[j], observations);
   Eigen::MatrixXd J = weight.asDiagonal() * s.by_parameter;
   by_data = weight.asDiagonal() * by_data;
   Eigen::MatrixXd of_errors = s.by_parameter;

@@ -27,13 +27,12 @@ implicit::SolverParameters smooth(implicit::SolverParameters p) {
   return p;
 }
 
-/// Load steps that phases usually take: those in which muscle contracts take more.
-std::vector<double> usual_steps(const std::vector<Phase>& phases) {
-  std::vector<double> usual;
+std::vector<StepForecast::Kind> kinds(const std::vector<Phase>& phases) {
+  std::vector<StepForecast::Kind> all;
   for (const Phase& phase : phases)
-    usual.push_back(phase.loads(phase.settled).activation > 0.0 ? StepForecast::of_contraction
-                                                                : StepForecast::of_filling);
-  return usual;
+    all.push_back(phase.loads(phase.settled).activation > 0.0 ? StepForecast::Kind::contraction
+                                                              : StepForecast::Kind::filling);
+  return all;
 }
 
 class QuasiStaticRun {
@@ -43,7 +42,7 @@ class QuasiStaticRun {
         observers_(observers),
         phases_(phases(setup.protocol)),
         engine_(setup.mesh, setup.model, smooth(setup.parameters)),
-        forecast_(usual_steps(phases_)) {
+        forecast_(kinds(phases_)) {
     record({phase().loads(0.0), 0.0, 0.0, engine_.cavity_volume(), {}});
   }
 
@@ -76,8 +75,7 @@ class QuasiStaticRun {
   void report_progress(const Step& step) {
     const implicit::NewtonReport& n = step.newton;
     const auto now = std::chrono::steady_clock::now();
-    forecast_.record(std::chrono::duration<double>(now - last_step_).count(), step.progress,
-                     step.length);
+    forecast_.record(std::chrono::duration<double>(now - last_step_).count(), step.progress);
     last_step_ = now;
     log::info("{} {:3.0f}%  {:.2f} mmHg  {:.2f} ml  tension {:.1f} kPa  {} corrections, {} {}{}{}",
               phase().name, 100.0 * step.progress, step.loads.pressure / mmHg, 1e-3 * step.volume,

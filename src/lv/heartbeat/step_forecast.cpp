@@ -2,46 +2,61 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <span>
 
 namespace lv::heartbeat {
 namespace {
 
-constexpr double growth = 1.5;          // of a step from the one before it
-constexpr double crumb = 1e-9;          // of the way: what is left when the phase has ended
-constexpr std::size_t last_steps = 10;  // that tell how long the next ones take
+/// What share has passed at a share of the load.
+struct Mark {
+  double load, share;
+};
+constexpr Mark time_of_filling[]{
+    {0.0025, 0.16}, {0.01, 0.30}, {0.1, 0.50}, {0.3, 0.68}, {1.0, 1.0}};
+constexpr Mark steps_of_filling[]{
+    {0.0025, 0.035}, {0.01, 0.11}, {0.1, 0.31}, {0.3, 0.55}, {1.0, 1.0}};
+constexpr Mark time_of_contraction[]{{0.002, 0.05}, {0.01, 0.20}, {0.05, 0.52},
+                                     {0.1, 0.67},   {0.3, 0.84},  {1.0, 1.0}};
+
+constexpr double contraction_in_steps = 30.0;  // its time, in mean steps of filling
+
+/// Between the marks on lines over the load's logarithm.
+double share_at(double load, std::span<const Mark> marks) {
+  const auto next = std::find_if(marks.begin(), marks.end() - 1,
+                                 [&](const Mark& mark) { return load <= mark.load; });
+  if (next == marks.begin())
+    return next->share * load / next->load;
+  const Mark& last = *(next - 1);
+  return std::lerp(last.share, next->share,
+                   std::log(load / last.load) / std::log(next->load / last.load));
+}
 
 }  // namespace
 
 void StepForecast::begin() {
-  done_ = 0.0;
-  left_of_phase_ = usual_.at(begun_++);
+  ++begun_;
+  spent_ = left_ = 0.0;
+  steps_ = 0;
 }
 
-void StepForecast::record(double seconds, double progress, double length) {
-  done_ += 1.0;
-  durations_.push_back(seconds);
-  if (durations_.size() > last_steps)
-    durations_.pop_front();
-  if (progress > 1.0 - crumb) {
-    left_of_phase_ = 0.0;
-    return;
+void StepForecast::record(double seconds, double progress) {
+  spent_ += seconds;
+  ++steps_;
+  if (phases_[begun_ - 1] == Kind::filling) {
+    const double whole = spent_ / share_at(progress, time_of_filling);
+    const double steps = steps_ / share_at(progress, steps_of_filling);
+    contraction_ = contraction_in_steps * whole / steps;
+    left_ = whole - spent_;
+  } else {
+    const double left = 1.0 - share_at(progress, time_of_contraction);
+    left_ = left * (spent_ + left * std::max(contraction_, 0.0));
   }
-  const double in_lengths = (1.0 - progress) / length;
-  const double growing = std::log(1.0 + (growth - 1.0) * in_lengths) / std::log(growth);
-  left_of_phase_ = std::max(growing, usual_[begun_ - 1] - done_);
-}
-
-double StepForecast::steps_left() const {
-  return std::accumulate(usual_.begin() + static_cast<std::ptrdiff_t>(begun_), usual_.end(),
-                         left_of_phase_);
 }
 
 double StepForecast::seconds_left() const {
-  if (durations_.empty())
+  if (contraction_ < 0.0)
     return -1.0;
-  const double sum = std::accumulate(durations_.begin(), durations_.end(), 0.0);
-  return steps_left() * sum / static_cast<double>(durations_.size());
+  return left_ + static_cast<double>(phases_.size() - begun_) * contraction_;
 }
 
 }  // namespace lv::heartbeat

@@ -2,6 +2,7 @@
 
 #include "lv/base/check.hpp"
 #include "lv/base/log.hpp"
+#include "lv/base/time_left.hpp"
 #include "lv/base/units.hpp"
 #include "lv/implicit/give_way.hpp"
 
@@ -72,6 +73,7 @@ Outcome<double> Engine::go_to(const Loads& target,
   double length = parameters_.first_step;
   double progress = 0.0;
   int leaps = 0;
+  TimeLeft quiet;
   while (progress < 1.0) {
     length = std::min(length, 1.0 - progress);
     if (1.0 - progress - length < 0.1 * length)
@@ -106,6 +108,9 @@ Outcome<double> Engine::go_to(const Loads& target,
     volume = now;
     if (observe)
       observe({loads_, progress, length, volume, report});
+    else if (progress < 1.0 && quiet.due())
+      log::info("{:.0f}% of the way to {:.2f} mmHg and {:.0f}% of the active tension",
+                100.0 * progress, target.pressure / units::mmHg, 100.0 * target.activation);
     length = std::min(next_length(length, report.iterations), length * most / change);
   }
   loads_ = target;

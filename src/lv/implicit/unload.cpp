@@ -3,6 +3,7 @@
 #include "lv/base/check.hpp"
 #include "lv/base/dense.hpp"
 #include "lv/base/log.hpp"
+#include "lv/base/time_left.hpp"
 #include "lv/base/units.hpp"
 #include "lv/implicit/smooth_fields.hpp"
 #include "lv/implicit/unload_forecast.hpp"
@@ -135,6 +136,11 @@ class Unloader {
   [[nodiscard]] bool is_near_enough() const {
     return has_wall() && now_.pressure == parameters_.pressure && !is_folded(now_.step.folds) &&
            now_.left <= std::max(parameters_.tolerance, parameters_.near_enough);
+  }
+
+  /// Whether it is near enough, and hardly comes nearer.
+  [[nodiscard]] bool is_done_with() const {
+    return is_near_enough() && equilibria_ - halved_ >= UnloadForecast::patience;
   }
 
   /// P (X - x*)
@@ -280,7 +286,7 @@ class Unloader {
   bool step_along(const Eigen::VectorXd& direction, bool is_accelerated) {
     const double least = is_accelerated ? 0.5 : smallest_damping;
     for (double damping = 1.0; damping >= least; damping *= 0.5) {
-      if (equilibria_ >= parameters_.iterations)
+      if (equilibria_ >= parameters_.iterations || is_done_with())
         return false;
       auto trial = load(now_.X + damping * direction, &now_.loaded, now_.step.largest > near_end);
       if (!trial || trial->R.norm() >= now_.R.norm())
@@ -347,7 +353,7 @@ class Unloader {
       const auto began = std::chrono::steady_clock::now();
       record_.known.push_back(equilibrium(wall, near, from_rest));
       const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - began;
-      forecast_.sought(elapsed.count(), near != nullptr);
+      forecast_.sought(elapsed.count());
       if (record_.keep)
         record_.keep(record_.known);
     }
@@ -389,14 +395,18 @@ class Unloader {
     now_ = std::move(trial);
     steps_.push_back(now_.step);
     forecast_.accepted(now_.left);
+    if (history_.empty() || now_.left <= 0.5 * half_of_) {
+      half_of_ = now_.left;
+      halved_ = equilibria_;
+    }
     // on the way to the whole pressure it is not known how many steps of it there will be
-    const std::string left = pressure_ < parameters_.pressure ? "" : forecast_.words();
+    const double left = pressure_ < parameters_.pressure ? -1.0 : forecast_.seconds_left();
     log::info(
         "unloading {:2d}: off by {:.4f} mm (rms {:.4f}), {:.2f} ml fill to {:.2f} ml at {:.2f} "
         "mmHg, dent {:.0f} degrees{}",
         equilibria_, now_.step.largest, now_.step.rms, 1e-3 * now_.step.unloaded_volume,
         1e-3 * now_.step.volume, pressure_ / units::mmHg, now_.step.folds.dent / units::degree,
-        left.empty() ? "" : left + " of unloading");
+        left < 0.0 ? "" : time_left(left) + " of unloading");
   }
 
   struct Difference {
@@ -415,6 +425,8 @@ class Unloader {
   double smoothing_ = 0.0;              ///< alpha
   double pressure_ = 0.0;               ///< in force [kPa]
   int equilibria_ = 0;
+  int halved_ = 0;        ///< equilibria by which the distance was last halved
+  double half_of_ = 0.0;  ///< the distance then [mm]
   UnloadForecast forecast_;
   Trial now_;
   std::deque<Difference> history_;

@@ -1,41 +1,46 @@
 #pragma once
 
-#include <deque>
 #include <string>
 #include <vector>
 
 namespace lv::implicit {
 
 /// How long a search for the wall without load will still take: the equilibria that are left at the
-/// rate at which the distance has fallen, each as long as the last ones took. An equilibrium that
-/// is found from no load tells nothing of those that begin near one.
+/// rate at which the distance has fallen, each as long as the last ones took. The first, from no
+/// load, and the second, which begins far from it, take longer: what follows them takes a usual
+/// part of their time until it is seen.
 class UnloadForecast {
  public:
+  /// Equilibria without halving the distance after which a wall that is near enough is taken.
+  static constexpr int patience = 4;
+
   /// The distance at which the search ends [mm].
   explicit UnloadForecast(double goal) : goal_(goal) {}
 
   /// The search begins anew.
-  void begin() { distances_.clear(); }
+  void begin() {
+    distances_.clear();
+    seconds_.clear();
+    goes_on_ = false;
+  }
 
-  /// An equilibrium was sought for so many seconds, from one near it or from no load.
-  void sought(double seconds, bool is_near);
+  /// An equilibrium was sought for so many seconds.
+  void sought(double seconds);
 
   /// It came nearer, to a largest distance [mm].
   void accepted(double distance) { distances_.push_back(distance); }
 
-  /// Negative when the distance hardly falls any more: nobody knows then.
+  /// Where the distance hardly falls, those after which the search gives up.
   [[nodiscard]] double equilibria_left() const;
 
-  /// Negative while no equilibrium began near another, or when their number is not known.
+  /// Negative before the first equilibrium that is not of a search that was stopped.
   [[nodiscard]] double seconds_left() const;
-
-  /// ", about 20 s left", or ", 4 equilibria left" while the seconds are not known; or nothing.
-  [[nodiscard]] std::string words() const;
 
  private:
   double goal_;
   std::vector<double> distances_;
-  std::deque<double> durations_;
+  std::vector<double> seconds_;  ///< of the equilibria since the search began anew
+  bool goes_on_ = false;         ///< after equilibria that had been kept
 };
 
 }  // namespace lv::implicit

@@ -6,6 +6,7 @@
 #include "lv/base/table.hpp"
 #include "lv/base/units.hpp"
 #include "lv/calibrate/fit_out_of_reach.hpp"
+#include "lv/calibrate/fit_parts.hpp"
 #include "lv/calibrate/record.hpp"
 #include "lv/calibrate/summary.hpp"
 #include "lv/case_file/case_lines.hpp"
@@ -152,7 +153,14 @@ FitParameters corrected(const calibrate::RecordedFit& fit, FitParameters paramet
 /// Where a fit begins.
 struct FitStart {
   FitParameters parameters;
-  std::vector<Vec3> unloaded = {};  ///< nodes near those without load; may be empty [mm]
+  std::vector<Vec3> unloaded = {};             ///< nodes near those without load; may be empty [mm]
+  std::optional<Eigen::MatrixXd> slopes = {};  ///< calibrate::Plan::slopes
+};
+
+/// How far a fit is, and what was answered so far.
+struct FitLog {
+  calibrate::FitForecast& forecast;
+  std::filesystem::path answers;
 };
 
 /// The fit of a case on a mesh, with the wall without load for the fitted parameters. Collective.
@@ -163,7 +171,7 @@ struct FittedWall {
 
 FittedWall fit_wall(const Case& c, const anatomy::MeshResult& mesh,
                     const std::vector<cine::StrainTarget>& targets, const calibrate::Plan& task,
-                    const FitStart& start, const std::filesystem::path& answers) {
+                    const FitStart& start, const FitLog& kept) {
   calibrate::Ventricle ventricle(
       mesh.mesh, [&](const FitParameters& p) { return case_file::static_model(with(c, p)); },
       c.quasi_static.solver, c.unloaded);
@@ -171,7 +179,7 @@ FittedWall fit_wall(const Case& c, const anatomy::MeshResult& mesh,
     ventricle.begin_near(start.unloaded);
   using solid::Loads;
   using Numbers = std::vector<double>;
-  AnswerRecord record(ventricle, mesh.mesh.nodes.size(), answers);
+  AnswerRecord record(ventricle, mesh.mesh.nodes.size(), kept.answers);
   const auto number = [&](const std::function<Outcome<double>()>& ask) -> Outcome<double> {
     const auto answer = record.answer([&]() -> Outcome<Numbers> {
       const auto found = ask();
@@ -197,23 +205,37 @@ FittedWall fit_wall(const Case& c, const anatomy::MeshResult& mesh,
       [&](const FitParameters& p, const Loads& ed, const Loads& es) {
         return record.answer([&] { return strains(p, ed, es); });
       }};
-  calibrate::Fit fit = calibrate::fit(model, start.parameters, task);
+  calibrate::Fit fit = calibrate::fit(model, start.parameters, task, kept.forecast);
   ventricle.unloaded_volume(fit.parameters).value();
   return {std::move(fit), ventricle.unloaded()};
 }
 
-/// The same fit for another end-diastolic pressure under which the shape was seen. Stress and
-/// pressure go together, so that it starts from a stiffness in proportion to the pressure.
-calibrate::OtherPressure fit_at(double pressure, Case c, const anatomy::MeshResult& mesh,
-                                calibrate::Plan task, FitParameters start,
-                                const std::filesystem::path& answers) {
-  log::info("the same with {:.2f} mmHg at end-diastole", pressure / units::mmHg);
-  start.scale *= pressure / c.unloaded.pressure;
-  c.unloaded.pressure = c.protocol.ed_pressure = task.ed_pressure = pressure;
-  task.starts_near = task.parameters_alone = true;
+/// Of the parameters alone.
+calibrate::Plan alone(calibrate::Plan task) {
+  task.parameters_alone = true;
   task.strains.clear();
+  return task;
+}
+
+/// Where a fit begins that is near one that was found.
+FitStart start_at(const FittedWall& found) {
+  FitStart start{found.fit.parameters, {}, found.fit.slopes};
+  if (found.unloaded && found.unloaded->smoothing == 0.0)
+    start.unloaded = found.unloaded->nodes;
+  return start;
+}
+
+/// The same fit for another end-diastolic pressure under which the shape was seen. Stress and
+/// pressure go together, so that it starts from a stiffness in proportion to the pressure, with
+/// which the wall without load is nearly the same.
+calibrate::OtherPressure fit_at(double pressure, Case c, const anatomy::MeshResult& mesh,
+                                calibrate::Plan task, FitStart start, const FitLog& kept) {
+  log::info("the same with {:.2f} mmHg at end-diastole", pressure / units::mmHg);
+  start.parameters.scale *= pressure / c.unloaded.pressure;
+  c.unloaded.pressure = c.protocol.ed_pressure = task.ed_pressure = pressure;
+  task.starts_near = true;
   try {
-    const calibrate::Fit fit = fit_wall(c, mesh, {}, task, {start}, answers).fit;
+    const calibrate::Fit fit = fit_wall(c, mesh, {}, alone(task), start, kept).fit;
     return {pressure, fit.parameters, fit.unloaded_volume, ""};
   } catch (const InputError& failure) {
     return {pressure, {}, 0.0, failure.what()};
@@ -235,20 +257,14 @@ void set_seen_volume(const Case& c, const anatomy::MeshResult& mesh, calibrate::
 /// misses a volume by more.
 std::optional<FitStart> fit_coarse(const Case& c, const anatomy::MeshResult& coarse,
                                    const anatomy::MeshResult& mesh, calibrate::Plan task,
-                                   const FitParameters& start,
-                                   const std::filesystem::path& answers) {
+                                   const FitParameters& start, const FitLog& kept) {
   const int elements = coarse.mesh.cell_count() / 8;
-  log::info(
-      "the fit is made on a coarse wall first, of {} elements: what is left is said of it alone",
-      elements);
+  log::info("the fit is made on a coarse wall first, of {} elements", elements);
   set_seen_volume(c, coarse, task);
-  task.parameters_alone = true;
-  task.strains.clear();
   try {
-    const auto [fit, unloaded] = fit_wall(c, coarse, {}, task, {start}, answers);
-    FitStart first{fit.parameters};
-    if (unloaded && unloaded->smoothing == 0.0)
-      first.unloaded = carried(coarse.mesh, unloaded->nodes, mesh.mesh);
+    FitStart first = start_at(fit_wall(c, coarse, {}, alone(task), {start}, kept));
+    if (!first.unloaded.empty())
+      first.unloaded = carried(coarse.mesh, first.unloaded, mesh.mesh);
     return first;
   } catch (const calibrate::FitOutOfReach& failure) {
     if (failure.missing() > calibrate::reach_margin)
@@ -348,6 +364,23 @@ std::optional<Case> on_coarse_wall(Case c) {
 
 namespace {
 
+/// The walls of a fit in their order, as far as it is known before.
+std::vector<calibrate::FittedMesh> walls_of(const Case& c,
+                                            const std::optional<anatomy::MeshResult>& coarse,
+                                            const anatomy::MeshResult& mesh, calibrate::Plan task,
+                                            std::size_t other_pressures) {
+  const bool is_loaded = case_file::is_loaded(c);
+  std::vector<calibrate::FittedMesh> walls;
+  if (coarse)
+    walls.push_back({coarse->mesh.nodes.size(), is_loaded, calibrate::parts_of(alone(task))});
+  task.starts_near = coarse.has_value();
+  walls.push_back({mesh.mesh.nodes.size(), is_loaded, calibrate::parts_of(task)});
+  task.starts_near = true;
+  walls.resize(walls.size() + other_pressures,
+               {mesh.mesh.nodes.size(), is_loaded, calibrate::parts_of(alone(task))});
+  return walls;
+}
+
 /// The fit of the muscle at given pressures, and its files; collective.
 void fit_muscle(const Case& c, const anatomy::MeshResult& mesh,
                 const std::optional<anatomy::MeshResult>& coarse,
@@ -358,22 +391,29 @@ void fit_muscle(const Case& c, const anatomy::MeshResult& mesh,
   set_seen_volume(c, mesh, task);
   FitStart start{{.C_a = c.passive.C_a, .T_scale = c.active.T_scale}};
   std::vector<std::filesystem::path> records{folder / coarse_answers_name, folder / answers_name};
+  const double error = c.calibration.pressure_error;
+  std::vector<double> other_pressures;
+  if (klotz && error > 0.0)
+    other_pressures = {task.ed_pressure - error, task.ed_pressure + error};
+  calibrate::FitForecast forecast(walls_of(c, coarse, mesh, task, other_pressures.size()));
   if (coarse)
-    if (auto first = fit_coarse(c, *coarse, mesh, task, start.parameters, records.front())) {
+    if (auto first =
+            fit_coarse(c, *coarse, mesh, task, start.parameters, {forecast, records.front()})) {
       start = std::move(*first);
       task.starts_near = true;
+      task.slopes = start.slopes;
     }
-  auto [fit, unloaded] = fit_wall(c, mesh, targets, task, start, records.back());
-  const double error = c.calibration.pressure_error;
-  if (klotz && error > 0.0)
-    for (const double pressure : {task.ed_pressure - error, task.ed_pressure + error}) {
-      records.push_back(folder / fmt::format("answers_{}.bin", records.size() - 1));
-      fit.other_pressures.push_back(
-          fit_at(pressure, c, mesh, task, fit.parameters, records.back()));
-    }
-  parallel::on_root([&, &fit = fit, &unloaded = unloaded] {
-    if (unloaded)
-      write_unloaded(*unloaded, folder / unloaded_shape_name);
+  FittedWall found = fit_wall(c, mesh, targets, task, start, {forecast, records.back()});
+  calibrate::Fit& fit = found.fit;
+  task.slopes = fit.slopes;
+  for (const double pressure : other_pressures) {
+    records.push_back(folder / fmt::format("answers_{}.bin", records.size() - 1));
+    fit.other_pressures.push_back(
+        fit_at(pressure, c, mesh, task, start_at(found), {forecast, records.back()}));
+  }
+  parallel::on_root([&] {
+    if (found.unloaded)
+      write_unloaded(*found.unloaded, folder / unloaded_shape_name);
     for (const std::filesystem::path& record : records)
       std::filesystem::remove(record);
     calibrate::history_table(fit).write_csv(folder / "calibration.csv");
