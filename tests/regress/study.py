@@ -61,4 +61,20 @@ with tempfile.TemporaryDirectory() as temporary:
     check("more contractility is a greater elastance", float(rows["contractility_1.3"]["E_es_mmHg_per_ml"]) > float(rows["case"]["E_es_mmHg_per_ml"]))
     for name in ("study.svg", "study.txt", "preload_0.7/05_report/report.html"):
         check(f"{name} is there", (work / "study.work/study" / name).stat().st_size > 0)
+    check("nothing was missing", not any(r["no_beat_because"] for r in rows.values()))
+
+    # a closed loop whose other chambers fit into shorter beats
+    loop = case.replace('"windkessel"', '"closed_loop"').replace("cycle.beats = 1", "cycle.beats = 8")
+    loop = loop.replace("[study]", """[circulation.closed_loop]
+right_ventricle.T_R = "0.3 s"
+[study]""")
+    (work / "loop.toml").write_text(loop + "preload = [0.9]\nheart_rate = [1.2]\n")
+    run = subprocess.run([program, "study", "loop.toml", "--ranks", "1"], cwd=work, capture_output=True, text=True, check=False)
+    check("a study of a closed loop runs", run.returncode == 0, run.stderr[-600:])
+    with open(work / "loop.work/study/study.csv", encoding="utf8") as file:
+        rows = {row["name"]: row for row in csv.DictReader(file)}
+    check("all come to their limit cycle", all(r["is_limit_cycle"] == "yes" for r in rows.values()), {n: (r["beats"], r["is_limit_cycle"]) for n, r in rows.items()})
+    check("less blood fills and ejects less", all(float(rows["preload_0.9"][name]) < float(rows["case"][name]) for name in ("edv_ml", "stroke_work_mmHg_ml")))
+    check("a faster heart fills less", float(rows["heart_rate_1.2"]["edv_ml"]) < float(rows["case"]["edv_ml"]))
+    print({n: (r["beats"], r["edv_ml"], r["esv_ml"]) for n, r in rows.items()}, flush=True)
 sys.exit(1 if failures else 0)

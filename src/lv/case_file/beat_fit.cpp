@@ -44,7 +44,8 @@ BeatFit beat_fit(const Case& c) {
                                            words, name, fit.data[datum].key));
   };
   const Levers lever = levers(c);
-  add(lever.filling, "filling pressure", edv);
+  const bool is_loop = c.circulation.kind == circulation::Kind::closed_loop;
+  add(lever.filling, is_loop ? "blood" : "filling pressure", edv);
   add(lever.contractility, "contractility", esv);
   add(lever.resistance, "arterial resistance", measured(diastolic) ? diastolic : systolic);
   if (measured(diastolic) || !measured(systolic))
@@ -52,6 +53,11 @@ BeatFit beat_fit(const Case& c) {
   else
     add(lever.compliance, "arterial compliance", diastolic);
   return fit;
+}
+
+Case begin_of_beat_fit(Case c) {
+  const double edv = c.calibration.edv;
+  return edv > 0.0 ? with_blood_around(edv, std::move(c)) : c;
 }
 
 double value_of(const Parameter& p, const Case& c) {

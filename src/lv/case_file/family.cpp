@@ -1,6 +1,7 @@
 #include "lv/case_file/family.hpp"
 
 #include "lv/case_file/read_case.hpp"
+#include "lv/circulation/circuit.hpp"
 
 #include <fmt/format.h>
 
@@ -58,10 +59,20 @@ Levers levers(const Case& c) {
   const char* contractility =
       c.active_law == ActiveChoice::land2017 ? "active.land2017.T_ref" : "active.T_scale";
   if (c.circulation.kind == circulation::Kind::closed_loop)
-    return {"circulation.start.p_ven_sys", "circulation.closed_loop.systemic.R_ar",
+    return {"circulation.closed_loop.blood", "circulation.closed_loop.systemic.R_ar",
             "circulation.closed_loop.systemic.C_ar", contractility};
   return {"circulation.windkessel.p_ven", "circulation.windkessel.R_p", "circulation.windkessel.C",
           contractility};
+}
+
+Case with_blood_around(double volume, Case c) {
+  circulation::CircuitParameters& p = c.circulation;
+  if (p.kind != circulation::Kind::closed_loop || p.closed_loop.blood > 0.0)
+    return c;
+  circulation::Circuit circuit(p);
+  circuit.start_around(volume);
+  p.closed_loop.blood = circuit.blood();
+  return c;
 }
 
 std::vector<Member> family(const Study& study) {
@@ -73,6 +84,8 @@ std::vector<Member> family(const Study& study) {
 }
 
 Case under(const Factors& factors, Case c) {
+  if (factors.preload != 1.0)
+    c = with_blood_around(c.circulation.start.V_lv, std::move(c));
   std::vector<Change> changes;
   for (const Lever& lever : {preload, afterload, contractility, heart_rate}) {
     if (factors.*lever.factor == 1.0)

@@ -11,12 +11,16 @@ namespace lv::case_file {
 /// The parameters by which a heart that beats in a circulation is filled more or less, ejects
 /// against more or less, and is stronger or weaker.
 struct Levers {
-  const char* filling;        ///< pressure that fills it
+  const char* filling;        ///< pressure of its source, or blood of a closed loop
   const char* resistance;     ///< of the arteries
   const char* compliance;     ///< of the arteries
   const char* contractility;  ///< the muscle's tension
 };
 [[nodiscard]] Levers levers(const Case& c);
+
+/// The case with so much blood in its closed loop as the start holds around a left ventricle of
+/// this volume [mm^3], unless it says how much there is.
+[[nodiscard]] Case with_blood_around(double volume, Case c);
 
 /// One of the cases that a study asks for.
 struct Member {
@@ -29,8 +33,9 @@ struct Member {
 [[nodiscard]] std::vector<Member> family(const Study& study);
 
 /// The case under other factors, without its study and what it fits: the fitted values are to be
-/// in it. Throws InputError where a factor makes it one that cannot be run, at the line of the
-/// study that asks for it.
+/// in it, and a closed loop's blood where that is not what circulation.start holds. Throws
+/// InputError where a factor makes it one that cannot be run, at the line of the study that asks
+/// for it.
 [[nodiscard]] Case under(const circulation::Factors& factors, Case c);
 
 }  // namespace lv::case_file

@@ -1128,9 +1128,8 @@ constexpr Group of_study[]{
      {
          same_results(
              numbers("study.preload", LV_AT(study.preload), of_factor,
-                     "of the pressure that the ventricle is filled from: "
-                     "circulation.windkessel.p_ven, in a closed loop circulation.start.p_ven_sys, "
-                     "and with it blood")),
+                     "of what fills the ventricle: circulation.windkessel.p_ven, or the blood of a "
+                     "closed loop, circulation.closed_loop.blood")),
          same_results(numbers("study.afterload", LV_AT(study.afterload), of_factor,
                               "of the resistance that it ejects against: "
                               "circulation.windkessel.R_p or "
@@ -1161,6 +1160,15 @@ constexpr Group of_protocol[]{
                 "end-systolic volume, by more than this part of itself; 0: never"),
      }},
     {beating,
+     {&heartbeats, &closed_loop},
+     {
+         value(
+             "cycle.leap", LV_AT(protocol.cycle.leap),
+             "whether the loop's blood leaps between beats to where a stand-in for the wall that "
+             "beats as the last beat did comes to; else beats follow each other as in a body, and "
+             "take tens to their limit cycle"),
+     }},
+    {beating,
      {&heartbeats, &static_beat},
      {
          number("cycle.step", LV_AT(protocol.cycle.step), "s", above_up_to(0.0, 0.02),
@@ -1168,6 +1176,15 @@ constexpr Group of_protocol[]{
          value("cycle.inertia", LV_AT(protocol.cycle.inertia),
                "whether the wall has the mass of muscle.density; else it is in equilibrium at "
                "every time"),
+     }},
+    {Stages(Stage::beat),
+     {&heartbeats, &static_beat},
+     {
+         file(
+             "cycle.begin", LV_AT(protocol.cycle.begin),
+             "03_beat/end_of_beats.bin of another run of this wall: beats begin where those ended, "
+             "with this case's circulation and muscle, instead of with a filled wall; names are "
+             "relative to the case file"),
      }},
     {beating,
      {&heartbeats, &static_beat, &inertia},
@@ -1178,14 +1195,14 @@ constexpr Group of_protocol[]{
                 "they vanish, 1 they stay"),
      }},
     {beating,
-     {&heartbeats, &static_beat},
+     {&heartbeats},
      {
          choice("activation.kind", LV_AT(activation.kind), "uniform eikonal file",
                 "calcium begins everywhere at once; where a front has come, which spreads by the "
                 "eikonal equation; or at times of a file"),
      }},
     {beating,
-     {&heartbeats, &static_beat, &eikonal},
+     {&heartbeats, &eikonal},
      {
          number(
              "activation.v_f", LV_AT(activation.speeds.v_f), "m/s", positive,
@@ -1207,7 +1224,7 @@ constexpr Group of_protocol[]{
              "default: segments nearest to those of Durrer et al., Circulation 41:899, 1970"),
      }},
     {beating,
-     {&heartbeats, &static_beat, &activation_file},
+     {&heartbeats, &activation_file},
      {
          file("activation.file", LV_AT(activation.file),
               "one time for each node or cell of 02_mesh/mesh.vtu, or each corner or element of a "
@@ -1432,6 +1449,11 @@ constexpr Group of_circulation[]{
     {joined,
      {&closed_loop},
      {
+         number(
+             "circulation.closed_loop.blood", LV_AT(circulation.closed_loop.blood), "ml",
+             between(0.0, 20000.0),
+             "blood in chambers and in stressed vessels, shared out as circulation.start has it; "
+             "0: what circulation.start holds, and a wall's filling"),
          number("circulation.closed_loop.valve_resistance",
                 LV_AT(circulation.closed_loop.valve_resistance), "mmHg s/ml", of_resistance,
                 "of an open valve"),

@@ -324,8 +324,9 @@ class CaseReader {
          fmt::format("is {:g} mmHg, and must be less than calibrate.cuff_systolic, {:g} mmHg; "
                      "check both, and which is which",
                      k.cuff_diastolic / units::mmHg, k.cuff_systolic / units::mmHg));
+    const Case begin = begin_of_beat_fit(case_);
     for (const BeatParameter& p : beat_fit(case_).parameters)
-      rule(value_of(*p.parameter, case_) > 0.0, p.parameter->name,
+      rule(value_of(*p.parameter, begin) > 0.0, p.parameter->name,
            "is 0, and calibrate.cycle looks for a multiple of it: set it to a value to begin with, "
            "or leave it at its default");
     together(
@@ -345,6 +346,7 @@ class CaseReader {
               "circulation.windkessel.R_ao", "circulation.windkessel.R_c",
               "circulation.closed_loop.valve_resistance"},
              "must be at least a hundred times that of every open valve");
+    check_blood();
     const auto fits = [&](const circulation::ElastanceParameters& e, const std::string& chamber) {
       together(e.T_C + e.T_R <= p.period,
                {"circulation." + chamber + ".T_R", "circulation." + chamber + ".T_C",
@@ -355,6 +357,19 @@ class CaseReader {
     fits(p.closed_loop.left_atrium, "closed_loop.left_atrium");
     fits(p.closed_loop.right_atrium, "closed_loop.right_atrium");
     fits(p.closed_loop.right_ventricle, "closed_loop.right_ventricle");
+  }
+
+  /// More than chambers hold without pressure, so that vessels are filled.
+  void check_blood() {
+    const circulation::CircuitParameters& p = case_.circulation;
+    const circulation::ClosedLoopParameters& loop = p.closed_loop;
+    const double unstressed =
+        p.start.V_lv + loop.left_atrium.V_0 + loop.right_atrium.V_0 + loop.right_ventricle.V_0;
+    rule(loop.blood == 0.0 || loop.blood > unstressed, "circulation.closed_loop.blood",
+         fmt::format("is {:g} ml, but the left ventricle (circulation.start.V_lv) and the other "
+                     "chambers without pressure (V_0) hold {:g} ml of it, so that nothing fills "
+                     "the vessels; blood without unstressed vessels is 1200 to 2000 ml of an adult",
+                     loop.blood / units::ml, unstressed / units::ml));
   }
 
   void check_supports() {

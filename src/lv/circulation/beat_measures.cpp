@@ -95,10 +95,15 @@ double relaxation(Beat beat, std::size_t from, std::size_t to) {
   return slope < 0.0 ? -1.0 / slope : none;
 }
 
-/// The closing of the mitral valve before ejection; a beat that begins with a closed one begins
-/// with that.
+/// The last closing of the mitral valve before ejection: in a closed loop it may close and open
+/// again before the atrium contracts. A beat that begins with a closed one, which does not open
+/// again, begins with that.
 Crossing end_diastole(Beat beat, const Crossing& aortic_opens) {
-  const Crossing closes = crossing(beat, &Signals::mitral_gradient, false);
+  Crossing closes = crossing(beat, &Signals::mitral_gradient, false);
+  for (Crossing next = closes;
+       aortic_opens.found && next.found && next.before <= aortic_opens.before;
+       next = crossing(beat, &Signals::mitral_gradient, false, next.before + 1))
+    closes = next;
   const bool is_late = !closes.found || (aortic_opens.found && closes.before > aortic_opens.before);
   if (is_late && beat.front().signals.mitral_gradient < 0.0)
     return {0, 0.0, true};

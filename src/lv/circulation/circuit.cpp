@@ -20,15 +20,18 @@ auto stepped(const Part& part, double t, double dt, double p) {
 }  // namespace
 
 Circuit::Kinds Circuit::kind_of(const CircuitParameters& p) {
-  if (p.kind == Kind::closed_loop)
-    return Part<ClosedLoop>{{p.closed_loop, p.valves, p.period}, {ClosedLoop::start(p.start)}};
+  if (p.kind == Kind::closed_loop) {
+    const ClosedLoop loop(p.closed_loop, p.valves, p.period);
+    return Part<ClosedLoop>{loop, {loop.start(p.start)}};
+  }
   if (p.kind == Kind::windkessel)
     return Part<Windkessel>{{p.windkessel, p.valves}, {Windkessel::start(p.start)}};
   throw InputError("circulation.kind", "is \"none\": there is no circuit to join a ventricle to",
                    "Set it to \"windkessel\" or \"closed_loop\"");
 }
 
-Circuit::Circuit(const CircuitParameters& parameters) : kind_(kind_of(parameters)) {}
+Circuit::Circuit(const CircuitParameters& parameters)
+    : kind_(kind_of(parameters)), asked_blood_(parameters.closed_loop.blood) {}
 
 void Circuit::start_around(double volume) {
   std::visit(
@@ -37,6 +40,8 @@ void Circuit::start_around(double volume) {
         part.history.step = 0.0;
       },
       kind_);
+  if (asked_blood_ > 0.0)
+    fill_to(asked_blood_);
 }
 
 void Circuit::start_from(std::span<const double> states) {
@@ -47,6 +52,8 @@ void Circuit::start_from(std::span<const double> states) {
         part.history.step = 0.0;
       },
       kind_);
+  if (asked_blood_ > 0.0)
+    fill_to(asked_blood_);
 }
 
 void Circuit::scale_arterial_pressure(double factor) {
@@ -63,12 +70,18 @@ void Circuit::fill_to(double blood) {
   auto* loop = std::get_if<Part<ClosedLoop>>(&kind_);
   if (loop == nullptr)
     return;
-  auto& now = loop->history.now;
-  const double missing = blood - loop->circuit.blood(now);
-  auto more = now;
-  more[ClosedLoop::p_ven_sys] += 1.0;  // blood is linear in it
-  now[ClosedLoop::p_ven_sys] += missing / (loop->circuit.blood(more) - loop->circuit.blood(now));
+  loop->circuit.fill_to(blood, loop->history.now);
   loop->history.step = 0.0;
+}
+
+void Circuit::leap_to(std::span<const double> states) {
+  const double volume = this->states().front();
+  const double before = blood();
+  start_from(states);
+  std::visit([&](auto& part) { part.history.now[0] = volume; }, kind_);
+  if (auto* loop = std::get_if<Part<ClosedLoop>>(&kind_))
+    loop->history.now[ClosedLoop::V_la] += states.front() - volume;
+  fill_to(before);
 }
 
 VolumeAfter Circuit::after(double t, double dt, double p) const {
@@ -116,6 +129,14 @@ std::vector<double> Circuit::numbers() const {
 
 bool Circuit::takes(std::size_t numbers) const {
   return numbers == 1 + 2 * states().size();
+}
+
+double blood_of(const CircuitParameters& parameters, const Signals& s) {
+  if (parameters.kind != Kind::closed_loop)
+    return 0.0;
+  const ClosedLoop loop(parameters.closed_loop, parameters.valves, parameters.period);
+  const auto& o = s.others;  // ClosedLoop::columns
+  return loop.blood({s.volume, o[0], o[1], o[2], s.aortic_pressure, o[5], o[6], o[7]});
 }
 
 Start start_of(std::span<const double> y) {

@@ -24,17 +24,24 @@ class Circuit {
   /// At the start that the parameters say. Throws InputError where they ask for no circulation.
   explicit Circuit(const CircuitParameters& parameters);
 
-  /// Starts again around a ventricle of this volume [mm^3] instead of start.V_lv.
+  /// Starts again around a ventricle of this volume [mm^3] instead of start.V_lv; a closed loop
+  /// with as much blood as its parameters say, if they do.
   void start_around(double volume);
 
-  /// Starts again in states such as states() gives.
+  /// Starts again in states such as states() gives; with as much blood as the parameters say, if
+  /// they do.
   void start_from(std::span<const double> states);
 
   /// Multiplies the pressure in the arteries of the body.
   void scale_arterial_pressure(double factor);
 
-  /// Brings a closed loop's blood to so much [mm^3], by what is in the veins of the body.
+  /// Brings a closed loop's blood to so much [mm^3]: ClosedLoop::fill_to.
   void fill_to(double blood);
+
+  /// Starts again in other states, but for the left ventricle's volume, which is a wall's: in a
+  /// closed loop the left atrium, with which it shares its filling, takes the difference. Blood
+  /// stays what it is.
+  void leap_to(std::span<const double> states);
 
   /// A step of dt [s] to the time t [s] with the pressure p [kPa] at its end. Throws RunError when
   /// the step has no solution that is found.
@@ -71,7 +78,11 @@ class Circuit {
   static Kinds kind_of(const CircuitParameters& parameters);
 
   Kinds kind_;
+  double asked_blood_ = 0.0;  ///< of a closed loop [mm^3]; 0: what its start holds
 };
+
+/// What a closed loop holds that shows such signals [mm^3]; 0 of a windkessel.
+[[nodiscard]] double blood_of(const CircuitParameters& parameters, const Signals& signals);
 
 /// A start in states such as Circuit::states() gives.
 [[nodiscard]] Start start_of(std::span<const double> states);

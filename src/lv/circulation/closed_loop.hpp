@@ -1,8 +1,11 @@
 #pragma once
 
+#include "lv/base/check.hpp"
 #include "lv/circulation/elastance.hpp"
 #include "lv/circulation/signals.hpp"
 #include "lv/circulation/valve.hpp"
+
+#include <fmt/format.h>
 
 #include <array>
 
@@ -16,7 +19,8 @@ namespace lv::circulation {
 ///   C_ar p_ar' = Q_in - Q_ar,                   C_ven p_ven' = Q_ar - Q_ven
 ///   L_ar Q_ar' = p_ar - p_ven - R_ar Q_ar,      L_ven Q_ven' = p_ven - p_atrium - R_ven Q_ven
 ///
-/// The blood in it, sum V + sum C p, stays what it is.
+/// The blood in it, sum V + sum C p, stays what it is: it alone says how well the heart is filled
+/// in the end, and the start only how it comes there.
 class ClosedLoop {
  public:
   static constexpr int size = 12;
@@ -44,9 +48,32 @@ class ClosedLoop {
         ra_(p_.right_atrium, period),
         rv_(p_.right_ventricle, period) {}
 
-  [[nodiscard]] static States<double> start(const Start& s) {
-    return {s.V_lv,     s.V_la,      s.V_ra,     s.V_rv,      s.p_ar_sys, s.p_ven_sys,
-            s.p_ar_pul, s.p_ven_pul, s.Q_ar_sys, s.Q_ven_sys, s.Q_ar_pul, s.Q_ven_pul};
+  /// With as much blood as the parameters say.
+  [[nodiscard]] States<double> start(const Start& s) const {
+    States<double> y{s.V_lv,     s.V_la,      s.V_ra,     s.V_rv,      s.p_ar_sys, s.p_ven_sys,
+                     s.p_ar_pul, s.p_ven_pul, s.Q_ar_sys, s.Q_ven_sys, s.Q_ar_pul, s.Q_ven_pul};
+    if (p_.blood > 0.0)
+      fill_to(p_.blood, y);
+    return y;
+  }
+
+  /// Brings the blood to so much [mm^3] around the same left ventricle: what every other part holds
+  /// beyond its volume without pressure, and every flow, is multiplied by the same factor. Throws
+  /// InputError for less blood than all hold without pressure.
+  void fill_to(double blood, States<double>& y) const {
+    const States<double> slack{y[V_lv], p_.left_atrium.V_0, p_.right_atrium.V_0,
+                               p_.right_ventricle.V_0};
+    const double unstressed = slack[V_lv] + slack[V_la] + slack[V_ra] + slack[V_rv];
+    if (blood <= unstressed)
+      throw InputError(
+          "circulation.closed_loop.blood",
+          fmt::format("is {:.0f} ml, and the left ventricle ({:.0f} ml) and the other chambers "
+                      "without pressure hold {:.0f} ml: nothing is left that would fill vessels",
+                      blood / ml, y[V_lv] / ml, unstressed / ml),
+          "Give it more; the default circulation holds 1618 ml");
+    const double factor = (blood - unstressed) / (this->blood(y) - unstressed);
+    for (int i = V_la; i < size; ++i)
+      y[i] = slack[i] + factor * (y[i] - slack[i]);
   }
 
   /// Rates of change for the pressure of the left ventricle [kPa].

@@ -18,7 +18,7 @@ class Alone {
   static constexpr int size = Circuit::size;
 
   Alone(const CircuitParameters& p, const Circuit& circuit, const Ventricle& ventricle)
-      : p_(p), circuit_(circuit), ventricle_(ventricle), history_{Circuit::start(p.start)} {}
+      : p_(p), circuit_(circuit), ventricle_(ventricle), history_{circuit.start(p.start)} {}
 
   Cycle run() {
     cycle_.columns = Circuit::columns();
@@ -71,21 +71,24 @@ class Alone {
   Cycle cycle_;
 };
 
-template <class Ventricle>
-Cycle run_closed_loop(const CircuitParameters& p, const Ventricle& ventricle) {
-  const ClosedLoop circuit(p.closed_loop, p.valves, p.period);
+template <class Circuit, class Ventricle>
+CycleAlone run(const CircuitParameters& p, const Circuit& circuit, const Ventricle& ventricle) {
   Alone heart(p, circuit, ventricle);
   Cycle cycle = heart.run();
-  cycle.blood_lost =
-      std::abs(circuit.blood(heart.states()) / circuit.blood(ClosedLoop::start(p.start)) - 1.0);
-  return cycle;
+  return {std::move(cycle), {heart.states().begin(), heart.states().end()}};
 }
 
 template <class Ventricle>
-Cycle run_with(const CircuitParameters& p, const Ventricle& ventricle) {
-  if (p.kind == Kind::closed_loop)
-    return run_closed_loop(p, ventricle);
-  return Alone(p, Windkessel(p.windkessel, p.valves), ventricle).run();
+CycleAlone run_with(const CircuitParameters& p, const Ventricle& ventricle) {
+  if (p.kind != Kind::closed_loop)
+    return run(p, Windkessel(p.windkessel, p.valves), ventricle);
+  const ClosedLoop circuit(p.closed_loop, p.valves, p.period);
+  CycleAlone alone = run(p, circuit, ventricle);
+  ClosedLoop::States<double> end;
+  std::ranges::copy(alone.states, end.begin());
+  alone.cycle.blood_lost =
+      std::abs(circuit.blood(end) / circuit.blood(circuit.start(p.start)) - 1.0);
+  return alone;
 }
 
 }  // namespace
@@ -109,10 +112,10 @@ std::span<const Sample> samples_of(const Cycle& cycle, int beat) {
 }
 
 Cycle run_alone(const CircuitParameters& p) {
-  return run_with(p, Elastance(p.left_ventricle, p.period));
+  return run_with(p, Elastance(p.left_ventricle, p.period)).cycle;
 }
 
-Cycle run_alone(const CircuitParameters& p, const StandIn& ventricle) {
+CycleAlone run_alone(const CircuitParameters& p, const StandIn& ventricle) {
   return run_with(p, ventricle);
 }
 

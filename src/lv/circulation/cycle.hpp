@@ -22,6 +22,7 @@ struct Cycle {
   int gave_way = 0;         ///< times that a wall joined to it snapped to an equilibrium far off
   double volume_gap = 0.0;  ///< largest |V/V_lv - 1| of a wall's cavity V that is joined to it
   double blood_lost = 0.0;  ///< |blood at the end/blood at the start - 1| of a closed loop
+  int leaps = 0;            ///< beats that begin where a stand-in had foretold the limit cycle
 };
 
 /// The samples of a whole beat, counted from 0, those that begin and end it included.
@@ -31,8 +32,12 @@ struct Cycle {
 /// Throws NoSolution as implicit_step does, and Interrupted between beats.
 [[nodiscard]] Cycle run_alone(const CircuitParameters& parameters);
 
-/// The same with another ventricle.
-[[nodiscard]] Cycle run_alone(const CircuitParameters& parameters, const StandIn& ventricle);
+/// The same with another ventricle, and what the circuit has come to.
+struct CycleAlone {
+  Cycle cycle;
+  std::vector<double> states;  ///< as Circuit::states()
+};
+[[nodiscard]] CycleAlone run_alone(const CircuitParameters& parameters, const StandIn& ventricle);
 
 /// The largest relative change of a state.
 [[nodiscard]] double largest_change(std::span<const double> before, std::span<const double> after);

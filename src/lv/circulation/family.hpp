@@ -11,7 +11,7 @@ namespace lv::circulation {
 
 /// What is changed of a case, as factors; 1 is the case's own.
 struct Factors {
-  double preload = 1.0;        ///< of the pressure that the ventricle is filled from
+  double preload = 1.0;        ///< of the pressure or the blood that the ventricle is filled from
   double afterload = 1.0;      ///< of the resistance that it ejects against
   double contractility = 1.0;  ///< of the tension of its muscle
   double heart_rate = 1.0;     ///< of beats per time
@@ -33,6 +33,13 @@ struct LoadedBeat {
   bool is_limit = false;  ///< it is that of a limit cycle
   BeatMeasures measures;
   std::vector<LoopPoint> loop;
+};
+
+/// One of a family whose beats found no solution.
+struct MissingBeat {
+  std::string name;
+  Factors factors;
+  std::string why;
 };
 
 /// A straight line y = slope (x - intercept).

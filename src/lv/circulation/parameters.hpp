@@ -51,6 +51,9 @@ struct ElastanceParameters {
 
 /// The closed loop of Regazzoni et al. (J. Comput. Phys. 457:111083, 2022).
 struct ClosedLoopParameters {
+  /// In chambers and stressed vessels, shared out as the start has it; 0: what the start holds
+  /// [mm^3].
+  double blood = 0.0;
   double valve_resistance = 0.0075 * resistance;  ///< of an open valve [kPa s/mm^3]
   VesselParameters systemic{0.733 * resistance, 1.372 * compliance,  0.005 * resistance,
                             0.32 * resistance,  11.363 * compliance, 5e-4 * resistance};

@@ -8,7 +8,8 @@
 namespace lv::heartbeat {
 namespace {
 
-constexpr const char* steps_name = "steps";  ///< the last two, and calcium
+constexpr const char* steps_name = "steps";  ///< the last two
+constexpr const char* calcium_name = "calcium";
 
 std::string modes_name(int c) {
   return fmt::format("modes.{}", c);
@@ -43,10 +44,12 @@ immersed::ModelState load_model_state(const Archive& archive, immersed::Model& m
   state.node_velocities = at_nodes("node_velocities");
   state.velocity_change = at_nodes("velocity_change");
   state.contraction = archive.get_rows("contraction", 1, state.contraction.size());
-  const auto& steps = archive.get_rows(steps_name, 3, 1, not_negative);
+  const auto& steps = archive.get_rows(steps_name, 2, 1, not_negative);
   state.dt = steps[0];
   state.dt_before = steps[1];
-  state.calcium = steps[2];
+  state.calcium = archive.get_rows(calcium_name, 1, {}, not_negative);
+  if (state.calcium.size() != 1 && state.calcium.size() != nodes)
+    archive.refuse("it has calcium for another number of nodes");
   state.slack = false;
   if (!model.inside_box(state.positions))
     throw RunError("the archive has a wall that is not inside the box",
@@ -69,7 +72,8 @@ Archive archived(const immersed::ModelState& state, const fluid::BoxTransform& t
   archive.set("node_velocities", flat(state.node_velocities));
   archive.set("velocity_change", flat(state.velocity_change));
   archive.set("contraction", state.contraction);
-  archive.set(steps_name, {state.dt, state.dt_before, state.calcium});
+  archive.set(steps_name, {state.dt, state.dt_before});
+  archive.set(calcium_name, state.calcium);
   for (int c = 0; c < 3; ++c) {
     archive.set(modes_name(c), transform.gather(state.velocity_modes, c));
     archive.set(convection_name(c), fluid::gather(state.convection.component[c]));

@@ -101,6 +101,8 @@ class CycleRun {
   void beats();
   void start();
   void start_from(const BeatBegin& from);
+  [[nodiscard]] BeatBegin other_end() const;
+  void leave_end();
   void beat();
   void begin_beat();
   void step();
@@ -155,8 +157,12 @@ CycleRun::CycleRun(const CycleSetup& setup, std::filesystem::path folder,
       record_({setup.calcium, setup.circuit, setup.cycle, setup.frame_interval}) {}
 
 Beat CycleRun::run() {
+  if (!setup_.begin.empty())
+    record_.goes_on();
   begin(nullptr);
   beats();
+  if (!record_.cycle().cut_short)
+    leave_end();
   count_time();
   Beat beat = record_.result(observers_);
   beat.activation_times = setup_.activation_times;
@@ -181,6 +187,8 @@ void CycleRun::begin(const BeatBegin* from) {
     resume(Archive::read(checkpoint));
   else if (from != nullptr)
     start_from(*from);
+  else if (!setup_.begin.empty())
+    start_from(other_end());
   else
     start();
 }
@@ -208,6 +216,33 @@ void CycleRun::start_from(const BeatBegin& from) {
   engine_.restore(from.wall);
   record_.start_from(from.circuit, engine_.pressure());
   begin_beat();
+}
+
+BeatBegin CycleRun::other_end() const {
+  Archive archive = Archive::read(setup_.begin);
+  const std::size_t nodes = archive.get("wall.now.positions").size() / 3;
+  if (nodes != engine_.state().positions.size())
+    throw InputError(setup_.begin.string(),
+                     fmt::format("is where heartbeats of a wall with {} nodes have ended, and this "
+                                 "one has {}",
+                                 nodes, engine_.state().positions.size()),
+                     "Take that of a run with the same anatomy and elements (cycle.begin)");
+  const std::vector<double> circuit = archive.get_rows("circuit", 1);
+  if (circuit.size() != record_.circuit_states().size())
+    throw InputError(setup_.begin.string(), "is where heartbeats in another circulation have ended",
+                     "Take that of a run with the same circulation.kind (cycle.begin)");
+  log::info("beats begin where those of {} have ended", setup_.begin.string());
+  return {load_engine(archive.take("wall")), circuit};
+}
+
+void CycleRun::leave_end() {
+  const auto states = record_.circuit_states();
+  const BeatBegin end{engine_.moment(), {states.begin(), states.end()}};
+  parallel::on_root([&] {
+    Archive archive;
+    heartbeat::store(end, archive);
+    archive.write(folder_ / end_of_beats);
+  });
 }
 
 void CycleRun::beat() {

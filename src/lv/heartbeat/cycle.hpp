@@ -24,7 +24,12 @@ struct CycleSetup {
   double frame_interval = 0.1;  ///< between frames of a beat [s]; the valves' events have one each
   /// When each node is activated after the calcium of a beat begins [s]; empty: all at once.
   std::vector<double> activation_times = {};
+  /// Where beats of the same wall have ended (end_of_beats), to begin there; empty: a filled wall.
+  std::filesystem::path begin = {};
 };
+
+/// Where the next beat of a run would begin, beside its checkpoints.
+inline constexpr const char* end_of_beats = "end_of_beats.bin";
 
 /// Heartbeats of the wall joined to a circulation: the pressure in the cavity is the multiplier of
 /// V_wall = V_circuit in every step. The wall starts filled to the pressure
@@ -37,9 +42,11 @@ struct CycleSetup {
 /// last beat: end-diastole is the closing of the mitral valve, end-systole that of the aortic
 /// valve.
 ///
-/// Resumes from `folder`/checkpoint when there is one. Throws Interrupted after SIGINT or SIGTERM;
-/// RunError when a step of the first beat has no solution at the smallest step, or when the aortic
-/// valve does not open and close in the last. Collective.
+/// Resumes from `folder`/checkpoint when there is one, and leaves `folder`/end_of_beats unless the
+/// last beat was broken off. Throws Interrupted after SIGINT or SIGTERM; InputError when
+/// setup.begin is of another wall or circuit; RunError when a step of the first beat has no
+/// solution at the smallest step, or when the aortic valve does not open and close in the last.
+/// Collective.
 [[nodiscard]] Beat run_cycle(const CycleSetup& setup, const std::filesystem::path& folder,
                              const Observers& observers);
 

@@ -51,7 +51,9 @@ struct CycleCourse {
 /// far, the beats' moments, and whether they go on. A copy of it is a place to go back to.
 ///
 /// Beats end when the last has changed no state of the circuit, nor end-diastolic or end-systolic
-/// volume, by more than the tolerance, or with their largest number.
+/// volume, by more than the tolerance, or with their largest number. Between two beats a closed
+/// loop may leap to the limit cycle that is foretold (circulation::foretold_limit); a beat that
+/// changes nothing is one of wall and circuit all the same.
 class CycleRecord {
  public:
   /// Throws InputError where there is no circulation.
@@ -156,6 +158,8 @@ class CycleRecord {
   double change_before_ =
       std::numeric_limits<double>::quiet_NaN();  ///< of the beat before the last
   double blood_at_start_ = 0.0;
+
+  void leap();
 };
 
 /// Adds what a heartbeat's work was to an archive, and takes it out again.

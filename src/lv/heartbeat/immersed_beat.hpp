@@ -13,6 +13,9 @@ struct BeatSetup {
   Protocol protocol;
   StepControl control;
   OutputSchedule output;
+  /// Of heartbeats: when each node is activated after the calcium of a beat begins [s]; empty: all
+  /// at once.
+  std::vector<double> activation_times = {};
 };
 
 /// Fills the ventricle to end-diastole and contracts it to end-systole with the immersed engine

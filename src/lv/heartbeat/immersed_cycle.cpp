@@ -65,6 +65,7 @@ class ImmersedCycleRun {
   void end_beat();
   [[nodiscard]] bool has_failed(const std::string& where);
   void take_back(const std::string& where, const std::string& why);
+  [[nodiscard]] solid::Loads loads() const;
   void observe();
   void record_curve();
   void write_frame();
@@ -123,7 +124,9 @@ Beat ImmersedCycleRun::run() {
       housekeeping();
   }
   count_time();
-  return record_.result(observers_);
+  Beat beat = record_.result(observers_);
+  beat.activation_times = setup_.activation_times;
+  return beat;
 }
 
 /// From the undeformed wall to one at rest under the pressure before the mitral valve.
@@ -183,9 +186,7 @@ void ImmersedCycleRun::step() {
     wall.volume -= share_of_base;
     return matching_pressure(wall, circuit);
   };
-  const solid::Loads loads{.pressure = record_.pressure(),
-                           .calcium = record_.calcium(record_.since())};
-  last_ = model_.step(loads, dt, pressure, is_at_stop());
+  last_ = model_.step(loads(), dt, pressure, is_at_stop());
   if (has_failed(fmt::format("{:.4f} s of beat {}", record_.since(), record_.beat() + 1)))
     return;
   const bool is_sample = record_.begin() + record_.after(dt) >= state().next_curve;
@@ -194,6 +195,14 @@ void ImmersedCycleRun::step() {
   if (record_.beat_is_over())
     end_beat();
   keep_sometimes();
+}
+
+/// Calcium of each node where muscle is activated at different times.
+solid::Loads ImmersedCycleRun::loads() const {
+  solid::Loads loads{.pressure = record_.pressure(), .calcium = record_.calcium(record_.since())};
+  for (const double delay : setup_.activation_times)
+    loads.calcium_at_nodes.push_back(record_.calcium(record_.since(), delay));
+  return loads;
 }
 
 void ImmersedCycleRun::end_beat() {
@@ -241,7 +250,8 @@ void ImmersedCycleRun::record_curve() {
   const auto motion =
       fluid::motion(model_.velocity(), setup_.model.grid, setup_.model.blood.density);
   CurveRow row = record_.row();
-  row.calcium = record_.calcium(record_.since());
+  const solid::Loads now = loads();
+  row.calcium = now.calcium_at_nodes.empty() ? now.calcium : model_.mean(now.calcium_at_nodes);
   row.mean_tension = model_.mean_tension();
   row.kinetic_energy = motion.kinetic_energy;
   row.largest_velocity = motion.largest_velocity;

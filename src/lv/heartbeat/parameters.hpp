@@ -3,6 +3,8 @@
 #include "lv/base/units.hpp"
 #include "lv/material/calcium.hpp"
 
+#include <string>
+
 namespace lv::heartbeat {
 
 /// What a run takes the ventricle through: the paper's filling and contraction, or heartbeats of a
@@ -13,6 +15,8 @@ enum class ProtocolKind { paper, cycle };
 struct CycleParameters {
   int beats = 10;                ///< at most
   double tolerance = 1e-3;       ///< of the limit cycle: largest relative change from beat to beat
+  bool leap = true;              ///< whether a closed loop leaps towards it between beats
+  std::string begin = {};        ///< file of where other beats ended, as the case file names it
   double step = 2e-3;            ///< of time, at most [s]
   bool inertia = false;          ///< whether the wall has a mass
   double spectral_radius = 0.5;  ///< of the generalised alpha rule, with inertia [-]

@@ -8,6 +8,17 @@
 #include <cmath>
 
 namespace lv::immersed {
+namespace {
+
+/// Of each node, or a single number of all.
+std::span<const double> calcium_of(const solid::Loads& loads) {
+  if (loads.calcium_at_nodes.empty())
+    return {&loads.calcium, 1};
+  return loads.calcium_at_nodes;
+}
+
+}  // namespace
+
 Model::Model(const mesh::Mesh& mesh, const solid::CardiacModel& heart,
              const ModelParameters& parameters)
     : parameters_(parameters),
@@ -45,14 +56,14 @@ Model::Model(const mesh::Mesh& mesh, const solid::CardiacModel& heart,
 
 void Model::relax(double calcium) {
   contraction_.relax(calcium);
-  state_.calcium = calcium;
+  state_.calcium = {calcium};
 }
 
 void Model::balance(double calcium) {
   state_.slack = false;
   wall_.nodal_stretch(state_.positions, stretch_);
   contraction_.relax(calcium, stretch_);
-  state_.calcium = calcium;
+  state_.calcium = {calcium};
 }
 
 StepReport Model::step(const solid::Loads& loads, double dt, double drag) {
@@ -81,7 +92,8 @@ StepReport Model::finished(StepReport report, const solid::VolumeRange& J,
   report.J = {parallel::min(J.min_J), parallel::max(J.max_J)};
   state_.dt_before = state_.dt;
   state_.dt = dt;
-  state_.calcium = loads.calcium;
+  const auto calcium = calcium_of(loads);
+  state_.calcium.assign(calcium.begin(), calcium.end());
   return report;
 }
 
@@ -92,7 +104,8 @@ void Model::activate(const solid::Loads& loads) {
     contraction_.prescribe(loads.activation * prescribed->T_max);
   } else if (state_.dt > 0.0) {
     wall_.nodal_stretch(state_.positions, stretch_);
-    contraction_.advance(stretch_, state_.calcium, loads.calcium, state_.dt);
+    const std::span<const double> before = state_.calcium;
+    contraction_.advance(stretch_, {before, calcium_of(loads)}, state_.dt);
   }
 }
 
@@ -229,11 +242,18 @@ fluid::Component Model::pressure() const {
 
 double Model::mean_tension() const {
   const auto tension = contraction_.tension();
+  std::vector<double> developed(tension.size());
+  for (std::size_t a = 0; a < tension.size(); ++a)
+    developed[a] = strength_[a] * tension[a];
+  return mean(developed);
+}
+
+double Model::mean(std::span<const double> at_nodes) const {
   const auto volume = wall_.nodal_volumes();
   double sum = 0.0;
   double total = 0.0;
-  for (std::size_t a = 0; a < tension.size(); ++a) {
-    sum += volume[a] * strength_[a] * tension[a];
+  for (std::size_t a = 0; a < at_nodes.size(); ++a) {
+    sum += volume[a] * at_nodes[a];
     total += volume[a];
   }
   return sum / total;

@@ -30,10 +30,10 @@ struct ModelState {
   std::vector<double> contraction;
   fluid::ModeField velocity_modes;
   fluid::FaceField convection;
-  double dt = 0.0;         ///< of the last step [s]
-  double dt_before = 0.0;  ///< of the one before [s]
-  double calcium = 0.0;    ///< at the last step [uM]
-  bool slack = false;      ///< without tension, see Model::slacken
+  double dt = 0.0;                   ///< of the last step [s]
+  double dt_before = 0.0;            ///< of the one before [s]
+  std::vector<double> calcium{0.0};  ///< at the last step, of each node or a single one of all [uM]
+  bool slack = false;                ///< without tension, see Model::slacken
 };
 
 /// What a step says about itself; the same on all ranks.
@@ -125,6 +125,8 @@ class Model {
   }  ///< [mm^3]
   /// Over the wall, with the infarct's factor (2.24), weighted by reference volume [kPa].
   [[nodiscard]] double mean_tension() const;
+  /// The mean of what each node has, weighted by reference volume.
+  [[nodiscard]] double mean(std::span<const double> at_nodes) const;
   [[nodiscard]] const solid::Contraction& contraction() const { return contraction_; }
   [[nodiscard]] const solid::Wall& wall() const { return wall_; }
   [[nodiscard]] const fluid::FaceField& velocity() const { return velocity_; }

@@ -84,14 +84,14 @@ struct Land2017 {
   /// for a stretch rate [1/s] that is constant over this very step. zeta is integrated exactly,
   /// CaTRPN for the middle's coefficients, the rest by the implicit midpoint rule. Second order in
   /// dt, and stable whatever dt.
-  template <class T>
-  void advance(CrossBridges<T>& state, const T& stretch, const T& stretch_rate, double Ca_before,
-               double Ca_after, double dt) const;
+  template <class T, class Calcium>
+  void advance(CrossBridges<T>& state, const T& stretch, const T& stretch_rate,
+               const Calcium& Ca_before, const Calcium& Ca_after, double dt) const;
 
   /// The same, with the rate that leads from the state's stretch to the new one.
-  template <class T>
-  void advance(CrossBridges<T>& state, const T& stretch, double Ca_before, double Ca_after,
-               double dt) const {
+  template <class T, class Calcium>
+  void advance(CrossBridges<T>& state, const T& stretch, const Calcium& Ca_before,
+               const Calcium& Ca_after, double dt) const {
     advance(state, stretch, T((stretch - state.stretch) / dt), Ca_before, Ca_after, dt);
   }
 
@@ -113,8 +113,8 @@ struct Land2017 {
     return 0.5 * power(TRPN_50, n_Tm) / (0.5 - 0.5 * r_s - 0.5 * (1.0 - r_s) * r_w);
   }
   /// (Ca/Ca_50)^n_TRPN [-].
-  template <class T>
-  [[nodiscard]] T calcium_drive(double Ca, const T& stretch) const {
+  template <class T, class Calcium>
+  [[nodiscard]] T calcium_drive(const Calcium& Ca, const T& stretch) const {
     return power(T(Ca / (Ca_50ref + beta_1 * (minimum(stretch, T(longest)) - 1.0))), n_TRPN);
   }
   /// CaTRPN^(n_Tm/2); calcium is never quite gone, so that its inverse is a number.
@@ -160,12 +160,12 @@ void Land2017::advance_sites(CrossBridges<T>& state, const T& CaTRPN, const T& z
   state.S = 2.0 * (p_S + q_S * U) - state.S;
 }
 
-template <class T>
+template <class T, class Calcium>
 void Land2017::advance(CrossBridges<T>& state, const T& stretch, const T& stretch_rate,
-                       double Ca_before, double Ca_after, double dt) const {
+                       const Calcium& Ca_before, const Calcium& Ca_after, double dt) const {
   using std::exp;
   const T middle = 0.5 * (state.stretch + stretch);
-  const T drive = calcium_drive(0.5 * (Ca_before + Ca_after), middle);
+  const T drive = calcium_drive(Calcium(0.5 * (Ca_before + Ca_after)), middle);
   const T bound = drive / (1.0 + drive);
   const T half_decay = exp(T(-0.5 * dt * k_TRPN * (1.0 + drive)));
   const T CaTRPN = bound + (state.CaTRPN - bound) * half_decay;

@@ -109,14 +109,14 @@ struct NiedererHunterSmith {
   /// One step of length dt [s] to the new stretch, calcium [uM] going from Ca_before to Ca_after. Q
   /// is integrated exactly for the stretch rate [1/s], constant over this very step; binding and
   /// sites by Heun's rule. Second order in dt.
-  template <class T>
-  void advance(Sarcomere<T>& state, const T& stretch, const T& stretch_rate, double Ca_before,
-               double Ca_after, double dt) const;
+  template <class T, class Calcium>
+  void advance(Sarcomere<T>& state, const T& stretch, const T& stretch_rate,
+               const Calcium& Ca_before, const Calcium& Ca_after, double dt) const;
 
   /// The same, with the rate that leads from the state's stretch to the new one.
-  template <class T>
-  void advance(Sarcomere<T>& state, const T& stretch, double Ca_before, double Ca_after,
-               double dt) const {
+  template <class T, class Calcium>
+  void advance(Sarcomere<T>& state, const T& stretch, const Calcium& Ca_before,
+               const Calcium& Ca_after, double dt) const {
     advance(state, stretch, T((stretch - state.stretch) / dt), Ca_before, Ca_after, dt);
   }
 
@@ -134,8 +134,8 @@ struct NiedererHunterSmith {
     return minimum(maximum(stretch, T(stretch_min)), T(stretch_max));
   }
   /// (A.2)-(A.4).
-  template <class T>
-  [[nodiscard]] Rates<T> rates(const Sarcomere<T>& state, double Ca) const;
+  template <class T, class Calcium>
+  [[nodiscard]] Rates<T> rates(const Sarcomere<T>& state, const Calcium& Ca) const;
 };
 
 template <class T>
@@ -168,9 +168,9 @@ T NiedererHunterSmith::fading_memory(const T& Q) const {
   return maximum(select(Q < T(0.0), shortening, lengthening), T(0.0));
 }
 
-template <class T>
+template <class T, class Calcium>
 NiedererHunterSmith::Rates<T> NiedererHunterSmith::rates(const Sarcomere<T>& state,
-                                                         double Ca) const {
+                                                         const Calcium& Ca) const {
   const T k_off = unbinding_rate(state.tension);
   const T bound = state.Ca_trpn / (Ca_trpn_max * half_binding(state.stretch));
   const T z_n = power(state.z, n_r);
@@ -179,9 +179,10 @@ NiedererHunterSmith::Rates<T> NiedererHunterSmith::rates(const Sarcomere<T>& sta
               alpha_r2 * z_n / (z_n + power(K_z, n_r))};
 }
 
-template <class T>
+template <class T, class Calcium>
 void NiedererHunterSmith::advance(Sarcomere<T>& state, const T& stretch, const T& stretch_rate,
-                                  double Ca_before, double Ca_after, double dt) const {
+                                  const Calcium& Ca_before, const Calcium& Ca_after,
+                                  double dt) const {
   const Rates<T> before = rates(state, Ca_before);
   Sarcomere<T> next = state;
   for (int i = 0; i < 3; ++i) {

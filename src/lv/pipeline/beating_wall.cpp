@@ -68,6 +68,14 @@ HeartbeatsAt read_beats(const std::filesystem::path& file, Index unknowns) {
   return e;
 }
 
+/// y + now - then.
+std::vector<double> moved(std::vector<double> y, const std::vector<double>& then,
+                          const std::vector<double>& now) {
+  for (std::size_t i = 0; i < y.size(); ++i)
+    y[i] += now[i] - then[i];
+  return y;
+}
+
 double arterial_pressure_after(const Cycle& cycle) {
   return cycle.samples.back().signals.aortic_pressure;
 }
@@ -194,17 +202,22 @@ HeartbeatsAt BeatingWall::run(std::size_t n, const VectorXd& x, double accuracy)
           beats->end};
 }
 
-/// Where the nearest beats had come to, with as much blood as is now there, and the arteries'
-/// pressure changed as that of a circulation with a stand-in for the wall.
+/// Where the nearest beats had come to, changed as a circulation with a stand-in for the wall: the
+/// arteries' pressure, in a closed loop all but the wall's volume.
 heartbeat::BeatBegin BeatingWall::begin_at(const VectorXd& x, const Case& c) const {
   const HeartbeatsAt& from = nearest(x);
   circulation::Circuit circuit(c.circulation);
   circuit.start_from(from.end.circuit);
-  const double ratio = arterial_pressure_after(beats_alone(from, x)) /
-                       arterial_pressure_after(beats_alone(from, from.x));
-  if (std::isfinite(ratio))
+  const circulation::CycleAlone now = beats_alone(from, x);
+  const circulation::CycleAlone then = beats_alone(from, from.x);
+  if (c.circulation.kind == circulation::Kind::closed_loop) {
+    circuit.fill_to(blood(c));
+    circuit.leap_to(moved(from.end.circuit, then.states, now.states));
+  } else if (const double ratio =
+                 arterial_pressure_after(now.cycle) / arterial_pressure_after(then.cycle);
+             std::isfinite(ratio)) {
     circuit.scale_arterial_pressure(ratio);
-  circuit.fill_to(blood(c));
+  }
   const auto states = circuit.states();
   return {from.end.wall, {states.begin(), states.end()}};
 }
@@ -219,7 +232,7 @@ double BeatingWall::blood(const Case& c) const {
 MatrixXd BeatingWall::slopes(const VectorXd& x) const {
   const HeartbeatsAt& there = nearest(x);
   const auto alone = [&](const VectorXd& at) {
-    return logarithms(beats_alone(there, at).beats.back());
+    return logarithms(beats_alone(there, at).cycle.beats.back());
   };
   const VectorXd now = alone(there.x);
   MatrixXd J(now.size(), x.size());
@@ -234,7 +247,8 @@ MatrixXd BeatingWall::slopes(const VectorXd& x) const {
   return J;
 }
 
-Cycle BeatingWall::beats_alone(const HeartbeatsAt& from, const VectorXd& x) const {
+circulation::CycleAlone BeatingWall::beats_alone(const HeartbeatsAt& from,
+                                                 const VectorXd& x) const {
   const Case c = case_at(x);
   circulation::CircuitParameters p = c.circulation;
   p.step = c.protocol.cycle.step;

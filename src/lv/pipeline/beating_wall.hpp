@@ -74,8 +74,8 @@ class BeatingWall {
                                               const case_file::Case& c) const;
   [[nodiscard]] double blood(const case_file::Case& c) const;
 
-  [[nodiscard]] circulation::Cycle beats_alone(const HeartbeatsAt& from,
-                                               const Eigen::VectorXd& x) const;
+  [[nodiscard]] circulation::CycleAlone beats_alone(const HeartbeatsAt& from,
+                                                    const Eigen::VectorXd& x) const;
   [[nodiscard]] circulation::StandIn stand_in(const HeartbeatsAt& from,
                                               const Eigen::VectorXd& x) const;
 

@@ -30,12 +30,16 @@ heartbeat::Beat make_cycle(const Case& c, const mesh::Mesh& mesh,
                            const heartbeat::Observers& observers) {
   if (const std::string slow = slow_relaxation(c); !slow.empty())
     log::warn("{}", slow);
-  if (c.engine == case_file::EngineChoice::immersed)
-    return heartbeat::run_immersed_cycle(case_file::beat_setup(c, mesh), c.circulation, folder,
-                                         observers);
+  if (c.engine == case_file::EngineChoice::immersed) {
+    heartbeat::BeatSetup setup = case_file::beat_setup(c, mesh);
+    setup.activation_times = activation_times;
+    return heartbeat::run_immersed_cycle(setup, c.circulation, folder, observers);
+  }
+  const std::string& begin = c.protocol.cycle.begin;
   return heartbeat::run_cycle(
       {mesh, case_file::static_model(c), c.quasi_static.solver, c.protocol.calcium, c.circulation,
-       c.protocol.cycle, c.output.frame_interval, activation_times},
+       c.protocol.cycle, c.output.frame_interval, activation_times,
+       begin.empty() ? std::filesystem::path() : case_file::beside(c, begin)},
       folder, observers);
 }
 
@@ -54,9 +58,11 @@ void write_cycle(const circulation::Cycle& cycle, const std::optional<Table>& cu
 
 std::string cycle_end(const circulation::Cycle& cycle) {
   return fmt::format(
-      "{} after {} beat{} of {:.3g} s: the last changed the states by {:.2g} of themselves at most",
+      "{} after {} beat{} of {:.3g} s{}: the last changed the states by {:.2g} of themselves at "
+      "most",
       cycle.is_limit ? "limit cycle" : "no limit cycle", cycle.beats.size(),
-      cycle.beats.size() == 1 ? "" : "s", cycle.period, cycle.change);
+      cycle.beats.size() == 1 ? "" : "s", cycle.period,
+      cycle.leaps > 0 ? fmt::format(", {} of them after a leap", cycle.leaps) : "", cycle.change);
 }
 
 std::vector<std::string> cycle_warnings(const Case& c, const circulation::Cycle& cycle) {

@@ -251,9 +251,10 @@ class HeartbeatFitter {
 
 }  // namespace
 
-HeartbeatFit fit_heartbeats(const Case& c, const anatomy::MeshResult& wall,
+HeartbeatFit fit_heartbeats(const Case& asked, const anatomy::MeshResult& wall,
                             const anatomy::MeshResult* coarse,
                             const std::filesystem::path& folder) {
+  const Case c = case_file::begin_of_beat_fit(asked);
   std::optional<HeartbeatFitter> first;
   std::optional<Nearby> near;
   if (coarse != nullptr) {

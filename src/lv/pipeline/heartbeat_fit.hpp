@@ -21,7 +21,7 @@ namespace lv::pipeline {
 /// heartbeats.json, heartbeats.txt and heartbeats.csv (every evaluation). Throws InputError for
 /// data out of reach, with what the model comes to; RunError where there are no heartbeats to begin
 /// with, or the search comes to no end. Collective.
-HeartbeatFit fit_heartbeats(const case_file::Case& c, const anatomy::MeshResult& wall,
+HeartbeatFit fit_heartbeats(const case_file::Case& asked, const anatomy::MeshResult& wall,
                             const anatomy::MeshResult* coarse, const std::filesystem::path& folder);
 
 /// The case with large elements, on which its heartbeats are to be fitted first; nothing where its

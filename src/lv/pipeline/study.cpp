@@ -8,7 +8,9 @@
 #include "lv/base/time_left.hpp"
 #include "lv/case_file/family.hpp"
 #include "lv/case_file/parameters.hpp"
+#include "lv/circulation/circuit.hpp"
 #include "lv/circulation/cycle.hpp"
+#include "lv/heartbeat/cycle.hpp"
 #include "lv/pipeline/beat_result.hpp"
 #include "lv/pipeline/calibration.hpp"
 #include "lv/report/study_tables.hpp"
@@ -78,7 +80,7 @@ class StudyRun {
   void run() {
     for (std::size_t i = 0; i < members_.size(); ++i) {
       report_progress(i);
-      run_member(i);
+      try_member(i);
       parallel::on_root([&] { write(i + 1); });
     }
     if (parallel::is_root())
@@ -102,6 +104,23 @@ class StudyRun {
     return i == 0 ? work_ : folder() / members_[i].name;
   }
 
+  /// A member without a solution is marked, and the family goes on; the case itself must have one.
+  void try_member(std::size_t i) {
+    const auto goes_on_without = [&](const std::exception& failure) {
+      if (i == 0)
+        throw;
+      log::warn("study: {} has no beat: {}", members_[i].name, failure.what());
+      missing_.push_back({members_[i].name, members_[i].factors, failure.what()});
+    };
+    try {
+      run_member(i);
+    } catch (const RunError& failure) {
+      goes_on_without(failure);
+    } catch (const FailedElsewhere& failure) {  // what the root has thrown
+      goes_on_without(failure);
+    }
+  }
+
   void run_member(std::size_t i) {
     RunOptions options = options_;
     options.work = work_of(i);
@@ -111,8 +130,8 @@ class StudyRun {
     if (i == 0)
       pipeline::run(case_, options);
     else {
-      parallel::on_root([&] { take_walls(work_of(i - 1), options.work); });
-      pipeline::run(case_file::under(members_[i].factors, with_its_fit()), options);
+      parallel::on_root([&] { take_walls(work_of(0), options.work); });
+      pipeline::run(member_case(i), options);
     }
     if (is_new) {
       const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begun;
@@ -121,9 +140,42 @@ class StudyRun {
     }
   }
 
-  /// The case with what its own run has fitted.
+  /// Its beats begin where those of the one that it comes from have ended.
+  [[nodiscard]] Case member_case(std::size_t i) const {
+    Case c = case_file::under(members_[i].factors, with_its_fit());
+    if (c.engine == case_file::EngineChoice::immersed)
+      return c;
+    for (const std::size_t from : {origin_of(i), std::size_t{0}}) {
+      const fs::path end = folder_in(work_of(from), Stage::beat) / heartbeat::end_of_beats;
+      if (!parallel::root_says(fs::exists(end)))
+        continue;
+      c.protocol.cycle.begin = fs::absolute(end).string();
+      return c;
+    }
+    return c;
+  }
+
+  /// The same contractility and heart rate under the case's own load; of that the case itself. So
+  /// another factor in a list changes nothing for those that are there.
+  [[nodiscard]] std::size_t origin_of(std::size_t i) const {
+    const circulation::Factors& f = members_[i].factors;
+    for (std::size_t k = 0; k < i; ++k) {
+      const circulation::Factors& other = members_[k].factors;
+      if (other.preload == 1.0 && other.afterload == 1.0 &&
+          other.contractility == f.contractility && other.heart_rate == f.heart_rate)
+        return k;
+    }
+    return 0;
+  }
+
+  /// The case with what its own run has fitted, and with the blood that it had.
   [[nodiscard]] Case with_its_fit() const {
-    return fitted(case_, folder_in(work_, Stage::calibrate), folder_in(work_, Stage::beat));
+    const fs::path beat = folder_in(work_, Stage::beat);
+    Case c = fitted(case_, folder_in(work_, Stage::calibrate), beat);
+    double& blood = c.circulation.closed_loop.blood;
+    if (c.circulation.kind == circulation::Kind::closed_loop && blood == 0.0)
+      blood = circulation::blood_of(c.circulation, read_cycle(beat).samples.front().signals);
+    return c;
   }
 
   void report_progress(std::size_t i) const {
@@ -137,17 +189,19 @@ class StudyRun {
   void write(std::size_t done) const {
     std::vector<circulation::LoadedBeat> beats;
     for (std::size_t i = 0; i < done; ++i)
-      beats.push_back(loaded_beat(members_[i], work_of(i)));
+      if (has_beat(work_of(i)))
+        beats.push_back(loaded_beat(members_[i], work_of(i)));
     const auto family = circulation::by_contractility(beats);
     fs::create_directories(folder());
-    report::study_table(family).write_csv(folder() / "study.csv");
+    report::study_table(family, missing_).write_csv(folder() / "study.csv");
     drawing::write(report::study_figure(family), folder() / "study.svg");
-    write_file(folder() / "study.txt", report::study_text(family));
+    write_file(folder() / "study.txt", report::study_text(family, missing_));
   }
 
   const Case& case_;
   RunOptions options_;
   std::vector<Member> members_;
+  std::vector<circulation::MissingBeat> missing_;
   fs::path work_;
   double seconds_ = 0.0;  ///< that members took which this process ran
   int ran_ = 0;

@@ -38,16 +38,21 @@ std::vector<std::string> study_columns() {
     names.push_back(m.column);
   names.insert(names.end(), {"greatest_elastance_volume_ml", "greatest_elastance_pressure_mmHg",
                              "arterial_elastance_mmHg_per_ml", "E_es_mmHg_per_ml", "V_0_ml",
-                             "E_es_deviation_mmHg", "M_w_mmHg", "V_w_ml", "M_w_deviation_mmHg_ml"});
+                             "E_es_deviation_mmHg", "M_w_mmHg", "V_w_ml", "M_w_deviation_mmHg_ml",
+                             "no_beat_because"});
   return names;
+}
+
+std::vector<std::string> named_factors(const std::string& name, const Factors& f) {
+  std::vector<std::string> row{name};
+  for (const double factor : {f.contractility, f.heart_rate, f.preload, f.afterload})
+    row.push_back(Table::number(factor));
+  return row;
 }
 
 std::vector<std::string> study_row(const Contractility& state, std::size_t b) {
   const LoadedBeat& beat = state.beats[b];
-  const Factors& f = beat.factors;
-  std::vector<std::string> row{beat.name};
-  for (const double factor : {f.contractility, f.heart_rate, f.preload, f.afterload})
-    row.push_back(Table::number(factor));
+  std::vector<std::string> row = named_factors(beat.name, beat.factors);
   row.insert(row.end(), {std::to_string(beat.beats), beat.is_limit ? "yes" : "no"});
   for (const auto& [name, value] : beat_numbers(beat.measures))
     row.push_back(Table::number(value));
@@ -60,6 +65,14 @@ std::vector<std::string> study_row(const Contractility& state, std::size_t b) {
         e.slope / circulation::elastance, e.intercept / units::ml, e.deviation / mmHg,
         w.slope / mmHg, w.intercept / units::ml, w.deviation / in_mmHg_ml})
     row.push_back(Table::number(value));
+  row.emplace_back();
+  return row;
+}
+
+std::vector<std::string> missing_row(const circulation::MissingBeat& beat, std::size_t columns) {
+  std::vector<std::string> row = named_factors(beat.name, beat.factors);
+  row.resize(columns);
+  row.back() = beat.why;
   return row;
 }
 
@@ -141,11 +154,14 @@ constexpr LineWords work_words{
 
 }  // namespace
 
-Table study_table(std::span<const Contractility> family) {
+Table study_table(std::span<const Contractility> family,
+                  std::span<const circulation::MissingBeat> missing) {
   Table table(study_columns());
   for (const Contractility& state : family)
     for (std::size_t b = 0; b < state.beats.size(); ++b)
       table.add_row(study_row(state, b));
+  for (const circulation::MissingBeat& beat : missing)
+    table.add_row(missing_row(beat, study_columns().size()));
   return table;
 }
 
@@ -163,12 +179,15 @@ drawing::Figure study_figure(std::span<const Contractility> family) {
           .panel_width = 380.0};
 }
 
-std::string study_text(std::span<const Contractility> family) {
+std::string study_text(std::span<const Contractility> family,
+                       std::span<const circulation::MissingBeat> missing) {
   std::string text;
   for (const Contractility& state : family)
     text += fmt::format("  {}\n", state_words(state)) +
             line_text(state.end_systole.line, elastance_words) +
             line_text(state.stroke_work, work_words);
+  for (const circulation::MissingBeat& beat : missing)
+    text += fmt::format("  {} has no beat: {}\n", beat.name, beat.why);
   return text;
 }
 

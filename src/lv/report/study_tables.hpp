@@ -11,14 +11,17 @@
 namespace lv::report {
 
 /// study.csv, a row per beat: its factors, its measures as in beats.csv, its point on the
-/// end-systolic relation, and the lines of its contractility and heart rate.
-[[nodiscard]] Table study_table(std::span<const circulation::Contractility> family);
+/// end-systolic relation, and the lines of its contractility and heart rate; then the cases without
+/// a beat, which have nothing but their factors and why.
+[[nodiscard]] Table study_table(std::span<const circulation::Contractility> family,
+                                std::span<const circulation::MissingBeat> missing = {});
 
 /// Loops with the end-systolic relations, and stroke work against end-diastolic volume with the
 /// lines of preload-recruitable stroke work; a colour per contractility and heart rate.
 [[nodiscard]] drawing::Figure study_figure(std::span<const circulation::Contractility> family);
 
-/// The lines with their units.
-[[nodiscard]] std::string study_text(std::span<const circulation::Contractility> family);
+/// The lines with their units, and which cases have no beat.
+[[nodiscard]] std::string study_text(std::span<const circulation::Contractility> family,
+                                     std::span<const circulation::MissingBeat> missing = {});
 
 }  // namespace lv::report

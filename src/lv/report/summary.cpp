@@ -275,6 +275,7 @@ Json cycle_json(const heartbeat::Beat& beat) {
   return {{"beats", cycle.beats.size()},
           {"is_limit_cycle", cycle.is_limit},
           {"was_cut_short", cycle.cut_short},
+          {"leaps", cycle.leaps},
           {"largest_change_of_last_beat", number(cycle.change)},
           {"last_beat", std::move(last)},
           {"last_activation_ms", latest_activation(beat)},

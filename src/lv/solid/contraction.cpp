@@ -55,15 +55,14 @@ void Contraction::relax(double Ca, std::span<const double> stretch) {
   publish_tension();
 }
 
-void Contraction::advance(std::span<const double> stretch, double Ca_before, double Ca_after,
-                          double dt) {
+void Contraction::advance(std::span<const double> stretch, const CalciumStep& calcium, double dt) {
   muscle_.visit([&](const auto& law, auto& packs) {
     for (std::size_t a = 0; a < stretch.size(); ++a)
       stretch_rate_[a] = (stretch[a] - packs[a / pack_size].stretch.get(a % pack_size)) / dt;
     damp_what_is_smoothed_away(dt);
     for (std::size_t g = 0; g < packs.size(); ++g)
       law.advance(packs[g], load(stretch, g * pack_size), load(stretch_rate_, g * pack_size),
-                  Ca_before, Ca_after, dt);
+                  load(calcium.before, g * pack_size), load(calcium.after, g * pack_size), dt);
   });
   publish_tension();
 }

@@ -47,8 +47,18 @@ class Contraction {
   /// The same at a stretch of its own at each node.
   void relax(double Ca, std::span<const double> stretch);
 
-  /// Advances by dt [s] to the given nodal stretches, calcium going from Ca_before to Ca_after.
-  void advance(std::span<const double> stretch, double Ca_before, double Ca_after, double dt);
+  /// Calcium before and after a step, of each node or a single number for all [uM].
+  struct CalciumStep {
+    std::span<const double> before, after;
+  };
+
+  /// Advances by dt [s] to the given nodal stretches.
+  void advance(std::span<const double> stretch, const CalciumStep& calcium, double dt);
+
+  /// The same with the same calcium everywhere.
+  void advance(std::span<const double> stretch, double Ca_before, double Ca_after, double dt) {
+    advance(stretch, {{&Ca_before, 1}, {&Ca_after, 1}}, dt);
+  }
 
   /// The same tension at every node instead [kPa].
   void prescribe(double tension);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 namespace lv::solid {
 
 /// What acts on the ventricle at one time.
@@ -12,6 +14,9 @@ struct Loads {
   /// implicit engine in time is given calcium step by step (TimeStep), where it may differ from
   /// point to point.
   double calcium = 0.0;
+  /// The same of each node, where muscle is activated at different times; empty: `calcium` is that
+  /// of all [uM].
+  std::vector<double> calcium_at_nodes = {};
 
   [[nodiscard]] bool operator==(const Loads&) const = default;
 };

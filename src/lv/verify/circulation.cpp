@@ -146,8 +146,8 @@ void circulation_closed_loop(Findings& found) {
   check_loop(found, "monotone valves", circulation::run_alone(closed_loop(ValveLaw::quadratic)),
              2e-3);
   const circulation::ClosedLoop circuit({}, {}, 0.8);
-  found.add_within("total volume at the start",
-                   circuit.blood(circulation::ClosedLoop::start({})) / ml, 1617.876, 1e-6, "ml");
+  found.add_within("total volume at the start", circuit.blood(circuit.start({})) / ml, 1617.876,
+                   1e-6, "ml");
 }
 
 }  // namespace lv::verify

@@ -22,6 +22,8 @@ void circulation_closed_loop(Findings& found);
 void cycle_default(Findings& found);
 void cycle_closed_loop(Findings& found);
 void cycle_engines(Findings& found);
+void cycle_engines_limit(Findings& found);
+void cycle_ranks(Findings& found);
 
 // activation
 void eikonal_point(Findings& found);

@@ -41,7 +41,7 @@ TEST_CASE("each datum of a heartbeat tells of one parameter", "[unit][case_file]
                                    {"circulation.windkessel.C", "systolic"}});
   CHECK(windkessel.left_alone.empty());
   CHECK(pairs(case_file::beat_fit(fitted(all, "closed_loop"))) ==
-        Names{{"circulation.start.p_ven_sys", "EDV"},
+        Names{{"circulation.closed_loop.blood", "EDV"},
               {"active.land2017.T_ref", "ESV"},
               {"circulation.closed_loop.systemic.R_ar", "diastolic"},
               {"circulation.closed_loop.systemic.C_ar", "systolic"}});
@@ -58,6 +58,23 @@ TEST_CASE("a datum of a heartbeat that is missing leaves its parameter, and that
              Contains("circulation.windkessel.C") && Contains("calibrate.cuff_diastolic"));
   CHECK(pairs(case_file::beat_fit(fitted("cuff_diastolic = \"75 mmHg\"\n"))) ==
         Names{{"circulation.windkessel.R_p", "diastolic"}});
+}
+
+TEST_CASE("a fit of blood begins with what the start holds around the measured volume",
+          "[unit][case_file]") {
+  const auto loop = fitted("edv = \"120 ml\"\n", "closed_loop");
+  const auto& blood = *case_file::find_parameter("circulation.closed_loop.blood");
+  CHECK(case_file::value_of(blood, loop) == 0.0);
+  CHECK(case_file::value_of(blood, case_file::begin_of_beat_fit(loop)) ==
+        Approx(1617.876 - 118.52 + 120.0).epsilon(1e-6));
+  auto known = loop;
+  case_file::set_value(blood, known, 1500.0);
+  CHECK(case_file::value_of(blood, case_file::begin_of_beat_fit(known)) == Approx(1500.0));
+  const auto windkessel = fitted("edv = \"120 ml\"\n");
+  CHECK(case_file::value_of(blood, case_file::begin_of_beat_fit(windkessel)) == 0.0);
+  CHECK_THROWS_WITH(
+      fitted("edv = \"120 ml\"\n[circulation.closed_loop]\nblood = \"100 ml\"\n", "closed_loop"),
+      Contains("case.toml") && Contains("nothing fills the vessels"));
 }
 
 TEST_CASE("a parameter's value is given and taken in its own unit", "[unit][case_file]") {

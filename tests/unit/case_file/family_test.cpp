@@ -45,7 +45,11 @@ TEST_CASE("a member of a study is the case with what its factors multiply", "[un
   CHECK(changed.origin.at("circulation.windkessel.p_ven") == "case.toml:9");
   const auto loop = studied("preload = [0.8]\n", "closed_loop");
   const auto bled = case_file::under({.preload = 0.9, .afterload = 1.5}, loop);
-  CHECK(bled.circulation.start.p_ven_sys == Approx(0.9 * loop.circulation.start.p_ven_sys));
+  CHECK(bled.circulation.closed_loop.blood == Approx(0.9 * 1617.876 * units::ml).epsilon(1e-6));
+  auto known = loop;
+  known.circulation.closed_loop.blood = 1700.0 * units::ml;
+  CHECK(case_file::under({.preload = 0.9}, known).circulation.closed_loop.blood ==
+        Approx(0.9 * 1700.0 * units::ml));
   CHECK(bled.circulation.closed_loop.systemic.R_ar ==
         Approx(1.5 * loop.circulation.closed_loop.systemic.R_ar));
 }

@@ -69,6 +69,31 @@ TEST_CASE("an implicit step knows how its volume follows the ventricle's pressur
   }
 }
 
+TEST_CASE("the last closing of the mitral valve before ejection ends diastole",
+          "[unit][circulation]") {
+  std::vector<Sample> beat;
+  const auto add = [&](double volume, double mitral_gradient, double aortic_gradient) {
+    Sample s;
+    s.time = 0.1 * static_cast<double>(beat.size());
+    s.signals.volume = volume;
+    s.signals.pressure = 1.0;
+    s.signals.mitral_gradient = mitral_gradient;
+    s.signals.aortic_gradient = aortic_gradient;
+    beat.push_back(s);
+  };
+  add(100.0, 1.0, -5.0);
+  add(110.0, -1.0, -5.0);  // closed for a moment
+  add(110.0, 1.0, -5.0);
+  add(130.0, -1.0, -1.0);
+  add(130.0, -9.0, 1.0);
+  add(70.0, -9.0, -1.0);
+  add(70.0, 1.0, -9.0);
+  add(90.0, -1.0, -9.0);  // of the next beat's diastole
+  const BeatMeasures m = measure_beat(beat);
+  CHECK(m.end_diastolic_volume == Approx(120.0));
+  CHECK(m.mitral_closes == Approx(0.25));
+}
+
 TEST_CASE("a circulation comes to its limit cycle and stays there", "[unit][circulation]") {
   for (const Kind kind : {Kind::windkessel, Kind::closed_loop}) {
     const Cycle cycle = run_alone(quick(kind));

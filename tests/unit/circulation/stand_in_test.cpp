@@ -43,7 +43,7 @@ TEST_CASE("a stand-in beats in its circulation as the ventricle that it was made
   for (const Kind kind : {Kind::windkessel, Kind::closed_loop}) {
     const CircuitParameters p = beating(kind);
     const Cycle ventricle = run_alone(p);
-    const Cycle other = run_alone(p, stand_in(p, ventricle));
+    const Cycle other = run_alone(p, stand_in(p, ventricle)).cycle;
     const BeatMeasures& a = other.beats.back();
     const BeatMeasures& b = ventricle.beats.back();
     CHECK(relative(a.end_diastolic_volume, b.end_diastolic_volume) < 2e-3);
@@ -67,8 +67,8 @@ TEST_CASE("a stand-in foretells what other loads and contractility do to its ven
     };
     const auto real = logs(run_alone(changed).beats.back(), cycle.beats.back());
     const auto foretold =
-        logs(run_alone(changed, wall.with_contractility(contractility)).beats.back(),
-             run_alone(p, wall).beats.back());
+        logs(run_alone(changed, wall.with_contractility(contractility)).cycle.beats.back(),
+             run_alone(p, wall).cycle.beats.back());
     double largest = 0.0;
     for (const double change : real)
       largest = std::max(largest, std::abs(change));

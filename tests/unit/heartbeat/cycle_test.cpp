@@ -25,6 +25,13 @@ mesh::Mesh coarse_wall() {
       {.edge_length = 15.0, .layers = 2, .order = 2});
 }
 
+mesh::Mesh coarsest_wall() {
+  const geometry::Ellipsoid ellipsoid;
+  return mesh::wall_mesh(
+      [&](double u, double theta, double t) { return ellipsoid.point(u, theta, t); },
+      {.edge_length = 20.0, .layers = 1, .order = 2});
+}
+
 /// A beat too short for a heart, for the test's sake.
 CycleSetup quick(const mesh::Mesh& mesh) {
   solid::CardiacModel heart{.base = {.stiffness = implicit::rigid_base}};
@@ -205,6 +212,51 @@ TEST_CASE("measured heartbeats are those of a run, and go on from where others e
   CHECK(second->cycle.beats.back().end_systolic_volume ==
         Approx(run[1].end_systolic_volume).epsilon(1e-3));
   CHECK(second->cycle.beats.back().aortic_systolic == Approx(run[1].aortic_systolic).epsilon(1e-3));
+}
+
+TEST_CASE("a run begins where another has ended, if both have the same wall and circuit",
+          "[unit][heartbeat]") {
+  const mesh::Mesh mesh = coarse_wall();
+  CycleSetup setup = quick(mesh);
+  const auto first = empty_folder("lv_cycle_first");
+  static_cast<void>(heartbeat::run_cycle(setup, first, {}));
+  setup.begin = first / heartbeat::end_of_beats;
+  const Beat next = heartbeat::run_cycle(setup, empty_folder("lv_cycle_next"), {});
+  setup.begin.clear();
+  setup.cycle.beats = 2;
+  const Beat both = heartbeat::run_cycle(setup, empty_folder("lv_cycle_both"), {});
+  CHECK(next.cycle->beats.back().end_systolic_volume ==
+        Approx(both.cycle->beats.back().end_systolic_volume).epsilon(1e-3));
+  setup.begin = first / heartbeat::end_of_beats;
+  setup.circuit.kind = circulation::Kind::closed_loop;
+  CHECK_THROWS_WITH(heartbeat::run_cycle(setup, empty_folder("lv_cycle_other"), {}),
+                    Catch::Contains("in another circulation"));
+  const mesh::Mesh coarser = coarsest_wall();
+  CycleSetup other = quick(coarser);
+  other.begin = first / heartbeat::end_of_beats;
+  CHECK_THROWS_WITH(heartbeat::run_cycle(other, empty_folder("lv_cycle_other"), {}),
+                    Catch::Contains("of a wall with"));
+}
+
+TEST_CASE("a wall in a closed loop leaps to its limit cycle and keeps the loop's blood",
+          "[unit][heartbeat]") {
+  const mesh::Mesh mesh = coarsest_wall();
+  CycleSetup setup = quick(mesh);
+  setup.circuit.kind = circulation::Kind::closed_loop;
+  setup.circuit.period = 0.6;
+  setup.circuit.closed_loop.left_atrium.t_C = setup.circuit.closed_loop.right_atrium.t_C = 0.54;
+  setup.circuit.closed_loop.right_ventricle.T_R = 0.3;
+  setup.circuit.closed_loop.blood = 1400.0 * units::ml;
+  setup.cycle = {.beats = 3, .tolerance = 1e-3, .step = 1e-2};
+  const Beat leaping = heartbeat::run_cycle(setup, empty_folder("lv_cycle_leaping"), {});
+  setup.cycle.leap = false;
+  const Beat walking = heartbeat::run_cycle(setup, empty_folder("lv_cycle_walking"), {});
+  CHECK(leaping.cycle->leaps > 0);
+  CHECK(walking.cycle->leaps == 0);
+  CHECK(leaping.cycle->blood_lost < 1e-10);
+  CHECK(leaping.cycle->change < 0.3 * walking.cycle->change);
+  CHECK(circulation::blood_of(setup.circuit, leaping.cycle->samples.back().signals) ==
+        Approx(1400.0 * units::ml).epsilon(1e-10));
 }
 
 TEST_CASE("heartbeats in an archive are those that were put in", "[unit][heartbeat]") {
