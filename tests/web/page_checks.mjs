@@ -2,7 +2,8 @@
 import { readFileSync, statSync } from "node:fs";
 import { createServer } from "node:http";
 import { join } from "node:path";
-import { drawn, newPage, root, scrub, settled } from "./browser.mjs";
+import { pathToFileURL } from "node:url";
+import { drawn, newPage, openPage, root, scrub, settled } from "./browser.mjs";
 import { browser, check, close, coloursIn, csv, folder, nothingAsked, number, open, pixels, saved, setSlider, work } from "./setting.mjs";
 
 async function checkFirstScreen(page) {
@@ -262,6 +263,39 @@ async function checkSlowArrival() {
   server.close();
 }
 
+/** The picture that the page opens with, before any array is unpacked, beside the wall that takes its place. */
+async function checkOpening() {
+  const settings = { viewport: { width: 1280, height: 720 } };
+  const early = await newPage(browser, settings);
+  await early.addInitScript(() => { Blob.prototype.stream = () => new ReadableStream(); });
+  await early.goto(pathToFileURL(join(folder, "page.html")).href);
+  await early.waitForFunction(() => document.body?.dataset.first);
+  const late = await openPage(browser, join(folder, "page.html"), settings);
+  await settled(late);
+  const shots = await Promise.all([early, late].map(async (page) => (await page.locator("#wall .view").screenshot()).toString("base64")));
+  const { both, one } = await late.evaluate(async (shots) => {
+    const all = await Promise.all(shots.map(async (data) => {
+      const image = new Image();
+      image.src = `data:image/png;base64,${data}`;
+      await image.decode();
+      const context = new OffscreenCanvas(image.width, image.height).getContext("2d");
+      context.drawImage(image, 0, 0);
+      return context.getImageData(0, 0, image.width, image.height).data;
+    }));
+    const isDrawn = (data, i) => data[i] + data[i + 1] + data[i + 2] < 740;
+    let [both, one] = [0, 0];
+    for (let i = 0; i < all[0].length; i += 4) {
+      const [a, b] = all.map((data) => isDrawn(data, i));
+      if (a && b) ++both;
+      else if (a || b) ++one;
+    }
+    return { both, one };
+  }, shots);
+  check("the page opens with a picture of the wall, with its words, letters and legend, where the wall then is", both > 20_000 && one < 0.03 * both, `${both} ${one}`);
+  await early.context().close();
+  await late.context().close();
+}
+
 export async function checkPage() {
   const { page, said, asked, close: done } = await open("page.html");
   const megabytes = statSync(join(folder, "page.html")).size / 1e6;
@@ -284,4 +318,5 @@ export async function checkPage() {
   check("nothing is asked from a network", nothingAsked(asked), asked.join(" "));
   await done();
   await checkSlowArrival();
+  await checkOpening();
 }

@@ -46,11 +46,17 @@ function table(anchors: number[]): Rgb[] {
 
 const tables = { sequential: table(sequentialAnchors), diverging: table(divergingAnchors) };
 
-/** Values nearer than `floor` to `middle` are as good as none and have no colour. */
+/** Values nearer than `floor` to `middle` are as good as none and have no colour; where colours begin at the middle neither have those below
+ * it: between nodes, quadratic elements fall below what they have there. */
 export interface Scale { min: number; max: number; diverging: boolean; middle: number; floor: number }
 
 export const uncoloured: Rgb = [236, 234, 231];
-const isColoured = (scale: Scale, x: number) => Math.abs(x - scale.middle) >= scale.floor;
+/** From where to where a scale has no colour. */
+export const uncolouredRange = ({ min, middle, floor }: Scale): [number, number] => [min < middle || floor === 0 ? middle - floor : -1e30, middle + floor];
+const isColoured = (scale: Scale, x: number) => {
+  const [from, to] = uncolouredRange(scale);
+  return x <= from || x >= to;
+};
 
 export const cssOf = (rgb: Rgb) => `rgb(${rgb.join(",")})`;
 

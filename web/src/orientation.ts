@@ -20,6 +20,12 @@ export function starNote(heart: Heart): string {
   return parts.length ? `* assumed: ${parts.join(", ")}` : "";
 }
 
+/** A column's title, with what was assumed of the anatomy that its regions hang on. */
+export function starredTitle(title: string, heart: Heart): string {
+  const note = starNote(heart);
+  return note ? `${title}* (${note})` : title;
+}
+
 /** Letters of the walls and their angles from the septum [degrees]. */
 export const walls: [string, number][] = [["S", 0], ["A", 90], ["L", 180], ["I", 270]];
 

@@ -3,7 +3,7 @@ import { drawChart, type Line } from "./chart.ts";
 import { lineColours } from "./colours.ts";
 import { type Case, type Row, value } from "./data.ts";
 import { el, figure, fileName, folded, missing, perCase, section, table } from "./dom.ts";
-import { heartOf, starNote } from "./orientation.ts";
+import { heartOf, starNote, starredTitle } from "./orientation.ts";
 import { shown } from "./quantities.ts";
 
 const components = ["circumferential", "radial"];
@@ -65,7 +65,7 @@ function regionTable(c: Case, scheme: string, title: string): HTMLElement | unde
   };
   return el("details", { open: scheme === "aha17" || !c.table("strain_comparison_circumferential.csv").some((r) => r.scheme === "aha17") },
     el("summary", {}, `${names.length} ${title}`), table(fileName(c.name, "strain", scheme),
-      ["region", "circumferential, images", "model", "difference", "radial, images", "model", "difference"],
+      [starredTitle("region", heartOf(c)), "circumferential, images", "model", "difference", "radial, images", "model", "difference"],
       names.map((name) => [name, ...cells(cir, name), ...cells(rad, name)])));
 }
 

@@ -2,7 +2,7 @@
 import {
   BufferAttribute, BufferGeometry, DataTexture, DynamicDrawUsage, Group, LinearFilter, Mesh, RGBAFormat, ShaderMaterial, Sphere, type Texture, Vector2, Vector3, Vector4, DoubleSide,
 } from "three";
-import { type Scale, uncoloured } from "./colours.ts";
+import { type Scale, uncoloured, uncolouredRange } from "./colours.ts";
 import { DrawnWall } from "./curved.ts";
 import type { Wall } from "./data.ts";
 import { atPoints, cutWall, type Plane, type Section } from "./section.ts";
@@ -23,7 +23,7 @@ varying float v; varying float c; varying vec3 place; varying vec3 n;
 void main() {
   if (dot(plane.xyz, place) > plane.w) discard;
   vec3 colour = texture2D(map, vec2(clamp((v - range.x) / (range.y - range.x), 0.0, 1.0) * 0.99609375 + 0.001953125, 0.5)).rgb;
-  if (abs(v - none.x) < none.y) colour = uncoloured;
+  if (v > none.x && v < none.y) colour = uncoloured;
   colour = mix(colour, vec3(0.80, 0.62, 0.58), plain);
   if (flatLight < 0.5) colour *= 0.55 + 0.45 * abs(normalize(n).z);
   float away = (1.0 - c) / max(fwidth(c), 1e-6) / pixel;
@@ -120,7 +120,7 @@ export class WallBody {
     for (const { material: { uniforms } } of this.surfaces) {
       uniforms.map.value = map;
       uniforms.range.value.set(scale.min, scale.max);
-      uniforms.none.value.set(scale.middle, scale.floor);
+      uniforms.none.value.set(...uncolouredRange(scale));
       uniforms.plain.value = this.values ? 0 : 1;
     }
   }

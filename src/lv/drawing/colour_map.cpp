@@ -91,7 +91,9 @@ double ColourScale::place(double value) const {
 std::optional<Colour> ColourScale::operator()(double value) const {
   if (std::isnan(value))
     return std::nullopt;
-  return std::abs(value - middle) < floor ? uncoloured : map(place(value));
+  const double above = value - middle;
+  const bool is_nothing = floor > 0.0 && (min < middle ? std::abs(above) : above) < floor;
+  return is_nothing ? uncoloured : map(place(value));
 }
 
 }  // namespace lv::drawing

@@ -53,7 +53,9 @@ class ColourMap {
 inline constexpr Colour uncoloured = hex(0xeceae7);
 
 /// Values to colours: `min` is the map's beginning, `max` its end. Values nearer than `floor` to
-/// `middle` are as good as nothing and have no colour of the map.
+/// `middle` are as good as nothing and have no colour of the map; where the map begins at the
+/// middle neither have those below it: between nodes, quadratic elements fall below what they have
+/// there.
 struct ColourScale {
   ColourMap map = sequential();
   double min = 0.0;

@@ -94,3 +94,11 @@ TEST_CASE("what is nearer than the floor to the middle has no colour of the map"
     CHECK(distance(*scale(value), scale.map(scale.place(value))) == 0.0);
   CHECK(scale.place(0.95) == Approx(0.25));
 }
+
+TEST_CASE("where the map begins at the middle, what is below it has no colour either",
+          "[unit][drawing]") {
+  const lv::drawing::ColourScale scale{.min = 0.0, .max = 1.0, .floor = 0.005};
+  for (const double value : {-0.03, 0.0, 0.004})
+    CHECK(distance(*scale(value), lv::drawing::uncoloured) == 0.0);
+  CHECK(distance(*scale(0.006), scale.map(0.006)) == 0.0);
+}

@@ -5,6 +5,7 @@
 #include "support/tangent_checks.hpp"
 #include <catch2/catch.hpp>
 
+#include <type_traits>
 #include <vector>
 
 namespace {
@@ -54,12 +55,14 @@ Mat3 rate(const Mat3& F) {
 
 TEST_CASE("the sum of stresses is the derivative of the sum of energies, infarct and all",
           "[unit][material]") {
-  for_point_laws(ActiveForm::second_piola, [](const auto& law) {
-    test::check_stress_is_derivative(
-        [&](const Mat3& F) {
-          return law.stress(F, determinant(F), rising_tension(F).value, extent);
-        },
-        [&](const Mat3& F) { return law.energy(F, extent) + (1.0 - extent) * potential(F); });
+  for_point_laws(ActiveForm::second_piola, []<class Law>(const material::PointLaw<Law>& law) {
+    if constexpr (!std::is_same_v<Law,
+                                  material::HolzapfelOgden>)  // its stress has no energy (2.15)
+      test::check_stress_is_derivative(
+          [&](const Mat3& F) {
+            return law.stress(F, determinant(F), rising_tension(F).value, extent);
+          },
+          [&](const Mat3& F) { return law.energy(F, extent) + (1.0 - extent) * potential(F); });
   });
 }
 
