@@ -57,7 +57,7 @@ TEST_CASE("the sum of stresses is the derivative of the sum of energies, infarct
           "[unit][material]") {
   for_point_laws(ActiveForm::second_piola, []<class Law>(const material::PointLaw<Law>& law) {
     if constexpr (!std::is_same_v<Law,
-                                  material::HolzapfelOgden>)  // its stress has no energy (2.15)
+                                  material::HolzapfelOgden>)  // (2.18) derives from no energy
       test::check_stress_is_derivative(
           [&](const Mat3& F) {
             return law.stress(F, determinant(F), rising_tension(F).value, extent);
