@@ -9,8 +9,8 @@
 namespace lv::circulation {
 namespace {
 
-constexpr double well_below_beats = 1e-5;  // change of the last beat of a stand-in
-constexpr int most_beats = 300;
+constexpr double rounding = 1e-6;  // of a state: what is left between two rows of beats
+constexpr int most_beats = 200;
 
 /// The measures of a ventricle that was filled and has ejected.
 bool has_beaten(const BeatMeasures& m) {
@@ -18,25 +18,44 @@ bool has_beaten(const BeatMeasures& m) {
          std::isfinite(m.end_diastolic_pressure) && m.end_diastolic_pressure > 0.0;
 }
 
+/// The states after a beat of the stand-in.
+std::vector<double> after_beat(CircuitParameters p, const StandIn& ventricle,
+                               const std::vector<double>& states) {
+  p.start = start_of(states);
+  return run_alone(p, ventricle).states;
+}
+
+/// Nothing where the two rows do not come together.
+std::optional<std::vector<double>> newton_step(const CircuitParameters& p, const StandIn& ventricle,
+                                               std::vector<double> behind,
+                                               std::vector<double> ahead) {
+  std::vector<double> limit = behind;
+  for (int n = 0; n < most_beats; ++n) {
+    for (std::size_t i = 0; i < limit.size(); ++i)
+      limit[i] += ahead[i] - behind[i];
+    if (largest_change(behind, ahead) < rounding)
+      return limit;
+    behind = after_beat(p, ventricle, behind);
+    ahead = after_beat(p, ventricle, ahead);
+  }
+  return {};
+}
+
 }  // namespace
 
 std::optional<std::vector<double>> foretold_limit(const CircuitParameters& p, double step,
-                                                  std::span<const double> states,
-                                                  std::span<const Sample> beat,
-                                                  const BeatMeasures& measures) {
-  if (!has_beaten(measures))
+                                                  const BeatenStates& beaten) {
+  if (!has_beaten(beaten.measures))
     return {};
   CircuitParameters alone = p;
-  alone.start = start_of(states);
   alone.closed_loop.blood = 0.0;  // the states have it
   alone.step = step;
-  alone.beats = most_beats;
-  alone.tolerance = well_below_beats;
-  const StandIn ventricle(beat, measures.end_diastolic_volume, {measures.end_diastolic_pressure});
+  alone.beats = 1;
+  const StandIn ventricle(beaten.beat, beaten.measures.end_diastolic_volume,
+                          {beaten.measures.end_diastolic_pressure});
   try {
-    CycleAlone end = run_alone(alone, ventricle);
-    const bool is_cycle = end.cycle.is_limit && has_beaten(end.cycle.beats.back());
-    return is_cycle ? std::optional(std::move(end.states)) : std::nullopt;
+    return newton_step(alone, ventricle, {beaten.before.begin(), beaten.before.end()},
+                       {beaten.after.begin(), beaten.after.end()});
   } catch (const RunError&) {
     return {};  // a step of it has no solution: beats go on as they are
   }

@@ -8,14 +8,25 @@
 
 namespace lv::circulation {
 
-/// The states of a circuit where a beat of the limit cycle begins, if its ventricle goes on beating
-/// as it did in the beat that has led to `states`: a circulation with a StandIn in its place comes
-/// there at once, where a closed loop's vessels take tens of beats. Nothing where the ventricle did
-/// not beat or no such cycle is found. p.step, p.start, p.beats and p.tolerance do not count.
+/// A circuit's states where a ventricle's beat began and where it ended, and what it showed
+/// between.
+struct BeatenStates {
+  std::span<const double> before, after;
+  std::span<const Sample> beat;
+  const BeatMeasures& measures;
+};
+
+/// The states where a beat of the limit cycle begins to which the ventricle would come: Newton's
+/// method for y = W(y) of its beats W, with the slopes of a StandIn's beats S,
+///
+///   y + (I - S')^-1 (W(y) - y) = y + sum_n [S^n(W(y)) - S^n(y)],
+///
+/// the whole way where the stand-in beats as the ventricle does, and nothing where W(y) = y,
+/// whatever the stand-in does. A closed loop's vessels take tens of beats there. Nothing where the
+/// ventricle did not beat or no such cycle is found. p.step, p.start, p.beats and p.tolerance do
+/// not count.
 [[nodiscard]] std::optional<std::vector<double>> foretold_limit(const CircuitParameters& p,
                                                                 double step,
-                                                                std::span<const double> states,
-                                                                std::span<const Sample> beat,
-                                                                const BeatMeasures& measures);
+                                                                const BeatenStates& beaten);
 
 }  // namespace lv::circulation

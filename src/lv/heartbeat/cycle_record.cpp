@@ -186,8 +186,9 @@ void CycleRecord::leap() {
   if (!is_loop || course_.cycle.tolerance == 0.0)
     return;
   const auto limit = circulation::foretold_limit(
-      course_.circuit, course_.cycle.step, circuit_.states(),
-      std::span(cycle_.samples).subspan(begins_.back()), cycle_.beats.back());
+      course_.circuit, course_.cycle.step,
+      {states_before_, circuit_.states(), std::span(cycle_.samples).subspan(begins_.back()),
+       cycle_.beats.back()});
   if (!limit)
     return;
   circuit_.leap_to(*limit);

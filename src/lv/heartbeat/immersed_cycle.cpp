@@ -42,6 +42,14 @@ Phase filling_to(double pressure, Protocol protocol) {
   return phases(protocol).front();
 }
 
+/// The steps of a wall in blood are its own; those of a stand-in for it are the other engine's.
+CycleCourse course_of(const BeatSetup& setup, const circulation::CircuitParameters& circuit) {
+  CycleCourse course{setup.protocol.calcium, circuit, setup.protocol.cycle,
+                     setup.output.frame_interval};
+  course.cycle.step = CycleParameters{}.step;
+  return course;
+}
+
 class ImmersedCycleRun {
  public:
   ImmersedCycleRun(const BeatSetup& setup, const circulation::CircuitParameters& circuit,
@@ -51,8 +59,7 @@ class ImmersedCycleRun {
         observers_(observers),
         model_(setup.mesh, setup.heart, setup.model),
         steps_(setup.control, model_, setup.model.blood.density),
-        record_(
-            {setup.protocol.calcium, circuit, setup.protocol.cycle, setup.output.frame_interval}),
+        record_(course_of(setup, circuit)),
         checkpoint_timer_(setup.output.checkpoint_interval) {}
 
   Beat run();

@@ -94,12 +94,14 @@ TEST_CASE("a circuit that leaps keeps its blood and the ventricle's volume",
 TEST_CASE("the limit cycle is foretold from one beat that is far from it", "[unit][circulation]") {
   CircuitParameters p = published_loop();
   p.start.p_ven_sys *= 1.4;  // where the blood takes long to come from
+  const std::vector<double> begin = states_at_end(p, 0);
   const std::vector<double> first = states_at_end(p, 1);
   const std::vector<double> limit = states_at_end(p, 60);
   CircuitParameters one_beat = p;
   one_beat.beats = 1;
   const Cycle beat = run_alone(one_beat);
-  const auto foretold = foretold_limit(p, p.step, first, samples_of(beat, 0), beat.beats.back());
+  const auto foretold =
+      foretold_limit(p, p.step, {begin, first, samples_of(beat, 0), beat.beats.back()});
   REQUIRE(foretold);
   const auto distance = [&](const std::vector<double>& y, int state) {
     return std::abs(y[static_cast<std::size_t>(state)] / limit[static_cast<std::size_t>(state)] -
@@ -113,5 +115,10 @@ TEST_CASE("the limit cycle is foretold from one beat that is far from it", "[uni
   }
   BeatMeasures none;
   none.end_diastolic_volume = std::nan("");
-  CHECK_FALSE(foretold_limit(p, p.step, first, samples_of(beat, 0), none));
+  CHECK_FALSE(foretold_limit(p, p.step, {begin, first, samples_of(beat, 0), none}));
+  // a ventricle that is in its limit cycle stays there, whatever its stand-in would do
+  const auto stays =
+      foretold_limit(p, p.step, {first, first, samples_of(beat, 0), beat.beats.back()});
+  REQUIRE(stays);
+  CHECK(*stays == first);
 }
