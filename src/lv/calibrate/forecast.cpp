@@ -1,11 +1,12 @@
 #include "lv/calibrate/forecast.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/median.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
-#include <numeric>
 
 namespace lv::calibrate {
 namespace {
@@ -18,10 +19,13 @@ constexpr double power_of_nodes = 1.3;      // with which the time of an equilib
 /// What equilibria usually take, in firsts of muscle at rest, in the order of Sought and then the
 /// firsts; of walls that are free of stress, and of those that are unloaded.
 constexpr std::array<std::array<double, 6>, 2> usual{
-    {{0.10, 0.07, 0.09, 0.075, 1.0, 1.6}, {0.60, 0.15, 0.60, 0.20, 1.0, 1.0}}};
+    {{0.10, 0.07, 0.09, 0.075, 1.0, 1.6}, {0.50, 0.10, 0.50, 0.06, 1.0, 1.3}}};
 
-double mean(const std::deque<double>& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+/// Of an even number the lower of the two: what is seldom and long must not tell the rest.
+double lower_median(std::vector<double> values) {
+  const auto middle = values.begin() + (std::ssize(values) - 1) / 2;
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
 }
 
 std::size_t first_of(std::size_t muscle) {
@@ -78,11 +82,8 @@ void FitForecast::record(Sought which, double seconds) {
     return;
   Seen& seen = seen_.back();
   const std::size_t muscle = k / 2;
-  auto& durations = seen.seconds[seen.has_muscle[muscle] ? k : first_of(muscle)];
+  seen.seconds[seen.has_muscle[muscle] ? k : first_of(muscle)].push_back(seconds);
   seen.has_muscle[muscle] = true;
-  durations.push_back(seconds);
-  if (durations.size() > remembered)
-    durations.pop_front();
 }
 
 Equilibria FitForecast::left_on(std::size_t mesh) const {
@@ -95,27 +96,30 @@ Equilibria FitForecast::left_on(std::size_t mesh) const {
   return all;
 }
 
-/// Of a wall that has begun or not.
-double FitForecast::cost(std::size_t mesh, std::size_t kind) const {
-  if (mesh < seen_.size() && !seen_[mesh].seconds[kind].empty())
-    return mean(seen_[mesh].seconds[kind]);
-  return reference(mesh, kind) * slower(mesh);
+/// Of a wall that has begun or not; what is expected counts as one of those that were seen.
+double FitForecast::cost(std::size_t mesh, std::size_t kind, std::size_t most) const {
+  std::vector<double> seconds{reference(mesh, kind) * slower(mesh)};
+  if (mesh < seen_.size()) {
+    const std::vector<double>& all = seen_[mesh].seconds[kind];
+    const auto last = static_cast<std::ptrdiff_t>(std::min(most, all.size()));
+    seconds.insert(seconds.end(), all.end() - last, all.end());
+  }
+  return lower_median(std::move(seconds));
 }
 
 double FitForecast::reference(std::size_t mesh, std::size_t kind) const {
-  return mesh > 0 ? cost(mesh - 1, kind) : usual[meshes_[0].is_loaded ? 1 : 0][kind];
+  constexpr auto all = std::numeric_limits<std::size_t>::max();
+  return mesh > 0 ? cost(mesh - 1, kind, all) : usual[meshes_[0].is_loaded ? 1 : 0][kind];
 }
 
+/// In the middle of the kinds that were seen.
 double FitForecast::slower(std::size_t mesh) const {
-  double here = 0.0;
-  double there = 0.0;
+  std::vector<double> ratios;
   for (std::size_t k = 0; mesh < seen_.size() && k < kinds; ++k)
-    if (const auto& seconds = seen_[mesh].seconds[k]; !seconds.empty()) {
-      here += mean(seconds);
-      there += reference(mesh, k);
-    }
-  if (here > 0.0)
-    return here / there;
+    if (const auto& seconds = seen_[mesh].seconds[k]; !seconds.empty())
+      ratios.push_back(lower_median(seconds) / reference(mesh, k));
+  if (!ratios.empty())
+    return 0.5 * (lower_median(ratios) + median(ratios));
   return mesh == 0 ? 0.0
                    : std::pow(static_cast<double>(meshes_[mesh].nodes) /
                                   static_cast<double>(meshes_[mesh - 1].nodes),
@@ -133,11 +137,12 @@ double FitForecast::seconds_left() const {
       double& again = left[2 * muscle + 1];
       const bool is_seen = mesh < seen_.size() && seen_[mesh].has_muscle[muscle];
       if (!is_seen && anew + again > 0.0) {
-        seconds += cost(mesh, first_of(muscle));
+        seconds += cost(mesh, first_of(muscle), remembered);
         double& fewer = anew > 0.0 ? anew : again;
         fewer = std::max(0.0, fewer - 1.0);
       }
-      seconds += anew * cost(mesh, 2 * muscle) + again * cost(mesh, 2 * muscle + 1);
+      seconds += anew * cost(mesh, 2 * muscle, remembered) +
+                 again * cost(mesh, 2 * muscle + 1, remembered);
     }
   }
   return is_known ? seconds : -1.0;

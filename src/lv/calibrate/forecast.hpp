@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstddef>
-#include <deque>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,10 +30,10 @@ struct FittedMesh {
 };
 
 /// How long a fit will still take, on all its walls: the equilibria that are left, each as long as
-/// the last ones of its kind took on this wall. What was not seen there yet takes what it took on
-/// the wall before, or usually takes, times what was slower or faster here so far; before anything
-/// was, times a power of the number of nodes. The first equilibrium of each muscle on a wall comes
-/// from afar and is a kind of its own.
+/// the last ones of its kind took in the middle on this wall. What was not seen there yet takes
+/// what it took on the wall before, or usually takes, times what was slower or faster here so far;
+/// before anything was, times a power of the number of nodes. The first equilibrium of each muscle
+/// on a wall comes from afar and is a kind of its own.
 class FitForecast {
  public:
   explicit FitForecast(std::vector<FittedMesh> meshes) : meshes_(std::move(meshes)) {}
@@ -58,11 +57,11 @@ class FitForecast {
  private:
   static constexpr std::size_t kinds = 6;  ///< Sought, and the first of each muscle
   struct Seen {
-    std::array<std::deque<double>, kinds> seconds;  ///< of the last ones
+    std::array<std::vector<double>, kinds> seconds;
     std::array<bool, 2> has_muscle{};
   };
   [[nodiscard]] Equilibria left_on(std::size_t mesh) const;
-  [[nodiscard]] double cost(std::size_t mesh, std::size_t kind) const;
+  [[nodiscard]] double cost(std::size_t mesh, std::size_t kind, std::size_t most) const;
   [[nodiscard]] double reference(std::size_t mesh, std::size_t kind) const;
   [[nodiscard]] double slower(std::size_t mesh) const;
 
