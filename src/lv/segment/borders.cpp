@@ -211,9 +211,10 @@ struct Work {
   double inside = 0.0;  ///< grey value of blood or, at the tip, of what is blood and muscle
 };
 
+constexpr double faintest = 1.2;  // blood beside muscle; a slice without either is left out later
+
 void find_middle(Work& work) {
-  constexpr int rounds = 2;         // of levels along the rays
-  constexpr double faintest = 1.2;  // blood beside muscle; a slice without either is left out later
+  constexpr int rounds = 2;  // of levels along the rays
   const Radii usual = work.levels.muscle;
   for (int round = 0; round <= rounds; ++round) {
     if (round > 0)
@@ -406,11 +407,13 @@ std::vector<double> relative_edge_widths(const image::Cine& cine, const std::vec
   constexpr double seen = 0.5;      // part of the rays with an edge
   const double spacing = image::spacing_of(cine);
   std::vector<double> all;
-  for (std::size_t s = 0; s < work.size(); ++s)
+  for (std::size_t s = 0; s < work.size(); ++s) {
+    Levels levels = work[s].levels;
+    levels.blood = std::max(work[s].inside, faintest * levels.muscle.maxCoeff());
     for (std::size_t t = 0; t < work[s].values.size(); ++t) {
       const double slope = slope_at(work, s, t, spacing);
       const Radii widths =
-          edge_widths(darkness(work[s].values[t], work[s].levels), work[s].middle[t], grid);
+          edge_widths(darkness(work[s].values[t], levels), work[s].middle[t], grid);
       if (slope > steepest || (widths > 0.0).cast<double>().mean() < seen)
         continue;
       const double sharp = sharp_width(cine.slices[s].frames[t].plane, grid, slope, spacing);
@@ -418,6 +421,7 @@ std::vector<double> relative_edge_widths(const image::Cine& cine, const std::vec
         if (width > 0.0)
           all.push_back(width / sharp);
     }
+  }
   return all;
 }
 
