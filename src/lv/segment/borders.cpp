@@ -164,38 +164,57 @@ std::vector<Radii> epicardium(const std::vector<Polar>& costs) {
   return lines;
 }
 
-/// Where the grey value has fallen by a part of the way to muscle, inside the middle of the wall.
-Radii endocardium(const Polar& values, const Radii& outside, const Levels& levels, double fall,
-                  const Fixes& fixed = {}) {
-  const Polar cost = integral(darkness(values, levels) - fall) +
-                     wall_of_cost * (distance_from(outside) > -2.0).cast<double>();
-  return closed_path(cost, {.reach = 1, .stiffness = 0.2}, grid, fixed);
+/// How much a grey value speaks for muscle, -1 (blood) to a part of 1. Bright is blood; dark may be
+/// a papillary muscle or a trabecula, which belong to the cavity.
+Polar evidence_of_muscle(const Polar& values, const Levels& levels, double fall) {
+  constexpr double of_dark = 0.25;  // darkness in the cavity is not rare, brightness in the wall is
+  const Polar beyond = darkness(values, levels) - fall;
+  return (beyond > 0.0).select(of_dark / (1.0 - fall) * beyond, beyond / fall);
 }
 
-/// How much muscle lies within 4 mm outside a line, 0 to 1. Lung behind an atrium, whose grey value
-/// may have been learnt for muscle's, is too dark.
-Radii wall_behind(const Polar& values, const Radii& line, Levels levels) {
+/// Where the grey value has fallen by a part of the way to muscle, inside the middle of the wall:
+/// first behind papillary muscles, then where the grey value says it within a band round this.
+Radii endocardium(const Polar& values, const Radii& outside, const Levels& levels, double fall,
+                  const Fixes& fixed = {}) {
+  constexpr double band = 2.0;  // [mm]
+  constexpr PathRule rule{.reach = 1, .stiffness = 0.2};
+  const Polar within = wall_of_cost * (distance_from(outside) > -2.0).cast<double>();
+  const Polar exact = integral(darkness(values, levels) - fall) + within;
+  const Radii behind = closed_path(
+      0.5 * integral(evidence_of_muscle(values, levels, fall)) + within, rule, grid, fixed);
+  return closed_path(exact + forbid(distance_from(behind), -band, band), rule, grid, fixed);
+}
+
+/// How much muscle lies in a band of 3.5 mm outside a line, 0 to 1: next to it, or farther out by
+/// `lean`, since a wall that leans in a thick slice is half blood before it is muscle. Lung behind
+/// an atrium, whose grey value may have been learnt for muscle's, is too dark.
+Radii wall_behind(const Polar& values, const Radii& line, Levels levels, double lean = 0.0) {
   constexpr double darkest = 0.65;  // of the slice's level
   constexpr double brightest = 1.5;
   levels.muscle = levels.muscle.max(darkest * levels.muscle_of_slice)
                       .min(brightest * levels.muscle_of_slice)
                       .eval();
   const Polar away = distance_from(line);
-  const Polar here = (away > 0.5 && away < 4.0).cast<double>();
-  return ((1.0 - unlikeness(values, levels)) * here).rowwise().sum() /
-         here.rowwise().sum().max(1.0);
+  const Polar like = 1.0 - unlikeness(values, levels);
+  const auto in_band = [&](double begins) {
+    const Polar here = (away > begins && away < begins + 3.5).cast<double>();
+    return Radii((like * here).rowwise().sum() / here.rowwise().sum().max(1.0));
+  };
+  return in_band(0.5).max(in_band(0.5 + lean));
 }
 
 /// One slice while its borders are looked for.
 struct Work {
   std::vector<Polar> values;
-  std::vector<Radii> blood, middle, epi, endo, wall;
+  std::vector<Radii> blood, middle, epi, endo;
   Levels levels;
+  double inside = 0.0;  ///< grey value of blood or, at the tip, of what is blood and muscle
 };
 
+constexpr double faintest = 1.2;  // blood beside muscle; a slice without either is left out later
+
 void find_middle(Work& work) {
-  constexpr int rounds = 2;         // of levels along the rays
-  constexpr double faintest = 1.2;  // blood beside muscle; a slice without either is left out later
+  constexpr int rounds = 2;  // of levels along the rays
   const Radii usual = work.levels.muscle;
   for (int round = 0; round <= rounds; ++round) {
     if (round > 0)
@@ -215,8 +234,40 @@ void find_borders(Work& work, double fall) {
   for (std::size_t t = 0; t < work.values.size(); ++t) {
     const Radii outside = harmonics_of(work.epi[t], epi_harmonics).min(work.middle[t] + 3.0);
     work.endo.push_back(endocardium(work.values[t], outside, work.levels, fall));
-    work.wall.push_back(wall_behind(work.values[t], work.endo[t], work.levels));
   }
+}
+
+/// How thick the wall is along a ray in a frame [mm]: the median of a slice and those beside it.
+Radii usual_thickness(const std::vector<Work>& work, std::size_t s, std::size_t t) {
+  const auto at = [&](std::size_t slice) { return work[slice].epi[t] - work[slice].endo[t]; };
+  const Radii before = at(s - 1);
+  const Radii own = at(s);
+  const Radii behind = at(s + 1);
+  Radii usual(own.size());
+  for (Eigen::Index i = 0; i < own.size(); ++i)
+    usual(i) = median({before(i), own(i), behind(i)});
+  return usual;
+}
+
+/// The epicardium of a frame of a slice once more, close to where a wall as thick as in the slices
+/// beside it ends.
+Radii epicardium_beside(const std::vector<Work>& work, std::size_t s, std::size_t t) {
+  const Work& own = work[s];
+  const Radii expected = harmonics_of(own.endo[t] + usual_thickness(work, s, t), epi_harmonics);
+  return closed_path(epicardial_cost(own.values[t], own.middle[t], own.levels) + pull_to(expected),
+                     epicardial_rule, grid);
+}
+
+/// The same of all slices but the first and the last.
+void steady_over_slices(std::vector<Work>& work) {
+  std::vector<std::vector<Radii>> lines(work.size());
+  for (std::size_t s = 1; s + 1 < work.size(); ++s) {
+    interrupt::check();
+    for (std::size_t t = 0; t < work[s].values.size(); ++t)
+      lines[s].push_back(epicardium_beside(work, s, t));
+  }
+  for (std::size_t s = 1; s + 1 < work.size(); ++s)
+    work[s].epi = std::move(lines[s]);
 }
 
 /// The shape of a line, as large as another where that one can be trusted.
@@ -244,14 +295,25 @@ BorderFit endocardial_fit(const Radii& seen, const Radii& sees, const Radii& exp
           .within = 0.1};
 }
 
-/// The endocardium of a slice as it is drawn; `inner` is the slice before it, or null.
-std::vector<Radii> drawn_endocardium(const Work& work, const SliceBorders* inner) {
+/// Along which rays muscle is seen outside the endocardium of a frame, 1 or 0. On its way to the
+/// larger slice before, half way to it, the wall leans.
+Radii seen_wall(const Work& work, std::size_t t, const SliceBorders* inner) {
+  const Radii& seen = work.endo[t];
+  const double larger = inner == nullptr ? 0.0 : inner->frames[t].endo.mean() - seen.mean();
+  const Radii wall = wall_behind(work.values[t], seen, work.levels, 0.5 * std::max(0.0, larger));
+  return (wall > walled).cast<double>();
+}
+
+/// The endocardium of a slice as it is drawn; `sees`: see seen_wall; `inner` is the slice before
+/// it, or null.
+std::vector<Radii> drawn_endocardium(const Work& work, const std::vector<Radii>& sees,
+                                     const SliceBorders* inner) {
   std::vector<Radii> lines;
   for (std::size_t t = 0; t < work.endo.size(); ++t) {
-    const Radii sees = (work.wall[t] > walled).cast<double>();
     const Radii& seen = work.endo[t];
-    const Radii expected = inner == nullptr ? seen : scaled_to(inner->frames[t].endo, seen, sees);
-    lines.push_back(convex(fit_border(endocardial_fit(seen, sees, expected))));
+    const Radii shape = inner == nullptr ? seen : scaled_to(inner->frames[t].endo, seen, sees[t]);
+    const Radii expected = closed_straight(shape, seen, sees[t]);
+    lines.push_back(convex(fit_border(endocardial_fit(seen, sees[t], expected))));
   }
   return steady_in_time(lines);
 }
@@ -261,12 +323,15 @@ double part_within(const Radii& a, const Radii& b, double most) {
 }
 
 SliceBorders finish(const Work& work, const Pixel& centre, const SliceBorders* inner) {
-  const std::vector<Radii> endo = drawn_endocardium(work, inner);
+  std::vector<Radii> walls;
+  for (std::size_t t = 0; t < work.endo.size(); ++t)
+    walls.push_back(seen_wall(work, t, inner));
+  const std::vector<Radii> endo = drawn_endocardium(work, walls, inner);
   const double muscle = work.levels.muscle.mean();
-  SliceBorders slice{centre, (work.levels.blood - muscle) / muscle, {}};
+  SliceBorders slice{centre, (work.inside - muscle) / muscle, {}};
   for (std::size_t t = 0; t < endo.size(); ++t) {
     const Radii smooth = harmonics_of(work.epi[t], epi_harmonics);
-    const Radii sees = (work.wall[t] > walled).cast<double>();
+    const Radii& sees = walls[t];
     slice.frames.push_back(
         {.endo = endo[t],
          .epi = smooth.max(endo[t] + thinnest),
@@ -282,9 +347,20 @@ Work begin(const image::CineSlice& slice, const Centre& centre) {
   for (const image::Picture& frame : slice.frames)
     work.values.push_back(sample(frame, centre.at, grid));
   work.levels = guess_levels(work.values, centre.radius, grid);
+  work.inside = work.levels.blood;
   for (const Polar& values : work.values)
     work.blood.push_back(blood_edge(values, work.levels));
   return work;
+}
+
+/// Finds the blood's edge again where its grey value is another one.
+void find_blood(Work& work, double level) {
+  if (level == work.levels.blood)
+    return;
+  work.levels.muscle *= level / work.levels.blood;
+  work.levels.blood = level;
+  for (std::size_t t = 0; t < work.values.size(); ++t)
+    work.blood[t] = blood_edge(work.values[t], work.levels);
 }
 
 /// Learns the muscle's level along each ray from that of the slice.
@@ -305,8 +381,11 @@ std::vector<Work> begin_all(const image::Cine& cine, const Heart& heart) {
   for (const Work& work : all)
     blood.push_back(work.levels.blood);
   const std::vector<double> muscle = muscle_levels(outside, blood);
-  for (std::size_t s = 0; s < all.size(); ++s)
+  const std::vector<double> whole = whole_blood(blood, muscle);
+  for (std::size_t s = 0; s < all.size(); ++s) {
+    find_blood(all[s], whole[s]);
     learn_round(all[s], muscle[s]);
+  }
   return all;
 }
 
@@ -328,11 +407,13 @@ std::vector<double> relative_edge_widths(const image::Cine& cine, const std::vec
   constexpr double seen = 0.5;      // part of the rays with an edge
   const double spacing = image::spacing_of(cine);
   std::vector<double> all;
-  for (std::size_t s = 0; s < work.size(); ++s)
+  for (std::size_t s = 0; s < work.size(); ++s) {
+    Levels levels = work[s].levels;
+    levels.blood = std::max(work[s].inside, faintest * levels.muscle.maxCoeff());
     for (std::size_t t = 0; t < work[s].values.size(); ++t) {
       const double slope = slope_at(work, s, t, spacing);
       const Radii widths =
-          edge_widths(darkness(work[s].values[t], work[s].levels), work[s].middle[t], grid);
+          edge_widths(darkness(work[s].values[t], levels), work[s].middle[t], grid);
       if (slope > steepest || (widths > 0.0).cast<double>().mean() < seen)
         continue;
       const double sharp = sharp_width(cine.slices[s].frames[t].plane, grid, slope, spacing);
@@ -340,6 +421,7 @@ std::vector<double> relative_edge_widths(const image::Cine& cine, const std::vec
         if (width > 0.0)
           all.push_back(width / sharp);
     }
+  }
   return all;
 }
 
@@ -466,6 +548,7 @@ Drawn draw_borders(const image::Cine& cine, const Heart& heart, const std::optio
     interrupt::check();
     find_borders(slice, drawn.fall);
   }
+  steady_over_slices(work);
   drawn.slices.resize(work.size());
   const auto finish_slice = [&](std::size_t s, const SliceBorders* inner) {
     drawn.slices[s] = finish(work[s], heart.centres[s].at, inner);

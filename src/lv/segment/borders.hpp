@@ -38,13 +38,15 @@ struct Drawn {
 /// In polar pictures round the heart's centre four closed paths of least cost follow each other:
 /// the blood's edge; the middle of the wall, along which a band of 4 mm is most like muscle; from
 /// there outwards the epicardium, where what is like muscle ends at an edge, close to where
-/// neighbouring frames have it; inwards the endocardium, where `fall` of the way from blood to
-/// muscle is reached: 0.5 in the middle of an edge, more outside trabeculae. None: from how wide
-/// the study's edges are (see darkness_at_border).
+/// neighbouring frames have it and walls as thick as in neighbouring slices end; inwards the
+/// endocardium, behind papillary muscles, where `fall` of the way from blood to muscle is reached:
+/// 0.5 in the middle of an edge, more outside trabeculae. None: from how wide the study's edges are
+/// (see darkness_at_border).
 ///
 /// The endocardium is then a sum of three harmonics that papillary muscles hardly push inwards, and
 /// its convex hull. Where no muscle is seen behind it, as in the outflow tract, it takes the shape
-/// of the next slice towards the middle of the heart.
+/// of the next slice towards the middle of the heart, but goes no farther out than straight from
+/// one end of the muscle to the other.
 [[nodiscard]] Drawn draw_borders(const image::Cine& cine, const Heart& heart,
                                  const std::optional<double>& fall);
 

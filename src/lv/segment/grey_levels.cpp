@@ -90,6 +90,19 @@ std::vector<double> muscle_levels(const std::vector<std::vector<double>>& outsid
   return levels;
 }
 
+std::vector<double> whole_blood(const std::vector<double>& inside,
+                                const std::vector<double>& muscle) {
+  std::vector<double> ratios;
+  for (std::size_t s = 0; s < inside.size(); ++s)
+    ratios.push_back(inside[s] / muscle[s]);
+  const auto quarter = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 4);
+  std::nth_element(ratios.begin(), quarter, ratios.end());
+  std::vector<double> whole;
+  for (std::size_t s = 0; s < inside.size(); ++s)
+    whole.push_back(std::max(inside[s], *quarter * muscle[s]));
+  return whole;
+}
+
 Radii muscle_round(const std::vector<Polar>& frames, const std::vector<Radii>& blood,
                    double of_slice, const PolarGrid& grid) {
   constexpr double darkest = 0.3;  // of the slice's level

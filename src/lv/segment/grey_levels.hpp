@@ -29,6 +29,12 @@ struct Levels {
 [[nodiscard]] std::vector<double> muscle_levels(const std::vector<std::vector<double>>& outside,
                                                 const std::vector<double>& blood);
 
+/// The blood's grey value of each slice: that inside the cavity, but not less than the lower
+/// quartile of the study's ratios of blood to muscle makes of the slice's muscle. Where the tip
+/// ends in a slice, muscle makes all that is inside darker; coils change blood and muscle alike.
+[[nodiscard]] std::vector<double> whole_blood(const std::vector<double>& inside,
+                                              const std::vector<double>& muscle);
+
 /// The muscle's grey value along each ray before the wall is known: the most frequent one outside
 /// the blood within 30 degrees, over all frames, between 0.4 and 1.6 of the slice's own, which
 /// stands where there is none; of these the mean and two harmonics, since the coils' sensitivity is

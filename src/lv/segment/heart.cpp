@@ -137,9 +137,10 @@ std::vector<Place> squares(const CineSlice& slice, std::size_t number) {
   return places;
 }
 
-/// The mean motion of the squares within 25 mm.
+/// The mean motion of the squares as near as a border is looked for: the middle of a large
+/// ventricle is still, and the border that moves far away.
 double motion_around(const Place& place, const std::vector<Place>& squares, const Plane& plane) {
-  constexpr double reach = 25.0;
+  constexpr double reach = rough_grid.first + rough_grid.step * (rough_grid.radii - 1);
   double sum = 0.0;
   int count = 0;
   for (const Place& other : squares) {

@@ -110,12 +110,14 @@ void drop_atrium(const std::vector<SliceBorders>& borders, std::vector<std::size
   slices.erase(slices.begin(), slices.begin() + static_cast<std::ptrdiff_t>(drop));
 }
 
-/// The median over five frames of the part with muscle.
+/// The median of the part with muscle over the frames within a tenth of the cycle: a base that
+/// comes and goes does so in less.
 double steady_wall(const SliceBorders& slice, std::size_t frame) {
   const std::size_t n = slice.frames.size();
+  const std::size_t reach = std::max<std::size_t>(1, n / 10);
   std::vector<double> near;
-  for (std::size_t d = 0; d < fewest_frames; ++d)
-    near.push_back(slice.frames[(frame + n + d - 2) % n].wall_part);
+  for (std::size_t d = 0; d <= 2 * reach; ++d)
+    near.push_back(slice.frames[(frame + n + d - reach) % n].wall_part);
   return median(std::move(near));
 }
 

@@ -45,6 +45,27 @@ Radii harmonics_of(const Radii& radii, int harmonics) {
   return fit_border({radii, one, radii, Radii::Zero(radii.size()), harmonics, 1.0});
 }
 
+double chord(double r1, double r2, double angle, double whole) {
+  return r1 * r2 * std::sin(whole) / (r1 * std::sin(angle) + r2 * std::sin(whole - angle));
+}
+
+Radii closed_straight(const Radii& line, const Radii& seen, const Radii& sees) {
+  const Eigen::Index n = line.size();
+  Radii closed = line;
+  for (Eigen::Index a = 0; a < n; ++a) {
+    Eigen::Index span = 1;
+    while (span < n && sees((a + span) % n) < 0.5)
+      ++span;
+    if (sees(a) < 0.5 || 2 * span >= n)
+      continue;
+    for (Eigen::Index k = 1; k < span; ++k) {
+      double& r = closed((a + k) % n);
+      r = std::min(r, chord(seen(a), seen((a + span) % n), ray_angle(k, n), ray_angle(span, n)));
+    }
+  }
+  return closed;
+}
+
 Radii convex(const Radii& radii) {
   const Eigen::Index n = radii.size();
   Radii hull = radii;

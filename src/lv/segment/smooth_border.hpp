@@ -26,6 +26,15 @@ struct BorderFit {
 /// The sum of as many harmonics nearest to a line.
 [[nodiscard]] Radii harmonics_of(const Radii& radii, int harmonics);
 
+/// The radius, `angle` from the first, of the straight line between two points `whole` apart in
+/// angle, less than half a turn [rad].
+[[nodiscard]] double chord(double r1, double r2, double angle, double whole);
+
+/// A line drawn in to the straight line from one end of the muscle to the other where no muscle is
+/// seen, over less than half a turn: so observers close the outflow tract. `seen` is where the
+/// border was found, `sees` 1 on rays on which muscle is seen behind it and 0 elsewhere.
+[[nodiscard]] Radii closed_straight(const Radii& line, const Radii& seen, const Radii& sees);
+
 /// The convex hull of a line round the centre, on the same rays.
 [[nodiscard]] Radii convex(const Radii& radii);
 

@@ -1,0 +1,17 @@
+#include "lv/segment/grey_levels.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <vector>
+
+using namespace lv;
+
+TEST_CASE("the blood of a slice at the tip is as bright as the study's", "[segment]") {
+  // three times as bright as muscle, but for the tip, which holds muscle too
+  const std::vector<double> whole = segment::whole_blood({900.0, 900.0, 600.0, 450.0, 960.0},
+                                                         {300.0, 300.0, 200.0, 250.0, 300.0});
+  CHECK(whole.at(0) == Approx(900.0));
+  CHECK(whole.at(2) == Approx(600.0));  // farther from the coil: muscle is darker there as well
+  CHECK(whole.at(3) == Approx(750.0));
+  CHECK(whole.at(4) == Approx(960.0));
+}
