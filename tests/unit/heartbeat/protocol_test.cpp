@@ -103,7 +103,7 @@ TEST_CASE("a phase ends at exactly the pressure that was asked for", "[unit][hea
 TEST_CASE("a moment's name is written as readers know it", "[unit][heartbeat]") {
   CHECK(heartbeat::title(heartbeat::end_diastole) == "end-diastole");
   CHECK(heartbeat::title(heartbeat::end_systole) == "end-systole");
-  CHECK(heartbeat::title("mitral_valve_opening") == "mitral valve opening");
+  CHECK(heartbeat::title(heartbeat::mitral_opening) == "mitral opening");
 }
 
 TEST_CASE("the loads are final when the slower of pressure and calcium has arrived",
