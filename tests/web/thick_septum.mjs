@@ -62,6 +62,7 @@ const series = (file) => `<VTKFile type="Collection"><Collection><DataSet timest
 export function thickSeptum(work, degrees) {
   const beat = join(work, "03_beat");
   for (const folder of ["02_mesh", "03_beat"]) mkdirSync(join(work, folder), { recursive: true });
+  writeFileSync(join(work, "02_mesh/stage.json"), JSON.stringify({ ingredients: { program: "of a test" } }));
   writeArchive(join(work, "02_mesh/facts.bin"), { septum_angle: [(degrees * Math.PI) / 180], order: [1], is_immersed: [1] });
   writeFileSync(join(beat, "wall.vtu"), unstructured(wallPoints((degrees * Math.PI) / 180), wallCells()));
   writeFileSync(join(beat, "blood.vti"), image());
