@@ -40,8 +40,7 @@ void Circuit::start_around(double volume) {
         part.history.step = 0.0;
       },
       kind_);
-  if (asked_blood_ > 0.0)
-    fill_to(asked_blood_);
+  fill_as_asked();
 }
 
 void Circuit::start_from(std::span<const double> states) {
@@ -52,8 +51,7 @@ void Circuit::start_from(std::span<const double> states) {
         part.history.step = 0.0;
       },
       kind_);
-  if (asked_blood_ > 0.0)
-    fill_to(asked_blood_);
+  fill_as_asked();
 }
 
 void Circuit::scale_arterial_pressure(double factor) {
@@ -64,6 +62,11 @@ void Circuit::scale_arterial_pressure(double factor) {
         part.history.step = 0.0;
       },
       kind_);
+}
+
+void Circuit::fill_as_asked() {
+  if (asked_blood_ > 0.0)
+    fill_to(asked_blood_);
 }
 
 void Circuit::fill_to(double blood) {
@@ -139,11 +142,12 @@ double blood_of(const CircuitParameters& parameters, const Signals& s) {
   return loop.blood({s.volume, o[0], o[1], o[2], s.aortic_pressure, o[5], o[6], o[7]});
 }
 
-Start start_of(std::span<const double> y) {
-  if (y.size() == Windkessel::size)
-    return {.V_lv = y[0], .p_ar_sys = y[1]};
-  LV_CHECK(y.size() == ClosedLoop::size);
-  return {y[0], y[1], y[2], y[3], y[4], y[5], y[6], y[7], y[8], y[9], y[10], y[11]};
+Start start_of(std::span<const double> states) {
+  if (states.size() == Windkessel::size)
+    return {.V_lv = states[0], .p_ar_sys = states[1]};
+  LV_CHECK(states.size() == ClosedLoop::size);
+  return {states[0], states[1], states[2], states[3], states[4],  states[5],
+          states[6], states[7], states[8], states[9], states[10], states[11]};
 }
 
 void Circuit::set_numbers(std::span<const double> numbers) {

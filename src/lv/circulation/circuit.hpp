@@ -76,6 +76,7 @@ class Circuit {
   };
   using Kinds = std::variant<Part<Windkessel>, Part<ClosedLoop>>;
   static Kinds kind_of(const CircuitParameters& parameters);
+  void fill_as_asked();
 
   Kinds kind_;
   double asked_blood_ = 0.0;  ///< of a closed loop [mm^3]; 0: what its start holds

@@ -56,7 +56,7 @@ std::optional<std::vector<double>> foretold_limit(const CircuitParameters& p, do
   try {
     return newton_step(alone, ventricle, {beaten.before.begin(), beaten.before.end()},
                        {beaten.after.begin(), beaten.after.end()});
-  } catch (const RunError&) {
+  } catch (const NoSolution&) {
     return {};  // a step of it has no solution: beats go on as they are
   }
 }

@@ -340,7 +340,7 @@ void CycleRun::stop_early(const std::string& why) {
     record_.cut_short();
     return;
   }
-  const RunError error(
+  const NoSolution error(
       what,
       "Look at cycle.csv up to there: a circuit that empties the heart, or overfills it, has other "
       "resistances, pressures or contractility than meant; a thin or scarred wall may need what "

@@ -196,7 +196,7 @@ void CycleRecord::leap() {
   ++cycle_.leaps;
 }
 
-void CycleRecord::stop_early(const RunError& error, const std::string& words,
+void CycleRecord::stop_early(const NoSolution& error, const std::string& words,
                              const Observers& observers) {
   if (beat_ == 0) {
     show_progress(observers);
@@ -239,7 +239,7 @@ Beat CycleRecord::result(const Observers& observers) {
   whole_.retries = run_.beat.retries;
   whole_.wall_clock = run_.beat.wall_clock;
   if (whole_.find(end_systole) == nullptr || whole_.find(end_diastole) == nullptr)
-    throw RunError(
+    throw NoSolution(
         "The aortic valve did not open and close in the last beat, which has no "
         "end-systole",
         "Look at cycle.csv: the ventricle does not reach the aorta's pressure, or does "

@@ -114,7 +114,7 @@ class CycleRecord {
   void end_beat();
   /// The beat underway finds no solution: what whole ones were reached stays, and a warning says
   /// why in `words`. Throws `error` where there is none.
-  void stop_early(const RunError& error, const std::string& words, const Observers& observers);
+  void stop_early(const NoSolution& error, const std::string& words, const Observers& observers);
   /// Drops the beat underway and ends the beats, without a word.
   void cut_short();
   void gave_way() { ++cycle_.gave_way; }
@@ -134,8 +134,8 @@ class CycleRecord {
   /// Tells of all beats so far.
   void show_progress(const Observers& observers);
 
-  /// The last whole beat and all heartbeats. Throws RunError when the aortic valve did not open and
-  /// close in it.
+  /// The last whole beat and all heartbeats. Throws NoSolution when the aortic valve did not open
+  /// and close in it.
   [[nodiscard]] Beat result(const Observers& observers);
 
   void store(Archive& archive) const;
@@ -144,6 +144,8 @@ class CycleRecord {
   void load(Archive& archive, std::size_t nodes);
 
  private:
+  void leap();
+
   CycleCourse course_;
   circulation::Circuit circuit_;
   circulation::Cycle cycle_;
@@ -158,8 +160,6 @@ class CycleRecord {
   double change_before_ =
       std::numeric_limits<double>::quiet_NaN();  ///< of the beat before the last
   double blood_at_start_ = 0.0;
-
-  void leap();
 };
 
 /// Adds what a heartbeat's work was to an archive, and takes it out again.

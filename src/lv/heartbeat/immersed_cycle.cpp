@@ -238,7 +238,7 @@ void ImmersedCycleRun::take_back(const std::string& where, const std::string& wh
               failed.time - state().time, steps_.size(state()));
     return;
   }
-  const RunError unstable = steps_.unstable(where, why);
+  const NoSolution unstable = steps_.unstable(where, why);
   record_.stop_early(unstable, unstable.what(), observers_);
 }
 

@@ -21,7 +21,7 @@ std::string ImmersedSteps::failure(const immersed::StepReport& report, RunState&
   if (run.beat.steps % 10 == 0)
     run.largest_velocity =
         fluid::motion(model_.velocity(), model_.grid(), density_).largest_velocity;
-  const std::string trouble = what_is_wrong(report, run);
+  std::string trouble = what_is_wrong(report, run);
   if (!trouble.empty())
     return trouble;
   if (run.halvings > 0 && ++run.good_steps >= run.patience) {
@@ -66,7 +66,7 @@ bool ImmersedSteps::gives_up(RunState& run) const {
   return true;
 }
 
-RunError ImmersedSteps::unstable(const std::string& where, const std::string& why) const {
+NoSolution ImmersedSteps::unstable(const std::string& where, const std::string& why) const {
   return {fmt::format("The run became unstable at {}: {}, even with steps of {:.2g} s", where, why,
                       std::ldexp(control_.longest, -control_.halvings)),
           "Look at the last frame: a wall at the side of the box needs a larger box.size, one that "

@@ -31,7 +31,7 @@ class ImmersedSteps {
   [[nodiscard]] bool gives_up(RunState& run) const;
 
   /// What to tell of that: `where` and why the last step failed.
-  [[nodiscard]] RunError unstable(const std::string& where, const std::string& why) const;
+  [[nodiscard]] NoSolution unstable(const std::string& where, const std::string& why) const;
 
  private:
   [[nodiscard]] std::string what_is_wrong(const immersed::StepReport& report, RunState& run) const;

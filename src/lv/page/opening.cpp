@@ -1,7 +1,6 @@
 #include "lv/page/opening.hpp"
 
 #include "lv/analysis/quantities.hpp"
-#include "lv/base/check.hpp"
 #include "lv/base/units.hpp"
 #include "lv/drawing/canvas.hpp"
 #include "lv/drawing/wall_surface.hpp"
@@ -70,11 +69,7 @@ std::optional<drawing::ColourScale> opening_scale(const std::filesystem::path& w
   const auto regions = report::table_of(work, "results", "regions.csv");
   if (!regions)
     return {};
-  const auto all = analysis::quantities();
-  const auto quantity = std::find_if(all.begin(), all.end(), [](const analysis::Quantity& q) {
-    return std::string(q.name) == opening_quantity;
-  });
-  LV_CHECK(quantity != all.end());
+  const analysis::Quantity& quantity = analysis::quantity(opening_quantity);
   const auto scheme = regions->words("scheme");
   const auto name = regions->words("quantity");
   const auto low = regions->numbers("p1");
@@ -84,11 +79,11 @@ std::optional<drawing::ColourScale> opening_scale(const std::filesystem::path& w
     if (scheme[i] == "whole" && name[i] == opening_quantity)
       for (const double value : {low[i], high[i]})
         if (std::isfinite(value))
-          most = std::max(most, std::abs(value - quantity->middle));
+          most = std::max(most, std::abs(value - quantity.middle));
   if (most <= 0.0)
     return {};
-  return drawing::ColourScale{drawing::diverging(), quantity->middle - most,
-                              quantity->middle + most, quantity->middle, quantity->floor};
+  return drawing::ColourScale{drawing::diverging(), quantity.middle - most, quantity.middle + most,
+                              quantity.middle, quantity.floor};
 }
 
 Opening opening(const WallSeries& wall, const std::vector<std::int32_t>& skin, bool is_quadratic,

@@ -85,11 +85,6 @@ std::vector<std::string> muscle_names(const case_file::Calibration& k) {
   return names;
 }
 
-/// The JSON file beside an archive.
-std::filesystem::path for_readers(std::filesystem::path archive) {
-  return archive.replace_extension(".json");
-}
-
 calibrate::RecordedFit read_fit(const std::filesystem::path& calibration) {
   return load_fit(heartbeat::Archive::read(calibration / calibration_name));
 }

@@ -64,7 +64,7 @@ void write_confirmation(const Confirmation& record, const std::filesystem::path&
   archive.set("beats", std::move(beats));
   archive.set("volumes", std::move(volumes));
   archive.set_words("volumes.names", names);
-  write_file(std::filesystem::path(file).replace_extension(".json"), json_of(record));
+  write_file(for_readers(file), json_of(record));
   archive.write(file);
 }
 

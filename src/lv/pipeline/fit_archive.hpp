@@ -3,10 +3,16 @@
 #include "lv/calibrate/record.hpp"
 #include "lv/heartbeat/archive.hpp"
 
+#include <filesystem>
 #include <span>
 #include <vector>
 
 namespace lv::pipeline {
+
+/// The JSON file beside an archive, which tells people what is in it.
+[[nodiscard]] inline std::filesystem::path for_readers(std::filesystem::path archive) {
+  return archive.replace_extension(".json");
+}
 
 /// A fit as arrays of an archive, and back. Loading throws RunError for what no fit can be.
 void store(const calibrate::FitParameters& parameters, heartbeat::Archive& archive);

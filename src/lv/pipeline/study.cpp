@@ -106,18 +106,13 @@ class StudyRun {
 
   /// A member without a solution is marked, and the family goes on; the case itself must have one.
   void try_member(std::size_t i) {
-    const auto goes_on_without = [&](const std::exception& failure) {
+    try {
+      run_member(i);
+    } catch (const NoSolution& failure) {
       if (i == 0)
         throw;
       log::warn("study: {} has no beat: {}", members_[i].name, failure.what());
       missing_.push_back({members_[i].name, members_[i].factors, failure.what()});
-    };
-    try {
-      run_member(i);
-    } catch (const RunError& failure) {
-      goes_on_without(failure);
-    } catch (const FailedElsewhere& failure) {  // what the root has thrown
-      goes_on_without(failure);
     }
   }
 

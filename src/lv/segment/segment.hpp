@@ -44,8 +44,8 @@ void require_cine(const image::Cine& cine, const std::string& where);
 ///   do in most slices.
 /// - From the base (the end with larger areas) slices are dropped whose area changes against that
 ///   of the others: an atrium fills while the ventricle empties. In a frame the most basal ones are
-///   left out where muscle surrounds less than half (median over a tenth of the cycle either way), the most apical ones
-///   where the cavity's mean radius is below 3 mm.
+///   left out where muscle surrounds less than half (median over a tenth of the cycle either way),
+///   the most apical ones where the cavity's mean radius is below 3 mm.
 /// - Phases are proposed from the volume of the slices that show the ventricle in all frames.
 ///
 /// Throws InputError, with `where` naming the images, if slices have different numbers of images or

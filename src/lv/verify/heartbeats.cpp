@@ -170,17 +170,9 @@ void cycle_engines_limit(Findings& found) {
 
 namespace {
 
-/// Two short heartbeats of few cells, after a filling too short for a wall to come to rest.
+/// Two of them, with a front through the wall.
 heartbeat::BeatSetup quick_immersed(const mesh::Mesh& mesh) {
-  heartbeat::BeatSetup setup = default_beat(mesh, {20, 20, 27}, 4e-4);
-  setup.heart.myocardium.active = material::Land2017{};
-  setup.protocol.calcium = {.Ca_0 = 0.1,
-                            .Ca_max = 0.7,
-                            .shape = material::Calcium::CurveShape::double_exponential,
-                            .t_1 = 0.02,
-                            .t_2 = 0.08};
-  setup.protocol.filling_ramp = 0.1;
-  setup.protocol.filling_longest = 0.12;
+  heartbeat::BeatSetup setup = quick_heartbeat(mesh);
   setup.protocol.cycle = {.beats = 2, .tolerance = 1e-6};  // with a leap between them
   for (const double t : mesh.transmural)
     setup.activation_times.push_back(0.01 * t);

@@ -27,6 +27,19 @@ heartbeat::BeatSetup default_beat(const mesh::Mesh& mesh, const std::array<int, 
   return setup;
 }
 
+heartbeat::BeatSetup quick_heartbeat(const mesh::Mesh& mesh) {
+  heartbeat::BeatSetup setup = default_beat(mesh, {20, 20, 27}, 4e-4);
+  setup.heart.myocardium.active = material::Land2017{};
+  setup.protocol.calcium = {.Ca_0 = 0.1,
+                            .Ca_max = 0.7,
+                            .shape = material::Calcium::CurveShape::double_exponential,
+                            .t_1 = 0.02,
+                            .t_2 = 0.08};
+  setup.protocol.filling_ramp = 0.1;
+  setup.protocol.filling_longest = 0.12;
+  return setup;
+}
+
 double largest_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
   double largest = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i)

@@ -22,6 +22,10 @@ namespace lv::verify {
 [[nodiscard]] heartbeat::BeatSetup default_beat(const mesh::Mesh& mesh,
                                                 const std::array<int, 3>& cells, double time_step);
 
+/// Heartbeats of human muscle in few cells: too short for a heart, after a filling too short for a
+/// wall to come to rest, so that they take seconds. The mesh must outlive it.
+[[nodiscard]] heartbeat::BeatSetup quick_heartbeat(const mesh::Mesh& mesh);
+
 /// The largest distance of two points of the same number [mm].
 [[nodiscard]] double largest_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b);
 

@@ -3,6 +3,7 @@
 #include "lv/base/check.hpp"
 #include "lv/circulation/circuit.hpp"
 
+#include "support/circuit_step.hpp"
 #include <catch2/catch.hpp>
 
 #include <cmath>
@@ -31,18 +32,9 @@ Cycle limit_cycle(CircuitParameters p) {
 /// The states of the elastance's own loop at the end of a cycle, from what is known of it.
 std::vector<double> states_at_end(const CircuitParameters& p, int beats) {
   Circuit circuit(p);
-  const Elastance ventricle(p.left_ventricle, p.period);
   const int steps = static_cast<int>(std::lround(beats * p.period / p.step));
-  for (int i = 1; i <= steps; ++i) {
-    const double t = i * p.step;
-    double pressure = ventricle.pressure(t, circuit.states().front());
-    for (int k = 0; k < 50; ++k) {  // Newton's method for V_circuit(p) = p/E + V_0
-      const auto [volume, slope] = circuit.after(t, p.step, pressure);
-      const double E = ventricle.at(t);
-      pressure -= (volume - pressure / E - p.left_ventricle.V_0) / (slope - 1.0 / E);
-    }
-    circuit.advance(t, p.step, pressure);
-  }
+  for (int i = 1; i <= steps; ++i)
+    test::step(circuit, p, i * p.step);
   return {circuit.states().begin(), circuit.states().end()};
 }
 

@@ -2,10 +2,10 @@
 
 #include "lv/base/check.hpp"
 #include "lv/circulation/circuit.hpp"
-#include "lv/circulation/elastance.hpp"
 #include "lv/geometry/ellipsoid.hpp"
 #include "lv/mesh/wall_mesh.hpp"
 
+#include "support/circuit_step.hpp"
 #include <catch2/catch.hpp>
 
 #include <cmath>
@@ -126,16 +126,8 @@ TEST_CASE("a circuit around an elastance beats as the circulation alone does",
   p.step = 2e-3;
   const circulation::Cycle alone = circulation::run_alone(p);
   circulation::Circuit circuit(p);
-  const circulation::Elastance ventricle(p.left_ventricle, p.period);
   for (int i = 1; i <= 200; ++i) {
-    const double t = i * p.step;
-    double pressure = ventricle.pressure(t, circuit.states().front());
-    for (int k = 0; k < 50; ++k) {  // Newton's method for V_circuit(p) = p/E + V_0
-      const auto [volume, slope] = circuit.after(t, p.step, pressure);
-      const double E = ventricle.at(t);
-      pressure -= (volume - pressure / E - p.left_ventricle.V_0) / (slope - 1.0 / E);
-    }
-    circuit.advance(t, p.step, pressure);
+    test::step(circuit, p, i * p.step);
     CHECK(circuit.states().front() ==
           Approx(alone.samples[static_cast<std::size_t>(i)].signals.volume).epsilon(1e-9));
   }

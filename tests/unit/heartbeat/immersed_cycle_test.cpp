@@ -19,18 +19,8 @@ mesh::Mesh blood_sized_mesh() {
   return verify::ideal_mesh({.edge_length = 9.0});
 }
 
-/// Human muscle on a coarse grid; a beat too short for a heart, after a filling too short for a
-/// wall to come to rest, for the test's sake.
 BeatSetup quick_immersed(const mesh::Mesh& mesh) {
-  BeatSetup setup = verify::default_beat(mesh, {20, 20, 27}, 4e-4);
-  setup.heart.myocardium.active = material::Land2017{};
-  setup.protocol.calcium = {.Ca_0 = 0.1,
-                            .Ca_max = 0.7,
-                            .shape = material::Calcium::CurveShape::double_exponential,
-                            .t_1 = 0.02,
-                            .t_2 = 0.08};
-  setup.protocol.filling_ramp = 0.1;
-  setup.protocol.filling_longest = 0.12;
+  BeatSetup setup = verify::quick_heartbeat(mesh);
   setup.protocol.cycle = {.beats = 1, .tolerance = 0.0};
   return setup;
 }
