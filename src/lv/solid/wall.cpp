@@ -95,12 +95,19 @@ class PackedElements final : public Wall::Elements {
     Pack volume;   ///< reference volume of the point
     Pack infarct;  ///< M
   };
+  using Nodes = std::array<std::array<int, pack_size>, E::nodes>;
   struct Group {
-    std::array<std::array<int, pack_size>, E::nodes> nodes;
     std::array<Point, E::points> points;
     std::array<Vector<Pack>, E::nodes> mean_gradient;  ///< int grad phi_a dX / int dX
     Pack volume;                                       ///< int dX
   };
+  /// What the fibre stretch needs of a point, K f0 and its volume, once more by itself: read
+  /// among all the rest, it would cost the memory traffic of the forces.
+  struct FibrePoint {
+    Vector<Pack> K_f0;
+    Pack volume;
+  };
+  using FibrePoints = std::array<FibrePoint, E::points>;
   using Nodal = std::array<Vector<Pack>, E::nodes>;
   using NodalScalar = std::array<Pack, E::nodes>;
   using Gradients = std::array<std::array<double, 3>, E::nodes>;
@@ -116,10 +123,10 @@ class PackedElements final : public Wall::Elements {
   }
   void set_point(Point& point, int i, int cell, int q, double weight);
   void set_means(Group& group, int i, int cell, double weight);
-  [[nodiscard]] static Nodal gather(const Group& group, std::span<const Vec3> positions);
-  [[nodiscard]] static NodalScalar gather(const Group& group, std::span<const double> values);
-  static void scatter(const Group& group, const Nodal& nodal, std::span<Vec3> forces);
-  static void scatter(const Group& group, const NodalScalar& nodal, std::span<double> values);
+  [[nodiscard]] static Nodal gather(const Nodes& nodes, std::span<const Vec3> positions);
+  [[nodiscard]] static NodalScalar gather(const Nodes& nodes, std::span<const double> values);
+  static void scatter(const Nodes& nodes, const Nodal& nodal, std::span<Vec3> forces);
+  static void scatter(const Nodes& nodes, const NodalScalar& nodal, std::span<double> values);
   [[nodiscard]] static Tensor<Pack> dx_dxi(const Nodal& x, const Gradients& gradient);
   static void subtract_force(const Tensor<Pack>& P, const Point& point, const Gradients& gradient,
                              Nodal& force);
@@ -142,7 +149,9 @@ class PackedElements final : public Wall::Elements {
   mesh::UndeformedWall undeformed_;
   material::Myocardium material_;
   parallel::Range cells_;
+  std::vector<Nodes> nodes_;
   std::vector<Group> groups_;
+  std::vector<FibrePoints> fibres_;
   std::vector<double> nodal_volumes_;
 };
 
@@ -153,16 +162,20 @@ PackedElements<E>::PackedElements(const mesh::Mesh& mesh, const material::Myocar
       material_(material),
       cells_(parallel::share(mesh.cell_count(), parallel::rank(), parallel::size())) {
   groups_.resize((cells_.size() + pack_size - 1) / pack_size);
+  nodes_.resize(groups_.size());
   for (int g = 0; g < static_cast<int>(groups_.size()); ++g) {
     for (int i = 0; i < pack_size; ++i) {
       const int cell = cell_of(g, i);
       const bool padding = cells_.begin + g * pack_size + i >= cells_.end;
       for (int a = 0; a < E::nodes; ++a)
-        groups_[g].nodes[a][i] = mesh.cell(cell)[a];
+        nodes_[g][a][i] = mesh.cell(cell)[a];
       for (int q = 0; q < E::points; ++q)
         set_point(groups_[g].points[q], i, cell, q, padding ? 0.0 : rule.weight[q]);
       set_means(groups_[g], i, cell, padding ? 0.0 : 1.0);
     }
+    FibrePoints& fibres = fibres_.emplace_back();
+    for (int q = 0; q < E::points; ++q)
+      fibres[q] = {groups_[g].points[q].K.col(0), groups_[g].points[q].volume};
   }
   add_volumes();
 }
@@ -198,13 +211,13 @@ void PackedElements<E>::set_means(Group& group, int i, int cell, double weight) 
 }
 
 template <class E>
-typename PackedElements<E>::Nodal PackedElements<E>::gather(const Group& group,
+typename PackedElements<E>::Nodal PackedElements<E>::gather(const Nodes& nodes,
                                                             std::span<const Vec3> positions) {
   Nodal x;
   alignas(Pack) std::array<std::array<double, pack_size>, 3> lanes;
   for (int a = 0; a < E::nodes; ++a) {
     for (int i = 0; i < pack_size; ++i) {
-      const Vec3& p = positions[group.nodes[a][i]];
+      const Vec3& p = positions[nodes[a][i]];
       for (int d = 0; d < 3; ++d)
         lanes[d][i] = p[d];
     }
@@ -215,37 +228,37 @@ typename PackedElements<E>::Nodal PackedElements<E>::gather(const Group& group,
 }
 
 template <class E>
-typename PackedElements<E>::NodalScalar PackedElements<E>::gather(const Group& group,
+typename PackedElements<E>::NodalScalar PackedElements<E>::gather(const Nodes& nodes,
                                                                   std::span<const double> values) {
   NodalScalar nodal;
   alignas(Pack) std::array<double, pack_size> lanes;
   for (int a = 0; a < E::nodes; ++a) {
     for (int i = 0; i < pack_size; ++i)
-      lanes[i] = values[group.nodes[a][i]];
+      lanes[i] = values[nodes[a][i]];
     nodal[a] = Pack::load_aligned(lanes.data());
   }
   return nodal;
 }
 
 template <class E>
-void PackedElements<E>::scatter(const Group& group, const NodalScalar& nodal,
+void PackedElements<E>::scatter(const Nodes& nodes, const NodalScalar& nodal,
                                 std::span<double> values) {
   alignas(Pack) std::array<double, pack_size> lanes;
   for (int a = 0; a < E::nodes; ++a) {
     nodal[a].store_aligned(lanes.data());
     for (int i = 0; i < pack_size; ++i)
-      values[group.nodes[a][i]] += lanes[i];
+      values[nodes[a][i]] += lanes[i];
   }
 }
 
 template <class E>
-void PackedElements<E>::scatter(const Group& group, const Nodal& nodal, std::span<Vec3> forces) {
+void PackedElements<E>::scatter(const Nodes& nodes, const Nodal& nodal, std::span<Vec3> forces) {
   alignas(Pack) std::array<std::array<double, pack_size>, 3> lanes;
   for (int a = 0; a < E::nodes; ++a) {
     for (int d = 0; d < 3; ++d)
       nodal[a][d].store_aligned(lanes[d].data());
     for (int i = 0; i < pack_size; ++i)
-      forces[group.nodes[a][i]] += Vec3(lanes[0][i], lanes[1][i], lanes[2][i]);
+      forces[nodes[a][i]] += Vec3(lanes[0][i], lanes[1][i], lanes[2][i]);
   }
 }
 
@@ -277,13 +290,13 @@ void PackedElements<E>::subtract_force(const Tensor<Pack>& P, const Point& point
 template <class E>
 void PackedElements<E>::add_volumes() {
   nodal_volumes_.assign(mesh_.nodes.size(), 0.0);
-  for (const Group& group : groups_) {
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
     NodalScalar volume;
     volume.fill(Pack(0.0));
     for (int q = 0; q < E::points; ++q)
       for (int a = 0; a < E::nodes; ++a)
-        volume[a] += rule.value[q][a] * group.points[q].volume;
-    scatter(group, volume, nodal_volumes_);
+        volume[a] += rule.value[q][a] * groups_[g].points[q].volume;
+    scatter(nodes_[g], volume, nodal_volumes_);
   }
   parallel::sum(nodal_volumes_);
 }
@@ -291,17 +304,18 @@ void PackedElements<E>::add_volumes() {
 template <class E>
 void PackedElements<E>::add_stretch(std::span<const Vec3> positions,
                                     std::span<double> integrals) const {
-  for (const Group& group : groups_) {
-    const Nodal x = gather(group, positions);
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const Nodal x = gather(nodes_[g], positions);
     NodalScalar nodal;
     nodal.fill(Pack(0.0));
     for (int q = 0; q < E::points; ++q) {
-      const Vector<Pack> f = dx_dxi(x, rule.gradient[q]) * group.points[q].K.col(0);
-      const Pack stretch = xsimd::sqrt(f.squaredNorm()) * group.points[q].volume;
+      const FibrePoint& point = fibres_[g][q];
+      const Vector<Pack> f = dx_dxi(x, rule.gradient[q]) * point.K_f0;
+      const Pack stretch = xsimd::sqrt(f.squaredNorm()) * point.volume;
       for (int a = 0; a < E::nodes; ++a)
         nodal[a] = xsimd::fma(Pack(rule.value[q][a]), stretch, nodal[a]);
     }
-    scatter(group, nodal, integrals);
+    scatter(nodes_[g], nodal, integrals);
   }
 }
 
@@ -324,15 +338,16 @@ PackRange PackedElements<E>::add_forces(const Law& law, std::span<const Vec3> po
   const bool mean_dilatation = material_.volumetric_points == material::VolumetricPoints::mean;
   const std::vector<double> pressure =
       mean_dilatation && E::nodes == 4 ? nodal_pressure(positions) : std::vector<double>{};
-  for (const Group& group : groups_) {
-    const Nodal x = gather(group, positions);
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const Nodes& nodes = nodes_[g];
+    const Nodal x = gather(nodes, positions);
     Nodal force;
     force.fill(Vector<Pack>(Pack(0.0), Pack(0.0), Pack(0.0)));
-    point_forces(law, group, x, gather(group, tension), force, J);
+    point_forces(law, groups_[g], x, gather(nodes, tension), force, J);
     if (mean_dilatation)
-      volumetric_forces(group, x, pressure.empty() ? NodalScalar{} : gather(group, pressure),
+      volumetric_forces(groups_[g], x, pressure.empty() ? NodalScalar{} : gather(nodes, pressure),
                         force);
-    scatter(group, force, forces);
+    scatter(nodes, force, forces);
   }
   return J;
 }
@@ -376,11 +391,12 @@ Tensor<Pack> PackedElements<E>::mean_deformation_gradient(const Group& group, co
 template <class E>
 std::vector<double> PackedElements<E>::nodal_pressure(std::span<const Vec3> positions) const {
   std::vector<double> J(nodal_volumes_.size(), 0.0);
-  for (const Group& group : groups_) {
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const Nodal x = gather(nodes_[g], positions);
     NodalScalar volume;
-    volume.fill(determinant(mean_deformation_gradient(group, gather(group, positions))) *
-                group.volume / E::nodes);
-    scatter(group, volume, J);
+    volume.fill(determinant(mean_deformation_gradient(groups_[g], x)) * groups_[g].volume /
+                E::nodes);
+    scatter(nodes_[g], volume, J);
   }
   parallel::sum(J);
   const material::Volumetric shared{(1.0 - own_share) * material_.volumetric.beta_s};
@@ -435,15 +451,15 @@ std::vector<PointSample> PackedElements<E>::sample(std::span<const Vec3> positio
   std::vector<PointSample> samples;
   samples.reserve(static_cast<std::size_t>(cells_.size()) * E::points);
   for (int g = 0; g < static_cast<int>(groups_.size()); ++g) {
-    const Nodal x = gather(groups_[g], positions);
-    const NodalScalar nodal_tension = gather(groups_[g], tension);
+    const Nodal x = gather(nodes_[g], positions);
+    const NodalScalar nodal_tension = gather(nodes_[g], tension);
     for (int i = 0; i < pack_size && cells_.begin + g * pack_size + i < cells_.end; ++i) {
       for (int q = 0; q < E::points; ++q) {
         const Tensor<Pack> F = dx_dxi(x, rule.gradient[q]) * groups_[g].points[q].K;
         samples.push_back(sample_point(g, q, i, F, lane(at_point(nodal_tension, q), i)));
         samples.back().position = Vec3::Zero();
         for (int a = 0; a < E::nodes; ++a)
-          samples.back().position += rule.value[q][a] * positions[groups_[g].nodes[a][i]];
+          samples.back().position += rule.value[q][a] * positions[nodes_[g][a][i]];
       }
     }
   }
