@@ -65,7 +65,7 @@ ComponentTransform::ComponentTransform(const Grid& grid, const Slab& slab, int c
 
 /// Row (plane k of this slab, mode index i along x) in the exchange buffer: one block per rank, in
 /// it the planes, in them the rows of y modes.
-double* ComponentTransform::exchange_row(std::vector<double>& buffer, int k, int i) const {
+double* ComponentTransform::exchange_row(AlignedValues& buffer, int k, int i) const {
   const int owner = rank_of_x_[i];
   std::size_t rows_before = 0;
   for (int r = 0; r < owner; ++r)
@@ -75,7 +75,7 @@ double* ComponentTransform::exchange_row(std::vector<double>& buffer, int k, int
   return buffer.data() + (rows_before * points_[2] + row_in_block) * points_[1];
 }
 
-void ComponentTransform::planes_to_modes(const Component& points, std::vector<double>& buffer) {
+void ComponentTransform::planes_to_modes(const Component& points, AlignedValues& buffer) {
   const auto [nx, ny, nz] = points_;
   for (int k = 0; k < nz; ++k) {
     for_tiles(nx, y_.columns(), [&, ny = ny](int first, int count) {
@@ -95,7 +95,7 @@ void ComponentTransform::planes_to_modes(const Component& points, std::vector<do
   }
 }
 
-void ComponentTransform::planes_to_points(std::vector<double>& buffer, Component& points) {
+void ComponentTransform::planes_to_points(AlignedValues& buffer, Component& points) {
   const auto [nx, ny, nz] = points_;
   for (int k = 0; k < nz; ++k) {
     for_tiles(ny, x_.columns(), [&, nx = nx](int first, int count) {
@@ -115,7 +115,7 @@ void ComponentTransform::planes_to_points(std::vector<double>& buffer, Component
   }
 }
 
-void ComponentTransform::along_z(std::vector<double>& modes, bool forward) {
+void ComponentTransform::along_z(AlignedValues& modes, bool forward) {
   const int columns = layout_.count_x * layout_.count_y;
   const int nz = layout_.count_z;
   for_tiles(columns, z_.columns(), [&](int first, int count) {
@@ -130,8 +130,7 @@ void ComponentTransform::along_z(std::vector<double>& modes, bool forward) {
 
 /// Slabs of planes with all modes along x <-> all planes with this rank's modes along x. Blocks
 /// arrive in the order of their planes, so what arrives needs no sorting.
-void ComponentTransform::exchange(std::vector<double>& from, std::vector<double>& to,
-                                  bool forward) const {
+void ComponentTransform::exchange(AlignedValues& from, AlignedValues& to, bool forward) const {
   const int ranks = parallel::size();
   std::vector<int> slab_counts(ranks), slab_begins(ranks), mode_counts(ranks), mode_begins(ranks);
   int slab_total = 0;
@@ -152,7 +151,7 @@ void ComponentTransform::exchange(std::vector<double>& from, std::vector<double>
                 mode_counts.data(), mode_begins.data(), MPI_DOUBLE, MPI_COMM_WORLD);
 }
 
-void ComponentTransform::to_modes(const Component& points, std::vector<double>& modes) {
+void ComponentTransform::to_modes(const Component& points, AlignedValues& modes) {
   if (parallel::size() == 1) {
     planes_to_modes(points, modes);
   } else {
@@ -162,7 +161,7 @@ void ComponentTransform::to_modes(const Component& points, std::vector<double>& 
   along_z(modes, true);
 }
 
-void ComponentTransform::to_points(const std::vector<double>& modes, Component& points) {
+void ComponentTransform::to_points(const AlignedValues& modes, Component& points) {
   work_ = modes;
   along_z(work_, false);
   if (parallel::size() == 1) {
@@ -189,8 +188,8 @@ void BoxTransform::to_points(const ModeField& modes, FaceField& points) {
 }
 
 ModeField BoxTransform::zero_modes() const {
-  return {std::vector<double>(layout(0).size()), std::vector<double>(layout(1).size()),
-          std::vector<double>(layout(2).size())};
+  return {AlignedValues(layout(0).size()), AlignedValues(layout(1).size()),
+          AlignedValues(layout(2).size())};
 }
 
 namespace {
@@ -231,7 +230,8 @@ void BoxTransform::scatter(std::span<const double> all, int c, ModeField& modes)
     for_mode_rows(grid_, c, [&](std::size_t in_box, std::size_t in_pieces) {
       std::copy_n(all.data() + in_box, layout(c).count_y, pieces.data() + in_pieces);
     });
-  modes[c] = parallel::scatter(pieces, layout(c).size());
+  const std::vector<double> mine = parallel::scatter(pieces, layout(c).size());
+  modes[c].assign(mine.begin(), mine.end());
 }
 
 }  // namespace lv::fluid

@@ -39,17 +39,17 @@ class ComponentTransform {
  public:
   ComponentTransform(const Grid& grid, const Slab& slab, int component);
 
-  void to_modes(const Component& points, std::vector<double>& modes);
-  void to_points(const std::vector<double>& modes, Component& points);
+  void to_modes(const Component& points, AlignedValues& modes);
+  void to_points(const AlignedValues& modes, Component& points);
 
   [[nodiscard]] const ModeLayout& layout() const { return layout_; }
 
  private:
-  [[nodiscard]] double* exchange_row(std::vector<double>& buffer, int k, int i) const;
-  void planes_to_modes(const Component& points, std::vector<double>& buffer);
-  void planes_to_points(std::vector<double>& buffer, Component& points);
-  void along_z(std::vector<double>& modes, bool forward);
-  void exchange(std::vector<double>& from, std::vector<double>& to, bool forward) const;
+  [[nodiscard]] double* exchange_row(AlignedValues& buffer, int k, int i) const;
+  void planes_to_modes(const Component& points, AlignedValues& buffer);
+  void planes_to_points(AlignedValues& buffer, Component& points);
+  void along_z(AlignedValues& modes, bool forward);
+  void exchange(AlignedValues& from, AlignedValues& to, bool forward) const;
 
   std::array<int, 3> points_;  ///< Nx, Ny points and the slab's planes
   ModeLayout layout_;
@@ -57,13 +57,13 @@ class ComponentTransform {
   std::vector<ModeLayout> layouts_;
   std::vector<int> planes_of_rank_;
   LineTransform x_, y_, z_;
-  std::vector<double> plane_;   ///< one plane, transposed
-  std::vector<double> buffer_;  ///< what is exchanged; unused on one rank
-  std::vector<double> work_;    ///< modes on the way back to points
+  AlignedValues plane_;   ///< one plane, transposed
+  AlignedValues buffer_;  ///< what is exchanged; unused on one rank
+  AlignedValues work_;    ///< modes on the way back to points
 };
 
 /// The modes of a vector field on the faces.
-using ModeField = std::array<std::vector<double>, 3>;
+using ModeField = std::array<AlignedValues, 3>;
 
 /// Transforms of all three velocity components.
 class BoxTransform {

@@ -9,7 +9,7 @@ namespace lv::fluid {
 namespace {
 
 constexpr int g = ghost_layers;
-constexpr int alignment = 8;  // doubles: rows start on cache lines
+constexpr int alignment = line_of_cache;
 
 int round_up(int n) {
   return (n + alignment - 1) / alignment * alignment;

@@ -2,6 +2,8 @@
 
 #include "lv/fluid/grid.hpp"
 
+#include <xsimd/xsimd.hpp>
+
 #include <array>
 #include <span>
 #include <vector>
@@ -11,6 +13,14 @@ namespace lv::fluid {
 /// Layers of points kept around the own part of a field: what the 4-point kernel and the convection
 /// scheme reach.
 inline constexpr int ghost_layers = 2;
+
+/// Doubles per cache line. Rows of fields start on one, so that no load or store of a SIMD unit
+/// needs two.
+inline constexpr int line_of_cache = 8;
+
+/// Numbers that start on a cache line.
+using AlignedValues =
+    std::vector<double, xsimd::aligned_allocator<double, line_of_cache * sizeof(double)>>;
 
 /// Values of one component at the points of one slab, with ghost layers on all sides. x runs
 /// fastest.
@@ -36,13 +46,13 @@ class Component {
   /// A whole plane with its ghosts in x and y, as one run of numbers.
   [[nodiscard]] std::span<double> plane(int k);
 
-  [[nodiscard]] std::vector<double>& values() { return values_; }
-  [[nodiscard]] const std::vector<double>& values() const { return values_; }
+  [[nodiscard]] AlignedValues& values() { return values_; }
+  [[nodiscard]] const AlignedValues& values() const { return values_; }
 
  private:
   int nx_, ny_, nz_;
   std::ptrdiff_t stride_y_, stride_z_, origin_;
-  std::vector<double> values_;
+  AlignedValues values_;
 };
 
 /// A vector field on the faces of one slab (velocity, force density), component d on the faces

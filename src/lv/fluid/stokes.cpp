@@ -108,8 +108,8 @@ void Stokes::advance(ModeField& velocity, const ModeField& force, double dt, dou
   }
 }
 
-std::vector<double> Stokes::pressure(const ModeField& force, const ModeLayout& layout) const {
-  std::vector<double> p(layout.size());
+AlignedValues Stokes::pressure(const ModeField& force, const ModeLayout& layout) const {
+  AlignedValues p(layout.size());
   const auto f = [&](int c, int mx, int my, int mz) {
     return *mode_at(force[c], layout_[c], mx, my, mz);
   };

@@ -29,8 +29,7 @@ class Stokes {
 
   /// The pressure that balances `force` (as above): lap p = div f. Modes of a cell-centred field
   /// with `layout`.
-  [[nodiscard]] std::vector<double> pressure(const ModeField& force,
-                                             const ModeLayout& layout) const;
+  [[nodiscard]] AlignedValues pressure(const ModeField& force, const ModeLayout& layout) const;
 
  private:
   Blood blood_;

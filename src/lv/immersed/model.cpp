@@ -186,7 +186,7 @@ double Model::find_pressure(double guess, double dt, const PressureOfStep& press
   const double dp = found - guess;
   for (std::size_t a = 0; a < U.size(); ++a)
     U[a] += dp * response_->nodes[a];
-  const auto add = [dp](const std::vector<double>& from, std::vector<double>& to) {
+  const auto add = [dp](std::span<const double> from, std::span<double> to) {
     for (std::size_t i = 0; i < to.size(); ++i)
       to[i] += dp * from[i];
   };
