@@ -99,7 +99,6 @@ class ImmersedRun {
   Timer checkpoint_timer_;
   Timer progress_timer_{5.0};
   TimeLeft left_;
-  Settling settling_;
   double counted_until_ = wall_clock();
   double begun_time_ = 0.0;  ///< simulated and wall-clock time at which this process took over
   double begun_clock_ = wall_clock();
@@ -267,7 +266,6 @@ void ImmersedRun::end_phase(bool by_criterion) {
   ++run_.phase;
   run_.phase_start = run_.time;
   run_.steady = criterion(phase());
-  settling_ = {};
   run_.least = {};
   run_.volume_was_falling = false;
   keep();
@@ -296,7 +294,7 @@ void ImmersedRun::housekeeping() {
 
 /// Simulated time that the run will probably still take.
 double ImmersedRun::time_left() {
-  double left = settling_.time_left(phase(), time_in_phase(), run_.steady.variation());
+  double left = settling_time_left(phase(), time_in_phase(), run_.steady);
   for (std::size_t next = run_.phase + 1; next < phases_.size(); ++next)
     left += phases_[next].usual;
   return left;

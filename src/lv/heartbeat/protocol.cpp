@@ -15,6 +15,12 @@ double smooth_step(double s) {
 
 namespace {
 
+/// Of a volume that comes to rest like exp(-t/relaxation) after the ramp, and is then watched for a
+/// window [s].
+double usual_duration(double ramp, double tolerance, double window, double relaxation) {
+  return ramp + relaxation * std::log(1.0 / tolerance) + window;
+}
+
 Phase filling(const Protocol& p) {
   return {.name = "filling",
           .marks = end_diastole,
@@ -29,7 +35,7 @@ Phase filling(const Protocol& p) {
           .tolerance = p.filling_tolerance,
           .window = p.filling_window,
           .longest = p.filling_longest,
-          .usual = p.filling_ramp + 2.0 * p.filling_window};
+          .usual = usual_duration(p.filling_ramp, p.filling_tolerance, p.filling_window, 0.04)};
 }
 
 Phase contraction(const Protocol& p) {
@@ -49,7 +55,8 @@ Phase contraction(const Protocol& p) {
           .tolerance = p.contraction_tolerance,
           .window = p.contraction_window,
           .longest = p.contraction_longest,
-          .usual = p.contraction_ramp + 3.0 * p.contraction_window};
+          .usual = usual_duration(p.contraction_ramp, p.contraction_tolerance, p.contraction_window,
+                                  0.125)};
 }
 
 }  // namespace

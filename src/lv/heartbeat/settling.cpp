@@ -2,22 +2,52 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <vector>
 
 namespace lv::heartbeat {
+namespace {
 
-double Settling::time_left(const Phase& phase, double time, double variation) {
-  const double longest = phase.longest - time;
-  const double usual = std::max(phase.usual - time, 0.1 * phase.window);
-  if (time < phase.settled || !std::isfinite(variation))
-    return std::min(usual, longest);
-  samples_.push_back({time, variation});
-  while (samples_.size() > 2 && samples_.front().time < time - phase.window)
-    samples_.pop_front();
-  const Sample& first = samples_.front();
-  const double fall = std::log(first.variation / variation) / (time - first.time);
-  if (!(fall > 0.0) || !std::isfinite(fall))
-    return std::min(usual, longest);
-  return std::clamp(std::log(variation / phase.tolerance) / fall, 0.0, longest);
+using Samples = std::span<const std::pair<double, double>>;
+
+double range(Samples samples) {
+  const auto by_volume = [](const auto& a, const auto& b) { return a.second < b.second; };
+  const auto [low, high] = std::minmax_element(samples.begin(), samples.end(), by_volume);
+  return high->second - low->second;
+}
+
+/// Until the last volume that is out of tolerance beside the present one has left the window.
+double shortest_left(const Phase& phase, Samples samples) {
+  const auto& [now, volume] = samples.back();
+  const double band = phase.tolerance * volume;
+  for (std::size_t i = samples.size(); i-- > 0;)
+    if (std::abs(samples[i].second - volume) > band)
+      return std::max(0.0, samples[i].first + phase.window - now);
+  return 0.0;
+}
+
+/// Until the variation, which falls as it did from the first half of the window to the second, is
+/// within the tolerance; 0 where it does not fall.
+double while_it_falls(const Phase& phase, Samples samples, double variation) {
+  const std::size_t half = samples.size() / 2;
+  const double before = range(samples.first(half));
+  const double after = range(samples.subspan(half));
+  if (!(before > after && after > 0.0))
+    return 0.0;
+  return 0.5 * phase.window * std::log(variation / phase.tolerance) / std::log(before / after);
+}
+
+}  // namespace
+
+double settling_time_left(const Phase& phase, double time, const SteadyVolume& volume) {
+  const std::vector<std::pair<double, double>> samples(volume.samples().begin(),
+                                                       volume.samples().end());
+  if (samples.size() < 4)
+    return std::min(phase.usual - time, phase.longest - time);
+  const double least = std::max(shortest_left(phase, samples), 0.1 * phase.window);
+  const double left =
+      time < phase.usual ? phase.usual - time : while_it_falls(phase, samples, volume.variation());
+  return std::min(std::max(left, least), phase.longest - time);
 }
 
 }  // namespace lv::heartbeat

@@ -2,23 +2,14 @@
 
 #include "lv/heartbeat/protocol.hpp"
 
-#include <deque>
-
 namespace lv::heartbeat {
 
-/// Forecasts the end of one phase. Once the loads are final and a whole window has been seen, the
-/// variation of the volume falls about exponentially to its tolerance.
-class Settling {
- public:
-  /// Simulated time left of the phase, `time` after its start, with the present variation (see
-  /// SteadyVolume) [s].
-  [[nodiscard]] double time_left(const Phase& phase, double time, double variation);
-
- private:
-  struct Sample {
-    double time, variation;
-  };
-  std::deque<Sample> samples_;  ///< of the last window
-};
+/// Simulated time that a phase will probably still last, `time` after its start, with the volumes
+/// recorded so far [s]: until its usual duration that, then as long as the variation of the volume,
+/// which falls about exponentially, takes to its tolerance. Not less than the last volume that is
+/// out of tolerance beside the present one takes to leave the window, nor more than the phase may
+/// last.
+[[nodiscard]] double settling_time_left(const Phase& phase, double time,
+                                        const SteadyVolume& volume);
 
 }  // namespace lv::heartbeat

@@ -3,30 +3,63 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
-#include <limits>
 
 using namespace lv::heartbeat;
 
-TEST_CASE("the time left of a phase is that of its ramp and windows until its loads are final",
-          "[unit][heartbeat]") {
-  const Phase filling = phases({}).front();
-  Settling settling;
-  const double unknown = std::numeric_limits<double>::infinity();
-  CHECK(settling.time_left(filling, 0.1, unknown) == Approx(filling.usual - 0.1));
-  // it never stands still at nothing, and never exceeds the longest duration
-  CHECK(settling.time_left(filling, 1.0, unknown) > 0.0);
-  CHECK(settling.time_left(filling, filling.longest - 0.001, unknown) <= 0.001);
+namespace {
+
+/// What a phase has recorded of a volume [mm^3] until `time` after its start.
+template <class Volume>
+SteadyVolume recorded(const Phase& phase, double time, const Volume& volume) {
+  constexpr double every = 1e-3;
+  SteadyVolume steady(phase.window, phase.tolerance);
+  for (int i = 0; i * every <= time; ++i)
+    steady.record(i * every, volume(i * every));
+  return steady;
 }
 
-TEST_CASE("a variation that falls exponentially ends the phase where it meets the tolerance",
+constexpr double forever = 60.0;
+
+}  // namespace
+
+TEST_CASE("the time left of a phase is that of its usual duration until that has passed",
           "[unit][heartbeat]") {
-  const Phase contraction = phases({}).back();
-  Settling settling;
-  constexpr double rate = 6.0;  // [1/s]
-  const auto variation = [&](double time) { return 0.2 * std::exp(-rate * time); };
-  const double end = std::log(0.2 / contraction.tolerance) / rate;
-  double left = 0.0;
-  for (double time = 0.3; time < 0.5; time += 0.02)
-    left = settling.time_left(contraction, time, variation(time));
-  CHECK(left == Approx(end - 0.48).epsilon(0.05));
+  const Phase filling = phases({}).front();
+  const auto rises = [](double time) { return 7e4 * (1.0 + time); };
+  CHECK(settling_time_left(filling, 0.1, recorded(filling, 0.1, rises)) ==
+        Approx(filling.usual - 0.1));
+  CHECK(settling_time_left(filling, 0.0, SteadyVolume(filling.window, filling.tolerance)) ==
+        Approx(filling.usual));
+  // it never stands still at nothing, and never exceeds the longest duration
+  CHECK(settling_time_left(filling, 1.5, recorded(filling, 1.5, rises)) > 0.0);
+  const double last = filling.longest - 0.001;
+  CHECK(settling_time_left(filling, last, recorded(filling, last, rises)) <= 0.0011);
+}
+
+TEST_CASE("a volume that comes to rest exponentially ends the phase where it meets the tolerance",
+          "[unit][heartbeat]") {
+  Phase contraction = phases({}).back();
+  contraction.longest = forever;
+  constexpr double rate = 2.0;  // [1/s]
+  const auto volume = [](double time) { return 6e4 * (1.0 + 0.5 * std::exp(-rate * time)); };
+  const double window = contraction.window;
+  // 0.5 (exp(rate window) - 1) exp(-rate t) = tolerance
+  const double end = std::log(0.5 * (std::exp(rate * window) - 1.0) / contraction.tolerance) / rate;
+  for (const double time : {0.7 * end, 0.9 * end}) {
+    REQUIRE(time > contraction.usual);
+    CHECK(settling_time_left(contraction, time, recorded(contraction, time, volume)) ==
+          Approx(end - time).epsilon(0.1));
+  }
+}
+
+TEST_CASE("a volume that was elsewhere within the window has to stay for the rest of it",
+          "[unit][heartbeat]") {
+  Phase contraction = phases({}).back();
+  contraction.longest = forever;
+  constexpr double jump = 5.0;
+  const auto volume = [](double time) { return time < jump ? 5e4 : 6e4; };
+  for (const double since : {0.05, 0.1, 0.2})
+    CHECK(settling_time_left(contraction, jump + since,
+                             recorded(contraction, jump + since, volume)) ==
+          Approx(contraction.window - since).margin(2e-3));
 }
