@@ -53,6 +53,10 @@ void take_walls(const fs::path& from, const fs::path& to) {
   }
 }
 
+bool came_to_limit(const fs::path& work) {
+  return read_cycle(folder_in(work, Stage::beat)).is_limit;
+}
+
 /// The last beat of a member that has run.
 circulation::LoadedBeat loaded_beat(const Member& member, const fs::path& work) {
   const circulation::Cycle cycle = read_cycle(folder_in(work, Stage::beat));
@@ -135,14 +139,15 @@ class StudyRun {
     }
   }
 
-  /// Its beats begin where those of the one that it comes from have ended.
+  /// Its beats begin where those of the one that it comes from have ended, if they came to a limit
+  /// cycle: after fewer, a beat of its own would still be that of the other's load.
   [[nodiscard]] Case member_case(std::size_t i) const {
     Case c = case_file::under(members_[i].factors, with_its_fit());
     if (c.engine == case_file::EngineChoice::immersed)
       return c;
     for (const std::size_t from : {origin_of(i), std::size_t{0}}) {
       const fs::path end = folder_in(work_of(from), Stage::beat) / heartbeat::end_of_beats;
-      if (!parallel::root_says(fs::exists(end)))
+      if (!parallel::root_says(fs::exists(end) && came_to_limit(work_of(from))))
         continue;
       c.protocol.cycle.begin = fs::absolute(end).string();
       return c;
