@@ -38,6 +38,7 @@ Json shape_json(const VentricleShape& s) {
           {"wall_volume_ml", number(1e-3 * s.wall_volume)},
           {"apex_endo_z_mm", number(s.apex_endo_z)},
           {"apex_epi_z_mm", number(s.apex_epi_z)},
+          {"long_axis_mm", number(s.long_axis)},
           {"base_endo_radius_mm", number(s.base_endo_radius)},
           {"base_axial_shift_mm", number(s.base_axial_shift)}};
 }
@@ -334,6 +335,7 @@ std::string shapes_text(const RunFacts& facts, const Results& r) {
   row("cavity volume (ml)", &VentricleShape::cavity_volume, units::ml);
   row("wall volume (ml)", &VentricleShape::wall_volume, units::ml);
   row("endocardial apex z (mm)", &VentricleShape::apex_endo_z, 1.0);
+  row("endocardial long axis (mm)", &VentricleShape::long_axis, 1.0);
   return text + "\n";
 }
 
