@@ -156,6 +156,18 @@ def strain_errors(study, case, work, phase):
     return found
 
 
+def compare_base(name, study, work, truth, true):
+    """How the base moves, beside the slice next to it, which lies half a slab below at most; the phantom's base does not tilt."""
+    phase = truth["end_systole"]["phase"]
+    rows = list(csv.DictReader((work / "00_strain" / "base_motion.csv").open()))
+    base = {column: float(value) for column, value in rows[(phase - truth["end_diastole"]["phase"]) % len(rows)].items()}
+    basal = min(true, key=true.get)  # it goes farthest towards the apex
+    turned = at_end_systole(study / "truth_rotation.csv", phase, lambda r: int(r["slice"]), "rotation_deg")[basal]
+    check(f"{name}: axial motion of the base (mm)", abs(base["axial_mm"] + true[basal]), 2)
+    check(f"{name}: tilt of the base (degrees)", max(abs(base["septal_tilt_deg"]), abs(base["anterior_tilt_deg"])), 3)
+    check(f"{name}: rotation of the base (degrees)", abs(base["rotation_deg"] - turned), 1.5)
+
+
 def compare_strain(options, folder):
     name, study, work, truth = make_study(options, folder)
     phase = truth["end_systole"]["phase"]
@@ -166,6 +178,7 @@ def compare_strain(options, folder):
     moved = at_end_systole(work / "00_strain" / "axial_motion.csv", phase, lambda r: int(r["slice"]), "axial_displacement_mm")
     true = {s["slice"]: s["through_plane_motion_at_end_systole_mm"] for s in truth["short_axis"]}
     check(f"{name}: motion through the planes, rms (mm)", rms([u - true[k] for k, u in moved.items()]), 1)
+    compare_base(name, study, work, truth, true)
     if what != "blind":
         return
     # What the long axes are for: these checks must be able to fail.

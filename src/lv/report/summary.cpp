@@ -265,6 +265,7 @@ Json energy_json(const heartbeat::EnergyBalance& e) {
           {"kinetic_mJ", number(millijoule * e.kinetic)},
           {"work_on_supports_mJ", number(millijoule * e.supports)},
           {"viscous_mJ", number(millijoule * e.viscosity)},
+          {"work_of_moving_base_mJ", number(millijoule * e.base)},
           {"missing_percent", number(100.0 * e.error())}};
 }
 
@@ -302,9 +303,12 @@ std::string cycle_text(const heartbeat::Beat& beat) {
     return text + "\n";
   return text +
          fmt::format(
-             "  {:<26} {:.4g} mJ, of the cavity's pressure {:.4g} mJ, stored {:.2g} mJ{}: {:.2g}% "
+             "  {:<26} {:.4g} mJ, of the cavity's pressure {:.4g} mJ{}, stored {:.2g} mJ{}: "
+             "{:.2g}% "
              "is missing\n\n",
              "work of the muscle", millijoule * e.muscle, millijoule * e.pressure,
+             e.base == 0.0 ? ""
+                           : fmt::format(", of the moving base {:.4g} mJ", millijoule * e.base),
              millijoule * e.stored,
              e.kinetic == 0.0 && e.viscosity == 0.0
                  ? ""
