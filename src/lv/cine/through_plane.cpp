@@ -114,7 +114,7 @@ Table base_motion_table(const ThroughPlane& through, const strain::Orientation& 
     const auto tilt = [&](const Vec3& towards) {  // u is linear across the axis
       return number(std::atan(u - through.axial(middle + towards, k)) / units::degree);
     };
-    table.add_row({number(static_cast<double>(k) / images), number(-u), tilt(septum),
+    table.add_row({number(static_cast<double>(k) / images), number(0.0 - u), tilt(septum),
                    tilt(anterior), number(rotation[static_cast<std::size_t>(k)] / units::degree)});
   }
   return table;
