@@ -9,11 +9,9 @@
 namespace lv::pipeline {
 
 using case_file::Case;
-using Source = heartbeat::BaseMotionSource;
 
 Case with_base_of_cine(Case c, const std::filesystem::path& strain) {
-  if (c.base_motion.source == Source::cine)
-    c.base_motion.file = std::filesystem::absolute(strain / cine::base_motion_name).string();
+  c.base_motion.file = std::filesystem::absolute(strain / cine::base_motion_name).string();
   return c;
 }
 

@@ -8,8 +8,7 @@
 
 namespace lv::pipeline {
 
-/// The case with the motion that its strain stage has left in `strain` named as a table, where
-/// base.motion asks for it.
+/// The case with the motion that its strain stage has left in the folder `strain` named as a table.
 [[nodiscard]] case_file::Case with_base_of_cine(case_file::Case c,
                                                 const std::filesystem::path& strain);
 

@@ -188,8 +188,10 @@ class Pipeline {
     else
       log::info("{} ...", name_of(s));
     on_root([&] { static_cast<void>(stage.begin()); });
-    make(s, with_base_of_cine(work::stage_view(case_, s), folder(Stage::strain)),
-         stage.unfinished());
+    Case seen = work::stage_view(case_, s);
+    if (takes_base_of_cine(s))
+      seen = with_base_of_cine(std::move(seen), folder(Stage::strain));
+    make(s, seen, stage.unfinished());
     on_root([&] { stage.finish(); });
     show(s);
   }
