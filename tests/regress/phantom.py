@@ -156,6 +156,19 @@ def strain_errors(study, case, work, phase):
     return found
 
 
+def compare_base(name, study, work, truth):
+    """How the base moves: along the axis as the evenly shortening phantom does at height 0, with the rotation of the slice below it,
+    and without tilts."""
+    phase = truth["end_systole"]["phase"]
+    rows = list(csv.DictReader((work / "00_strain" / "base_motion.csv").open()))
+    base = {column: float(value) for column, value in rows[(phase - truth["end_diastole"]["phase"]) % len(rows)].items()}
+    (high, u), (low, v) = [(s["height_mm"], s["through_plane_motion_at_end_systole_mm"]) for s in truth["short_axis"][:2]]
+    turned = at_end_systole(study / "truth_rotation.csv", phase, lambda r: int(r["slice"]), "rotation_deg")
+    check(f"{name}: axial motion of the base (mm)", abs(base["axial_mm"] + u - high * (u - v) / (high - low)), 1.5)
+    check(f"{name}: tilt of the base (degrees)", max(abs(base["septal_tilt_deg"]), abs(base["anterior_tilt_deg"])), 3)
+    check(f"{name}: rotation of the base (degrees)", abs(base["rotation_deg"] - turned[min(turned)]), 1.5)
+
+
 def compare_strain(options, folder):
     name, study, work, truth = make_study(options, folder)
     phase = truth["end_systole"]["phase"]
@@ -166,6 +179,7 @@ def compare_strain(options, folder):
     moved = at_end_systole(work / "00_strain" / "axial_motion.csv", phase, lambda r: int(r["slice"]), "axial_displacement_mm")
     true = {s["slice"]: s["through_plane_motion_at_end_systole_mm"] for s in truth["short_axis"]}
     check(f"{name}: motion through the planes, rms (mm)", rms([u - true[k] for k, u in moved.items()]), 1)
+    compare_base(name, study, work, truth)
     if what != "blind":
         return
     # What the long axes are for: these checks must be able to fail.

@@ -26,6 +26,8 @@ VentricleShape shape(const mesh::Mesh& mesh, const std::vector<Vec3>& positions,
   Vec3 centre = Vec3::Zero();
   for (const auto& side : edge)
     centre += positions[side[0]] / static_cast<double>(edge.size());
+  for (const int a : mesh.endo.nodes)
+    s.long_axis = std::max(s.long_axis, (positions[a] - centre).norm());
   for (const auto& side : edge)
     s.base_endo_radius += (positions[side[0]] - centre).norm() / static_cast<double>(edge.size());
   return s;

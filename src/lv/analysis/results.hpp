@@ -11,12 +11,14 @@ namespace lv::analysis {
 
 /// Size and shape of the ventricle at one time.
 struct VentricleShape {
-  double time = 0.0;              ///< [s]
-  double pressure = 0.0;          ///< on the endocardium [kPa]
-  double cavity_volume = 0.0;     ///< [mm^3]
-  double wall_volume = 0.0;       ///< [mm^3]
-  double apex_endo_z = 0.0;       ///< lowest point of the endocardium [mm]
-  double apex_epi_z = 0.0;        ///< [mm]
+  double time = 0.0;           ///< [s]
+  double pressure = 0.0;       ///< on the endocardium [kPa]
+  double cavity_volume = 0.0;  ///< [mm^3]
+  double wall_volume = 0.0;    ///< [mm^3]
+  double apex_endo_z = 0.0;    ///< lowest point of the endocardium [mm]
+  double apex_epi_z = 0.0;     ///< [mm]
+  double long_axis = 0.0;      ///< from the middle of the endocardium's edge to its farthest node,
+                               ///< the apex [mm]
   double base_endo_radius = 0.0;  ///< mean distance of the endocardial edge from its centre [mm]
   double base_axial_shift = 0.0;  ///< largest axial displacement of the basal nodes [mm]
 };

@@ -235,6 +235,7 @@ struct Case {
   Box box;
   immersed::CouplingParameters coupling;
   solid::BasalSupport base;
+  heartbeat::BaseMotionParameters base_motion;
   solid::Surroundings surroundings;
   activation::ActivationParameters activation;
   EngineChoice engine = EngineChoice::immersed;

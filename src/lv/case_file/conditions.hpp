@@ -79,6 +79,16 @@ LV_CONDITION(elastic_base, c.base.kind == solid::BasalSupport::Kind::elastic,
              "with base.support = \"elastic\"")
 LV_CONDITION(rigid_base, c.base.kind != solid::BasalSupport::Kind::elastic,
              "with base.support = \"sliding\" or \"fixed\"")
+LV_CONDITION(engine_of_moving_base, c.engine == EngineChoice::quasi_static,
+             "with engine = \"quasi_static\" (heartbeats of the other go by what the endocardium "
+             "sweeps around a base that stays)")
+LV_CONDITION(beats_of_moving_base, beats_in(c, s),
+             "with protocol.kind = \"cycle\" (a motion over the beat says nothing to loads without "
+             "a time)")
+LV_CONDITION(moving_base, c.base_motion.source != heartbeat::BaseMotionSource::none,
+             "with base.motion = \"table\" or \"cine\"")
+LV_CONDITION(base_table, c.base_motion.source == heartbeat::BaseMotionSource::table,
+             "with base.motion = \"table\"")
 // dashpots alone are none where nothing has a rate
 LV_CONDITION(pericardium,
              c.surroundings.epicardium.has_springs() ||

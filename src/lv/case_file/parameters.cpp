@@ -331,7 +331,7 @@ constexpr Group of_mesh[]{
          number("fibres.sheet_epi", LV_AT(fibres.sheet_epi), "deg", between(-90.0, 90.0),
                 "sheet angle at the epicardium", "2.2"),
      }},
-    {Stages(Stage::anatomy, Stage::mesh, Stage::calibrate, Stage::unload),
+    {Stages(Stage::anatomy, Stage::mesh, Stage::calibrate, Stage::unload, Stage::beat),
      {},
      {
          whether_set(number("regions.septum_angle", LV_AT(regions.septum_angle), "deg",
@@ -867,6 +867,28 @@ constexpr Group of_blood_and_base[]{
                 not_negative, "dashpots per area along the normal of the undeformed base"),
          number("base.tangential_viscosity", LV_AT(surroundings.base.tangential_viscosity),
                 "kPa s/mm", not_negative, "dashpots per area in its plane"),
+     }},
+    {beating,
+     {&engine_of_moving_base, &beats_of_moving_base},
+     {
+         choice("base.motion", LV_AT(base_motion.source), "none table cine",
+                "the base stays, or its springs and dashpots move with it through every beat: as a "
+                "table says, or as strain.long_axis_cine shows"),
+     }},
+    {beating,
+     {&engine_of_moving_base, &beats_of_moving_base, &base_table},
+     {
+         file("base.motion_file", LV_AT(base_motion.file),
+              "CSV with the columns time_s (after the calcium of a beat begins) or cycle_share, "
+              "axial_mm (towards the apex), septal_tilt_deg, anterior_tilt_deg (that edge towards "
+              "the apex) and rotation_deg (anticlockwise seen from the apex)"),
+     }},
+    {beating,
+     {&engine_of_moving_base, &beats_of_moving_base, &moving_base},
+     {
+         number("base.motion_zero", LV_AT(base_motion.zero), "s", not_negative,
+                "time of the motion at which the base is where the wall without load has it: the "
+                "moment of the cycle at which its shape was seen"),
      }},
     {mechanics,
      {},

@@ -207,6 +207,7 @@ class CaseReader {
     check_calibration();
     check_circulation();
     check_supports();
+    check_base_motion();
     check_cycle();
     check_study();
     check_activation();
@@ -370,6 +371,26 @@ class CaseReader {
                      "chambers without pressure (V_0) hold {:g} ml of it, so that nothing fills "
                      "the vessels; blood without unstressed vessels is 1200 to 2000 ml of an adult",
                      loop.blood / units::ml, unstressed / units::ml));
+  }
+
+  void check_base_motion() {
+    const heartbeat::BaseMotionParameters& motion = case_.base_motion;
+    using Source = heartbeat::BaseMotionSource;
+    rule(motion.source != Source::table || !motion.file.empty(), "base.motion",
+         "is \"table\", but base.motion_file is not set");
+    rule(motion.source != Source::cine ||
+             (case_.strain.asked() && !case_.strain.long_axis_cine.empty()),
+         "base.motion",
+         "is \"cine\", but there is no long-axis cine to follow: set strain.cine, "
+         "strain.long_axis_cine and the contours on them, or give the motion as a table");
+    rule(motion.source == Source::none || case_.base.kind != solid::BasalSupport::Kind::elastic ||
+             (case_.surroundings.base.normal_stiffness > 0.0 &&
+              case_.surroundings.base.tangential_stiffness > 0.0),
+         "base.motion",
+         "needs springs at the base that take the wall along: set base.normal_stiffness and "
+         "base.tangential_stiffness, or base.support = \"sliding\" or \"fixed\"");
+    together(motion.zero < case_.circulation.period, {"base.motion_zero", "circulation.period"},
+             "must be a time within a beat (circulation.period)");
   }
 
   void check_supports() {

@@ -168,6 +168,24 @@ std::vector<strain::SegmentStrain> all_segments(const std::vector<TrackedSlice>&
   return rows;
 }
 
+/// The rotation of the slice next to the base of those that were followed, at every image after
+/// end-diastole; of none if no slice was [rad].
+std::vector<double> base_rotation(const ThroughPlane& through,
+                                  const std::vector<TrackedSlice>& muscle) {
+  const TrackedSlice* next_to_base = nullptr;
+  double height = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < muscle.size(); ++i)
+    if (was_followed(muscle[i]) && through.slices[i].height > height) {
+      next_to_base = &muscle[i];
+      height = through.slices[i].height;
+    }
+  std::vector<double> rotation(muscle.front().series.phases.size(), 0.0);
+  if (next_to_base != nullptr)
+    for (std::size_t k = 0; k < rotation.size(); ++k)
+      rotation[k] = next_to_base->series.motion[k].rotation;
+  return rotation;
+}
+
 /// What was found of strain and of motion through the planes.
 std::string words_of_muscle(const std::vector<TrackedSlice>& muscle,
                             const std::optional<ThroughPlane>& through, int systole,
@@ -255,8 +273,11 @@ void make_strain(const Case& c, const fs::path& folder) {
   const std::vector<strain::SegmentStrain> rows = all_segments(muscle);
   strain::segments_table(rows).write_csv(folder / "segments.csv");
   strain::rotation_table(series_of(muscle, true)).write_csv(folder / "rotation.csv");
-  if (through)
+  if (through) {
     axial_table(*through).write_csv(folder / "axial_motion.csv");
+    base_motion_table(*through, study.orientation, base_rotation(*through, muscle))
+        .write_csv(folder / base_motion_name);
+  }
   slices_table(study, slices, muscle, systole).write_csv(folder / "slices.csv");
   volumes_table(slices, study.spacing).write_csv(folder / "volumes.csv");
   geometry::contour_table(loops_at(slices, systole)).write_csv(folder / "contours_es.csv");

@@ -31,10 +31,14 @@ struct CinePhases {
 void write_phases(const CinePhases& phases, const std::filesystem::path& folder);
 [[nodiscard]] CinePhases read_phases(const std::filesystem::path& folder);
 
+/// The file in which the strain stage leaves how the base moves, a table of heartbeat::read_motion.
+inline constexpr const char* base_motion_name = "base_motion.csv";
+
 /// Follows the cine of a case and writes
 ///
 ///   phases.bin      the images of both ends of systole; phases.json for readers
 ///   axial_motion.csv motion of the slices' muscle along the axis, if long-axis images show it
+///   base_motion.csv how the base moves over the cycle, if they do
 ///   segments.csv    strain per slice, sector and AHA segment at every phase
 ///   rotation.csv    of every slice at every phase
 ///   slices.csv      how well each slice was followed, and how near to given end-systolic contours

@@ -1,6 +1,7 @@
 #include "lv/cine/through_plane.hpp"
 
 #include "lv/base/time_left.hpp"
+#include "lv/base/units.hpp"
 #include "lv/geometry/contour_measures.hpp"
 #include "lv/strain/reslice.hpp"
 
@@ -8,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace lv::cine {
 namespace {
@@ -91,6 +93,29 @@ Table axial_table(const ThroughPlane& through) {
                      number(through.axial(through.slices[i].centre, step)),
                      number(through.axial.residual(step))});
     }
+  }
+  return table;
+}
+
+Table base_motion_table(const ThroughPlane& through, const strain::Orientation& o,
+                        const std::vector<double>& rotation) {
+  const AxialSlice& basal = *std::max_element(
+      through.slices.begin(), through.slices.end(),
+      [](const AxialSlice& a, const AxialSlice& b) { return a.height < b.height; });
+  const Vec3 middle = basal.centre + (o.base - basal.centre).dot(o.up) * o.up;
+  const auto across = [&](const Vec3& x) { return Vec3(x - x.dot(o.up) * o.up); };
+  const Vec3 septum = across(o.septum - middle).normalized();
+  const Vec3 anterior = o.up.cross(septum);
+  Table table({"cycle_share", "axial_mm", "septal_tilt_deg", "anterior_tilt_deg", "rotation_deg"});
+  const auto number = [](double x) { return Table::number(x, 5); };
+  const auto images = static_cast<int>(rotation.size());
+  for (int k = 0; k < images; ++k) {
+    const double u = through.axial(middle, k);
+    const auto tilt = [&](const Vec3& towards) {  // u is linear across the axis
+      return number(std::atan(u - through.axial(middle + towards, k)) / units::degree);
+    };
+    table.add_row({number(static_cast<double>(k) / images), number(0.0 - u), tilt(septum),
+                   tilt(anterior), number(rotation[static_cast<std::size_t>(k)] / units::degree)});
   }
   return table;
 }

@@ -38,6 +38,13 @@ struct ThroughPlane {
 /// fitted motion leaves of that seen on the long axes).
 [[nodiscard]] Table axial_table(const ThroughPlane& through);
 
+/// How the base moves over the cycle from end-diastole on, a table of heartbeat::read_motion: axial
+/// motion and tilts are those that the fitted motion has at the base plane in the middle of the
+/// slice next to it, the rotation is given for every image [rad].
+[[nodiscard]] Table base_motion_table(const ThroughPlane& through,
+                                      const strain::Orientation& orientation,
+                                      const std::vector<double>& rotation);
+
 /// How far base and apex moved until end-systole, and slices that left the stack.
 [[nodiscard]] std::string words_of(const ThroughPlane& through, int systole);
 

@@ -71,8 +71,8 @@ struct NamedMoment {
   Snapshot wall{};
 };
 
-/// Work on the wall over a heartbeat: what the cavity's pressure and the muscle do is stored, goes
-/// into motion, and is taken by supports and viscosity [mN mm].
+/// Work on the wall over a heartbeat: what the cavity's pressure, the muscle and a moving base do
+/// is stored, goes into motion, and is taken by supports and viscosity [mN mm].
 struct EnergyBalance {
   /// Of the pressure on the endocardium; the negative of the stroke work int p dV where the base
   /// stays in its plane.
@@ -82,13 +82,14 @@ struct EnergyBalance {
   double kinetic = 0.0;    ///< change of int rho v.v/2 dX
   double supports = 0.0;   ///< into springs and dashpots
   double viscosity = 0.0;  ///< int int P_viscous : dF dX
+  double base = 0.0;       ///< of what moves the base on its springs and dashpots
 
   /// Whether it was kept: the immersed engine, whose blood moves and rubs too, keeps none.
   [[nodiscard]] bool is_known() const { return muscle != 0.0; }
 
   /// What is missing, as a part of what the muscle does.
   [[nodiscard]] double error() const {
-    return std::abs((pressure + muscle - stored - kinetic - supports - viscosity) / muscle);
+    return std::abs((pressure + muscle + base - stored - kinetic - supports - viscosity) / muscle);
   }
 };
 

@@ -53,6 +53,17 @@ Archive archived(const implicit::State& state) {
   return archive;
 }
 
+std::vector<double> numbers_of(const solid::AffineField& field) {
+  std::vector<double> numbers(field.H.data(), field.H.data() + field.H.size());
+  numbers.insert(numbers.end(), field.d.begin(), field.d.end());
+  return numbers;
+}
+
+solid::AffineField load_field(const Archive& archive, const char* name) {
+  const double* n = archive.get_rows(name, 12, 1).data();
+  return {Eigen::Map<const Mat3>(n), Eigen::Map<const Vec3>(n + 9)};
+}
+
 Archive archived(const TimeEngine::Moment& moment) {
   Archive archive;
   archive.add("now", archived(moment.now));
@@ -61,6 +72,8 @@ Archive archived(const TimeEngine::Moment& moment) {
   archive.set("velocity", flat(moment.rates.velocity));
   archive.set("acceleration", flat(moment.rates.acceleration));
   archive.set("muscle", moment.muscle);
+  archive.set("base_displacement", numbers_of(moment.base.displacement));
+  archive.set("base_velocity", numbers_of(moment.base.velocity));
   return archive;
 }
 
@@ -81,6 +94,7 @@ TimeEngine::Moment load_moment(const Archive& archive, const MomentSizes& n = {}
   moment.rates.velocity = vectors(archive.get_rows("velocity", 3, n.velocities));
   moment.rates.acceleration = vectors(archive.get_rows("acceleration", 3, n.accelerations));
   moment.muscle = archive.get_rows("muscle", 1, n.muscle);
+  moment.base = {load_field(archive, "base_displacement"), load_field(archive, "base_velocity")};
   moment.now = load_state(archive, "now", n);
   if (moment.dt_before > 0.0)  // else there is none
     moment.before = load_state(archive, "before", n);
@@ -208,7 +222,8 @@ void CycleRun::beats() {
 /// Fills the wall to the pressure before the mitral valve, so that it is neither open nor closed.
 void CycleRun::start() {
   const double pressure = record_.filling_pressure();
-  record_.start(engine_.fill(pressure, setup_.calcium.Ca_0).value(), pressure);
+  const solid::AffineField base = setup_.base_motion.at(0.0);
+  record_.start(engine_.fill(pressure, setup_.calcium.Ca_0, base).value(), pressure);
   begin_beat();
 }
 
@@ -277,7 +292,11 @@ void CycleRun::step() {
     const auto [after, per_pressure] = record_.volume_after(dt, p);
     return {after, per_pressure};
   };
-  const implicit::TimeStep step{dt, calcium_between(record_.since(), record_.after(dt))};
+  const double end = record_.after(dt);
+  const implicit::TimeStep step{
+      dt,
+      calcium_between(record_.since(), end),
+      {setup_.base_motion.at(record_.since()), setup_.base_motion.at(end)}};
   const auto newton = engine_.advance(step, volume);
   if (!newton.converged && !gives_way(step, volume)) {
     shorten(newton.why);
@@ -306,8 +325,9 @@ void CycleRun::add_work(const Passed& before) {
   EnergyBalance& sum = state().beat.energy;
   sum.pressure += work.pressure;
   sum.muscle += work.muscle;
-  sum.supports += work.supports;
+  sum.supports += work.supports + work.base;
   sum.viscosity += work.viscosity;
+  sum.base += work.base;
 }
 
 /// Where shorter steps did not help.

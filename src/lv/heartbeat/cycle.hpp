@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lv/base/outcome.hpp"
+#include "lv/heartbeat/base_motion.hpp"
 #include "lv/heartbeat/cycle_record.hpp"
 #include "lv/implicit/time_engine.hpp"
 
@@ -26,6 +27,7 @@ struct CycleSetup {
   std::vector<double> activation_times = {};
   /// Where beats of the same wall have ended (end_of_beats), to begin there; empty: a filled wall.
   std::filesystem::path begin = {};
+  BaseMotion base_motion = {};
 };
 
 /// Where the next beat of a run would begin, beside its checkpoints.

@@ -355,12 +355,12 @@ std::vector<Sample> load_samples(const Archive& archive, std::size_t columns) {
 
 void store(const EnergyBalance& energy, Archive& archive) {
   archive.set("energy", {energy.pressure, energy.muscle, energy.stored, energy.kinetic,
-                         energy.supports, energy.viscosity});
+                         energy.supports, energy.viscosity, energy.base});
 }
 
 EnergyBalance load_energy(const Archive& archive) {
-  const auto& n = archive.get_rows("energy", 6, 1);
-  return {n[0], n[1], n[2], n[3], n[4], n[5]};
+  const auto& n = archive.get_rows("energy", 7, 1);
+  return {n[0], n[1], n[2], n[3], n[4], n[5], n[6]};
 }
 
 circulation::Cycle load_cycle(const Archive& archive) {

@@ -11,6 +11,17 @@ namespace lv::heartbeat {
 /// circulation.
 enum class ProtocolKind { paper, cycle };
 
+/// Where the motion of the base over a beat comes from: there is none, a table, or the long-axis
+/// cine.
+enum class BaseMotionSource { none, table, cine };
+
+struct BaseMotionParameters {
+  BaseMotionSource source = BaseMotionSource::none;
+  std::string file;   ///< the table, as the case file names it
+  double zero = 0.0;  ///< when the base is where the undeformed wall has it, after the beat's
+                      ///< calcium begins [s]
+};
+
 /// Heartbeats of a wall joined to a circulation.
 struct CycleParameters {
   int beats = 10;                ///< at most

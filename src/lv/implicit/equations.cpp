@@ -278,7 +278,8 @@ Equations::Inside Equations::inside(const State& state, const TensionAt& tension
 }
 
 std::vector<double> Equations::residual(const State& state, double pressure,
-                                        const TensionAt& tension, const Motion* motion) const {
+                                        const TensionAt& tension, const Motion* motion,
+                                        const solid::BasePlace& base) const {
   auto [R, inverted] = inside(state, tension, motion);
   if (parallel::any(inverted))
     return {};
@@ -286,7 +287,7 @@ std::vector<double> Equations::residual(const State& state, double pressure,
   endocardium_.add_gradient(pressure, state.positions, forces);
   const std::vector<Vec3> v =
       motion != nullptr ? motion->velocities(state.positions) : std::vector<Vec3>{};
-  supports_.add_forces(state.positions, v, forces);
+  supports_.add_forces(state.positions, v, forces, base);
   for (std::size_t a = 0; a < forces.size(); ++a)
     for (int i = 0; i < 3; ++i)
       R[3 * a + i] -= forces[a][i];
@@ -418,11 +419,23 @@ double Equations::kinetic_energy(std::span<const Vec3> velocities) const {
 
 double Equations::support_work(const Moving& from, const Moving& to) const {
   std::vector<Vec3> forces(from.positions.size(), Vec3::Zero());
-  supports_.add_forces(from.positions, from.velocities, forces);
-  supports_.add_forces(to.positions, to.velocities, forces);
+  supports_.add_forces(from.positions, from.velocities, forces, from.base);
+  supports_.add_forces(to.positions, to.velocities, forces, to.base);
   double work = 0.0;
   for (std::size_t a = 0; a < forces.size(); ++a)
     work -= 0.5 * forces[a].dot(to.positions[a] - from.positions[a]);
+  return parallel::sum(work);
+}
+
+double Equations::base_work(const Moving& from, const Moving& to) const {
+  std::vector<Vec3> forces(from.positions.size(), Vec3::Zero());
+  supports_.add_base_forces(from.positions, from.velocities, forces, from.base);
+  supports_.add_base_forces(to.positions, to.velocities, forces, to.base);
+  double work = 0.0;
+  for (std::size_t a = 0; a < forces.size(); ++a) {
+    const Vec3& X = mesh_.nodes[a];
+    work += 0.5 * forces[a].dot(to.base.displacement.at(X) - from.base.displacement.at(X));
+  }
   return parallel::sum(work);
 }
 

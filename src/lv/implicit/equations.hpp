@@ -110,10 +110,12 @@ class Equations {
   [[nodiscard]] TensionAt steady(double activation) const;
 
   /// R under a pressure in the cavity [kPa], complete on every rank; empty when an element is
-  /// turned inside out at some point of any rank.
+  /// turned inside out at some point of any rank. The base is held at a place, which the tangent
+  /// does not depend on.
   [[nodiscard]] std::vector<double> residual(const State& state, double pressure,
                                              const TensionAt& tension,
-                                             const Motion* motion = nullptr) const;
+                                             const Motion* motion = nullptr,
+                                             const solid::BasePlace& base = {}) const;
 
   /// The same under loads, with steady tension.
   [[nodiscard]] std::vector<double> residual(const State& state, const Loads& loads) const {
@@ -174,12 +176,16 @@ class Equations {
   /// mm].
   [[nodiscard]] double pressure_work(const State& from, const State& to) const;
 
-  /// What supports take up, in springs and dashpots, and what the wall's viscosity does, int
-  /// P_viscous : dF dX, on the same way [mN mm]. Velocities [mm/s] may be empty: at rest.
+  /// What the wall does on its supports, and what its viscosity does, int P_viscous : dF dX, on the
+  /// same way [mN mm]. Velocities [mm/s] may be empty: at rest.
   struct Moving {
     std::span<const Vec3> positions, velocities;
+    solid::BasePlace base = {};
   };
   [[nodiscard]] double support_work(const Moving& from, const Moving& to) const;
+  /// What is done on the supports by whatever moves the base: int F_base . dU with the forces
+  /// F_base of springs and dashpots on the wall [mN mm].
+  [[nodiscard]] double base_work(const Moving& from, const Moving& to) const;
   [[nodiscard]] double viscous_work(const Moving& from, const Moving& to) const;
 
   /// Stress in every linear cell of the mesh, complete on every rank: means over the cell of what

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lv/material/muscle_states.hpp"
+#include "lv/solid/base_motion.hpp"
 
 #include <span>
 #include <vector>
@@ -12,10 +13,12 @@ struct CalciumStep {
   double before = 0.0, after = 0.0;
 };
 
-/// A step of time and its calcium: of every point, or one for all muscle.
+/// A step of time and its calcium, of every point, or one for all muscle; and where the base is
+/// moved to.
 struct TimeStep {
   double dt = 0.0;  ///< [s]
   std::vector<CalciumStep> calcium = {};
+  solid::BaseStep base = {};
 
   [[nodiscard]] const CalciumStep& calcium_of(std::size_t point) const {
     return calcium[calcium.size() == 1 ? 0 : point];

@@ -75,8 +75,8 @@ class Newton::Attempt {
 
   /// R, with r_V at its end where a volume is given; empty when elements are turned inside out.
   [[nodiscard]] std::vector<double> residual_of(const State& state) {
-    std::vector<double> R = newton_.equations_.residual(state, pressure_of(state),
-                                                        equilibrium_.tension, equilibrium_.motion);
+    std::vector<double> R = newton_.equations_.residual(
+        state, pressure_of(state), equilibrium_.tension, equilibrium_.motion, equilibrium_.base);
     if (has_volume() && !R.empty()) {
       given_ = equilibrium_.volume(state.cavity_pressure);
       R.push_back(newton_.equations_.endocardium().volume(state.positions) - given_.volume);

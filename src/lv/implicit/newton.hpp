@@ -38,6 +38,7 @@ struct Equilibrium {
   double pressure = 0.0;           ///< [kPa], where no volume is given
   VolumeOfPressure volume = {};    ///< may be empty
   const Motion* motion = nullptr;  ///< none: the wall is at rest
+  solid::BasePlace base = {};      ///< where the base is held
 };
 
 /// Damped Newton with the error-oriented monotonicity test (P. Deuflhard, Newton Methods for

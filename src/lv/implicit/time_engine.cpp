@@ -4,6 +4,7 @@
 #include "lv/base/parallel.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace lv::implicit {
 
@@ -36,14 +37,13 @@ void TimeEngine::rest() {
     rates_.acceleration = rates_.velocity;
 }
 
-Outcome<double> TimeEngine::fill(double pressure, double Ca_0) {
+Outcome<double> TimeEngine::fill(double pressure, double Ca_0, const solid::AffineField& base) {
   engine_.relax();
   auto volume = engine_.go_to({pressure});
   if (!volume)
     return volume;
   const TensionAt none = [](std::size_t, std::size_t, double) { return Tension{}; };
-  if (const NewtonReport report = engine_.find(engine_.state(), {none, pressure});
-      !report.converged)
+  if (const NewtonReport report = carry({none, pressure}, base); !report.converged)
     return Unsolved{"the filled wall finds no equilibrium without tension: " + report.why,
                     "Take a resting calcium (calcium.Ca_0) with less tension"};
   State filled = engine_.state();
@@ -54,12 +54,34 @@ Outcome<double> TimeEngine::fill(double pressure, double Ca_0) {
   return cavity_volume();
 }
 
+/// The equilibrium with the base at a place, by steps that move it little.
+NewtonReport TimeEngine::carry(const Equilibrium& filled, const solid::AffineField& base) {
+  constexpr double little = 2.0;  // [mm]
+  double farthest = 0.0;
+  for (const Vec3& X : engine_.equations().undeformed())
+    farthest = std::max(farthest, base.at(X).norm());
+  const int steps = std::max(1, static_cast<int>(std::ceil(farthest / little)));
+  Equilibrium there = filled;
+  NewtonReport report;
+  for (int n = 1; n <= steps; ++n) {
+    there.base.displacement = solid::between({}, base, static_cast<double>(n) / steps);
+    State guess = engine_.state();
+    for (std::size_t a = 0; a < guess.positions.size(); ++a)
+      guess.positions[a] += base.at(engine_.equations().undeformed()[a]) / steps;
+    report = engine_.find(std::move(guess), there);
+    if (!report.converged)
+      return report;
+  }
+  base_ = there.base;
+  return report;
+}
+
 NewtonReport TimeEngine::advance(const TimeStep& step, const VolumeOfPressure& volume) {
   if (has_rates_)
     return advance_with_rates(step, volume);
   const State now = engine_.state();
   const State guess = dt_before_ > 0.0 ? extrapolate(before_, now, step.dt / dt_before_) : now;
-  const Equilibrium end{tension_after(step), 0.0, volume};
+  const Equilibrium end{tension_after(step), 0.0, volume, nullptr, step.base.at(1.0, step.dt)};
   NewtonReport report = engine_.find(guess, end);
   if (!report.converged && dt_before_ > 0.0)
     report = engine_.find(now, end);
@@ -68,15 +90,18 @@ NewtonReport TimeEngine::advance(const TimeStep& step, const VolumeOfPressure& v
     return report;
   }
   muscle_.advance(step, engine_.equations().fibre_stretch(engine_.state()));
+  base_ = end.base;
   before_ = now;
   dt_before_ = step.dt;
   return report;
 }
 
 bool TimeEngine::give_way(const TimeStep& step, const VolumeOfPressure& volume) {
-  if (has_rates_ || !engine_.give_way({tension_after(step), 0.0, volume}))
+  const solid::BasePlace base = step.base.at(1.0, step.dt);
+  if (has_rates_ || !engine_.give_way({tension_after(step), 0.0, volume, nullptr, base}))
     return false;
   muscle_.advance(step, engine_.equations().fibre_stretch(engine_.state()));
+  base_ = base;
   dt_before_ = 0.0;  // nothing to extrapolate from
   return true;
 }
@@ -103,9 +128,12 @@ NewtonReport TimeEngine::advance_with_rates(const TimeStep& step, const VolumeOf
     given.volume = share * given.volume + (1.0 - share) * volume_now;
     return given;
   };
-  NewtonReport report = move(step.dt, {tension, 0.0, at_balance});
-  if (report.converged)
+  NewtonReport report =
+      move(step.dt, {tension, 0.0, at_balance, nullptr, step.base.at(share, step.dt)});
+  if (report.converged) {
     muscle_.advance(step, engine_.equations().fibre_stretch(state()));
+    base_ = step.base.at(1.0, step.dt);
+  }
   return report;
 }
 
@@ -168,11 +196,12 @@ TimeEngine::Work TimeEngine::work_since(const Passed& before) const {
   const Equations& equations = engine_.equations();
   const TensionAt then = tension_of(before.muscle);
   const TensionAt now = tension_of(muscle_);
-  const Equations::Moving from{before.state.positions, before.rates.velocity};
-  const Equations::Moving to{state().positions, rates_.velocity};
+  const Equations::Moving from{before.state.positions, before.rates.velocity, before.base};
+  const Equations::Moving to{state().positions, rates_.velocity, base_};
   return {equations.pressure_work(before.state, state()),
           equations.muscle_work({before.state, then}, {state(), now}),
-          equations.support_work(from, to), equations.viscous_work(from, to)};
+          equations.support_work(from, to), equations.viscous_work(from, to),
+          equations.base_work(from, to)};
 }
 
 std::size_t TimeEngine::muscle_numbers() const {
@@ -184,8 +213,12 @@ TimeEngine::Moment TimeEngine::moment() {
   const std::span<const int> own = engine_.equations().own();
   const std::size_t width = muscle_.numbers_per_point() * engine_.equations().points_per_element();
   const std::vector<double> mine = muscle_.numbers();
-  Moment moment{engine_.state(), before_, dt_before_, rates_,
-                std::vector<double>(muscle_numbers(), 0.0)};
+  Moment moment{engine_.state(),
+                before_,
+                dt_before_,
+                rates_,
+                std::vector<double>(muscle_numbers(), 0.0),
+                base_};
   for (std::size_t i = 0; i < own.size(); ++i)
     std::copy_n(mine.begin() + static_cast<std::ptrdiff_t>(i * width), width,
                 moment.muscle.begin() + static_cast<std::ptrdiff_t>(own[i] * width));
@@ -206,6 +239,7 @@ void TimeEngine::restore(const Moment& moment) {
   engine_.restore(moment.now, {moment.now.cavity_pressure});
   engine_.begin_anew();
   rates_ = moment.rates;
+  base_ = moment.base;
   before_ = moment.before;
   dt_before_ = moment.dt_before;
 }

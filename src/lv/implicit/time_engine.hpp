@@ -24,8 +24,9 @@ class TimeEngine {
 
   /// Goes from the undeformed wall to a pressure without any tension; the muscle's states are then
   /// at balance with the calcium Ca_0 [uM] and this wall's stretch, so that its resting tension
-  /// acts from the first step on. The cavity's volume [mm^3].
-  Outcome<double> fill(double pressure, double Ca_0);
+  /// acts from the first step on. A base that is not where it was undeformed takes the filled wall
+  /// along. The cavity's volume [mm^3].
+  Outcome<double> fill(double pressure, double Ca_0, const solid::AffineField& base = {});
 
   /// One step; the engine stays where it was when it fails.
   NewtonReport advance(const TimeStep& step, const VolumeOfPressure& volume);
@@ -51,6 +52,7 @@ class TimeEngine {
     double dt_before = 0.0;      ///< of the step between them; 0: there was none [s]
     Rates rates;                 ///< where the model has rates
     std::vector<double> muscle;  ///< Muscle::numbers of all elements
+    solid::BasePlace base;       ///< where the base was held at the end of the step
   };
   /// Collective. The steps that follow are those that follow a restore: what the solver had
   /// learned of its matrix is forgotten, so that both go the same way to the last bit.
@@ -64,14 +66,16 @@ class TimeEngine {
     State state;
     Muscle muscle;
     Rates rates;
+    solid::BasePlace base;
   };
-  [[nodiscard]] Passed present() const { return {engine_.state(), muscle_, rates_}; }
+  [[nodiscard]] Passed present() const { return {engine_.state(), muscle_, rates_, base_}; }
   /// Stress in every linear cell of the mesh; collective.
   [[nodiscard]] std::vector<solid::CellStress> cell_stress(const Passed& at) const;
   /// What was done since a time, if that is one step ago: by the cavity's pressure and the muscle
-  /// on the wall, by the wall on its supports and against its viscosity [mN mm].
+  /// on the wall, by the wall on its supports and against its viscosity, and by what moves the base
+  /// on its supports [mN mm].
   struct Work {
-    double pressure = 0.0, muscle = 0.0, supports = 0.0, viscosity = 0.0;
+    double pressure = 0.0, muscle = 0.0, supports = 0.0, viscosity = 0.0, base = 0.0;
   };
   [[nodiscard]] Work work_since(const Passed& before) const;
   [[nodiscard]] double stored_energy() const {
@@ -98,6 +102,7 @@ class TimeEngine {
   [[nodiscard]] TensionAt tension_after(const TimeStep& step) const;
 
   void rest();
+  [[nodiscard]] NewtonReport carry(const Equilibrium& filled, const solid::AffineField& base);
   [[nodiscard]] State predicted(const State& now, double dt) const;
   NewtonReport advance_with_rates(const TimeStep& step, const VolumeOfPressure& volume);
 
@@ -106,6 +111,7 @@ class TimeEngine {
   bool has_rates_, has_inertia_;
   GeneralisedAlpha rule_;
   Rates rates_;             ///< where the model has rates
+  solid::BasePlace base_;   ///< where the base is held
   State before_;            ///< at the start of the last step, to extrapolate from
   double dt_before_ = 0.0;  ///< of the last step; 0: there is none [s]
 };

@@ -9,6 +9,7 @@
 #include "lv/case_file/family.hpp"
 #include "lv/circulation/circuit.hpp"
 #include "lv/pipeline/activation.hpp"
+#include "lv/pipeline/base_motion.hpp"
 
 #include <fmt/format.h>
 
@@ -88,7 +89,8 @@ BeatingWall::BeatingWall(const Case& c, const anatomy::MeshResult& wall, const B
       wall_(wall),
       fit_(fit),
       folder_(std::move(folder)),
-      activated_(activation_times(c, wall)) {}
+      activated_(activation_times(c, wall)),
+      base_motion_(base_motion(c, wall.mesh)) {}
 
 double BeatingWall::arterial_pressure(const VectorXd& x) const {
   return arterial_pressure_after(nearest(x).cycle);
@@ -176,7 +178,9 @@ heartbeat::CycleSetup BeatingWall::setup(const Case& c, double accuracy) const {
                               c.circulation,
                               c.protocol.cycle,
                               c.circulation.period * c.protocol.cycle.beats,  // no frames
-                              activated_};
+                              activated_,
+                              {},
+                              base_motion_};
   setup.cycle.tolerance = accuracy;
   if (arterial_pressure_ > 0.0 && c.circulation.kind == circulation::Kind::windkessel)
     setup.circuit.start.p_ar_sys = arterial_pressure_;

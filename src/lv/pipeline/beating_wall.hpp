@@ -87,6 +87,7 @@ class BeatingWall {
   const case_file::BeatFit& fit_;
   std::filesystem::path folder_;
   std::vector<double> activated_;
+  heartbeat::BaseMotion base_motion_;
   std::deque<HeartbeatsAt> known_;
   std::size_t asked_ = 0;
   double seconds_ = -1.0;           ///< that the last evaluation of this process took

@@ -4,6 +4,7 @@
 #include "lv/circulation/cycle.hpp"
 #include "lv/heartbeat/cycle.hpp"
 #include "lv/heartbeat/immersed_cycle.hpp"
+#include "lv/pipeline/base_motion.hpp"
 #include "lv/report/cycle_tables.hpp"
 
 #include <fmt/format.h>
@@ -39,7 +40,7 @@ heartbeat::Beat make_cycle(const Case& c, const mesh::Mesh& mesh,
   return heartbeat::run_cycle(
       {mesh, case_file::static_model(c), c.quasi_static.solver, c.protocol.calcium, c.circulation,
        c.protocol.cycle, c.output.frame_interval, activation_times,
-       begin.empty() ? std::filesystem::path() : case_file::beside(c, begin)},
+       begin.empty() ? std::filesystem::path() : case_file::beside(c, begin), base_motion(c, mesh)},
       folder, observers);
 }
 

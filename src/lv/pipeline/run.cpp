@@ -11,6 +11,7 @@
 #include "lv/case_file/parameters.hpp"
 #include "lv/cine/strain.hpp"
 #include "lv/page/page.hpp"
+#include "lv/pipeline/base_motion.hpp"
 #include "lv/pipeline/calibration.hpp"
 #include "lv/pipeline/circulation.hpp"
 #include "lv/pipeline/heartbeat_fit.hpp"
@@ -60,8 +61,8 @@ class Pipeline {
       log::warn("{}: {}", case_.file.string(), no_parameters);
     for (const std::string& what : case_.without_effect)
       log::warn("{}", what);
-    for (const std::string& odd :
-         {fit_outside_heartbeats(case_), left_handed_fibres(case_), high_filling_pressure(case_)})
+    for (const std::string& odd : {fit_outside_heartbeats(case_), left_handed_fibres(case_),
+                                   high_filling_pressure(case_), base_away_from_apex(case_)})
       if (!odd.empty())
         log::warn("{}", odd);
     if (const int members = check_study(case_); members > 0)
@@ -95,8 +96,8 @@ class Pipeline {
   };
 
   /// The stages in their order. Each takes the results of all before it but the circulation's,
-  /// which runs by itself, and strain's, which the results alone look at; what stands for a result
-  /// is known before it is there.
+  /// which runs by itself, and strain's, which the results look at and fits and beats whose base
+  /// moves as the cine shows; what stands for a result is known before it is there.
   [[nodiscard]] std::vector<Planned> plan() {
     std::vector<Planned> stages;
     work::Ingredients before;  // the last result that leads to the next stage
@@ -107,7 +108,7 @@ class Pipeline {
       work::Ingredients all;
       on_root([&] { all = work::ingredients(case_, stage, files_); });
       all.insert(before.begin(), before.end());
-      if (stage == Stage::results)
+      if (stage == Stage::results || takes_base_of_cine(stage))
         all.insert(strain.begin(), strain.end());
       work::Ingredients result;
       result["result of " + name_of(stage)] = work::fingerprint(all);
@@ -118,6 +119,11 @@ class Pipeline {
       stages.push_back({stage, std::move(all)});
     }
     return stages;
+  }
+
+  [[nodiscard]] bool takes_base_of_cine(Stage stage) const {
+    return case_.base_motion.source == heartbeat::BaseMotionSource::cine &&
+           case_file::counts(*case_file::find_parameter("base.motion"), case_, stage);
   }
 
   [[nodiscard]] work::StageFolder folder_of(const Planned& p) const {
@@ -182,7 +188,10 @@ class Pipeline {
     else
       log::info("{} ...", name_of(s));
     on_root([&] { static_cast<void>(stage.begin()); });
-    make(s, work::stage_view(case_, s), stage.unfinished());
+    Case seen = work::stage_view(case_, s);
+    if (takes_base_of_cine(s))
+      seen = with_base_of_cine(std::move(seen), folder(Stage::strain));
+    make(s, seen, stage.unfinished());
     on_root([&] { stage.finish(); });
     show(s);
   }

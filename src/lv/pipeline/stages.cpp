@@ -187,7 +187,8 @@ report::RunFacts run_facts(const Case& c, const anatomy::MeshResult& mesh, const
   for (const auto& [name, place] : c.origin)
     facts.origins.emplace_back(name, std::filesystem::path(place).filename().string());
   add_marks(c, facts);
-  facts.base_is_held = c.base.kind != solid::BasalSupport::Kind::elastic;
+  facts.base_is_held = c.base.kind != solid::BasalSupport::Kind::elastic &&
+                       c.base_motion.source == heartbeat::BaseMotionSource::none;
   for (const heartbeat::NamedMoment& m : beat.beat.moments)
     if (!m.by_criterion && !beat.beat.cycle)
       facts.warnings.push_back(

@@ -10,6 +10,7 @@
 #include "lv/case_file/parameters.hpp"
 #include "lv/circulation/circuit.hpp"
 #include "lv/circulation/cycle.hpp"
+#include "lv/heartbeat/base_motion.hpp"
 #include "lv/heartbeat/cycle.hpp"
 #include "lv/pipeline/beat_result.hpp"
 #include "lv/pipeline/calibration.hpp"
@@ -37,10 +38,10 @@ bool has_beat(const fs::path& work) {
   return fs::exists(folder_in(work, Stage::beat) / beat_name);
 }
 
-/// Walls do not depend on loads: those of one member serve the next, whose run looks whether they
-/// do.
+/// Walls and what images show do not depend on loads: those of one member serve the next, whose run
+/// looks whether they do.
 void take_walls(const fs::path& from, const fs::path& to) {
-  for (const Stage stage : {Stage::anatomy, Stage::mesh, Stage::unload}) {
+  for (const Stage stage : {Stage::strain, Stage::anatomy, Stage::mesh, Stage::unload}) {
     const fs::path there = folder_in(from, stage);
     const fs::path here = folder_in(to, stage);
     if (!fs::exists(there) || fs::exists(here))
@@ -211,8 +212,12 @@ class StudyRun {
 
 int check_study(const Case& c) {
   const std::vector<Member> members = case_file::family(c.study);
-  for (const Member& member : members)
-    static_cast<void>(case_file::under(member.factors, c));
+  for (const Member& member : members) {
+    const Case there = case_file::under(member.factors, c);
+    if (!there.base_motion.file.empty())  // of one period, if it has times in seconds
+      static_cast<void>(heartbeat::read_motion(
+          {case_file::beside(there, there.base_motion.file).string(), there.circulation.period}));
+  }
   return c.study.asked() ? static_cast<int>(members.size()) : 0;
 }
 

@@ -9,6 +9,7 @@
 #include "lv/cine/strain_targets.hpp"
 #include "lv/mesh/quality.hpp"
 #include "lv/pipeline/activation.hpp"
+#include "lv/pipeline/base_motion.hpp"
 #include "lv/pipeline/calibration.hpp"
 #include "lv/pipeline/circulation.hpp"
 #include "lv/pipeline/cost.hpp"
@@ -65,6 +66,8 @@ std::vector<Warning> warnings_of(const Case& c, const anatomy::Shape& shape, dou
     warnings.push_back({"left-handed fibres", std::move(turned)});
   if (std::string high = high_filling_pressure(c); !high.empty())
     warnings.push_back({"high filling pressure", std::move(high)});
+  if (std::string away = base_away_from_apex(c); !away.empty())
+    warnings.push_back({"base away from apex", std::move(away)});
   for (const geometry::Assumption& a : shape.warnings)
     warnings.push_back({name_of(a), a.text});
   const double edv = c.calibration.edv;
@@ -194,6 +197,7 @@ std::string validate(const Case& c) {
   const anatomy::MeshResult result = make_mesh(c, *shape);
   check_room(c, result.mesh);
   static_cast<void>(activation_times(c, result));  // which may not fit to the wall
+  static_cast<void>(base_motion(c, result.mesh));  // whose table may not fit to the beat
   const double cavity = solid::EndocardialSurface(result.mesh).volume(result.mesh.nodes);
   std::string text = describe_shape(c, *shape, cavity, result.mesh);
   if (const auto targets = cine::strain_targets(c, result.regions); !targets.empty())

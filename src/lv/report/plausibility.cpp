@@ -124,9 +124,9 @@ std::string why_not_applicable(const PlausibleRange& range, const JudgedBeat& be
   if (range.needs_end_systole && !beat.contraction_was_steady)
     return "contraction ended before it was steady, so there is no end-systole to judge";
   if (!beat.base_is_held && range.quantity == "base_axial_shift_mm")
-    return "springs hold the base, which may move";
+    return "springs hold the base, which may move, or take it along";
   if (!beat.base_is_held && range.quantity == "apex_rotation_deg")
-    return "springs hold the base, which may turn too; the range is that of the apex against it";
+    return "the base may turn too; the range is that of the apex against it";
   if (range.population == Population::healthy_muscle && beat.is_infarcted)
     return "the range is that of muscle without an infarct";
   return "";

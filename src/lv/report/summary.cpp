@@ -38,6 +38,7 @@ Json shape_json(const VentricleShape& s) {
           {"wall_volume_ml", number(1e-3 * s.wall_volume)},
           {"apex_endo_z_mm", number(s.apex_endo_z)},
           {"apex_epi_z_mm", number(s.apex_epi_z)},
+          {"long_axis_mm", number(s.long_axis)},
           {"base_endo_radius_mm", number(s.base_endo_radius)},
           {"base_axial_shift_mm", number(s.base_axial_shift)}};
 }
@@ -264,6 +265,7 @@ Json energy_json(const heartbeat::EnergyBalance& e) {
           {"kinetic_mJ", number(millijoule * e.kinetic)},
           {"work_on_supports_mJ", number(millijoule * e.supports)},
           {"viscous_mJ", number(millijoule * e.viscosity)},
+          {"work_of_moving_base_mJ", number(millijoule * e.base)},
           {"missing_percent", number(100.0 * e.error())}};
 }
 
@@ -301,9 +303,12 @@ std::string cycle_text(const heartbeat::Beat& beat) {
     return text + "\n";
   return text +
          fmt::format(
-             "  {:<26} {:.4g} mJ, of the cavity's pressure {:.4g} mJ, stored {:.2g} mJ{}: {:.2g}% "
+             "  {:<26} {:.4g} mJ, of the cavity's pressure {:.4g} mJ{}, stored {:.2g} mJ{}: "
+             "{:.2g}% "
              "is missing\n\n",
              "work of the muscle", millijoule * e.muscle, millijoule * e.pressure,
+             e.base == 0.0 ? ""
+                           : fmt::format(", of the moving base {:.4g} mJ", millijoule * e.base),
              millijoule * e.stored,
              e.kinetic == 0.0 && e.viscosity == 0.0
                  ? ""
@@ -334,6 +339,7 @@ std::string shapes_text(const RunFacts& facts, const Results& r) {
   row("cavity volume (ml)", &VentricleShape::cavity_volume, units::ml);
   row("wall volume (ml)", &VentricleShape::wall_volume, units::ml);
   row("endocardial apex z (mm)", &VentricleShape::apex_endo_z, 1.0);
+  row("endocardial long axis (mm)", &VentricleShape::long_axis, 1.0);
   return text + "\n";
 }
 

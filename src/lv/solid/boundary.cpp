@@ -35,12 +35,14 @@ BasalPenalty::BasalPenalty(const mesh::Mesh& mesh, const BasalSupport& support) 
   }
 }
 
-void BasalPenalty::add_forces(std::span<const Vec3> positions, std::span<Vec3> forces) const {
+void BasalPenalty::add_forces(std::span<const Vec3> positions, std::span<Vec3> forces,
+                              const AffineField& displacement) const {
   const auto share =
       parallel::share(static_cast<int>(springs_.size()), parallel::rank(), parallel::size());
   for (int i = share.begin; i < share.end; ++i) {
     const Spring& s = springs_[i];
-    forces[s.node] -= s.stiffness * (positions[s.node] - s.reference);
+    forces[s.node] -=
+        s.stiffness * (positions[s.node] - s.reference - displacement.at(s.reference));
   }
 }
 

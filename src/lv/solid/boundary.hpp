@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lv/mesh/mesh.hpp"
+#include "lv/solid/base_motion.hpp"
 
 #include <span>
 #include <vector>
@@ -23,7 +24,8 @@ struct BasalSupport {
 ///   F_a = -kappa A_a { [(x - X).e_z] e_z + [(x - X).e_theta(X)] e_theta(X) }   [mN]
 ///
 /// with e_theta about the long axis and A_a the node's share of the basal area [mm^2]; a fixed base
-/// has a spring along e_r(X) too, an elastic one none of these.
+/// has a spring along e_r(X) too, an elastic one none of these. Of a moving base X + U(X) stands
+/// for the X that x is taken from, the directions stay.
 class BasalPenalty {
  public:
   struct Spring {
@@ -34,7 +36,8 @@ class BasalPenalty {
 
   BasalPenalty(const mesh::Mesh& mesh, const BasalSupport& support);
 
-  void add_forces(std::span<const Vec3> positions, std::span<Vec3> forces) const;
+  void add_forces(std::span<const Vec3> positions, std::span<Vec3> forces,
+                  const AffineField& displacement = {}) const;
 
   /// One per node of the base; none of an elastic one.
   [[nodiscard]] const std::vector<Spring>& springs() const { return springs_; }

@@ -38,6 +38,14 @@ Eigen::VectorXd gather(std::span<const Vec3> values, std::span<const int> nodes)
   return result;
 }
 
+/// A field at places X, three rows for each.
+Eigen::VectorXd field_at(const AffineField& field, const Eigen::VectorXd& X) {
+  Eigen::VectorXd result(X.size());
+  for (Eigen::Index i = 0; i < X.size(); i += 3)
+    result.segment<3>(i) = field.at(X.segment<3>(i));
+  return result;
+}
+
 }  // namespace
 
 double AxialWeight::at(double h) const {
@@ -98,11 +106,13 @@ SupportedSurface::SupportedSurface(const mesh::Mesh& mesh, const mesh::Surface& 
 }
 
 void SupportedSurface::add_forces(std::span<const Vec3> positions, std::span<const Vec3> velocities,
-                                  std::span<Vec3> forces) const {
+                                  std::span<Vec3> forces, const BasePlace& place) const {
   for (const Side& side : sides_) {
-    Eigen::VectorXd force = side.stiffness * (gather(positions, side.nodes) - side.reference);
+    Eigen::VectorXd force = side.stiffness * (gather(positions, side.nodes) - side.reference -
+                                              field_at(place.displacement, side.reference));
     if (!velocities.empty())
-      force += side.viscosity * gather(velocities, side.nodes);
+      force += side.viscosity *
+               (gather(velocities, side.nodes) - field_at(place.velocity, side.reference));
     for (std::size_t a = 0; a < side.nodes.size(); ++a)
       forces[side.nodes[a]] -= force.segment<3>(3 * static_cast<Eigen::Index>(a));
   }
@@ -120,10 +130,15 @@ Supports::Supports(const mesh::Mesh& mesh, const BasalSupport& base,
       base_(mesh, mesh.base, surroundings.base) {}
 
 void Supports::add_forces(std::span<const Vec3> positions, std::span<const Vec3> velocities,
-                          std::span<Vec3> forces) const {
-  springs_.add_forces(positions, forces);
+                          std::span<Vec3> forces, const BasePlace& place) const {
   epicardium_.add_forces(positions, velocities, forces);
-  base_.add_forces(positions, velocities, forces);
+  add_base_forces(positions, velocities, forces, place);
+}
+
+void Supports::add_base_forces(std::span<const Vec3> positions, std::span<const Vec3> velocities,
+                               std::span<Vec3> forces, const BasePlace& place) const {
+  springs_.add_forces(positions, forces, place.displacement);
+  base_.add_forces(positions, velocities, forces, place);
 }
 
 void Supports::add_stiffness(double slope, const EndocardialSurface::Block& add) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lv/mesh/quadratic.hpp"
+#include "lv/solid/base_motion.hpp"
 #include "lv/solid/boundary.hpp"
 #include "lv/solid/endocardial_surface.hpp"
 
@@ -73,14 +74,15 @@ struct Surroundings {
 ///   F_a = -int phi_a w(h) {(N (x) N + S)(k_n u + c_n v) + (1 - N (x) N)(k_t u + c_t v)} dA   [mN]
 ///
 /// with S the scatter of the normals, over the undeformed surface: linear in u and v, and
-/// symmetric.
+/// symmetric. A base that moves by U(X) has u - U for u, and v - dU/dt for v.
 class SupportedSurface {
  public:
   SupportedSurface(const mesh::Mesh& mesh, const mesh::Surface& surface, const Support& support);
 
-  /// Adds the forces of this rank's share of the sides. Velocities [mm/s] may be empty: at rest.
+  /// Adds the forces of this rank's share of the sides. Velocities [mm/s] may be empty: at rest,
+  /// with what holds the surface.
   void add_forces(std::span<const Vec3> positions, std::span<const Vec3> velocities,
-                  std::span<Vec3> forces) const;
+                  std::span<Vec3> forces, const BasePlace& place = {}) const;
 
   /// -dF/dx where velocities change by `slope` [1/s] times positions: a block for each of this
   /// rank's sides.
@@ -103,9 +105,14 @@ class Supports {
  public:
   Supports(const mesh::Mesh& mesh, const BasalSupport& base, const Surroundings& surroundings);
 
-  /// Adds the forces of this rank's share. Velocities [mm/s] may be empty: at rest.
+  /// Adds the forces of this rank's share, around a base that is held at a place. Velocities [mm/s]
+  /// may be empty: at rest.
   void add_forces(std::span<const Vec3> positions, std::span<const Vec3> velocities,
-                  std::span<Vec3> forces) const;
+                  std::span<Vec3> forces, const BasePlace& place = {}) const;
+
+  /// Those at the base alone.
+  void add_base_forces(std::span<const Vec3> positions, std::span<const Vec3> velocities,
+                       std::span<Vec3> forces, const BasePlace& place) const;
 
   /// -dF/dx where velocities change by `slope` [1/s] times positions: a block for each side and
   /// node of this rank's share.

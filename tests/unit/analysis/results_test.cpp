@@ -52,6 +52,8 @@ TEST_CASE("volumes, lengths and times of a beat are those of its states", "[unit
         Approx(1.2 * 1.2 * 1.1 * r.early_diastole.wall_volume));
   CHECK(r.early_diastole.wall_volume == Approx(test::volume(lv.mesh)));
   CHECK(r.early_diastole.apex_endo_z == Approx(-80.0).epsilon(1e-3));  // 60 + 20 mm
+  CHECK(r.early_diastole.long_axis == Approx(80.0).epsilon(1e-3));
+  CHECK(r.at(heartbeat::end_systole).long_axis == Approx(0.99 * r.early_diastole.long_axis));
   CHECK(r.at(heartbeat::end_diastole).apex_epi_z == Approx(1.1 * r.early_diastole.apex_epi_z));
   CHECK(r.at(heartbeat::end_systole).base_endo_radius ==
         Approx(0.96 * r.early_diastole.base_endo_radius));

@@ -75,6 +75,18 @@ CycleSetup moving(const mesh::Mesh& mesh) {
   return setup;
 }
 
+/// A base that goes down and comes back, tilts and turns.
+heartbeat::BaseMotion moving_base(const mesh::Mesh& mesh, double period) {
+  heartbeat::MeasuredMotion motion;
+  motion.times = {0.0, 0.15 * period, 0.35 * period, 0.55 * period, 0.8 * period};
+  motion.poses = {{},
+                  {5.0, 0.02, -0.01, 0.03},
+                  {12.0, 0.05, -0.03, -0.05},
+                  {8.0, 0.03, 0.0, 0.0},
+                  {2.0, 0.0, 0.0, 0.0}};
+  return {motion, solid::base_frame(mesh, 0.3), {period, 0.0, 0.0}};
+}
+
 /// Ends a run in the middle of a step, as a kill would.
 struct Stop {};
 
@@ -114,6 +126,7 @@ void check_same(const Beat& undisturbed, const Beat& resumed) {
   CHECK(before.supports == after.supports);
   CHECK(before.viscosity == after.viscosity);
   CHECK(before.kinetic == after.kinetic);
+  CHECK(before.base == after.base);
 }
 
 }  // namespace
@@ -165,6 +178,47 @@ TEST_CASE(
   CHECK(e.supports > 0.01 * e.muscle);  // else the balance would not see them
   CHECK(e.viscosity > 0.01 * e.muscle);
   CHECK(undisturbed.curves.back().largest_velocity > 0.0);
+}
+
+TEST_CASE("a base that moves alone takes the heart along, whose beat stays", "[unit][heartbeat]") {
+  const mesh::Mesh mesh = coarse_wall();
+  CycleSetup setup = quick(mesh);
+  setup.model.heart.base.kind = solid::BasalSupport::Kind::fixed;
+  const Beat still = heartbeat::run_cycle(setup, empty_folder("lv_cycle_still_base"), {});
+  setup.base_motion = moving_base(mesh, setup.circuit.period);
+  const Beat beat = heartbeat::run_cycle(setup, empty_folder("lv_cycle_moving_base"), {});
+  const auto& a = still.cycle->beats.back();
+  const auto& b = beat.cycle->beats.back();
+  // Newton's method ends elsewhere within its tolerance, and valves are found between steps
+  CHECK(b.end_systolic_volume == Approx(a.end_systolic_volume).epsilon(1e-4));
+  CHECK(b.peak_pressure == Approx(a.peak_pressure).epsilon(1e-4));
+  CHECK(still.energy.base == 0.0);
+  CHECK(beat.energy.error() < 0.01);
+  // it bears what the pressure does on the opening, and rigid springs take nothing of it
+  CHECK(std::abs(beat.energy.base) > 0.1 * beat.energy.muscle);
+  CHECK(std::abs(beat.energy.supports) < 0.005 * beat.energy.muscle);
+  const Vec3& before = still.at(heartbeat::end_systole).positions.front();
+  const Vec3& after = beat.at(heartbeat::end_systole).positions.front();
+  CHECK((after - before).norm() > 5.0);
+}
+
+TEST_CASE(
+    "the work of a base that moves within its surroundings is in the balance of energy, and a "
+    "beat goes on bit for bit",
+    "[unit][heartbeat]") {
+  const mesh::Mesh mesh = coarse_wall();
+  CycleSetup setup = moving(mesh);
+  const Beat still = heartbeat::run_cycle(setup, empty_folder("lv_cycle_still_base"), {});
+  setup.base_motion = moving_base(mesh, setup.circuit.period);
+  const Beat beat = heartbeat::run_cycle(setup, empty_folder("lv_cycle_moving_base"), {});
+  check_same(beat, stopped_and_resumed(setup));
+  const heartbeat::EnergyBalance& e = beat.energy;
+  INFO("pressure " << e.pressure << " muscle " << e.muscle << " stored " << e.stored << " kinetic "
+                   << e.kinetic << " supports " << e.supports << " viscosity " << e.viscosity
+                   << " base " << e.base);
+  CHECK(e.error() < 0.01);
+  CHECK(std::abs(e.base) > 0.03 * e.muscle);         // else the balance would not see it
+  CHECK(e.supports > 1.05 * still.energy.supports);  // dashpots of the epicardium are drawn along
 }
 
 TEST_CASE("muscle that is activated later contracts later", "[unit][heartbeat]") {

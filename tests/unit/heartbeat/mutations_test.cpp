@@ -1,6 +1,7 @@
 // Checkpoints, damaged: see support/mutations.hpp.
 #include "support/mutations.hpp"
 
+#include "lv/heartbeat/base_motion.hpp"
 #include "lv/heartbeat/run_state.hpp"
 
 #include "support/archive_bytes.hpp"
@@ -28,11 +29,22 @@ std::string checkpoint() {
   return test::bytes_of(folder / "checkpoint.bin");
 }
 
+void read_base_motion(const std::filesystem::path& file) {
+  static_cast<void>(read_motion({file.string(), 0.8}));
+}
+
 void read_run_state(const std::filesystem::path& file) {
   static_cast<void>(load_run_state(Archive::read(file), phases({})));
 }
 
 }  // namespace
+
+TEST_CASE("damaged tables of a base's motion are read or refused", "[unit][heartbeat][mutations]") {
+  test::try_damaged("motion.csv",
+                    "time_s,axial_mm,septal_tilt_deg,anterior_tilt_deg,rotation_deg\n0,0,0,0,0\n"
+                    "0.2,12,1,-1,3\n0.4,13,1,0,-2\n0.6,2,0,0,0\n0.8,0,0,0,0\n",
+                    read_base_motion);
+}
 
 TEST_CASE("damaged checkpoints are read or refused", "[unit][heartbeat][mutations]") {
   test::try_damaged("checkpoint.bin", checkpoint(), read_run_state);

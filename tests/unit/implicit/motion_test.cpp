@@ -151,6 +151,61 @@ TEST_CASE("the wall's inertia is its mass times the acceleration", "[unit][impli
   }
 }
 
+/// A half sphere whose base is held by springs and dashpots of its own, quasi-statically or with
+/// rates.
+TEST_CASE("a base takes a wall without load along as a rigid body", "[unit][implicit]") {
+  const verify::HalfSphere sphere;
+  const mesh::Mesh mesh = sphere.mesh(4.0, 2);
+  solid::CardiacModel heart{.base = {.kind = solid::BasalSupport::Kind::elastic}};
+  heart.myocardium.passive = material::NeoHookean{sphere.mu};
+  heart.myocardium.active = material::PrescribedTension{0.0};
+  heart.surroundings.base = {50.0, 20.0, 0.0, 0.0, {}};
+  constexpr int steps = 4;
+  const auto at = [&](int n) {
+    const double t = static_cast<double>(n) / steps;
+    return solid::displacement({3.0 * t, 0.1 * t, -0.05 * t, 0.2 * t},
+                               solid::base_frame(mesh, 0.5));
+  };
+  const solid::AffineField goal = at(steps);
+  for (const double dashpots : {0.0, 0.05}) {
+    heart.surroundings.base.normal_viscosity = dashpots;
+    implicit::TimeEngine time(mesh, implicit::StaticModel(heart), {});
+    const double volume = time.cavity_volume();
+    for (int i = 0; i < steps; ++i) {
+      const auto report = time.advance({.dt = 0.01, .base = {at(i), at(i + 1)}}, [&](double) {
+        return implicit::GivenVolume{volume, 0.0};
+      });
+      INFO("step " << i << ": " << report.why);
+      REQUIRE(report.converged);
+    }
+    double off = 0.0;
+    for (std::size_t a = 0; a < mesh.nodes.size(); ++a)
+      off = std::max(off,
+                     (time.state().positions[a] - mesh.nodes[a] - goal.at(mesh.nodes[a])).norm());
+    CHECK(off < 1e-5);
+    CHECK(std::abs(time.pressure()) < 1e-5);
+    CHECK(time.stored_energy() < 1e-8);
+  }
+}
+
+TEST_CASE("a wall that is filled around a base elsewhere is the filled wall there",
+          "[unit][implicit]") {
+  const verify::HalfSphere sphere;
+  const mesh::Mesh mesh = sphere.mesh(4.0, 2);
+  solid::CardiacModel heart{.base = {.stiffness = implicit::rigid_base}};
+  heart.myocardium.passive = material::NeoHookean{sphere.mu};
+  heart.myocardium.active = material::PrescribedTension{0.0};
+  implicit::TimeEngine here(mesh, implicit::StaticModel(heart), {});
+  implicit::TimeEngine there(mesh, implicit::StaticModel(heart), {});
+  const double volume = here.fill(0.1, 0.0).value();
+  CHECK(there.fill(0.1, 0.0, solid::displacement({-9.0}, {})).value() == Approx(volume));
+  double off = 0.0;
+  for (std::size_t a = 0; a < mesh.nodes.size(); ++a)
+    off = std::max(
+        off, (there.state().positions[a] - here.state().positions[a] - Vec3(0.0, 0.0, 9.0)).norm());
+  CHECK(off < 1e-5);
+}
+
 TEST_CASE("a slow step with inertia, or with dashpots alone, ends at the equilibrium",
           "[unit][implicit]") {
   const mesh::Mesh mesh = mesh::refine(test::block_mesh(CellKind::hexahedron, 2));
