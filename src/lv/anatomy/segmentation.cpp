@@ -1,5 +1,6 @@
 #include "lv/anatomy/segmentation.hpp"
 
+#include "lv/anatomy/long_axis_cine.hpp"
 #include "lv/anatomy/proposals.hpp"
 #include "lv/base/check.hpp"
 #include "lv/base/formats.hpp"
@@ -16,6 +17,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 #include <utility>
 
 namespace lv::anatomy {
@@ -120,34 +123,65 @@ void draw(const CineSegmentation& s, std::size_t t, const std::vector<Contour>& 
   drawing::write_overlays(overlays, "Borders drawn by the program; doubtful ones orange", file);
 }
 
-}  // namespace
-
-image::Cine read_cine(const Case& c) {
+image::Cine read_short_axis(const Case& c, const std::optional<image::DicomStudy>& dicom) {
   const case_file::CineAnatomy& a = c.anatomy.cine;
-  require_said_of_borders(c, {});
   const fs::path file = case_file::beside(c, a.images);
-  if (image::is_volume_name(a.images)) {
+  if (!dicom) {
     if (!a.series.empty())
       throw InputError(case_file::place_of(c, "segment.series"),
                        fmt::format("a single file has no series \"{}\"", a.series),
                        "Leave segment.series out, or name a folder of DICOM files");
     return image::read_volume_cine(file);
   }
-  const image::DicomStudy study = image::read_dicom_study(std::array{file});
-  image::require_images(study, file.string());
-  require_said_of_borders(c, study);
   std::vector<std::string> names;
   if (!a.series.empty())
     names.push_back(a.series);
-  const image::DicomStack stack =
-      image::choose_stack(study, names, file.string(), "segment.series");
-  image::Cine cine = image::read_pixels(stack);
+  image::Cine cine =
+      image::read_pixels(image::choose_stack(*dicom, names, file.string(), "segment.series"));
   image::require_one_grid(cine, file.string(), "segment.series");
   return cine;
 }
 
+/// Throws InputError for a long axis that lies as short-axis slices do.
+void require_across(const Case& c, const std::string& name, const image::CineSlice& view,
+                    const image::CineSlice& slice) {
+  constexpr double least = 45.0;  // between the planes [degrees]
+  const double cosine =
+      std::abs(view.frames.front().plane.normal().dot(slice.frames.front().plane.normal()));
+  const double angle = std::acos(std::min(cosine, 1.0)) * 180.0 / std::numbers::pi;
+  if (angle < least)
+    throw InputError(
+        case_file::place_of(c, "segment.long_axis_cine"),
+        fmt::format("\"{}\" lies {:.0f} degrees from the short-axis slices", name, angle),
+        "Name long-axis images, which stand across the slices");
+}
+
+}  // namespace
+
+Cines read_cines(const Case& c) {
+  const case_file::CineAnatomy& a = c.anatomy.cine;
+  require_said_of_borders(c, {});
+  std::optional<image::DicomStudy> dicom;
+  if (!image::is_volume_name(a.images)) {
+    const fs::path folder = case_file::beside(c, a.images);
+    dicom = image::read_dicom_study(std::array{folder});
+    image::require_images(*dicom, folder.string());
+    require_said_of_borders(c, dicom);
+  }
+  Cines cines{read_short_axis(c, dicom), {}};
+  for (const std::string& name : a.long_axis) {
+    image::Cine view =
+        read_long_axis_cine(c, {"segment.long_axis_cine", "segment.cine", a.images}, dicom, name);
+    require_across(c, name, view.slices.front(), cines.short_axis.slices.front());
+    cines.short_axis.notes.insert(cines.short_axis.notes.end(), view.notes.begin(),
+                                  view.notes.end());
+    cines.long_axis.push_back(std::move(view.slices.front()));
+  }
+  return cines;
+}
+
 CineSegmentation segment_cine(const Case& c) {
-  CineSegmentation result{read_cine(c), {}};
+  CineSegmentation result{read_cines(c).short_axis, {}};
   result.found = segment::segment(result.cine, c.anatomy.cine.segmentation,
                                   case_file::beside(c, c.anatomy.cine.images).string());
   return result;

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace lv::anatomy {
 
@@ -14,9 +15,17 @@ struct CineSegmentation {
   segment::Segmentation found;
 };
 
-/// The cine of segment.cine. Throws InputError where the case does not name it, or a series of
-/// several, and where its slices have pixels of several sizes or differ in their number.
-[[nodiscard]] image::Cine read_cine(const case_file::Case& c);
+/// The images in which a case has borders drawn.
+struct Cines {
+  image::Cine short_axis;
+  std::vector<image::CineSlice> long_axis;  ///< as segment.long_axis_cine names them
+};
+
+/// The cine of segment.cine and those of segment.long_axis_cine. Throws InputError where the case
+/// does not name the first, or a series of several, where its slices have pixels of several sizes
+/// or differ in their number, and for a long axis that is none (see read_long_axis_cine) or lies
+/// less than 45 degrees from the slices.
+[[nodiscard]] Cines read_cines(const case_file::Case& c);
 
 /// Segments the cine of segment.cine. Throws InputError where the case does not name it, or a
 /// series of several, and where no ventricle is found.

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 namespace lv::draw {
 namespace {
@@ -75,8 +76,24 @@ std::vector<Confidence> read_confidence(const fs::path& file) {
   return all;
 }
 
-std::vector<Landmark> kept_landmarks(const fs::path& file) {
-  return fs::exists(file) ? geometry::read_landmarks(file) : std::vector<Landmark>{};
+/// Landmarks of a folder, each on the image of its number.
+std::vector<Landmark> kept_landmarks(const fs::path& file, const Study& study) {
+  constexpr double farthest = 1.0;  // [mm]
+  if (!fs::exists(file))
+    return {};
+  std::vector<Landmark> landmarks = geometry::read_landmarks(file);
+  for (const Landmark& mark : landmarks) {
+    const bool there = mark.slice >= 1 && mark.slice <= static_cast<int>(study.pictures());
+    if (!there ||
+        std::abs(study.picture(mark.slice).frames.front().plane.pixel(mark.at).z()) > farthest)
+      throw InputError(
+          file.string(),
+          fmt::format("{} lies on no image of number {}: there are {} slices and {} long axes",
+                      mark.name, mark.slice, study.cine.slices.size(), study.long_axis.size()),
+          "Name the cine and the long axes (segment.long_axis_cine) it was set on, in their order, "
+          "or move its folder away");
+  }
+  return landmarks;
 }
 
 Proposal proposal_of(const image::Cine& cine, const segment::Segmentation& found) {
@@ -218,15 +235,20 @@ Study open_study(const case_file::Case& c, const fs::path& folder) {
   study.name = c.name;
   study.settings = c;
   study.folder = folder;
-  study.cine = anatomy::read_cine(c);
+  anatomy::Cines cines = anatomy::read_cines(c);
+  study.cine = std::move(cines.short_axis);
   segment::require_cine(study.cine, case_file::beside(c, c.anatomy.cine.images).string());
   study.spacing = image::spacing_of(study.cine);
-  study.greys = grey_range(study.cine);
+  study.greys = grey_range(study.cine.slices);
+  for (image::CineSlice& view : cines.long_axis) {
+    const Greys greys = grey_range({&view, 1});
+    study.long_axis.push_back({std::move(view), greys});
+  }
   study.proposal = find_proposal(c, study.cine);
   study.saved = fs::exists(folder / "contours");
   if (study.saved)
     study.drawing = {read_lines(folder, study.cine, "drawn"),
-                     kept_landmarks(folder / "landmarks.csv"),
+                     kept_landmarks(folder / "landmarks.csv", study),
                      read_confidence(folder / "quality.csv")};
   else
     study.drawing = {study.proposal.lines, {}, study.proposal.confidence};

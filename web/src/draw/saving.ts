@@ -39,7 +39,7 @@ export class Saving {
 
   private text(): string {
     const { lines, landmarks, confidence, keptScar } = this.editor.drawing;
-    return JSON.stringify({ revision: this.revision, ...said(lines, landmarks, confidence, this.study.slices),
+    return JSON.stringify({ revision: this.revision, ...said(lines, landmarks, confidence, this.editor.planes),
       ...(keptScar ? { scar: toldScar(keptScar, this.study.scar!.slices) } : {}) });
   }
 
@@ -154,7 +154,7 @@ export class Saving {
     if (!centre) return this.say("Set the centre of the blood first.");
     this.say("The program looks for the borders round this centre.");
     try {
-      const found = await this.source.propose(inSpace(this.study.slices[centre.slice - 1], centre.at));
+      const found = await this.source.propose(inSpace(this.editor.planes[centre.slice - 1], centre.at));
       const { drawing } = this.editor;
       const fresh = linesOf(found.contours, this.study.slices);
       const open = [...new Set([...drawing.lines.keys(), ...fresh.keys()])].filter((key) => (drawing.lines.get(key)?.how ?? "proposed") === "proposed");
