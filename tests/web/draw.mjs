@@ -505,6 +505,12 @@ const heightOf = (page, [red, green, blue]) => page.locator("canvas.slice").eval
 const epiColour = [0x5a, 0xd1, 0xff];
 const cutColour = [0xc9, 0xa0, 0xff];
 
+/** First and last points of the endocardial curves of a file. */
+function curveEnds(file) {
+  const curves = Object.entries(borders(file)).filter(([key]) => key.endsWith("/endo"));
+  return curves.flatMap(([, { points }]) => [points[0], points.at(-1)]);
+}
+
 async function checkLongAxis() {
   writeFileSync(longCase, 'name = "heart"\n[anatomy]\nsource = "cine"\n[segment]\ncine = "nifti/cine_short_axis.nii.gz"\n' +
     'long_axis_cine = ["nifti/cine_long_axis_1.nii.gz", "nifti/cine_long_axis_2.nii.gz"]\n');
@@ -514,6 +520,11 @@ async function checkLongAxis() {
   await go(page, 6, 1);
   await go(page, slices + 1, 1);
   check("a long-axis image follows the slices, and says what it shows", /^long axis 1 of 2, phase 1 of 10.*cut by slice 6/.test(await text(page, "#where")), await text(page, "#where"));
+  check("its ends are proposed on it", /landmarks: .*annulus 1, annulus 2/.test(await text(page, "#where")), await text(page, "#where"));
+  const proposed = (await (await fetch(`${server.url}study`)).json()).landmarks;
+  const truth = curveEnds(join(study, "contours/early_long_axis.csv"));
+  const off = proposed.filter(({ name }) => name.startsWith("annulus")).map(({ at: x }) => Math.min(...truth.map((end) => Math.hypot(...minus(x, end)))));
+  check("on both sides of both images, within 5 mm of where the wall ends at early diastole", off.length === 4 && off.every((d) => d < 5), off.join());
   await shot(page, "long-axis");
   const [endo, epi] = [await coloured(page, endoColour), await coloured(page, epiColour)];
   check("the borders of the slices pass through it", endo > 100 && epi > 100, `${endo} ${epi}`);

@@ -163,6 +163,7 @@ std::string study_json(const Study& study) {
 
 std::string proposal_json(const Proposal& proposal) {
   return json_text(json{{"contours", lines_json(proposal.lines)},
+                        {"landmarks", landmarks_json(proposal.landmarks)},
                         {"confidence", confidence_json(proposal.confidence)},
                         {"doubts", proposal.doubts}},
                    -1);

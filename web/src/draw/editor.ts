@@ -264,7 +264,7 @@ export class Editor {
   nudge(u: number, v: number): void {
     const mark = this.drawing.landmarks.get(this.tool);
     if (mark && mark.slice === this.slice)
-      return this.drawing.change({ what: `move the ${landmarkNames[this.tool]}`, marks: [[this.tool, { ...mark, at: [mark.at[0] + u, mark.at[1] + v] }]] }, `mark ${this.tool}`);
+      return this.drawing.change({ what: `move the ${landmarkNames[this.tool]}`, marks: [[this.tool, { ...mark, by: this.observer, when: this.stamp("corrected").when, at: [mark.at[0] + u, mark.at[1] + v] }]] }, `mark ${this.tool}`);
     if (this.point === undefined) return this.step(1);
     const line = this.line;
     if (!line) return;

@@ -1,6 +1,6 @@
 // The study at a glance: what to look at first, all slices and phases, the volume over time.
 import { el, svg, titled } from "../dom.ts";
-import { keyOf, ofKey, sideNames, sides, volumes, type Confidence, type Line, type SaidStudy, type Side } from "./study.ts";
+import { keyOf, ofKey, programsOwn, sideNames, sides, volumes, type Confidence, type Line, type SaidStudy, type Side } from "./study.ts";
 import type { Drawing } from "./drawing.ts";
 
 export type Go = (slice: number, phase: number, side?: Side) => void;
@@ -30,7 +30,8 @@ export class FirstList {
     });
     const ends = (text: string) => Number(/ is left out/.test(text));  // base and apex before slices that are not used
     const sentences = doubts.filter((text) => !/ is doubtful in phase/.test(text)).sort((a, b) => ends(a) - ends(b)).map((text) => {
-      const slice = Number(/slice (\d+)/.exec(text)?.[1]);
+      const long = Number(/^long axis (\d+)/.exec(text)?.[1]);
+      const slice = long ? this.study.slices.length + long : Number(/slice (\d+)/.exec(text)?.[1]);
       return slice ? item(text, () => this.go(slice, whole)) : el("li", {}, text);
     });
     const all = [...borders, ...sentences];
@@ -76,7 +77,8 @@ export class StudyMap {
   }
 
   private stateOfLong(drawing: Drawing, s: number): State {
-    return [...drawing.landmarks.values()].some((mark) => mark.slice === s) ? "changed" : "none";
+    const marks = [...drawing.landmarks.values()].filter((mark) => mark.slice === s);
+    return marks.length === 0 ? "none" : marks.some((mark) => mark.by !== programsOwn) ? "changed" : "proposed";
   }
 
   show(drawing: Drawing): void {

@@ -17,19 +17,22 @@ export interface LongAxis extends Plane { phases: number }
 
 interface SaidLine { slice: number; phase: number; side: Side; points: Point[]; how: How; by: string; when: string }
 interface SaidLandmark { name: string; slice: number; at: Point; by: string; when: string }
-export interface SaidProposal { contours: SaidLine[]; confidence: Confidence[]; doubts: string[] }
+export interface SaidProposal { contours: SaidLine[]; landmarks: SaidLandmark[]; confidence: Confidence[]; doubts: string[] }
+/** By whom a landmark is set that the program proposes. */
+export const programsOwn = "proposed";
 
 /** What the program hands over; slices and phases count from 1. Landmarks count the long-axis images on, after the slices. */
 export interface SaidStudy extends SaidProposal {
   name: string; folder: string; phases: number; times: number[]; spacing: number; slices: Plane[]; long_axis: LongAxis[]; doubtful: number;
-  landmarks: SaidLandmark[]; proposal: SaidLine[]; saved: boolean; hindrance: string; revision: number; scar: SaidScar | null;
+  proposal: SaidLine[]; saved: boolean; hindrance: string; revision: number; scar: SaidScar | null;
 }
 
 export const sides: Side[] = ["endo", "epi"];
 export const sideNames: Record<Side, string> = { endo: "endocardium", epi: "epicardium" };
 export const landmarkNames: Record<string, string> = { centre: "centre of the blood", septum_anterior: "anterior insertion of the septum",
   septum_inferior: "inferior insertion of the septum", apex_endo: "tip of the endocardium", apex_epi: "tip of the epicardium",
-  annulus_1: "mitral annulus, a point", annulus_2: "mitral annulus, second point", annulus_3: "mitral annulus, third point", annulus_4: "mitral annulus, fourth point" };
+  annulus_1: "mitral annulus, a point", annulus_2: "mitral annulus, second point", annulus_3: "mitral annulus, third point", annulus_4: "mitral annulus, fourth point",
+  annulus_5: "mitral annulus, fifth point", annulus_6: "mitral annulus, sixth point", annulus_7: "mitral annulus, seventh point", annulus_8: "mitral annulus, eighth point" };
 
 /** The name of a border among all: slice, phase and side. */
 export const keyOf = (slice: number, phase: number, side: Side) => `${slice}/${phase}/${side}`;
