@@ -525,7 +525,12 @@ async function checkLongAxis() {
   const truth = curveEnds(join(study, "contours/early_long_axis.csv"));
   const off = proposed.filter(({ name }) => name.startsWith("annulus")).map(({ at: x }) => Math.min(...truth.map((end) => Math.hypot(...minus(x, end)))));
   check("on both sides of both images, within 5 mm of where the wall ends at early diastole", off.length === 4 && off.every((d) => d < 5), off.join());
+  const { landmark_phase: early } = await (await fetch(`${server.url}study`)).json();
+  check("at the phase of the shape, which is said at others", (await text(page, "#where")).includes(`those of phase ${early})`), await text(page, "#where"));
+  await go(page, slices + 1, early);
+  check("and not there", !(await text(page, "#where")).includes("those of phase"), await text(page, "#where"));
   await shot(page, "long-axis");
+  await go(page, slices + 1, 1);
   const [endo, epi] = [await coloured(page, endoColour), await coloured(page, epiColour)];
   check("the borders of the slices pass through it", endo > 100 && epi > 100, `${endo} ${epi}`);
   await page.getByLabel("borders", { exact: true }).uncheck();

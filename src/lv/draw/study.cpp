@@ -134,8 +134,8 @@ Proposal proposal_of(const anatomy::CineSegmentation& made, case_file::ShapeMome
   proposal.doubts = found.doubts;
   proposal.doubts.insert(proposal.doubts.end(), made.ends.doubts.begin(), made.ends.doubts.end());
   proposal.fall = found.fall;
-  proposal.landmarks =
-      anatomy::proposed_landmarks(made, frame_of(moment, proposal.lines, found.spacing));
+  proposal.landmark_frame = frame_of(moment, proposal.lines, found.spacing);
+  proposal.landmarks = anatomy::proposed_landmarks(made, proposal.landmark_frame);
   return proposal;
 }
 
@@ -157,7 +157,7 @@ std::vector<std::string> read_doubts(const fs::path& file) {
 constexpr double usual_fall = 0.85;
 
 Proposal nothing_proposed(const image::Cine& cine, const std::string& why) {
-  return {Lines(cine.slices.front().frames.size()), {}, {}, {why}, usual_fall};
+  return {Lines(cine.slices.front().frames.size()), {}, 0, {}, {why}, usual_fall};
 }
 
 /// Where something in a folder that may not be there yet would be written.
@@ -207,13 +207,13 @@ Proposal find_proposal(const Study& study) {
   const fs::path folder = c.file.parent_path() / (c.file.stem().string() + ".segment");
   if (!fs::exists(folder))
     return propose_first(study, folder);
-  Proposal kept{read_lines(folder, study.cine, "proposed"),
-                {},
-                read_confidence(folder / "quality.csv"),
-                read_doubts(folder / "segmentation.txt"),
-                anatomy::kept_fall(folder).value_or(usual_fall)};
-  const std::size_t frame = frame_of(c.anatomy.cine.moment, kept.lines, study.spacing);
-  kept.landmarks = kept_landmarks(anatomy::landmarks_file(folder, frame), study);
+  Proposal kept;
+  kept.lines = read_lines(folder, study.cine, "proposed");
+  kept.confidence = read_confidence(folder / "quality.csv");
+  kept.doubts = read_doubts(folder / "segmentation.txt");
+  kept.fall = anatomy::kept_fall(folder).value_or(usual_fall);
+  kept.landmark_frame = frame_of(c.anatomy.cine.moment, kept.lines, study.spacing);
+  kept.landmarks = kept_landmarks(anatomy::landmarks_file(folder, kept.landmark_frame), study);
   return kept;
 }
 

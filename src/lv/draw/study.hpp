@@ -26,7 +26,8 @@ struct Confidence {
 /// What the program proposes.
 struct Proposal {
   Lines lines;
-  std::vector<geometry::Landmark> landmarks;  ///< at the phase of segment.moment
+  std::vector<geometry::Landmark> landmarks;
+  std::size_t landmark_frame = 0;  ///< whose they are: that of segment.moment
   std::vector<Confidence> confidence;
   std::vector<std::string> doubts;
   double fall = 0.0;  ///< at which the endocardium was drawn (segment::draw_borders)

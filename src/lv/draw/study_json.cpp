@@ -151,6 +151,7 @@ std::string study_json(const Study& study) {
                  {"doubtful", segment::doubtful},
                  {"contours", lines_json(study.drawing.lines)},
                  {"landmarks", landmarks_json(study.drawing.landmarks)},
+                 {"landmark_phase", study.proposal.landmark_frame + 1},
                  {"confidence", confidence_json(study.drawing.confidence)},
                  {"proposal", lines_json(study.proposal.lines)},
                  {"doubts", study.proposal.doubts},
@@ -164,6 +165,7 @@ std::string study_json(const Study& study) {
 std::string proposal_json(const Proposal& proposal) {
   return json_text(json{{"contours", lines_json(proposal.lines)},
                         {"landmarks", landmarks_json(proposal.landmarks)},
+                        {"landmark_phase", proposal.landmark_frame + 1},
                         {"confidence", confidence_json(proposal.confidence)},
                         {"doubts", proposal.doubts}},
                    -1);

@@ -11,7 +11,7 @@ import { Player } from "./player.ts";
 import { Saving } from "./saving.ts";
 import { scarOf, type SaidScar } from "./scar.ts";
 import { ScarEditor } from "./scar_editor.ts";
-import { landmarksOf, linesOf, planesOf, sideNames, type SaidStudy } from "./study.ts";
+import { landmarksOf, linesOf, planesOf, programsOwn, sideNames, type SaidStudy } from "./study.ts";
 import { brushBar, contrastBar, editBar, greyBar, placeBar, thresholdBar, toolBar, viewSwitch } from "./toolbars.ts";
 
 const page = document.getElementById("page")!;
@@ -22,8 +22,11 @@ function statusWords(editor: Editor): string {
   const time = study.times[phase - 1];
   const when = `phase ${phase} of ${study.phases}${time === undefined ? "" : ` (${Math.round(1e3 * time)} ms)`}`;
   if (editor.isLongAxis) {
-    const here = [...editor.drawing.landmarks.values()].filter((mark) => mark.slice === slice).map((mark) => mark.name.replace("_", " "));
-    return `${editor.called(slice)} of ${study.long_axis.length}, ${when}; cut by slice ${editor.crossing}; ${here.length ? `landmarks: ${here.join(", ")}` : "no landmark here"}`;
+    const marks = [...editor.drawing.landmarks.values()].filter((mark) => mark.slice === slice);
+    const here = marks.map((mark) => mark.name.replace("_", " ")).join(", ");
+    const elsewhen = phase !== study.landmark_phase && marks.some((mark) => mark.by === programsOwn);
+    return `${editor.called(slice)} of ${study.long_axis.length}, ${when}; cut by slice ${editor.crossing}; ${
+      here ? `landmarks: ${here}${elsewhen ? ` (the proposed ones are those of phase ${study.landmark_phase})` : ""}` : "no landmark here"}`;
   }
   const sure = editor.drawing.confidence.find((c) => c.slice === slice && c.phase === phase)?.[side];
   const how = !line ? "none here" : line.how === "proposed" ? `proposed${sure === undefined ? "" : `, confidence ${sure.toFixed(2)}`}` : `${line.how}${line.by ? ` by ${line.by}` : ""}`;

@@ -167,6 +167,7 @@ export class Saving {
       const fresh = linesOf(found.contours, this.study.slices);
       const open = [...new Set([...drawing.lines.keys(), ...fresh.keys()])].filter((key) => (drawing.lines.get(key)?.how ?? "proposed") === "proposed");
       this.doubts = found.doubts;
+      this.study.landmark_phase = found.landmark_phase;
       drawing.change({ what: "propose again", lines: open.map((key) => [key, fresh.get(key)]), marks: this.freshMarks(found), confidence: found.confidence });
       this.say(`Proposed again on ${new Set([...fresh.keys()].map((key) => key.split("/")[0])).size} slices; borders that a hand drew stay.`);
     } catch (error) {

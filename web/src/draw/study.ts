@@ -17,7 +17,7 @@ export interface LongAxis extends Plane { phases: number }
 
 interface SaidLine { slice: number; phase: number; side: Side; points: Point[]; how: How; by: string; when: string }
 interface SaidLandmark { name: string; slice: number; at: Point; by: string; when: string }
-export interface SaidProposal { contours: SaidLine[]; landmarks: SaidLandmark[]; confidence: Confidence[]; doubts: string[] }
+export interface SaidProposal { contours: SaidLine[]; landmarks: SaidLandmark[]; landmark_phase: number; confidence: Confidence[]; doubts: string[] }
 /** By whom a landmark is set that the program proposes. */
 export const programsOwn = "proposed";
 
