@@ -162,6 +162,29 @@ void doubt_base(const EndsContext& of, const geometry::Contours& loops, LongAxis
   }
 }
 
+/// Slices without borders that the axis crosses between the tip and the annulus: a tip that
+/// trabeculae fill, or a base that was taken for an atrium.
+void doubt_unshown(const EndsContext& of, const image::Cine& cine, const Segmentation& found,
+                   LongAxisEnds& ends) {
+  constexpr double inside = 2.0;  // beyond either end, within its error [mm]
+  const auto tip = apex_at(ends, of.diastole);
+  const auto points = annulus_at(ends, of.diastole);
+  if (!tip || points.empty())
+    return;
+  double base = 0.0;
+  for (const AnnulusPoint& point : points)
+    base += (point.at - tip->at).dot(of.axis.up) / static_cast<double>(points.size());
+  for (std::size_t s = 0; s < cine.slices.size(); ++s) {
+    const image::Plane& plane = cine.slices[s].frames.front().plane;
+    const double above = -plane.pixel(tip->at).z() / plane.normal().dot(of.axis.up);
+    if (found.shows[s][of.diastole] == 0 && above > inside && above < base - inside)
+      ends.doubts.push_back(fmt::format(
+          "slice {} has no border at end-diastole, but lies {:.1f} mm above the tip and {:.1f} mm "
+          "below the annulus that the long axes show: draw it",
+          s + 1, above, base - above));
+  }
+}
+
 }  // namespace
 
 std::size_t picture_of(const image::CineSlice& view, std::size_t frame, std::size_t frames) {
@@ -219,6 +242,7 @@ LongAxisEnds find_ends(const image::Cine& cine, const Segmentation& found,
   doubt_views(context, views, ends);
   doubt_tips(context, ends);
   doubt_base(context, loops, ends);
+  doubt_unshown(context, cine, found, ends);
   return ends;
 }
 

@@ -19,9 +19,9 @@ struct LongAxisEnds {
 /// number of images than the slices: both cover one cycle evenly.
 ///
 /// Doubted are ends that are not found or of a confidence below `doubtful`, tips that views show
-/// more than 5 mm apart, and slices taken for the ventricle that lie above the annulus. A point of
-/// the annulus that moves away from the apex by more than 1 mm until end-systole is none: its
-/// confidence becomes 0.
+/// more than 5 mm apart, and slices taken for the ventricle that lie above the annulus, or left out
+/// that lie between tip and annulus. A point of the annulus that moves away from the apex by more
+/// than 1 mm until end-systole is none: its confidence becomes 0.
 [[nodiscard]] LongAxisEnds find_ends(const image::Cine& cine, const Segmentation& found,
                                      const std::vector<image::CineSlice>& views);
 

@@ -213,6 +213,22 @@ TEST_CASE("long axes of phantoms show the height of the base and the tip to 2 mm
   }
 }
 
+TEST_CASE("a slice between tip and annulus that has no border is named", "[segment]") {
+  const LongAxisPhantom p = usual_phantom(1, 0.12);
+  segment::Segmentation found = segment::segment(p.cine, {}, "phantom");
+  const auto named = [&] {
+    const segment::LongAxisEnds ends = segment::find_ends(p.cine, found, p.views);
+    return std::count_if(ends.doubts.begin(), ends.doubts.end(), [](const std::string& doubt) {
+      return doubt.find("has no border") != std::string::npos;
+    });
+  };
+  CHECK(named() == 0);
+  const auto shown = std::find_if(found.shows.rbegin(), found.shows.rend(),
+                                  [](const std::vector<char>& slice) { return slice[0] != 0; });
+  shown->assign(shown->size(), 0);  // the most apical one
+  CHECK(named() == 1);
+}
+
 TEST_CASE("doubtful ends of long axes are not used, and no annulus without both sides of a view",
           "[segment]") {
   segment::LongAxisEnds ends = two_views();

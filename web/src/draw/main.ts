@@ -26,7 +26,7 @@ function statusWords(editor: Editor): string {
     const here = marks.map((mark) => mark.name.replace("_", " ")).join(", ");
     const elsewhen = phase !== study.landmark_phase && marks.some((mark) => mark.by === programsOwn);
     return `${editor.called(slice)} of ${study.long_axis.length}, ${when}; cut by slice ${editor.crossing}; ${
-      here ? `landmarks: ${here}${elsewhen ? ` (the proposed ones are those of phase ${study.landmark_phase})` : ""}` : "no landmark here"}`;
+      here ? `landmarks: ${here}${elsewhen ? ` (proposed at phase ${study.landmark_phase})` : ""}` : "no landmark here"}`;
   }
   const sure = editor.drawing.confidence.find((c) => c.slice === slice && c.phase === phase)?.[side];
   const how = !line ? "none here" : line.how === "proposed" ? `proposed${sure === undefined ? "" : `, confidence ${sure.toFixed(2)}`}` : `${line.how}${line.by ? ` by ${line.by}` : ""}`;
