@@ -1,6 +1,6 @@
 // `ventricle draw` in a real browser, on a phantom's cine.
-// node draw.mjs VENTRICLE [--case CASE.toml] [--scar] [--screenshots FOLDER]   exit code 77: skipped
-// With --case only pictures are taken, of a case that is there; with --scar the scar alone is tried.
+// node draw.mjs VENTRICLE [--case CASE.toml] [--scar] [--long-axis] [--screenshots FOLDER]   exit code 77: skipped
+// With --case only pictures are taken, of a case that is there; with --scar the scar alone is tried, with --long-axis the long axes.
 import { execFileSync, spawn } from "node:child_process";
 import { chmodSync, cpSync, existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
 import http from "node:http";
@@ -484,6 +484,119 @@ async function checkExport() {
   await context.close();
 }
 
+const longCase = join(study, "long.toml");
+
+/** The picture's scale and middle are not told: a place on it is found by what is drawn there. */
+const coloured = (page, [red, green, blue]) => page.locator("canvas.slice").evaluate((canvas, [r, g, b]) => {
+  const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+  let found = 0;
+  for (let i = 0; i < data.length; i += 4) if (Math.abs(data[i] - r) + Math.abs(data[i + 1] - g) + Math.abs(data[i + 2] - b) < 12) ++found;
+  return found;
+}, [red, green, blue]);
+
+/** Where the canvas shows the middle of the crossing line's colour on average, in its own pixels. */
+const heightOf = (page, [red, green, blue]) => page.locator("canvas.slice").evaluate((canvas, [r, g, b]) => {
+  const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+  let [sum, found] = [0, 0];
+  for (let i = 0; i < data.length; i += 4)
+    if (Math.abs(data[i] - r) + Math.abs(data[i + 1] - g) + Math.abs(data[i + 2] - b) < 12) { sum += Math.floor(i / 4 / canvas.width); ++found; }
+  return sum / found;
+}, [red, green, blue]);
+const epiColour = [0x5a, 0xd1, 0xff];
+const cutColour = [0xc9, 0xa0, 0xff];
+
+/** First and last points of the endocardial curves of a file. */
+function curveEnds(file) {
+  const curves = Object.entries(borders(file)).filter(([key]) => key.endsWith("/endo"));
+  return curves.flatMap(([, { points }]) => [points[0], points.at(-1)]);
+}
+
+async function checkLongAxis() {
+  writeFileSync(longCase, 'name = "heart"\n[anatomy]\nsource = "cine"\n[segment]\ncine = "nifti/cine_short_axis.nii.gz"\n' +
+    'long_axis_cine = ["nifti/cine_long_axis_1.nii.gz", "nifti/cine_long_axis_2.nii.gz"]\n');
+  const server = await start(longCase);
+  const { page, said, context } = await open(server.url);
+  const slices = parseInt(/of (\d+)/.exec(await text(page, "#where"))[1], 10);
+  await go(page, 6, 1);
+  await go(page, slices + 1, 1);
+  check("a long-axis image follows the slices, and says what it shows", /^long axis 1 of 2, phase 1 of 10.*cut by slice 6/.test(await text(page, "#where")), await text(page, "#where"));
+  check("its ends are proposed on it", /landmarks: .*annulus 1, annulus 2/.test(await text(page, "#where")), await text(page, "#where"));
+  const proposed = (await (await fetch(`${server.url}study`)).json()).landmarks;
+  const truth = curveEnds(join(study, "contours/early_long_axis.csv"));
+  const off = proposed.filter(({ name }) => name.startsWith("annulus")).map(({ at: x }) => Math.min(...truth.map((end) => Math.hypot(...minus(x, end)))));
+  check("on both sides of both images, within 5 mm of where the wall ends at early diastole", off.length === 4 && off.every((d) => d < 5), off.join());
+  const { landmark_phase: early } = await (await fetch(`${server.url}study`)).json();
+  check("at the phase of the shape, which is said at others", (await text(page, "#where")).includes(`(proposed at phase ${early})`), await text(page, "#where"));
+  await go(page, slices + 1, early);
+  check("and not there", !(await text(page, "#where")).includes("proposed at phase"), await text(page, "#where"));
+  await shot(page, "long-axis");
+  await go(page, slices + 1, 1);
+  const [endo, epi] = [await coloured(page, endoColour), await coloured(page, epiColour)];
+  check("the borders of the slices pass through it", endo > 100 && epi > 100, `${endo} ${epi}`);
+  await page.getByLabel("borders", { exact: true }).uncheck();
+  check("and are hidden with the borders", (await coloured(page, endoColour)) === 0);
+  await page.getByLabel("borders", { exact: true }).check();
+  const line = await heightOf(page, cutColour);
+  await go(page, 9, 1);
+  await go(page, slices + 1, 1);
+  const further = await heightOf(page, cutColour);
+  check("the line of the slice looked at moves with it", Math.abs(further - line) > 30 && (await text(page, "#where")).includes("cut by slice 9"), `${line} ${further}`);
+  const grey = () => page.locator("canvas.slice").evaluate((canvas) => canvas.toDataURL());
+  const first = await grey();
+  await go(page, slices + 1, 4);
+  check("its cine has the phases of the slices", (await grey()) !== first);
+  await go(page, slices + 1, 1);
+  const wide = await grey();
+  await page.getByRole("button", { name: "+", exact: true }).first().click();
+  check("it is magnified", (await grey()) !== wide);
+  await page.getByLabel("brightness").first().evaluate((range) => { range.value = 0.8; range.dispatchEvent(new Event("input")); });
+  await page.getByRole("button", { name: "Fit" }).first().click();
+  check("and made brighter", (await grey()) !== wide);
+  await page.locator("#add").click();
+  check("no border is drawn on it", (await text(page, "#said")).startsWith("borders are drawn on short-axis slices"), await text(page, "#said"));
+  const click = async (name, x, y) => {
+    await page.locator("#landmark").selectOption(name);
+    await page.locator("canvas.slice").scrollIntoViewIfNeeded();
+    const box = await page.locator("canvas.slice").boundingBox();
+    await page.mouse.click(box.x + x, box.y + y);
+  };
+  await click("apex_endo", 300, 380);
+  await click("annulus_1", 200, 120);
+  await click("annulus_2", 400, 120);
+  check("landmarks are set on it", (await text(page, "#said")).includes("set on long axis 1") && (await text(page, "#where")).includes("apex endo, annulus 1, annulus 2"), await text(page, "#where"));
+  await shot(page, "long-axis-landmarks");
+  await page.locator("#landmark").selectOption("");
+  await page.locator("#save").click();
+  await waitFor(page, "#said", "Saved in long.draw/contours");
+  const rows = readFileSync(join(study, "long.draw/landmarks.csv"), "utf8").trim().split("\n").slice(1).map((row) => row.split(","));
+  const at = Object.fromEntries(rows.map(([name, slice, x, y, z]) => [name, { slice: Number(slice), x: [x, y, z].map(Number) }]));
+  const told = await (await fetch(`${server.url}study`)).json();
+  const { origin, along_row, along_column } = told.long_axis[0];
+  const away = Math.abs(minus(at.apex_endo.x, origin).reduce((sum, d, i) => sum + d * cross(along_row, along_column)[i], 0));
+  check("they are kept with the image's number, in its plane", at.apex_endo.slice === slices + 1 && away < 0.01, `${at.apex_endo.slice} ${away}`);
+  const between = Math.hypot(...minus(at.annulus_1.x, at.annulus_2.x));
+  const apart = Math.hypot(...minus(at.annulus_1.x, at.apex_endo.x));
+  check("at the distances of the picture", Math.abs(apart / between - Math.hypot(100, 260) / 200) < 0.01, `${between} ${apart}`);
+  await page.reload();
+  await page.waitForFunction(() => document.body.dataset.ready);
+  await go(page, slices + 1, 1);
+  check("and are there after a reload", (await text(page, "#where")).includes("apex endo, annulus 1, annulus 2"), await text(page, "#where"));
+  check("nothing went wrong on the way", said.length === 0, said.join("\n"));
+  await context.close();
+  await server.stop();
+  const file = join(folder, "long.html");
+  execFileSync(program, ["draw", longCase, "--export", file]);
+  const alone = await open(pathToFileURL(file).href);
+  await go(alone.page, slices + 2, 1);
+  check("the exported page has them too", /^long axis 2 of 2/.test(await text(alone.page, "#where")) && alone.said.length === 0, alone.said.join("\n"));
+  await alone.context.close();
+}
+
+async function onLongAxis() {
+  makeStudy();
+  await checkLongAxis();
+}
+
 const radius = (points) => {
   const middle = [0, 1, 2].map((d) => points.reduce((sum, p) => sum + p[d], 0) / points.length);
   return points.reduce((sum, p) => sum + Math.hypot(...p.map((x, d) => x - middle[d])), 0) / points.length;
@@ -789,7 +902,7 @@ async function checkAll() {
   check("nothing went wrong on the way", one.said.filter((line) => !line.includes("409")).length === 0, one.said.join("\n"));
   await timed(checkStopped, one.page, server);
   await one.context.close();
-  for (const part of [checkReadOnly, checkKeyboard, checkBrowserFile, checkExport, checkFiveCorrections, checkScar]) await timed(part);
+  for (const part of [checkReadOnly, checkKeyboard, checkBrowserFile, checkExport, checkLongAxis, checkFiveCorrections, checkScar]) await timed(part);
   console.log(`seconds: ${seconds.join(", ")}`);
 }
 
@@ -797,6 +910,7 @@ try {
   const given = option("--case");
   if (given) await takePictures(given);
   else if (process.argv.includes("--scar")) await onScar();
+  else if (process.argv.includes("--long-axis")) await onLongAxis();
   else await checkAll();
 } finally {
   await browser.close();

@@ -7,6 +7,7 @@
 #include "lv/geometry/contour_checks.hpp"
 #include "lv/geometry/contour_measures.hpp"
 #include "lv/geometry/fit_report.hpp"
+#include "lv/geometry/long_axis.hpp"
 #include "lv/image/close_walls.hpp"
 #include "lv/image/dicom_study.hpp"
 #include "lv/image/foreign_contours.hpp"
@@ -361,7 +362,8 @@ Drawn from_cine(const Case& c) {
   drawn.source = fmt::format("borders drawn by the program in a cine, phase {}", frame + 1);
   drawn.usual_base = geometry::BaseAt::slab;
   drawn.notes = found->cine.notes;
-  drawn.notes.insert(drawn.notes.end(), found->found.doubts.begin(), found->found.doubts.end());
+  for (const auto* doubts : {&found->found.doubts, &found->ends.doubts})
+    drawn.notes.insert(drawn.notes.end(), doubts->begin(), doubts->end());
   drawn.moment_is_known = true;
   const Moments moments = moments_of(found->found);
   const int chosen = static_cast<int>(frame) + 1;
@@ -371,6 +373,22 @@ Drawn from_cine(const Case& c) {
         segment::contours_at(found->cine, found->found, static_cast<std::size_t>(*es - 1));
   drawn.segmentation = std::move(found);
   return drawn;
+}
+
+/// The annulus and the tip that the long axes of a cine show, where no landmark names them.
+void add_ends_of_long_axes(std::size_t frame, Drawn& drawn) {
+  const segment::LongAxisEnds& ends = drawn.segmentation->ends;
+  geometry::Contours& contours = drawn.contours;
+  if (contours.annulus.empty())
+    for (const segment::AnnulusPoint& point : segment::annulus_at(ends, frame)) {
+      contours.annulus.push_back(point.at);
+      drawn.usual_base = geometry::BaseAt::annulus;
+    }
+  const auto apex = segment::apex_at(ends, frame);
+  if (apex && !geometry::shows_apex(contours, geometry::Side::endo)) {
+    const int number = static_cast<int>(drawn.segmentation->cine.slices.size() + apex->view) + 1;
+    contours.apex.push_back({number, geometry::Side::endo, {apex->at}, "the long axes", {}});
+  }
 }
 
 Drawn read_source(const Case& c) {
@@ -403,6 +421,8 @@ double volume_of(const geometry::Contours& contours) {
 Drawn read_drawn(const Case& c) {
   Drawn drawn = read_source(c);
   add_landmarks(c, drawn);
+  if (drawn.segmentation)
+    add_ends_of_long_axes(shape_frame(c, *drawn.segmentation), drawn);
   const double thinnest = c.anatomy.contours.fit.thinnest_wall;
   const bool mended = c.anatomy.source != case_file::AnatomySource::contours &&
                       c.anatomy.source != case_file::AnatomySource::surfaces;

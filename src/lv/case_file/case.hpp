@@ -108,7 +108,8 @@ enum class ShapeMoment { early_diastole, end_diastole };
 
 /// A short-axis cine in which the program draws the borders.
 struct CineAnatomy {
-  std::string images, series;  ///< a DICOM folder or a NIfTI file
+  std::string images, series;          ///< a DICOM folder or a NIfTI file
+  std::vector<std::string> long_axis;  ///< long-axis cines: files, or series of that folder
   segment::SegmentParameters segmentation;
   ShapeMoment moment = ShapeMoment::early_diastole;
 };

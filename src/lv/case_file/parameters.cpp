@@ -180,6 +180,10 @@ constexpr Group of_anatomy[]{
               "a NIfTI, NRRD or MetaImage file over time; names are relative to the case file"),
          value("segment.series", LV_AT(anatomy.cine.series),
                "DICOM: number, UID or description of the series; may be left out if there is one"),
+         perhaps_path("segment.long_axis_cine", LV_AT(anatomy.cine.long_axis),
+                      "long-axis cines, on which annulus and tip are looked for and ventricle draw "
+                      "takes landmarks: files of images, or series of the DICOM folder cine, at "
+                      "most four; [] leaves the base to the most basal slice"),
          number("segment.centre", LV_AT(anatomy.cine.segmentation.centre), "mm", any,
                 "a point in the left ventricle's blood in scanner coordinates; none: found from "
                 "motion and roundness"),

@@ -1,9 +1,9 @@
 #include "lv/cine/cine.hpp"
 
+#include "lv/anatomy/long_axis_cine.hpp"
 #include "lv/anatomy/named_points.hpp"
 #include "lv/anatomy/proposals.hpp"
 #include "lv/base/check.hpp"
-#include "lv/base/formats.hpp"
 #include "lv/case_file/case_lines.hpp"
 #include "lv/case_file/parameters.hpp"
 #include "lv/geometry/contour_checks.hpp"
@@ -109,19 +109,8 @@ LongAxisView read_view(const Case& c, const std::optional<image::DicomStudy>& di
                        const std::string& name, const std::vector<Contour>& curves) {
   constexpr double farthest = 1.0;  // [mm]
   LongAxisView view;
-  const bool single_file = image::is_volume_name(name);
-  if (!single_file && !dicom)
-    throw InputError(
-        case_file::place_of(c, "strain.long_axis_cine"),
-        fmt::format("\"{}\" is no file of an image, and strain.cine is no DICOM folder", name),
-        fmt::format("Name files of {}, or series of the folder strain.cine", formats::volumes));
-  view.cine = single_file ? image::read_volume_cine(case_file::beside(c, name))
-                          : image::read_pixels(choose(c, *dicom, name, "strain.long_axis_cine"));
-  if (view.cine.slices.size() != 1 || view.cine.slices.front().frames.size() < 2)
-    throw InputError(case_file::place_of(c, "strain.long_axis_cine"),
-                     fmt::format("\"{}\" has {} planes of {} images", name, view.cine.slices.size(),
-                                 view.cine.slices.front().frames.size()),
-                     "Name cines of one long-axis plane each, of two or more images");
+  view.cine = anatomy::read_long_axis_cine(
+      c, {"strain.long_axis_cine", "strain.cine", c.strain.cine}, dicom, name);
   (void)drawn_frame(c, view.cine.slices.front());
   const image::Plane& plane = view.cine.slices.front().frames.front().plane;
   const auto lies_on = [&](const Contour& curve) {

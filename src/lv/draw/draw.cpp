@@ -39,12 +39,18 @@ Answer keep(Study& study, const std::string& body, bool whatever_stands) {
   return {200, "application/json", nlohmann::json{{"revision", study.revision}}.dump()};
 }
 
-Answer slice_of(const image::Cine& stack, const Greys& greys, std::string_view number) {
+/// What `bytes` makes of the number of one of so many slices.
+template <class Bytes>
+Answer slice_of(std::size_t slices, std::string_view number, const Bytes& bytes) {
   const auto slice = number_of<int>(number);
-  if (!slice || *slice < 1 || *slice > static_cast<int>(stack.slices.size()))
+  if (!slice || *slice < 1 || *slice > static_cast<int>(slices))
     return refused(404, "there is no such slice");
-  return {200, "application/octet-stream",
-          grey_bytes(stack.slices[static_cast<std::size_t>(*slice - 1)], greys)};
+  return {200, "application/octet-stream", bytes(*slice)};
+}
+
+std::string enhanced_bytes(const Enhancement& enhancement, int number) {
+  return grey_bytes(enhancement.image.slices[static_cast<std::size_t>(number - 1)],
+                    enhancement.greys);
 }
 
 /// Where the wall lies on the enhanced slices, and the scar in it.
@@ -77,10 +83,12 @@ Answer shown(const Study& study, const std::string& place) {
   if (place == "alive")
     return {200, "application/json", nlohmann::json{{"revision", study.revision}}.dump()};
   if (place.starts_with(slices))
-    return slice_of(study.cine, study.greys, std::string_view(place).substr(slices.size()));
+    return slice_of(study.pictures(), std::string_view(place).substr(slices.size()),
+                    [&](int number) { return picture_bytes(study, number); });
   if (place.starts_with(enhanced) && study.enhancement)
-    return slice_of(study.enhancement->image, study.enhancement->greys,
-                    std::string_view(place).substr(enhanced.size()));
+    return slice_of(study.enhancement->image.slices.size(),
+                    std::string_view(place).substr(enhanced.size()),
+                    [&](int number) { return enhanced_bytes(*study.enhancement, number); });
   return refused(404, "there is nothing of this name");
 }
 
@@ -128,14 +136,15 @@ std::string page_with(const Study& study) {
   std::string page(bundle.substr(0, at));
   page += "<script type=\"application/json\" id=\"study\">" + inside_script(study_json(study)) +
           "</script>\n";
-  for (std::size_t s = 0; s < study.cine.slices.size(); ++s)
-    page += fmt::format("<script type=\"text/plain\" id=\"slice-{}\">{}</script>\n", s + 1,
-                        packed(slice_bytes(study, s)));
+  const auto pictures = [&](const char* id, std::size_t count, const auto& bytes) {
+    for (int number = 1; number <= static_cast<int>(count); ++number)
+      page += fmt::format("<script type=\"text/plain\" id=\"{}-{}\">{}</script>\n", id, number,
+                          packed(bytes(number)));
+  };
+  pictures("slice", study.pictures(), [&](int number) { return picture_bytes(study, number); });
   if (study.enhancement)
-    for (std::size_t s = 0; s < study.enhancement->image.slices.size(); ++s)
-      page += fmt::format(
-          "<script type=\"text/plain\" id=\"enhanced-{}\">{}</script>\n", s + 1,
-          packed(grey_bytes(study.enhancement->image.slices[s], study.enhancement->greys)));
+    pictures("enhanced", study.enhancement->image.slices.size(),
+             [&](int number) { return enhanced_bytes(*study.enhancement, number); });
   page += bundle.substr(at + mark.size());
   return page;
 }

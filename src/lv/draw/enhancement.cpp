@@ -124,7 +124,7 @@ ScarMap wall_alone(const image::Cine& image, const Walls& walls) {
       if (parts[n] == 1)
         map.slices[s].pixels[n] = Tissue::muscle;
   }
-  map.threshold = grey_range(image).high;
+  map.threshold = grey_range(image.slices).high;
   return map;
 }
 
@@ -159,7 +159,7 @@ std::optional<Enhancement> open_enhancement(const case_file::Case& c, const fs::
     return std::nullopt;
   Enhancement e;
   e.image = scar::read_late_enhancement(c);
-  e.greys = grey_range(e.image);
+  e.greys = grey_range(e.image.slices);
   e.saved = fs::exists(folder / drawn_file);
   if (e.saved) {
     e.scar = {read_walls(folder / walls_file, e.image),

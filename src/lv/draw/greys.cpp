@@ -6,10 +6,10 @@
 
 namespace lv::draw {
 
-Greys grey_range(const image::Cine& cine) {
+Greys grey_range(std::span<const image::CineSlice> slices) {
   constexpr std::size_t step = 17;  // of the pixels that are looked at
   std::vector<float> some;
-  for (const image::CineSlice& slice : cine.slices)
+  for (const image::CineSlice& slice : slices)
     for (const image::Picture& frame : slice.frames)
       for (std::size_t i = 0; i < frame.values.size(); i += step)
         if (std::isfinite(frame.values[i]))

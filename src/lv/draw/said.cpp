@@ -12,18 +12,21 @@ using geometry::Contour;
 using geometry::Side;
 using nlohmann::json;
 
+json plane_json(const image::CineSlice& slice) {
+  const image::Plane& plane = slice.frames.front().plane;
+  const auto exact = [](const Vec3& x) { return json{x.x(), x.y(), x.z()}; };
+  return {{"columns", plane.columns},
+          {"rows", plane.rows},
+          {"origin", exact(plane.origin)},
+          {"along_row", exact(plane.along_row)},
+          {"along_column", exact(plane.along_column)},
+          {"spacing", {plane.spacing_i, plane.spacing_j}}};
+}
+
 json planes_json(const image::Cine& cine) {
   json all = json::array();
-  for (const image::CineSlice& slice : cine.slices) {
-    const image::Plane& plane = slice.frames.front().plane;
-    const auto exact = [](const Vec3& x) { return json{x.x(), x.y(), x.z()}; };
-    all.push_back({{"columns", plane.columns},
-                   {"rows", plane.rows},
-                   {"origin", exact(plane.origin)},
-                   {"along_row", exact(plane.along_row)},
-                   {"along_column", exact(plane.along_column)},
-                   {"spacing", {plane.spacing_i, plane.spacing_j}}});
-  }
+  for (const image::CineSlice& slice : cine.slices)
+    all.push_back(plane_json(slice));
   return all;
 }
 
@@ -62,13 +65,13 @@ Side said_side(const json& object) {
   return side == "endo" ? Side::endo : Side::epi;
 }
 
-void check_on_slice(const Vec3& x, int slice, const Study& study) {
+void check_on_slice(const Vec3& x, int number, const Study& study) {
   constexpr double farthest = 1.0;  // [mm]
-  const image::Plane& plane = study.cine.slices[slice - 1].frames.front().plane;
+  const image::Plane& plane = study.picture(number).frames.front().plane;
   const Vec3 pixel = plane.pixel(x);
   if (std::abs(pixel.z()) > farthest || pixel.x() < -plane.columns ||
       pixel.x() > 2 * plane.columns || pixel.y() < -plane.rows || pixel.y() > 2 * plane.rows)
-    throw InputError(what_page, fmt::format("a point lies off slice {}", slice), reload);
+    throw InputError(what_page, fmt::format("a point lies off slice {}", number), reload);
 }
 
 std::vector<Vec3> said_points(const json& all, int slice, const Study& study, std::size_t fewest,

@@ -26,7 +26,10 @@ auto from_text(const std::string& text, const Use& use) {
   }
 }
 
-/// Where the slices of a stack lie, as the page takes it.
+/// Where a slice lies, as the page takes it.
+[[nodiscard]] nlohmann::json plane_json(const image::CineSlice& slice);
+
+/// Where the slices of a stack lie.
 [[nodiscard]] nlohmann::json planes_json(const image::Cine& cine);
 
 [[nodiscard]] Vec3 said_point(const nlohmann::json& x);
@@ -43,8 +46,8 @@ auto from_text(const std::string& text, const Use& use) {
 /// "endo" or "epi".
 [[nodiscard]] geometry::Side said_side(const nlohmann::json& object);
 
-/// Throws InputError for a point that lies off a slice (from 1) of the cine.
-void check_on_slice(const Vec3& x, int slice, const Study& study);
+/// Throws InputError for a point that lies off a slice or a long-axis image (Study::picture).
+void check_on_slice(const Vec3& x, int number, const Study& study);
 
 /// So many points of a slice of the cine.
 [[nodiscard]] std::vector<Vec3> said_points(const nlohmann::json& all, int slice,

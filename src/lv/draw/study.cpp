@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 namespace lv::draw {
 namespace {
@@ -75,11 +76,48 @@ std::vector<Confidence> read_confidence(const fs::path& file) {
   return all;
 }
 
-std::vector<Landmark> kept_landmarks(const fs::path& file) {
-  return fs::exists(file) ? geometry::read_landmarks(file) : std::vector<Landmark>{};
+/// Landmarks of a folder, each on the image of its number.
+std::vector<Landmark> kept_landmarks(const fs::path& file, const Study& study) {
+  constexpr double farthest = 1.0;  // [mm]
+  if (!fs::exists(file))
+    return {};
+  std::vector<Landmark> landmarks = geometry::read_landmarks(file);
+  for (const Landmark& mark : landmarks) {
+    const bool there = mark.slice >= 1 && mark.slice <= static_cast<int>(study.pictures());
+    if (!there ||
+        std::abs(study.picture(mark.slice).frames.front().plane.pixel(mark.at).z()) > farthest)
+      throw InputError(
+          file.string(),
+          fmt::format("{} lies on no image of number {}: there are {} slices and {} long axes",
+                      mark.name, mark.slice, study.cine.slices.size(), study.long_axis.size()),
+          "Name the cine and the long axes (segment.long_axis_cine) it was set on, in their order, "
+          "or move its folder away");
+  }
+  return landmarks;
 }
 
-Proposal proposal_of(const image::Cine& cine, const segment::Segmentation& found) {
+/// Volume within the lines of one side [mm^3].
+double within(const std::vector<Contour>& lines, Side side, double spacing) {
+  double sum = 0.0;
+  for (const Contour& line : lines)
+    if (line.side == side)
+      sum += spacing * geometry::enclosed_area(line);
+  return sum;
+}
+
+/// The frame of a moment by the volumes of lines.
+std::size_t frame_of(case_file::ShapeMoment moment, const Lines& phases, double spacing) {
+  std::vector<double> volumes;
+  for (const std::vector<Contour>& lines : phases)
+    volumes.push_back(within(lines, Side::endo, spacing));
+  const image::Phases found = image::propose_phases(volumes);
+  return static_cast<std::size_t>(
+      moment == case_file::ShapeMoment::end_diastole ? found.end_diastole : found.early_diastole);
+}
+
+Proposal proposal_of(const anatomy::CineSegmentation& made, case_file::ShapeMoment moment) {
+  const image::Cine& cine = made.cine;
+  const segment::Segmentation& found = made.found;
   Proposal proposal;
   for (std::size_t t = 0; t < cine.slices.front().frames.size(); ++t) {
     proposal.lines.push_back(segment::contours_at(cine, found, t).short_axis);
@@ -94,20 +132,24 @@ Proposal proposal_of(const image::Cine& cine, const segment::Segmentation& found
             {static_cast<int>(s) + 1, static_cast<int>(t) + 1, sure.endo_agrees, sure.epi_agrees});
       }
   proposal.doubts = found.doubts;
+  proposal.doubts.insert(proposal.doubts.end(), made.ends.doubts.begin(), made.ends.doubts.end());
   proposal.fall = found.fall;
+  proposal.landmark_frame = frame_of(moment, proposal.lines, found.spacing);
+  proposal.landmarks = anatomy::proposed_landmarks(made, proposal.landmark_frame);
   return proposal;
 }
 
-/// The notes of a folder of ventricle segment that speak of slices.
+/// The notes of a folder of ventricle segment that speak of slices or long axes.
 std::vector<std::string> read_doubts(const fs::path& file) {
-  constexpr std::string_view mark = "note: slice ";
+  constexpr std::string_view note = "note: ";
   std::vector<std::string> doubts;
   if (!fs::exists(file))
     return doubts;
   std::istringstream text(read_file(file));
   for (std::string line; std::getline(text, line);)
-    if (line.starts_with(mark))
-      doubts.push_back(line.substr(mark.size() - std::string_view("slice ").size()));
+    for (const char* about : {"slice ", "long axis "})
+      if (line.starts_with(std::string(note) + about))
+        doubts.push_back(line.substr(note.size()));
   return doubts;
 }
 
@@ -115,7 +157,7 @@ std::vector<std::string> read_doubts(const fs::path& file) {
 constexpr double usual_fall = 0.85;
 
 Proposal nothing_proposed(const image::Cine& cine, const std::string& why) {
-  return {Lines(cine.slices.front().frames.size()), {}, {why}, usual_fall};
+  return {Lines(cine.slices.front().frames.size()), {}, 0, {}, {why}, usual_fall};
 }
 
 /// Where something in a folder that may not be there yet would be written.
@@ -137,28 +179,42 @@ void keep_proposal(const anatomy::CineSegmentation& made, const fs::path& folder
   fs::rename(unfinished, folder);
 }
 
+anatomy::Cines cines_of(const Study& study) {
+  anatomy::Cines cines{study.cine, {}};
+  for (const LongAxisImage& view : study.long_axis)
+    cines.long_axis.push_back(view.cine);
+  return cines;
+}
+
 /// Segments the cine and keeps what was found, if the folder can be made.
-Proposal propose_first(const case_file::Case& c, const image::Cine& cine, const fs::path& folder) {
+Proposal propose_first(const Study& study, const fs::path& folder) {
+  const case_file::CineAnatomy& a = study.settings.anatomy.cine;
   try {
-    const anatomy::CineSegmentation made{
-        cine, segment::segment(cine, c.anatomy.cine.segmentation, "the cine")};
+    const anatomy::CineSegmentation made =
+        anatomy::segment_cines(cines_of(study), a.segmentation, "the cine");
     if (may_write(folder))
       keep_proposal(made, folder);
-    return proposal_of(cine, made.found);
+    return proposal_of(made, a.moment);
   } catch (const InputError& error) {
     return nothing_proposed(
-        cine, std::string("the program found no ventricle: click into its blood, or draw. ") +
-                  error.what());
+        study.cine, std::string("the program found no ventricle: click into its blood, or draw. ") +
+                        error.what());
   }
 }
 
-Proposal find_proposal(const case_file::Case& c, const image::Cine& cine) {
+Proposal find_proposal(const Study& study) {
+  const case_file::Case& c = study.settings;
   const fs::path folder = c.file.parent_path() / (c.file.stem().string() + ".segment");
   if (!fs::exists(folder))
-    return propose_first(c, cine, folder);
-  return {read_lines(folder, cine, "proposed"), read_confidence(folder / "quality.csv"),
-          read_doubts(folder / "segmentation.txt"),
-          anatomy::kept_fall(folder).value_or(usual_fall)};
+    return propose_first(study, folder);
+  Proposal kept;
+  kept.lines = read_lines(folder, study.cine, "proposed");
+  kept.confidence = read_confidence(folder / "quality.csv");
+  kept.doubts = read_doubts(folder / "segmentation.txt");
+  kept.fall = anatomy::kept_fall(folder).value_or(usual_fall);
+  kept.landmark_frame = frame_of(c.anatomy.cine.moment, kept.lines, study.spacing);
+  kept.landmarks = kept_landmarks(anatomy::landmarks_file(folder, kept.landmark_frame), study);
+  return kept;
 }
 
 void write_phase(const fs::path& file, const std::vector<Contour>& lines) {
@@ -188,15 +244,6 @@ void write_quality(const Drawing& drawing, const fs::path& folder) {
   table.write_csv(folder / "quality.csv");
 }
 
-/// Volume within the lines of one side [mm^3].
-double within(const std::vector<Contour>& lines, Side side, double spacing) {
-  double sum = 0.0;
-  for (const Contour& line : lines)
-    if (line.side == side)
-      sum += spacing * geometry::enclosed_area(line);
-  return sum;
-}
-
 void write_volumes(const Drawing& drawing, double spacing, const fs::path& folder) {
   Table table({"phase", "cavity_volume_ml", "wall_volume_ml", "slices"});
   for (std::size_t t = 0; t < drawing.lines.size(); ++t) {
@@ -218,18 +265,23 @@ Study open_study(const case_file::Case& c, const fs::path& folder) {
   study.name = c.name;
   study.settings = c;
   study.folder = folder;
-  study.cine = anatomy::read_cine(c);
+  anatomy::Cines cines = anatomy::read_cines(c);
+  study.cine = std::move(cines.short_axis);
   segment::require_cine(study.cine, case_file::beside(c, c.anatomy.cine.images).string());
   study.spacing = image::spacing_of(study.cine);
-  study.greys = grey_range(study.cine);
-  study.proposal = find_proposal(c, study.cine);
+  study.greys = grey_range(study.cine.slices);
+  for (image::CineSlice& view : cines.long_axis) {
+    const Greys greys = grey_range({&view, 1});
+    study.long_axis.push_back({std::move(view), greys});
+  }
+  study.proposal = find_proposal(study);
   study.saved = fs::exists(folder / "contours");
   if (study.saved)
     study.drawing = {read_lines(folder, study.cine, "drawn"),
-                     kept_landmarks(folder / "landmarks.csv"),
+                     kept_landmarks(folder / "landmarks.csv", study),
                      read_confidence(folder / "quality.csv")};
   else
-    study.drawing = {study.proposal.lines, {}, study.proposal.confidence};
+    study.drawing = {study.proposal.lines, study.proposal.landmarks, study.proposal.confidence};
   const int phase = shape_phase(study);
   study.enhancement = open_enhancement(c, folder, phase, study.drawing.lines.at(phase - 1));
   if (!may_write(folder))
@@ -238,19 +290,15 @@ Study open_study(const case_file::Case& c, const fs::path& folder) {
 }
 
 int shape_phase(const Study& study) {
-  std::vector<double> volumes;
-  for (const std::vector<Contour>& lines : study.drawing.lines)
-    volumes.push_back(within(lines, Side::endo, study.spacing));
-  const image::Phases phases = image::propose_phases(volumes);
-  return 1 + (study.settings.anatomy.cine.moment == case_file::ShapeMoment::end_diastole
-                  ? phases.end_diastole
-                  : phases.early_diastole);
+  return 1 + static_cast<int>(
+                 frame_of(study.settings.anatomy.cine.moment, study.drawing.lines, study.spacing));
 }
 
 Proposal propose(const Study& study, const Vec3& centre) {
   segment::SegmentParameters parameters = study.settings.anatomy.cine.segmentation;
   parameters.centre = {centre.x(), centre.y(), centre.z()};
-  return proposal_of(study.cine, segment::segment(study.cine, parameters, "segment.centre"));
+  return proposal_of(anatomy::segment_cines(cines_of(study), parameters, "segment.centre"),
+                     study.settings.anatomy.cine.moment);
 }
 
 void save(Study& study, Drawing drawing, std::optional<ScarDrawing> scar) {

@@ -26,6 +26,8 @@ struct Confidence {
 /// What the program proposes.
 struct Proposal {
   Lines lines;
+  std::vector<geometry::Landmark> landmarks;
+  std::size_t landmark_frame = 0;  ///< whose they are: that of segment.moment
   std::vector<Confidence> confidence;
   std::vector<std::string> doubts;
   double fall = 0.0;  ///< at which the endocardium was drawn (segment::draw_borders)
@@ -38,6 +40,12 @@ struct Drawing {
   std::vector<Confidence> confidence;
 };
 
+/// A long-axis image over the cycle.
+struct LongAxisImage {
+  image::CineSlice cine;
+  Greys greys;  ///< its own: another acquisition
+};
+
 /// A cine with its borders, and where they are kept.
 struct Study {
   std::string name;  ///< of the case
@@ -48,18 +56,27 @@ struct Study {
   double spacing = 0.0;  ///< between slices [mm]
   Proposal proposal;
   Drawing drawing;
+  std::vector<LongAxisImage> long_axis;
   std::optional<Enhancement> enhancement;
   bool saved = false;     ///< the drawing comes from its folder
   std::string hindrance;  ///< why nothing can be saved; empty if it can
   int revision = 0;       ///< grows with each time it is saved
 
   [[nodiscard]] std::size_t phases() const { return cine.slices.front().frames.size(); }
+  /// How many pictures bear a number: the slices and, counted on, the long-axis images.
+  [[nodiscard]] std::size_t pictures() const { return cine.slices.size() + long_axis.size(); }
+  /// That of a number from 1 to pictures().
+  [[nodiscard]] const image::CineSlice& picture(int number) const {
+    const auto at = static_cast<std::size_t>(number - 1);
+    return at < cine.slices.size() ? cine.slices[at] : long_axis.at(at - cine.slices.size()).cine;
+  }
 };
 
 /// The cine of segment.cine with the borders that are kept in `folder`, or, if there is no such
 /// folder, those that the program proposes: from CASE.segment beside the case file, which is made
 /// if it is absent and can be. Where no ventricle is found there is a doubt and no border. Throws
-/// InputError where the case does not name the cine, or a folder holds borders of another one.
+/// InputError where the case does not name the cine, or a folder holds borders of another one, or
+/// landmarks that lie on no image.
 [[nodiscard]] Study open_study(const case_file::Case& c, const std::filesystem::path& folder);
 
 /// The phase, from 1, of segment.moment by the volumes of the drawing (areas times spacing).

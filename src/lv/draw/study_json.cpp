@@ -71,6 +71,15 @@ json times_json(const image::Cine& cine) {
   return cine.slices[cine.slices.size() / 2].times;
 }
 
+json long_axis_json(const Study& study) {
+  json all = json::array();
+  for (const LongAxisImage& view : study.long_axis) {
+    all.push_back(plane_json(view.cine));
+    all.back()["phases"] = view.cine.frames.size();
+  }
+  return all;
+}
+
 Redrawn wish_of(const json& said, const Study& study) {
   constexpr std::size_t most_points = 100;
   const int slice = said_number(said, "slice", study.cine.slices.size());
@@ -88,9 +97,8 @@ Redrawn wish_of(const json& said, const Study& study) {
 }
 
 Landmark landmark_of(const json& said, const Study& study) {
-  Landmark mark{said.at("name").get<std::string>(),
-                said_number(said, "slice", study.cine.slices.size()), said_point(said.at("at")),
-                said_word(said, "by"), said_word(said, "when")};
+  Landmark mark{said.at("name").get<std::string>(), said_number(said, "slice", study.pictures()),
+                said_point(said.at("at")), said_word(said, "by"), said_word(said, "when")};
   const auto& names = geometry::landmark_names;
   if (std::find(names.begin(), names.end(), mark.name) == names.end())
     throw InputError(what_page, "a landmark has an unknown name", reload);
@@ -139,9 +147,11 @@ std::string study_json(const Study& study) {
                  {"times", times_json(study.cine)},
                  {"spacing", study.spacing},
                  {"slices", planes_json(study.cine)},
+                 {"long_axis", long_axis_json(study)},
                  {"doubtful", segment::doubtful},
                  {"contours", lines_json(study.drawing.lines)},
                  {"landmarks", landmarks_json(study.drawing.landmarks)},
+                 {"landmark_phase", study.proposal.landmark_frame + 1},
                  {"confidence", confidence_json(study.drawing.confidence)},
                  {"proposal", lines_json(study.proposal.lines)},
                  {"doubts", study.proposal.doubts},
@@ -154,6 +164,8 @@ std::string study_json(const Study& study) {
 
 std::string proposal_json(const Proposal& proposal) {
   return json_text(json{{"contours", lines_json(proposal.lines)},
+                        {"landmarks", landmarks_json(proposal.landmarks)},
+                        {"landmark_phase", proposal.landmark_frame + 1},
                         {"confidence", confidence_json(proposal.confidence)},
                         {"doubts", proposal.doubts}},
                    -1);
@@ -175,8 +187,10 @@ std::string points_json(const std::vector<Vec3>& points) {
   return json_text(json{{"points", all_numbers(points)}}, -1);
 }
 
-std::string slice_bytes(const Study& study, std::size_t slice) {
-  return grey_bytes(study.cine.slices[slice], study.greys);
+std::string picture_bytes(const Study& study, int number) {
+  const int of_long_axis = number - static_cast<int>(study.cine.slices.size()) - 1;
+  return grey_bytes(study.picture(number),
+                    of_long_axis < 0 ? study.greys : study.long_axis.at(of_long_axis).greys);
 }
 
 }  // namespace lv::draw

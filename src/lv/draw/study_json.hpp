@@ -43,8 +43,9 @@ struct Redrawn {
 /// {"points": [...]}
 [[nodiscard]] std::string points_json(const std::vector<Vec3>& points);
 
-/// The pictures of a slice, a byte per pixel, phase by phase, row by row: 0 and 255 stand for the
-/// darkest and brightest thousandth of the study.
-[[nodiscard]] std::string slice_bytes(const Study& study, std::size_t slice);
+/// The pictures of a slice or a long-axis image (Study::picture), a byte per pixel, phase by phase,
+/// row by row: 0 and 255 stand for the darkest and brightest thousandth of the short axis, or of
+/// that long axis.
+[[nodiscard]] std::string picture_bytes(const Study& study, int number);
 
 }  // namespace lv::draw

@@ -12,10 +12,11 @@
 namespace lv::geometry {
 
 /// What an observer can name: a point of the blood; the insertions of the right ventricle's wall,
-/// between which the septum lies; the tips; up to four points of the mitral annulus.
-inline constexpr std::array landmark_names{"centre",    "septum_anterior", "septum_inferior",
-                                           "apex_endo", "apex_epi",        "annulus_1",
-                                           "annulus_2", "annulus_3",       "annulus_4"};
+/// between which the septum lies; the tips; up to eight points of the mitral annulus.
+inline constexpr std::array landmark_names{
+    "centre",    "septum_anterior", "septum_inferior", "apex_endo", "apex_epi",
+    "annulus_1", "annulus_2",       "annulus_3",       "annulus_4", "annulus_5",
+    "annulus_6", "annulus_7",       "annulus_8"};
 
 /// A point that an observer named.
 struct Landmark {

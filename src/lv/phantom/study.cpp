@@ -19,6 +19,10 @@ namespace fs = std::filesystem;
 using geometry::Contour;
 using geometry::Side;
 
+/// Numbers of images, which tell their noise apart.
+constexpr std::uint32_t first_of_short_axis = 1;
+constexpr std::uint32_t first_of_long_axis = 500000;
+
 image::Cine cine_of(const Scanner& scanner, const Scan& scan, const std::vector<ScanPlane>& planes,
                     std::uint32_t first_number) {
   const std::vector<double> times = phase_times(scan);
@@ -196,8 +200,8 @@ image::Cine one(const image::CineSlice& slice) {
 /// model starts, so that the scar lies in the wall of the case without being carried there.
 void write_images(const Scanner& scanner, const Scan& scan, const ScanPlanes& planes,
                   const StudyFiles& files, double early, const fs::path& folder) {
-  const image::Cine sa = cine_of(scanner, scan, planes.short_axis, 1);
-  const image::Cine la = cine_of(scanner, scan, planes.long_axis, 500000);
+  const image::Cine sa = cine_of(scanner, scan, planes.short_axis, first_of_short_axis);
+  const image::Cine la = cine_of(scanner, scan, planes.long_axis, first_of_long_axis);
   const image::Cine lge = late_enhancement(scanner, scan, planes, early);
   if (files.dicom) {
     fs::create_directories(folder / "dicom");
@@ -231,7 +235,11 @@ void write_images(const Scanner& scanner, const Scan& scan, const ScanPlanes& pl
 
 image::Cine short_axis_cine(const Ventricle& ventricle, const Scan& scan,
                             const ScanPlanes& planes) {
-  return cine_of(Scanner(ventricle, scan), scan, planes.short_axis, 1);
+  return cine_of(Scanner(ventricle, scan), scan, planes.short_axis, first_of_short_axis);
+}
+
+image::Cine long_axis_cine(const Ventricle& ventricle, const Scan& scan, const ScanPlanes& planes) {
+  return cine_of(Scanner(ventricle, scan), scan, planes.long_axis, first_of_long_axis);
 }
 
 std::string write_study(const Ventricle& v, const Scan& scan, const StudyFiles& files,

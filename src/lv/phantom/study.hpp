@@ -30,4 +30,8 @@ std::string write_study(const Ventricle& ventricle, const Scan& scan, const Stud
 [[nodiscard]] image::Cine short_axis_cine(const Ventricle& ventricle, const Scan& scan,
                                           const ScanPlanes& planes);
 
+/// The long-axis cines alone.
+[[nodiscard]] image::Cine long_axis_cine(const Ventricle& ventricle, const Scan& scan,
+                                         const ScanPlanes& planes);
+
 }  // namespace lv::phantom

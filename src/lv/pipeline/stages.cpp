@@ -144,7 +144,7 @@ bool is_measurement(const std::string& parameter) {
          parameter == "calibrate.esv" || parameter == "calibrate.strains" ||
          parameter == "calibrate.cuff_systolic" || parameter == "calibrate.cuff_diastolic" ||
          parameter.starts_with("strain.") || parameter == "segment.cine" ||
-         parameter == "segment.series" ||
+         parameter == "segment.series" || parameter == "segment.long_axis_cine" ||
          (parameter.starts_with("anatomy.") && parameter != "anatomy.source" &&
           !parameter.starts_with("anatomy.ellipsoid."));
 }

@@ -83,6 +83,21 @@ double any_difference(const Polar& cost, const PathRule& rule) {
 
 }  // namespace
 
+std::vector<int> open_path(const Polar& cost, const PathRule& rule) {
+  std::vector<Eigen::ArrayXi> from;
+  Eigen::ArrayXd reached = cost.row(0).transpose();
+  for (Eigen::Index i = 1; i < cost.rows(); ++i) {
+    Step next = step(reached, rule);
+    reached = next.cost + cost.row(i).transpose();
+    from.push_back(std::move(next.from));
+  }
+  std::vector<int> path(static_cast<std::size_t>(cost.rows()));
+  reached.minCoeff(&path.back());
+  for (std::size_t i = path.size() - 1; i > 0; --i)
+    path[i - 1] = from[i - 1](path[i]);
+  return path;
+}
+
 std::vector<int> closed_path(const Polar& cost, const PathRule& rule) {
   const Eigen::ArrayXd bounds = open_costs(cost, rule);
   std::vector<int> starts(static_cast<std::size_t>(bounds.size()));

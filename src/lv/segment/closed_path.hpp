@@ -20,6 +20,9 @@ struct PathRule {
 /// cost is a lower bound, leaves a chance to be best. The costs must be finite.
 [[nodiscard]] std::vector<int> closed_path(const Polar& cost, const PathRule& rule);
 
+/// The open path of least cost, from the first ray to the last, under the same rule.
+[[nodiscard]] std::vector<int> open_path(const Polar& cost, const PathRule& rule);
+
 /// A radius, by its number, that a path has on a ray.
 struct Fixed {
   int ray = 0, k = 0;

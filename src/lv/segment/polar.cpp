@@ -6,20 +6,6 @@
 namespace lv::segment {
 namespace {
 
-double grey(const image::Picture& picture, const Pixel& at) {
-  const image::Plane& plane = picture.plane;
-  const double x = std::clamp(at.x(), 0.0, plane.columns - 1.0);
-  const double y = std::clamp(at.y(), 0.0, plane.rows - 1.0);
-  const int i = std::min(static_cast<int>(x), std::max(plane.columns - 2, 0));
-  const int j = std::min(static_cast<int>(y), std::max(plane.rows - 2, 0));
-  const int right = std::min(i + 1, plane.columns - 1);
-  const int below = std::min(j + 1, plane.rows - 1);
-  const double u = x - i;
-  const double v = y - j;
-  return (1.0 - v) * ((1.0 - u) * picture.at(i, j) + u * picture.at(right, j)) +
-         v * ((1.0 - u) * picture.at(i, below) + u * picture.at(right, below));
-}
-
 /// Three taps with the variance 1/2 along the radii and 1/4 across.
 Polar smoothed(const Polar& values) {
   const auto rays = values.rows();
@@ -36,6 +22,20 @@ Polar smoothed(const Polar& values) {
 
 }  // namespace
 
+double grey_at(const image::Picture& picture, const Pixel& at) {
+  const image::Plane& plane = picture.plane;
+  const double x = std::clamp(at.x(), 0.0, plane.columns - 1.0);
+  const double y = std::clamp(at.y(), 0.0, plane.rows - 1.0);
+  const int i = std::min(static_cast<int>(x), std::max(plane.columns - 2, 0));
+  const int j = std::min(static_cast<int>(y), std::max(plane.rows - 2, 0));
+  const int right = std::min(i + 1, plane.columns - 1);
+  const int below = std::min(j + 1, plane.rows - 1);
+  const double u = x - i;
+  const double v = y - j;
+  return (1.0 - v) * ((1.0 - u) * picture.at(i, j) + u * picture.at(right, j)) +
+         v * ((1.0 - u) * picture.at(i, below) + u * picture.at(right, below));
+}
+
 int PolarGrid::index(double radius) const {
   return std::clamp(static_cast<int>(std::lround((radius - first) / step)), 0, radii - 1);
 }
@@ -49,7 +49,7 @@ Polar sample(const image::Picture& picture, const Pixel& centre, const PolarGrid
   Polar values(grid.rays, grid.radii);
   for (int i = 0; i < grid.rays; ++i)
     for (int k = 0; k < grid.radii; ++k)
-      values(i, k) = grey(picture, place(picture.plane, centre, grid.angle(i), grid.radius(k)));
+      values(i, k) = grey_at(picture, place(picture.plane, centre, grid.angle(i), grid.radius(k)));
   return smoothed(values);
 }
 

@@ -37,6 +37,9 @@ struct PolarGrid {
   [[nodiscard]] int index(double radius) const;
 };
 
+/// The grey value at a place, linear between pixels; beyond the edge that of the edge.
+[[nodiscard]] double grey_at(const image::Picture& picture, const Pixel& at);
+
 /// Grey values round a centre, linear between pixels and those of the edge beyond it, smoothed over
 /// neighbours (deviations of half a ray and 0.7 radii).
 [[nodiscard]] Polar sample(const image::Picture& picture, const Pixel& centre,

@@ -221,9 +221,58 @@ TEST_CASE("the page is told no name of a person and no path", "[draw]") {
   CHECK_THAT(told, !Contains(std::filesystem::temp_directory_path().string()));
 }
 
+namespace {
+
+/// A long-axis image of eight pictures in the plane x = 0, rows towards the base.
+draw::LongAxisImage long_axis() {
+  draw::LongAxisImage view;
+  view.greys = {0.0F, 14.0F};
+  for (int t = 0; t < 8; ++t) {
+    image::Picture picture;
+    picture.plane.origin = {0.0, -40.0, -20.0};
+    picture.plane.along_row = Vec3::UnitY();
+    picture.plane.along_column = Vec3::UnitZ();
+    picture.plane.spacing_i = picture.plane.spacing_j = 2.0;
+    picture.plane.columns = 40;
+    picture.plane.rows = 30;
+    picture.values.assign(1200, static_cast<float>(2 * t));
+    view.cine.frames.push_back(picture);
+  }
+  return view;
+}
+
+}  // namespace
+
+TEST_CASE("long-axis images count on after the slices, for pictures and landmarks", "[draw]") {
+  const test::TemporaryFolder folder;
+  draw::Study study = small_study(folder / "heart.draw");
+  study.long_axis = {long_axis()};
+  const json told = json::parse(draw::study_json(study));
+  REQUIRE(told["long_axis"].size() == 1);
+  CHECK(told["long_axis"][0]["phases"] == 8);
+  CHECK(told["long_axis"][0]["rows"] == 30);
+  const std::string bytes = draw::picture_bytes(study, 5);
+  REQUIRE(bytes.size() == 8 * 1200);
+  CHECK(static_cast<unsigned char>(bytes[7 * 1200]) == 255);  // of its own grey values
+
+  json page = sent(study);
+  page["landmarks"] = {
+      {{"name", "apex_endo"}, {"slice", 5}, {"at", {0.0, 3.0, -11.0}}, {"by", ""}, {"when", ""}}};
+  const draw::Kept kept = draw::read_kept(page.dump(), study);
+  REQUIRE(kept.drawing.landmarks.size() == 1);
+  CHECK(kept.drawing.landmarks[0].at == Vec3(0.0, 3.0, -11.0));
+  page["landmarks"][0]["at"] = {4.0, 3.0, -11.0};
+  CHECK_THAT(complaint(page, study), Contains("a point lies off slice 5"));
+  page["landmarks"][0]["slice"] = 6;
+  CHECK_THAT(complaint(page, study), Contains("there is no slice 6"));
+  page = sent(study);
+  page["contours"][0]["slice"] = 5;  // borders are drawn on slices alone
+  CHECK_THAT(complaint(page, study), Contains("there is no slice 5"));
+}
+
 TEST_CASE("pictures are bytes between the study's darkest and brightest", "[draw]") {
   const test::TemporaryFolder folder;
-  const std::string bytes = draw::slice_bytes(small_study(folder / "x"), 0);
+  const std::string bytes = draw::picture_bytes(small_study(folder / "x"), 1);
   REQUIRE(bytes.size() == 6 * 1600);
   for (int t = 0; t < 6; ++t)
     CHECK(static_cast<unsigned char>(bytes[t * 1600]) == 51 * t);

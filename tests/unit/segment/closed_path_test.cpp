@@ -123,3 +123,28 @@ TEST_CASE("area and centroid are those of a circle off the centre", "[segment]")
   CHECK(centroid(r).x() == Approx(5.0).epsilon(1e-2));
   CHECK(centroid(r).y() == Approx(0.0).margin(1e-9));
 }
+
+TEST_CASE("no open path costs less than the one found", "[segment]") {
+  std::mt19937 random(9);
+  std::uniform_real_distribution<double> number(-1.0, 1.0);
+  for (int trial = 0; trial < 40; ++trial) {
+    Polar cost(5, 4);
+    for (double& c : cost.reshaped())
+      c = number(random);
+    const PathRule rule{.reach = 1 + trial % 2, .stiffness = 0.1 * (trial % 4)};
+    const auto open_cost = [&](const std::vector<int>& path) {
+      double sum = cost(0, path[0]);
+      for (std::size_t i = 1; i < path.size(); ++i) {
+        const int change = path[i] - path[i - 1];
+        if (std::abs(change) > rule.reach)
+          return std::numeric_limits<double>::infinity();
+        sum += cost(static_cast<Eigen::Index>(i), path[i]) + rule.stiffness * change * change;
+      }
+      return sum;
+    };
+    double least = std::numeric_limits<double>::infinity();
+    for (int n = 0; n < 1024; ++n)  // all paths of five rays of four radii
+      least = std::min(least, open_cost({n % 4, n / 4 % 4, n / 16 % 4, n / 64 % 4, n / 256}));
+    CHECK(open_cost(open_path(cost, rule)) == Approx(least));
+  }
+}

@@ -1,17 +1,21 @@
 // What is looked at, and what the hand does to it.
+import { cutOf, passages } from "./crossing.ts";
 import type { Drawing } from "./drawing.ts";
 import { doubtfulKeys } from "./overview.ts";
 import { Picture, handleStep } from "./picture.ts";
 import { circle, distance, nearest, pulled, redrawn, resized } from "./shape.ts";
-import { inSpace, keyOf, landmarkNames, ofKey, placeOn, sideNames, sides, type How, type Line, type Place, type SaidStudy, type Side } from "./study.ts";
+import { inSpace, keyOf, landmarkNames, ofKey, placeOn, planesOf, sideNames, sides, type How, type Line, type Place, type Plane, type SaidStudy, type Side } from "./study.ts";
 
 /** What the pointer does: pull a part, resize, redraw, set points of a border, or set a landmark of this name. */
 export type Tool = "pull" | "size" | "redraw" | "points" | string;
 
 const grasp = 14;  // CSS pixels
+const shortAxisAlone = "borders are drawn on short-axis slices; here landmarks are set";
 
 export class Editor {
   readonly picture = new Picture();
+  /** The slices, then the long-axis images: what `slice` counts, from 1. */
+  readonly planes: Plane[];
   slice = 1;
   phase = 1;
   side: Side = "endo";
@@ -20,6 +24,7 @@ export class Editor {
   observer = "";
   showsLines = true;
   showsOriginal = false;
+  private lastShort = 1;  // the short-axis slice that was looked at last
   private point: number | undefined;
   private stroke: Place[] = [];
   private held: ((at: Place) => void) | undefined;
@@ -28,6 +33,7 @@ export class Editor {
   private moved: () => void = () => {};
 
   constructor(readonly study: SaidStudy, readonly drawing: Drawing, readonly proposal: Map<string, Line>, readonly say: (words: string) => void) {
+    this.planes = planesOf(study);
     this.picture.listen((event) => this.press(event), (at) => this.held?.(at), () => this.release());
   }
 
@@ -43,7 +49,18 @@ export class Editor {
   get line(): Line | undefined { return this.drawing.lines.get(this.key); }
   /** Where the hand wants the border to run. */
   get wanted(): Place[] { return this.drawing.points.get(this.key) ?? []; }
-  get plane() { return this.study.slices[this.slice - 1]; }
+  get plane() { return this.planes[this.slice - 1]; }
+  get isLongAxis(): boolean { return this.slice > this.study.slices.length; }
+  /** What a slice is called. */
+  called(slice: number): string { return slice > this.study.slices.length ? `long axis ${slice - this.study.slices.length}` : `slice ${slice}`; }
+  /** The short-axis slice whose place a long-axis image shows. */
+  get crossing(): number { return this.lastShort; }
+  /** Which picture of the slice belongs to the phase, from 0: all cover one cycle evenly. */
+  private get frame(): number {
+    if (!this.isLongAxis) return this.phase - 1;
+    const { phases } = this.study.long_axis[this.slice - this.study.slices.length - 1];
+    return Math.round((this.phase - 1) * phases / this.study.phases) % phases;
+  }
   get selected(): number | undefined { return this.point; }
 
   show(): void {
@@ -51,32 +68,56 @@ export class Editor {
     const size = plane.columns * plane.rows;
     const ofSides = <T>(value: (key: string) => T) => Object.fromEntries(sides.map((side) => [side, value(keyOf(slice, phase, side))]));
     const doubtful = new Set(doubtfulKeys(this.drawing, this.study.doubtful).map(({ key }) => key));
-    this.picture.show({ plane, greys: this.greys.get(slice)?.subarray((phase - 1) * size, phase * size),
+    this.picture.show({ plane, greys: this.greys.get(slice)?.subarray(this.frame * size, (this.frame + 1) * size), ...(this.isLongAxis ? this.crossings() : {}),
       lines: this.showsLines ? ofSides((key) => this.drawing.lines.get(key)) : {}, doubtful: ofSides((key) => doubtful.has(key)),
       original: this.showsOriginal ? ofSides((key) => this.proposal.get(key)) : {},
       marks: [...this.drawing.landmarks.values()].filter((mark) => mark.slice === slice), side: this.side, point: this.point,
       wanted: this.showsLines ? this.wanted : [], stroke: this.stroke });
   }
 
+  /** Where the short-axis slices lie on a long-axis image: the one looked at last, and the borders of all. */
+  private crossings() {
+    const { plane, study, phase, lastShort } = this;
+    const ends = cutOf(plane, study.slices[lastShort - 1]);
+    const of = (slice: number, side: Side) => {
+      const line = this.drawing.lines.get(keyOf(slice, phase, side));
+      const points = line?.points.map((p) => inSpace(study.slices[slice - 1], p)) ?? [];
+      return passages(points, plane).map((at) => ({ at, side, here: slice === lastShort }));
+    };
+    return { cut: ends && { ends, name: this.called(lastShort) }, passages: this.showsLines ? study.slices.flatMap((_, i) => sides.flatMap((side) => of(i + 1, side))) : [] };
+  }
+
   go(slice: number, phase: number, side = this.side): void {
-    this.slice = Math.min(this.study.slices.length, Math.max(1, slice));
+    const [before, wasLong] = [this.slice, this.isLongAxis];
+    this.slice = Math.min(this.planes.length, Math.max(1, slice));
+    if (!this.isLongAxis) this.lastShort = this.slice;
     this.phase = (phase - 1 + this.study.phases) % this.study.phases + 1;
     this.side = side;
     this.point = undefined;
     this.show();
+    if (this.isLongAxis ? this.slice !== before : wasLong) this.fit();  // places of another plane
     this.moved();
   }
 
   /** Shows the surroundings of all borders, or the whole picture. */
   fit(): void {
-    const all = [...this.drawing.lines].filter(([key]) => ofKey(key).slice === this.slice).flatMap(([, line]) => line.points as Place[]);
-    const around = all.length > 0 ? all : [...this.drawing.lines.values()].flatMap((line) => line.points as Place[]);
+    const around = this.isLongAxis ? this.passagesOfAll() : this.bordersAround();
     const { columns, rows, spacing } = this.plane;
     if (around.length === 0) return this.picture.fit([0, 0], [columns * spacing[0], rows * spacing[1]]);
     const [us, vs] = [around.map(([u]) => u), around.map(([, v]) => v)];
     const span = (values: number[]) => values.reduce(([low, high], v) => [Math.min(low, v), Math.max(high, v)], [Infinity, -Infinity]);
     const [[a, c], [b, d]] = [span(us), span(vs)];
-    this.picture.fit([a - 25, b - 25], [c + 25, d + 25]);
+    const margin = this.isLongAxis ? 35 : 25;  // base and tip lie beyond the slices
+    this.picture.fit([a - margin, b - margin], [c + margin, d + margin]);
+  }
+
+  private bordersAround(): Place[] {
+    const all = [...this.drawing.lines].filter(([key]) => ofKey(key).slice === this.slice).flatMap(([, line]) => line.points as Place[]);
+    return all.length > 0 ? all : [...this.drawing.lines.values()].flatMap((line) => line.points as Place[]);
+  }
+
+  private passagesOfAll(): Place[] {
+    return [...this.drawing.lines].flatMap(([key, line]) => passages(line.points.map((p) => inSpace(this.study.slices[ofKey(key).slice - 1], p)), this.plane));
   }
 
   private stamp(how: How): Omit<Line, "points"> {
@@ -103,6 +144,7 @@ export class Editor {
     const at = this.picture.placeOf(event);
     if (event.button === 1) return this.pan(event);
     if (this.tool in landmarkNames) return this.mark(this.tool, at);
+    if (this.isLongAxis) return this.pan(event);
     if (this.tool === "redraw") return this.startStroke(at);
     if (this.tool === "points") return this.startPoint(at);
     const side = this.grasped(at);
@@ -169,6 +211,7 @@ export class Editor {
 
   /** Without a pointer: the selected point of the border, or the middle of the picture. */
   setPoint(): void {
+    if (this.isLongAxis) return this.say(shortAxisAlone);
     const at = this.point === undefined ? this.picture.centre : this.line?.points[this.point] ?? this.picture.centre;
     this.drawing.change({ what: `set a point of the ${sideNames[this.side]}`, points: [[this.key, [...this.wanted, at]]] });
     this.saySet();
@@ -203,12 +246,13 @@ export class Editor {
   mark(name: string, at: Place = this.picture.centre): void {
     const { by, when } = this.stamp("drawn");
     this.drawing.change({ what: `set the ${landmarkNames[name]}`, marks: [[name, { name, slice: this.slice, at, by, when }]] });
-    this.say(`${landmarkNames[name]} set on slice ${this.slice}`);
+    this.say(`${landmarkNames[name]} set on ${this.called(this.slice)}`);
   }
 
   /** The point that the keys move: the next or the one before. */
   step(by: number): void {
     const line = this.line;
+    if (this.isLongAxis) return this.say(shortAxisAlone);
     if (!line) return this.say(`slice ${this.slice}, phase ${this.phase} has no ${sideNames[this.side]}: A adds a circle`);
     const n = line.points.length;
     this.point = this.point === undefined ? 0 : (this.point + by * handleStep + n) % n;
@@ -220,7 +264,7 @@ export class Editor {
   nudge(u: number, v: number): void {
     const mark = this.drawing.landmarks.get(this.tool);
     if (mark && mark.slice === this.slice)
-      return this.drawing.change({ what: `move the ${landmarkNames[this.tool]}`, marks: [[this.tool, { ...mark, at: [mark.at[0] + u, mark.at[1] + v] }]] }, `mark ${this.tool}`);
+      return this.drawing.change({ what: `move the ${landmarkNames[this.tool]}`, marks: [[this.tool, { ...mark, by: this.observer, when: this.stamp("corrected").when, at: [mark.at[0] + u, mark.at[1] + v] }]] }, `mark ${this.tool}`);
     if (this.point === undefined) return this.step(1);
     const line = this.line;
     if (!line) return;
@@ -260,6 +304,7 @@ export class Editor {
 
   /** A circle in the middle of what is seen, to be pulled into shape. */
   add(): void {
+    if (this.isLongAxis) return this.say(shortAxisAlone);
     const other = this.drawing.lines.get(keyOf(this.slice, this.phase, this.side === "endo" ? "epi" : "endo"));
     const points = other ? resized(other.points, this.side === "endo" ? -8 : 8) : circle(this.picture.centre, this.side === "endo" ? 15 : 25);
     this.put(`new ${sideNames[this.side]}`, points, "drawn");

@@ -6,7 +6,7 @@ import type { ScarEditor } from "./scar_editor.ts";
 import { landmarkNames } from "./study.ts";
 
 export const keyMeanings: [string[], string][] = [
-  [["PageUp", "PageDown"], "the slice before, the next one"], [[",", "."], "the phase before, the next one"], [["Space"], "play and stop the cine"],
+  [["PageUp", "PageDown"], "the slice before, the next one; long-axis images follow the slices"], [[",", "."], "the phase before, the next one"], [["Space"], "play and stop the cine"],
   [["D"], "the next doubtful border"], [["E", "P"], "endocardium, epicardium"], [["N", "B"], "the next point of the border, the one before"],
   [["←", "→", "↑", "↓"], "move the point by 0.5 mm, with Shift by 2 mm; what lies near comes along"], [["[", "]"], "the whole border smaller, larger by 0.5 mm"],
   [["{", "}"], "the same on all slices of the phase"],

@@ -11,7 +11,7 @@ import { Player } from "./player.ts";
 import { Saving } from "./saving.ts";
 import { scarOf, type SaidScar } from "./scar.ts";
 import { ScarEditor } from "./scar_editor.ts";
-import { landmarksOf, linesOf, sideNames, type SaidStudy } from "./study.ts";
+import { landmarksOf, linesOf, planesOf, programsOwn, sideNames, type SaidStudy } from "./study.ts";
 import { brushBar, contrastBar, editBar, greyBar, placeBar, thresholdBar, toolBar, viewSwitch } from "./toolbars.ts";
 
 const page = document.getElementById("page")!;
@@ -20,10 +20,18 @@ const source = keeper();
 function statusWords(editor: Editor): string {
   const { slice, phase, side, line, study } = editor;
   const time = study.times[phase - 1];
+  const when = `phase ${phase} of ${study.phases}${time === undefined ? "" : ` (${Math.round(1e3 * time)} ms)`}`;
+  if (editor.isLongAxis) {
+    const marks = [...editor.drawing.landmarks.values()].filter((mark) => mark.slice === slice);
+    const here = marks.map((mark) => mark.name.replace("_", " ")).join(", ");
+    const elsewhen = phase !== study.landmark_phase && marks.some((mark) => mark.by === programsOwn);
+    return `${editor.called(slice)} of ${study.long_axis.length}, ${when}; cut by slice ${editor.crossing}; ${
+      here ? `landmarks: ${here}${elsewhen ? ` (proposed at phase ${study.landmark_phase})` : ""}` : "no landmark here"}`;
+  }
   const sure = editor.drawing.confidence.find((c) => c.slice === slice && c.phase === phase)?.[side];
   const how = !line ? "none here" : line.how === "proposed" ? `proposed${sure === undefined ? "" : `, confidence ${sure.toFixed(2)}`}` : `${line.how}${line.by ? ` by ${line.by}` : ""}`;
   const point = editor.selected === undefined ? "" : `; point ${editor.selected + 1} of ${line?.points.length ?? 0}`;
-  return `slice ${slice} of ${study.slices.length}, phase ${phase} of ${study.phases}${time === undefined ? "" : ` (${Math.round(1e3 * time)} ms)`}; ${sideNames[side]}: ${how}${point}`;
+  return `slice ${slice} of ${study.slices.length}, ${when}; ${sideNames[side]}: ${how}${point}`;
 }
 
 const keyList = (meanings: [string[], string][]) =>
@@ -55,7 +63,7 @@ function scarView(said: SaidScar, editor: Editor, saving: Saving, say: (words: s
 }
 
 function build(study: SaidStudy): { editor: Editor; scar: ScarEditor | undefined } {
-  const drawing = new Drawing(linesOf(study.contours, study.slices), landmarksOf(study.landmarks, study.slices), study.confidence, study.scar ? scarOf(study.scar) : undefined,
+  const drawing = new Drawing(linesOf(study.contours, study.slices), landmarksOf(study.landmarks, planesOf(study)), study.confidence, study.scar ? scarOf(study.scar) : undefined,
     study.scar?.saved);
   const said = el("p", { class: "status", role: "status", id: "said" });
   const say = (words: string) => { said.textContent = words; };
@@ -112,7 +120,7 @@ async function start(): Promise<void> {
   const study = await source.study();
   document.title = `${study.name}: ventricle draw`;
   const { editor, scar } = build(study);
-  const order = study.slices.map((_, i) => i + 1).sort((a, b) => Math.abs(a - editor.slice) - Math.abs(b - editor.slice));
+  const order = editor.planes.map((_, i) => i + 1).sort((a, b) => Math.abs(a - editor.slice) - Math.abs(b - editor.slice));
   for (const slice of order) editor.hold(slice, await source.slice(slice));
   for (const slice of scar?.planes.map((_, i) => i + 1) ?? []) scar!.hold(slice, await source.enhanced(slice));
   document.body.dataset.ready = "true";

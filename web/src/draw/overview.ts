@@ -1,6 +1,6 @@
 // The study at a glance: what to look at first, all slices and phases, the volume over time.
 import { el, svg, titled } from "../dom.ts";
-import { keyOf, ofKey, sideNames, sides, volumes, type Confidence, type Line, type SaidStudy, type Side } from "./study.ts";
+import { keyOf, ofKey, programsOwn, sideNames, sides, volumes, type Confidence, type Line, type SaidStudy, type Side } from "./study.ts";
 import type { Drawing } from "./drawing.ts";
 
 export type Go = (slice: number, phase: number, side?: Side) => void;
@@ -30,7 +30,8 @@ export class FirstList {
     });
     const ends = (text: string) => Number(/ is left out/.test(text));  // base and apex before slices that are not used
     const sentences = doubts.filter((text) => !/ is doubtful in phase/.test(text)).sort((a, b) => ends(a) - ends(b)).map((text) => {
-      const slice = Number(/slice (\d+)/.exec(text)?.[1]);
+      const long = Number(/^long axis (\d+)/.exec(text)?.[1]);
+      const slice = long ? this.study.slices.length + long : Number(/slice (\d+)/.exec(text)?.[1]);
       return slice ? item(text, () => this.go(slice, whole)) : el("li", {}, text);
     });
     const all = [...borders, ...sentences];
@@ -49,10 +50,12 @@ export class StudyMap {
   readonly section: HTMLElement;
 
   constructor(private readonly study: SaidStudy, go: Go) {
-    const { phases, slices } = study;
-    this.grid.setAttribute("viewBox", `-34 -16 ${phases * cell + 36} ${slices.length * cell + 18}`);
-    for (let s = 1; s <= slices.length; ++s) {
-      this.grid.append(svg("text", { x: -6, y: s * cell - 4, "text-anchor": "end", "font-size": 10, fill: "var(--soft)" }, String(s)));
+    const { phases, slices, long_axis } = study;
+    const rows = slices.length + long_axis.length;
+    this.grid.setAttribute("viewBox", `-34 -16 ${phases * cell + 36} ${rows * cell + 18}`);
+    for (let s = 1; s <= rows; ++s) {
+      const called = s > slices.length ? `L${s - slices.length}` : String(s);
+      this.grid.append(svg("text", { x: -6, y: s * cell - 4, "text-anchor": "end", "font-size": 10, fill: "var(--soft)" }, called));
       for (let t = 1; t <= phases; ++t) {
         const rect = svg("rect", { x: (t - 1) * cell + 1, y: (s - 1) * cell + 1, width: cell - 2, height: cell - 2, click: () => go(s, t) });
         this.rects.set(`${s}/${t}`, rect);
@@ -63,7 +66,7 @@ export class StudyMap {
       svg("text", { x: -32, y: -5, "font-size": 10, fill: "var(--soft)" }, "slice"), this.cursor);
     const key = (state: State, text: string) => el("span", { class: "key" }, el("i", { style: `background:${stateColours[state]}` }), text);
     this.section = titled("map", "All slices and phases", {}, this.grid, el("p", { class: "help legend" }, key("doubtful", "doubtful"), key("proposed", "proposed"),
-      key("changed", "corrected or drawn"), key("none", "no border")));
+      key("changed", "corrected or drawn"), key("none", "no border"), ...(long_axis.length > 0 ? [el("span", {}, "L: long axes; coloured where landmarks are set")] : [])));
   }
 
   private state(drawing: Drawing, doubtful: Set<string>, s: number, t: number): State {
@@ -73,13 +76,19 @@ export class StudyMap {
     return there.length === 0 ? "none" : there.some((line) => line.how !== "proposed") ? "changed" : "proposed";
   }
 
+  private stateOfLong(drawing: Drawing, s: number): State {
+    const marks = [...drawing.landmarks.values()].filter((mark) => mark.slice === s);
+    return marks.length === 0 ? "none" : marks.some((mark) => mark.by !== programsOwn) ? "changed" : "proposed";
+  }
+
   show(drawing: Drawing): void {
     const doubtful = new Set(doubtfulKeys(drawing, this.study.doubtful).map(({ key }) => key));
     const counts: Record<State, number> = { none: 0, doubtful: 0, proposed: 0, changed: 0 };
     for (const [place, rect] of this.rects) {
       const [s, t] = place.split("/").map(Number);
-      const state = this.state(drawing, doubtful, s, t);
-      ++counts[state];
+      const long = s > this.study.slices.length;
+      const state = long ? this.stateOfLong(drawing, s) : this.state(drawing, doubtful, s, t);
+      if (!long) ++counts[state];
       rect.setAttribute("fill", stateColours[state]);
     }
     this.grid.setAttribute("aria-label", `Pictures with borders: ${counts.doubtful} doubtful, ${counts.proposed} proposed, ${counts.changed} corrected or drawn; ${counts.none} without`);

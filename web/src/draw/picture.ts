@@ -5,6 +5,7 @@ import { sides, type Landmark, type Line, type Place, type Plane, type Side } fr
 export const colours: Record<Side, string> = { endo: "#ffd23f", epi: "#5ad1ff" };
 const doubtColour = "#ff7b1a";
 const wantedColour = "#7dff5a";
+const cutColour = "#c9a0ff";
 
 /** What is shown. */
 export interface Scene {
@@ -18,6 +19,8 @@ export interface Scene {
   point: number | undefined;  ///< of that side that is selected
   wanted: Place[];  ///< points of that side that the hand set
   stroke: Place[];
+  cut?: { ends: [Place, Place]; name: string };  ///< by a slice of the other orientation
+  passages?: { at: Place; side: Side; here: boolean }[];  ///< of borders through the plane; `here`: of that slice
   brush?: { at: Place; radius: number };  ///< in mm
   tint?: (pixel: number) => readonly [number, number, number, number] | undefined;  ///< over the grey of a pixel
 }
@@ -128,6 +131,8 @@ export class Picture {
       if (line) this.drawLine(context, line.points, colours[side], side === this.scene.side ? 2.5 : 1.5, []);
       if (line && this.scene.doubtful[side]) this.drawLine(context, line.points, doubtColour, 2.5, [7, 7]);
     }
+    this.drawCut(context);
+    for (const passage of this.scene.passages ?? []) this.drawPassage(context, passage);
     this.drawPoints(context);
     for (const place of this.scene.wanted) this.drawWanted(context, place);
     if (this.scene.stroke.length > 1) this.drawLine(context, this.scene.stroke, "#fff", 2, [], false);
@@ -206,6 +211,30 @@ export class Picture {
       context.strokeStyle = i === point ? "#d00080" : "#000";
       context.stroke();
     });
+  }
+
+  private drawCut(context: CanvasRenderingContext2D): void {
+    const { cut } = this.scene!;
+    if (!cut) return;
+    this.drawLine(context, cut.ends, cutColour, 1.2, [9, 5], false);
+    // the name beside the end that is nearer to the picture's left, where that is seen
+    const ends = cut.ends.map((end) => this.at(end)).sort((a, b) => a[0] - b[0]);
+    const [w] = this.size;
+    const t = ends[1][0] > ends[0][0] ? Math.min(1, Math.max(0, (0.04 * w - ends[0][0]) / (ends[1][0] - ends[0][0]))) : 0;
+    context.font = "12px system-ui, sans-serif";
+    context.fillStyle = cutColour;
+    context.fillText(cut.name, ends[0][0] + t * (ends[1][0] - ends[0][0]), ends[0][1] + t * (ends[1][1] - ends[0][1]) - 5);
+  }
+
+  private drawPassage(context: CanvasRenderingContext2D, { at, side, here }: { at: Place; side: Side; here: boolean }): void {
+    const [x, y] = this.at(at);
+    context.beginPath();
+    context.arc(x, y, here ? 5 : 3, 0, 2 * Math.PI);
+    context.fillStyle = colours[side];
+    context.fill();
+    context.lineWidth = 1;
+    context.strokeStyle = "#000";
+    context.stroke();
   }
 
   private drawWanted(context: CanvasRenderingContext2D, place: Place): void {

@@ -3,7 +3,7 @@ import { el } from "../dom.ts";
 import type { Editor } from "./editor.ts";
 import { Refused, Stopped, downloadDrawing, type Keeper } from "./keeper.ts";
 import { toldScar } from "./scar.ts";
-import { inSpace, keyOf, linesOf, placeOn, said, sideNames, toldPoints, type SaidStudy, type Side } from "./study.ts";
+import { inSpace, keyOf, landmarksOf, linesOf, placeOn, programsOwn, said, sideNames, toldPoints, type Landmark, type SaidProposal, type SaidStudy, type Side } from "./study.ts";
 
 const asking = 3000;  // ms between two questions whether the program still runs
 
@@ -39,7 +39,7 @@ export class Saving {
 
   private text(): string {
     const { lines, landmarks, confidence, keptScar } = this.editor.drawing;
-    return JSON.stringify({ revision: this.revision, ...said(lines, landmarks, confidence, this.study.slices),
+    return JSON.stringify({ revision: this.revision, ...said(lines, landmarks, confidence, this.editor.planes),
       ...(keptScar ? { scar: toldScar(keptScar, this.study.scar!.slices) } : {}) });
   }
 
@@ -147,6 +147,14 @@ export class Saving {
     }
   }
 
+  /** Landmarks as the program proposes them now; those that a hand set stay. */
+  private freshMarks(found: SaidProposal): [string, Landmark | undefined][] {
+    const { landmarks } = this.editor.drawing;
+    const fresh = landmarksOf(found.landmarks, this.editor.planes);
+    const open = [...new Set([...landmarks.keys(), ...fresh.keys()])].filter((name) => (landmarks.get(name)?.by ?? programsOwn) === programsOwn);
+    return open.map((name) => [name, fresh.get(name)]);
+  }
+
   /** Lets the program segment again round the centre; what a hand drew stays. */
   async proposeAgain(): Promise<void> {
     const centre = this.editor.drawing.landmarks.get("centre");
@@ -154,12 +162,13 @@ export class Saving {
     if (!centre) return this.say("Set the centre of the blood first.");
     this.say("The program looks for the borders round this centre.");
     try {
-      const found = await this.source.propose(inSpace(this.study.slices[centre.slice - 1], centre.at));
+      const found = await this.source.propose(inSpace(this.editor.planes[centre.slice - 1], centre.at));
       const { drawing } = this.editor;
       const fresh = linesOf(found.contours, this.study.slices);
       const open = [...new Set([...drawing.lines.keys(), ...fresh.keys()])].filter((key) => (drawing.lines.get(key)?.how ?? "proposed") === "proposed");
       this.doubts = found.doubts;
-      drawing.change({ what: "propose again", lines: open.map((key) => [key, fresh.get(key)]), confidence: found.confidence });
+      this.study.landmark_phase = found.landmark_phase;
+      drawing.change({ what: "propose again", lines: open.map((key) => [key, fresh.get(key)]), marks: this.freshMarks(found), confidence: found.confidence });
       this.say(`Proposed again on ${new Set([...fresh.keys()].map((key) => key.split("/")[0])).size} slices; borders that a hand drew stay.`);
     } catch (error) {
       if (error instanceof Stopped) this.stopped();

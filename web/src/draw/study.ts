@@ -12,22 +12,27 @@ export interface Line { points: Place[]; how: How; by: string; when: string }
 export interface Landmark { name: string; slice: number; at: Place; by: string; when: string }
 export interface Confidence { slice: number; phase: number; endo: number; epi: number }
 export interface Plane { columns: number; rows: number; origin: Point; along_row: Point; along_column: Point; spacing: [number, number] }
+/** A long-axis image; it may have another number of pictures over the cycle than the slices. */
+export interface LongAxis extends Plane { phases: number }
 
 interface SaidLine { slice: number; phase: number; side: Side; points: Point[]; how: How; by: string; when: string }
 interface SaidLandmark { name: string; slice: number; at: Point; by: string; when: string }
-export interface SaidProposal { contours: SaidLine[]; confidence: Confidence[]; doubts: string[] }
+export interface SaidProposal { contours: SaidLine[]; landmarks: SaidLandmark[]; landmark_phase: number; confidence: Confidence[]; doubts: string[] }
+/** By whom a landmark is set that the program proposes. */
+export const programsOwn = "proposed";
 
-/** What the program hands over; slices and phases count from 1. */
+/** What the program hands over; slices and phases count from 1. Landmarks count the long-axis images on, after the slices. */
 export interface SaidStudy extends SaidProposal {
-  name: string; folder: string; phases: number; times: number[]; spacing: number; slices: Plane[]; doubtful: number;
-  landmarks: SaidLandmark[]; proposal: SaidLine[]; saved: boolean; hindrance: string; revision: number; scar: SaidScar | null;
+  name: string; folder: string; phases: number; times: number[]; spacing: number; slices: Plane[]; long_axis: LongAxis[]; doubtful: number;
+  proposal: SaidLine[]; saved: boolean; hindrance: string; revision: number; scar: SaidScar | null;
 }
 
 export const sides: Side[] = ["endo", "epi"];
 export const sideNames: Record<Side, string> = { endo: "endocardium", epi: "epicardium" };
 export const landmarkNames: Record<string, string> = { centre: "centre of the blood", septum_anterior: "anterior insertion of the septum",
   septum_inferior: "inferior insertion of the septum", apex_endo: "tip of the endocardium", apex_epi: "tip of the epicardium",
-  annulus_1: "mitral annulus, a point", annulus_2: "mitral annulus, second point", annulus_3: "mitral annulus, third point", annulus_4: "mitral annulus, fourth point" };
+  annulus_1: "mitral annulus, a point", annulus_2: "mitral annulus, second point", annulus_3: "mitral annulus, third point", annulus_4: "mitral annulus, fourth point",
+  annulus_5: "mitral annulus, fifth point", annulus_6: "mitral annulus, sixth point", annulus_7: "mitral annulus, seventh point", annulus_8: "mitral annulus, eighth point" };
 
 /** The name of a border among all: slice, phase and side. */
 export const keyOf = (slice: number, phase: number, side: Side) => `${slice}/${phase}/${side}`;
@@ -36,7 +41,7 @@ export function ofKey(key: string): { slice: number; phase: number; side: Side }
   return { slice: Number(slice), phase: Number(phase), side: side as Side };
 }
 
-const dot = (a: Point, b: Point) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+export const dot = (a: Point, b: Point) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 
 export function placeOn(plane: Plane, x: Point): Place {
   const d: Point = [x[0] - plane.origin[0], x[1] - plane.origin[1], x[2] - plane.origin[2]];
@@ -56,14 +61,17 @@ export function linesOf(said: SaidLine[], slices: Plane[]): Map<string, Line> {
     [keyOf(slice, phase, side), { points: points.map((x) => placeOn(slices[slice - 1], x)), how, by, when }]));
 }
 
-export const landmarksOf = (said: SaidLandmark[], slices: Plane[]): Map<string, Landmark> =>
-  new Map(said.map((mark) => [mark.name, { ...mark, at: placeOn(slices[mark.slice - 1], mark.at) }]));
+/** Every plane that has a number: the slices, then the long-axis images. */
+export const planesOf = (study: SaidStudy): Plane[] => [...study.slices, ...study.long_axis];
+
+export const landmarksOf = (said: SaidLandmark[], planes: Plane[]): Map<string, Landmark> =>
+  new Map(said.map((mark) => [mark.name, { ...mark, at: placeOn(planes[mark.slice - 1], mark.at) }]));
 
 /** The drawing as the program takes it. */
-export function said(lines: Map<string, Line>, landmarks: Map<string, Landmark>, confidence: Confidence[], slices: Plane[]) {
+export function said(lines: Map<string, Line>, landmarks: Map<string, Landmark>, confidence: Confidence[], planes: Plane[]) {
   const contours = [...lines].map(([key, line]) =>
-    ({ ...ofKey(key), ...line, points: toldPoints(slices[ofKey(key).slice - 1], line.points) }));
-  const marks = [...landmarks.values()].map((mark) => ({ ...mark, at: rounded(inSpace(slices[mark.slice - 1], mark.at)) }));
+    ({ ...ofKey(key), ...line, points: toldPoints(planes[ofKey(key).slice - 1], line.points) }));
+  const marks = [...landmarks.values()].map((mark) => ({ ...mark, at: rounded(inSpace(planes[mark.slice - 1], mark.at)) }));
   return { contours, landmarks: marks, confidence };
 }
 

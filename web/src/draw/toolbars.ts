@@ -27,7 +27,7 @@ function radios<T extends string>(name: string, choices: [T, string][], chosen: 
 
 export function placeBar(editor: Editor, player: Player): Bar {
   const { study } = editor;
-  const slice = slider("slice", 1, study.slices.length, 1, 1, (value) => editor.go(value, editor.phase));
+  const slice = slider("slice", 1, editor.planes.length, 1, 1, (value) => editor.go(value, editor.phase));
   const phase = slider("phase", 1, study.phases, 1, 1, (value) => editor.go(editor.slice, value));
   const play = button("Play", () => player.toggle(), "play");
   player.onChange(() => { play.textContent = player.plays ? "Stop" : "Play"; });
