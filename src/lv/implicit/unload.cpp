@@ -30,6 +30,7 @@ constexpr double near_end = 2.0;  // of the given shape: no trial begins from no
 
 constexpr int smooth_degree = 3;
 constexpr std::array<double, 6> smoothings{0.8, 0.4, 0.2, 0.1, 0.05, 0.025};  // alpha
+constexpr double smoothest = 12.8;  // alpha: what is not smooth is a fourteenth of what it was
 
 using Nodes = std::vector<Vec3>;
 
@@ -191,16 +192,26 @@ class Unloader {
     const Trial exact = now_;
     pressure_ = parameters_.pressure;
     smooth_.emplace(given_.nodes, smooth_degree);
+    const Eigen::VectorXd first = X;
     std::optional<Trial> best;
     for (const double alpha : alphas) {
-      smoothing_ = alpha;
-      if (!begin(X, &now_.loaded) || !(improve(parameters_.tolerance) || is_near_enough()) ||
-          is_folded(now_.step.folds))
+      if (!settles(X, alpha, !best))
         break;
       best = now_;
       X = now_.X;
     }
+    for (double alpha = 2.0 * alphas.front(); !best && alpha <= smoothest; alpha *= 2.0)
+      if (settles(first, alpha, true))
+        best = now_;
     return near_enough(best, exact);
+  }
+
+  /// Whether the search for a smooth wall ends at one without folds.
+  bool settles(const Eigen::VectorXd& X, double alpha, bool passes_folds) {
+    smoothing_ = alpha;
+    passes_folds_ = passes_folds;
+    return begin(X, &now_.loaded) && (improve(parameters_.tolerance) || is_near_enough()) &&
+           !is_folded(now_.step.folds);
   }
 
   Outcome<Unloaded> near_enough(std::optional<Trial>& best, const Trial& exact) {
@@ -270,7 +281,8 @@ class Unloader {
       const double before = now_.left;
       if (!advance())
         break;
-      if (now_.left > 0.5 * before && (now_.left <= tolerance || is_folded(now_.step.folds)))
+      const bool ends = !passes_folds_ && is_folded(now_.step.folds);
+      if (now_.left > 0.5 * before && (now_.left <= tolerance || ends))
         break;
     }
     return now_.left <= tolerance;
@@ -280,7 +292,7 @@ class Unloader {
     if (!history_.empty() && step_along(accelerated(), true))
       return true;
     history_.clear();
-    return step_along(now_.R, false);
+    return step_along(step_of(now_.R), false);
   }
 
   bool step_along(const Eigen::VectorXd& direction, bool is_accelerated) {
@@ -304,13 +316,23 @@ class Unloader {
 
   [[nodiscard]] Eigen::VectorXd accelerated() const {
     const auto n = static_cast<Eigen::Index>(history_.size());
-    Eigen::MatrixXd dX(target_.size(), n), dR(target_.size(), n);
+    Eigen::MatrixXd steps(target_.size(), n), dR(target_.size(), n);
     for (Eigen::Index j = 0; j < n; ++j) {
-      dX.col(j) = history_[static_cast<std::size_t>(j)].dX;
-      dR.col(j) = history_[static_cast<std::size_t>(j)].dR;
+      const Difference& before = history_[static_cast<std::size_t>(j)];
+      steps.col(j) = before.dX + step_of(before.dR);
+      dR.col(j) = before.dR;
     }
     const Eigen::VectorXd gamma = dense::least_squares(dR, now_.R);
-    return now_.R - (dX + dR) * gamma;
+    return step_of(now_.R) - steps * gamma;
+  }
+
+  /// The step that R asks for. What is not smooth in it grows 1 + alpha times as fast as the wall's
+  /// displacement does, so that it would overshoot where alpha is large.
+  [[nodiscard]] Eigen::VectorXd step_of(const Eigen::VectorXd& R) const {
+    if (smoothing_ <= smoothings.front())
+      return R;
+    const Eigen::VectorXd smooth = smooth_->nearest(R);
+    return smooth + (R - smooth) / (1.0 + smoothing_);
   }
 
   /// The equilibrium of X; nothing where the wall is turned inside out or has none.
@@ -423,6 +445,7 @@ class Unloader {
   Eigen::VectorXd target_;
   std::optional<SmoothFields> smooth_;  ///< once a fold was met
   double smoothing_ = 0.0;              ///< alpha
+  bool passes_folds_ = false;           ///< a wall may be folded on the way to a smooth one
   double pressure_ = 0.0;               ///< in force [kPa]
   int equilibria_ = 0;
   int halved_ = 0;        ///< equilibria by which the distance was last halved

@@ -1,8 +1,11 @@
 #include "lv/implicit/arc_length.hpp"
 
+#include "lv/base/units.hpp"
+#include "lv/implicit/engine.hpp"
 #include "lv/verify/half_sphere.hpp"
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 namespace {
 
@@ -99,4 +102,51 @@ TEST_CASE("the path ends where all of the loads are applied", "[unit][implicit]"
   for (std::size_t i = 0; i < expected.positions.size(); ++i)
     off = std::max(off, (half.positions[i] - expected.positions[i]).norm());
   CHECK(off < 1e-4);
+}
+
+namespace {
+
+/// Rubber that stiffens, I1 - 3 with an exponent: its pressure falls beyond a maximum and rises
+/// again.
+solid::CardiacModel stiffening() {
+  solid::CardiacModel heart = Balloon::rubber(0.0);
+  material::HolzapfelOgden law{.a = 10.0, .b = 0.04};
+  law.a_f = law.a_s = law.a_fs = 1e-6;
+  heart.myocardium.passive = law;
+  return heart;
+}
+
+}  // namespace
+
+TEST_CASE("contracting muscle goes round along its path to loads that no step leads to",
+          "[unit][implicit]") {
+  const Balloon balloon;
+  implicit::Engine engine(balloon.mesh, stiffening(), {});
+  double reached = 0.0;
+  const Loads loads{1.1 * balloon.largest().first, 1.0};
+  const auto volume = engine.go_to(loads, [&](const implicit::Step& step) {
+    CHECK(step.progress > reached);
+    reached = step.progress;
+  });
+  REQUIRE(volume);
+  CHECK(reached == Approx(1.0));
+  CHECK(engine.loads().pressure == loads.pressure);
+  CHECK(balloon.radius(*volume) > balloon.largest().second);  // beyond the maximum
+  double imbalance = 0.0;
+  for (const double R : engine.equations().residual(engine.state(), loads))
+    imbalance = std::max(imbalance, std::abs(R));
+  CHECK(imbalance < 1e-3);
+}
+
+TEST_CASE("where no path leads to the loads the engine says at which of them it turns, and stays",
+          "[unit][implicit]") {
+  const Balloon balloon;
+  implicit::Engine engine(balloon.mesh, Balloon::rubber(balloon.shell.mu), {});
+  const double largest = balloon.largest().first;
+  const auto volume = engine.go_to({1.1 * largest, 1.0});
+  REQUIRE_FALSE(volume);
+  CHECK_THAT(volume.why().what,
+             Catch::Matchers::Contains(fmt::format("turns at {:.1f}", largest / units::mmHg)));
+  CHECK(engine.loads().pressure == Approx(largest).epsilon(0.005));
+  CHECK(balloon.radius(engine.cavity_volume()) < 1.01 * balloon.largest().second);
 }
