@@ -42,14 +42,13 @@ Balance along(Balance p, const Change& by, double times) {
 
 class Follower {
  public:
-  Follower(const Equations& equations, const LinearParameters& linear, const WayOfLoads& way,
-           const PathParameters& parameters,
+  Follower(const Equations& equations, const WayOfLoads& way, const PathParameters& parameters,
            const std::function<void(const PathStep&, const State&)>& observe)
       : equations_(equations),
         way_(way),
         parameters_(parameters),
         observe_(observe),
-        tangent_(equations.pattern(), linear, equations.undeformed()) {}
+        tangent_(equations.pattern(), parameters.linear, equations.undeformed()) {}
 
   Path run(State& state, double share) {
     now_ = {state, share};
@@ -246,10 +245,10 @@ class Follower {
 
 }  // namespace
 
-Path follow_path(const Equations& equations, const LinearParameters& linear, State& state,
-                 double share, const WayOfLoads& way, const PathParameters& parameters,
+Path follow_path(const Equations& equations, State& state, double share, const WayOfLoads& way,
+                 const PathParameters& parameters,
                  const std::function<void(const PathStep&, const State&)>& observe) {
-  return Follower(equations, linear, way, parameters, observe).run(state, share);
+  return Follower(equations, way, parameters, observe).run(state, share);
 }
 
 }  // namespace lv::implicit

@@ -30,6 +30,7 @@ struct Turn {
 };
 
 struct PathParameters {
+  LinearParameters linear = {};
   double tolerance = 1e-6;  ///< rms of the last correction of the positions [mm]
   double first = 0.05;      ///< length of the first step [mm]
   double longest = 1.0;     ///< [mm]
@@ -69,8 +70,8 @@ struct PathStep {
 ///
 /// `state` is an equilibrium at `share` of the way, and is left at the last one. `observe` may be
 /// empty. Collective.
-Path follow_path(const Equations& equations, const LinearParameters& linear, State& state,
-                 double share, const WayOfLoads& way, const PathParameters& parameters = {},
+Path follow_path(const Equations& equations, State& state, double share, const WayOfLoads& way,
+                 const PathParameters& parameters = {},
                  const std::function<void(const PathStep&, const State&)>& observe = {});
 
 }  // namespace lv::implicit

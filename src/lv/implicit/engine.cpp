@@ -176,7 +176,8 @@ Outcome<double> Engine::get_over(const Obstacle& at, State& state) {
   if (at.way.to.activation == 0.0)
     return no_farther(loads_, at.why);
   log::info("no equilibrium is near: the path of equilibria is followed by its length");
-  const Path path = follow_path(equations_, parameters_.newton.linear, state, at.progress, at.way);
+  const Path path =
+      follow_path(equations_, state, at.progress, at.way, {.linear = parameters_.newton.linear});
   newton_.forget_tangent();
   const std::string text = "followed by its length, the path of equilibria " + words(path, at.way);
   if (!path.arrived)

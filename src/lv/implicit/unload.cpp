@@ -30,7 +30,6 @@ constexpr double near_end = 2.0;  // of the given shape: no trial begins from no
 
 constexpr int smooth_degree = 3;
 constexpr std::array<double, 6> smoothings{0.8, 0.4, 0.2, 0.1, 0.05, 0.025};  // alpha
-constexpr double smoothest = 12.8;  // alpha: what is not smooth is a fourteenth of what it was
 
 using Nodes = std::vector<Vec3>;
 
@@ -122,6 +121,7 @@ class Unloader {
     now_ = {};
     steps_.clear();
     smooth_.reset();
+    passes_folds_ = false;
     smoothing_ = 0.0;
   }
 
@@ -192,7 +192,6 @@ class Unloader {
     const Trial exact = now_;
     pressure_ = parameters_.pressure;
     smooth_.emplace(given_.nodes, smooth_degree);
-    const Eigen::VectorXd first = X;
     std::optional<Trial> best;
     for (const double alpha : alphas) {
       if (!settles(X, alpha, !best))
@@ -200,9 +199,6 @@ class Unloader {
       best = now_;
       X = now_.X;
     }
-    for (double alpha = 2.0 * alphas.front(); !best && alpha <= smoothest; alpha *= 2.0)
-      if (settles(first, alpha, true))
-        best = now_;
     return near_enough(best, exact);
   }
 
@@ -292,7 +288,7 @@ class Unloader {
     if (!history_.empty() && step_along(accelerated(), true))
       return true;
     history_.clear();
-    return step_along(step_of(now_.R), false);
+    return step_along(now_.R, false);
   }
 
   bool step_along(const Eigen::VectorXd& direction, bool is_accelerated) {
@@ -316,23 +312,13 @@ class Unloader {
 
   [[nodiscard]] Eigen::VectorXd accelerated() const {
     const auto n = static_cast<Eigen::Index>(history_.size());
-    Eigen::MatrixXd steps(target_.size(), n), dR(target_.size(), n);
+    Eigen::MatrixXd dX(target_.size(), n), dR(target_.size(), n);
     for (Eigen::Index j = 0; j < n; ++j) {
-      const Difference& before = history_[static_cast<std::size_t>(j)];
-      steps.col(j) = before.dX + step_of(before.dR);
-      dR.col(j) = before.dR;
+      dX.col(j) = history_[static_cast<std::size_t>(j)].dX;
+      dR.col(j) = history_[static_cast<std::size_t>(j)].dR;
     }
     const Eigen::VectorXd gamma = dense::least_squares(dR, now_.R);
-    return step_of(now_.R) - steps * gamma;
-  }
-
-  /// The step that R asks for. What is not smooth in it grows 1 + alpha times as fast as the wall's
-  /// displacement does, so that it would overshoot where alpha is large.
-  [[nodiscard]] Eigen::VectorXd step_of(const Eigen::VectorXd& R) const {
-    if (smoothing_ <= smoothings.front())
-      return R;
-    const Eigen::VectorXd smooth = smooth_->nearest(R);
-    return smooth + (R - smooth) / (1.0 + smoothing_);
+    return now_.R - (dX + dR) * gamma;
   }
 
   /// The equilibrium of X; nothing where the wall is turned inside out or has none.

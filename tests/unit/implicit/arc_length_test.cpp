@@ -61,7 +61,7 @@ TEST_CASE("the path of a balloon passes its largest pressure and goes on where t
   const implicit::WayOfLoads way{{}, {1.2 * largest, 0.0}};
   std::vector<PathStep> steps;
   const implicit::Path path =
-      follow_path(balloon.equations, {}, state, 0.0, way, {.first = 0.2, .most_steps = 25},
+      follow_path(balloon.equations, state, 0.0, way, {.first = 0.2, .most_steps = 25},
                   [&](const PathStep& step, const State&) { steps.push_back(step); });
 
   CHECK_FALSE(path.arrived);
@@ -93,7 +93,7 @@ TEST_CASE("the path ends where all of the loads are applied", "[unit][implicit]"
   State expected = half;
   REQUIRE(newton.solve(expected, Loads{pressure, 0.0}).converged);
 
-  const implicit::Path path = follow_path(balloon.equations, {}, half, 0.5, {{}, {pressure, 0.0}});
+  const implicit::Path path = follow_path(balloon.equations, half, 0.5, {{}, {pressure, 0.0}});
   CHECK(path.arrived);
   CHECK(path.why.empty());
   CHECK(path.share == 1.0);
