@@ -4,6 +4,7 @@
 #include "lv/base/log.hpp"
 #include "lv/base/time_left.hpp"
 #include "lv/base/units.hpp"
+#include "lv/implicit/arc_length.hpp"
 #include "lv/implicit/give_way.hpp"
 
 #include <fmt/format.h>
@@ -13,11 +14,6 @@
 
 namespace lv::implicit {
 namespace {
-
-Loads between(const Loads& a, const Loads& b, double s) {
-  return {(1.0 - s) * a.pressure + s * b.pressure, (1.0 - s) * a.activation + s * b.activation,
-          (1.0 - s) * a.calcium + s * b.calcium};
-}
 
 /// Step lengths grow when Newton's method finds it easy, and shrink when it does not.
 constexpr int easy = 5;  // corrections
@@ -30,6 +26,21 @@ constexpr int most_leaps = 5;
 
 double next_length(double length, int corrections) {
   return corrections <= easy ? length * growth : corrections >= hard ? length / growth : length;
+}
+
+/// How a path ended, and where it turned the last time.
+std::string words(const Path& path, const WayOfLoads& way) {
+  std::string text =
+      path.arrived ? "leads to all of the loads" : fmt::format("ends ({})", path.why);
+  if (path.turns.empty())
+    return text + " without a turn";
+  const Turn& turn = path.turns.back();
+  const Loads loads = way.at(turn.share);
+  return text + fmt::format(
+                    ", and turns at {:.2f} mmHg and {:.1f}% of the active tension, where the wall "
+                    "moves most near ({:.0f}, {:.0f}, {:.0f}) mm ({:.2g}% of its nodes)",
+                    loads.pressure / units::mmHg, 100.0 * loads.activation, turn.place.x(),
+                    turn.place.y(), turn.place.z(), 100.0 * turn.width);
 }
 
 Unsolved no_farther(const Loads& loads, const std::string& why) {
@@ -65,7 +76,7 @@ Engine::Engine(const mesh::Mesh& mesh, const StaticModel& model, const SolverPar
 
 Outcome<double> Engine::go_to(const Loads& target,
                               const std::function<void(const Step&)>& observe) {
-  const Loads start = loads_;
+  const WayOfLoads way{loads_, target};
   double volume = cavity_volume();
   const double most = parameters_.largest_change * volume;  // [mm^3]
   std::optional<State> before;
@@ -78,7 +89,7 @@ Outcome<double> Engine::go_to(const Loads& target,
     length = std::min(length, 1.0 - progress);
     if (1.0 - progress - length < 0.1 * length)
       length = 1.0 - progress;  // no crumbs
-    Loads loads = between(start, target, progress + length);
+    Loads loads = way.at(progress + length);
     State next = before ? extrapolate(*before, state_, length / last_length) : state_;
     NewtonReport report = newton_.solve(next, loads);
     if (!report.converged) {
@@ -91,10 +102,12 @@ Outcome<double> Engine::go_to(const Loads& target,
       }
       if (length >= parameters_.smallest_step)
         continue;
-      length = std::min(leap, 1.0 - progress);
-      loads = between(start, target, progress + length);
-      if (leaps++ == most_leaps || !contracting_gives_way(next = state_, loads))
-        return no_farther(loads_, report.why);
+      next = state_;
+      const auto farther = get_over({way, progress, leaps++ < most_leaps, report.why}, next);
+      if (!farther)
+        return farther.why();
+      length = *farther;
+      loads = way.at(progress + length);
       report.converged = true;
       state_ = next;  // nothing to extrapolate from
     }
@@ -154,6 +167,23 @@ bool Engine::contracting_gives_way(State& state, const Loads& loads) {
   return loads.activation > 0.0 &&
          implicit::give_way(equations_, newton_, state,
                             {equations_.steady(loads.activation), loads.pressure});
+}
+
+Outcome<double> Engine::get_over(const Obstacle& at, State& state) {
+  const double step = std::min(leap, 1.0 - at.progress);
+  if (at.may_give_way && contracting_gives_way(state, at.way.at(at.progress + step)))
+    return step;
+  if (at.way.to.activation == 0.0)
+    return no_farther(loads_, at.why);
+  log::info("no equilibrium is near: the path of equilibria is followed by its length");
+  const Path path =
+      follow_path(equations_, state, at.progress, at.way, {.linear = parameters_.newton.linear});
+  newton_.forget_tangent();
+  const std::string text = "followed by its length, the path of equilibria " + words(path, at.way);
+  if (!path.arrived)
+    return no_farther(loads_, at.why + "; " + text);
+  log::info("{}", text);
+  return 1.0 - at.progress;
 }
 
 void Engine::relax() {

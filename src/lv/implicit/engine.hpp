@@ -1,5 +1,6 @@
 #pragma once
 
+#include "lv/implicit/arc_length.hpp"
 #include "lv/implicit/newton.hpp"
 
 #include <functional>
@@ -41,7 +42,8 @@ class Engine {
   /// Goes straight from the present loads to others, in steps as long as Newton's method manages,
   /// and returns the cavity's volume there [mm^3]; `observe` (may be empty) is told each
   /// equilibrium. Where the smallest step fails contracting muscle gives way (give_way), a few
-  /// times; else the engine stays at the last equilibrium.
+  /// times; where that fails too its path is followed by its length (follow_path), past limit
+  /// points. Else the engine stays at the last equilibrium, and says where the path turned.
   Outcome<double> go_to(const Loads& loads, const std::function<void(const Step&)>& observe = {});
 
   /// Replaces the muscle and finds the equilibrium under the same loads, at once if Newton's method
@@ -92,7 +94,18 @@ class Engine {
   void forget_tangent() { newton_.forget_tangent(); }
 
  private:
+  /// Where no step leads on, however short.
+  struct Obstacle {
+    const WayOfLoads& way;
+    double progress = 0.0;
+    bool may_give_way = true;
+    const std::string& why;
+  };
+
   [[nodiscard]] bool contracting_gives_way(State& state, const Loads& loads);
+
+  /// Brings contracting muscle to an equilibrium farther on, and returns by which share of the way.
+  [[nodiscard]] Outcome<double> get_over(const Obstacle& at, State& state);
 
   SolverParameters parameters_;
   Equations equations_;

@@ -121,6 +121,7 @@ class Unloader {
     now_ = {};
     steps_.clear();
     smooth_.reset();
+    passes_folds_ = false;
     smoothing_ = 0.0;
   }
 
@@ -193,14 +194,20 @@ class Unloader {
     smooth_.emplace(given_.nodes, smooth_degree);
     std::optional<Trial> best;
     for (const double alpha : alphas) {
-      smoothing_ = alpha;
-      if (!begin(X, &now_.loaded) || !(improve(parameters_.tolerance) || is_near_enough()) ||
-          is_folded(now_.step.folds))
+      if (!settles(X, alpha, !best))
         break;
       best = now_;
       X = now_.X;
     }
     return near_enough(best, exact);
+  }
+
+  /// Whether the search for a smooth wall ends at one without folds.
+  bool settles(const Eigen::VectorXd& X, double alpha, bool passes_folds) {
+    smoothing_ = alpha;
+    passes_folds_ = passes_folds;
+    return begin(X, &now_.loaded) && (improve(parameters_.tolerance) || is_near_enough()) &&
+           !is_folded(now_.step.folds);
   }
 
   Outcome<Unloaded> near_enough(std::optional<Trial>& best, const Trial& exact) {
@@ -270,7 +277,8 @@ class Unloader {
       const double before = now_.left;
       if (!advance())
         break;
-      if (now_.left > 0.5 * before && (now_.left <= tolerance || is_folded(now_.step.folds)))
+      const bool ends = !passes_folds_ && is_folded(now_.step.folds);
+      if (now_.left > 0.5 * before && (now_.left <= tolerance || ends))
         break;
     }
     return now_.left <= tolerance;
@@ -423,6 +431,7 @@ class Unloader {
   Eigen::VectorXd target_;
   std::optional<SmoothFields> smooth_;  ///< once a fold was met
   double smoothing_ = 0.0;              ///< alpha
+  bool passes_folds_ = false;           ///< a wall may be folded on the way to a smooth one
   double pressure_ = 0.0;               ///< in force [kPa]
   int equilibria_ = 0;
   int halved_ = 0;        ///< equilibria by which the distance was last halved
