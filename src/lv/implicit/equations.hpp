@@ -30,9 +30,11 @@ inline constexpr double rigid_base = 1e6;
 struct StaticModel {
   /// Volumetric stiffness at every quadrature point, beside the pressures' weaker constraint. Zero
   /// at J = 1, so no solution sees it, but it holds the deformations inside an element that change
-  /// volume here and there and not in the mean: under p they would buckle in so soft a muscle. Of
-  /// quadratic elements only: linear ones would lock.
-  static constexpr material::Volumetric default_stabilisation{.beta_s = 10.0};
+  /// volume here and there and not in the mean: under what acts there as a pressure they would
+  /// buckle. That is p, up to 50 kPa in contracted muscle, and a exp[b(I1-3)] of (2.18), which
+  /// grows without bound in stiff muscle that is filled. Of quadratic elements only: linear ones
+  /// would lock.
+  static constexpr material::Volumetric default_stabilisation{.beta_s = 100.0};
 
   // NOLINTNEXTLINE(google-explicit-constructor): it is the same model
   StaticModel(const solid::CardiacModel& model, const material::Calcium& calcium = {},
