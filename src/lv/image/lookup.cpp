@@ -64,39 +64,6 @@ bool has_label(const Volume& volume, const Vec3& x, const std::vector<int>& labe
   return at && is_one_of(volume.at((*at)[0], (*at)[1], (*at)[2]), labels);
 }
 
-std::vector<Vec3> slice_moves(const Volume& volume, const std::vector<int>& labels,
-                              std::span<const Weighted> wall) {
-  const int axis = slice_axis(volume);
-  const auto n = static_cast<std::size_t>(volume.size[axis]);
-  std::vector<Vec3> labelled(n, Vec3::Zero());
-  std::vector<double> count(n, 0.0);
-  for (int k = 0; k < volume.size[2]; ++k)
-    for (int j = 0; j < volume.size[1]; ++j)
-      for (int i = 0; i < volume.size[0]; ++i)
-        if (is_one_of(volume.at(i, j, k), labels)) {
-          const std::array<int, 3> ijk{i, j, k};
-          labelled[ijk[axis]] += volume.point(Vec3(i, j, k));
-          count[ijk[axis]] += 1.0;
-        }
-  std::vector<Vec3> middle(n, Vec3::Zero());
-  std::vector<double> weight(n, 0.0);
-  for (const Weighted& point : wall) {
-    const double slice = std::round(volume.index(point.x)[axis]);
-    if (!(slice >= 0 && slice < static_cast<double>(n)))
-      continue;
-    middle[static_cast<std::size_t>(slice)] += point.weight * point.x;
-    weight[static_cast<std::size_t>(slice)] += point.weight;
-  }
-  std::vector<Vec3> moves(n, Vec3::Zero());
-  const Vec3 normal = volume.directions.col(axis);
-  for (std::size_t s = 0; s < n; ++s)
-    if (count[s] > 0.0 && weight[s] > 0.0) {
-      const Vec3 move = middle[s] / weight[s] - labelled[s] / count[s];
-      moves[s] = move - move.dot(normal) * normal;
-    }
-  return moves;
-}
-
 double sample(const Picture& picture, const Vec3& x) {
   const Vec3 pixel = picture.plane.pixel(x);
   const double i = pixel.x();

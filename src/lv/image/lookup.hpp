@@ -14,22 +14,9 @@ namespace lv::image {
 [[nodiscard]] bool shows(const Volume& volume, const Vec3& x);
 
 /// Whether x lies in a voxel with one of these labels; false outside the image. `moves`, if there
-/// are any, say by how much each slice across slice_axis has been moved in image space (see
-/// slice_moves).
+/// are any, say by how much each slice across slice_axis has been moved in image space.
 [[nodiscard]] bool has_label(const Volume& volume, const Vec3& x, const std::vector<int>& labels,
                              std::span<const Vec3> moves = {});
-
-/// A point with a weight.
-struct Weighted {
-  Vec3 x;
-  double weight;
-};
-
-/// How each slice across slice_axis must be moved in its plane [mm] so that the middle of its
-/// voxels with these labels falls on the middle of what of the `wall` lies in its slab. Zero where
-/// either shows nothing.
-[[nodiscard]] std::vector<Vec3> slice_moves(const Volume& volume, const std::vector<int>& labels,
-                                            std::span<const Weighted> wall);
 
 /// The value of a picture at the foot of a point above or below it: linear between its pixels; NaN
 /// beyond them.

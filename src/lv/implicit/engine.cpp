@@ -102,6 +102,10 @@ Outcome<double> Engine::go_to(const Loads& target,
       }
       if (length >= parameters_.smallest_step)
         continue;
+      if (hold_firmly()) {
+        length = parameters_.first_step;
+        continue;
+      }
       next = state_;
       const auto farther = get_over({way, progress, leaps++ < most_leaps, report.why}, next);
       if (!farther)
@@ -131,13 +135,13 @@ Outcome<double> Engine::go_to(const Loads& target,
 }
 
 Outcome<double> Engine::set_model(const StaticModel& model) {
-  equations_.set_model(model);
+  equations_.set_model(held(model));
   newton_.forget_tangent();
   if (loads_.pressure == 0.0 && loads_.activation == 0.0) {
     relax();
     return cavity_volume();
   }
-  if (newton_.solve(state_, loads_).converged)
+  if (newton_.solve(state_, loads_).converged || hold_firmly())
     return cavity_volume();
   if (contracting_gives_way(state_, loads_))
     return cavity_volume();
@@ -159,6 +163,29 @@ bool Engine::give_way(const Equilibrium& equilibrium) {
   if (!implicit::give_way(equations_, newton_, state_, equilibrium))
     return false;
   loads_ = {equilibrium.volume ? state_.cavity_pressure : equilibrium.pressure};
+  return true;
+}
+
+StaticModel Engine::held(StaticModel model) const {
+  double& stiffness = model.stabilisation.beta_s;
+  if (is_firm_ && stiffness > 0.0)
+    stiffness = std::max(stiffness, StaticModel::firm_stabilisation.beta_s);
+  return model;
+}
+
+bool Engine::hold_firmly() {
+  const double before = equations_.model().stabilisation.beta_s;
+  if (is_firm_ || before == 0.0 || before >= StaticModel::firm_stabilisation.beta_s)
+    return false;
+  is_firm_ = true;
+  equations_.set_model(held(equations_.model()));
+  newton_.forget_tangent();
+  State next = state_;
+  if (!newton_.solve(next, loads_).converged)
+    return false;
+  state_ = std::move(next);
+  log::info("elements are held against buckling inside by {:.0f} kPa instead of {:.3g} kPa",
+            StaticModel::firm_stabilisation.beta_s, before);
   return true;
 }
 

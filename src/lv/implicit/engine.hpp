@@ -41,13 +41,16 @@ class Engine {
 
   /// Goes straight from the present loads to others, in steps as long as Newton's method manages,
   /// and returns the cavity's volume there [mm^3]; `observe` (may be empty) is told each
-  /// equilibrium. Where the smallest step fails contracting muscle gives way (give_way), a few
-  /// times; where that fails too its path is followed by its length (follow_path), past limit
-  /// points. Else the engine stays at the last equilibrium, and says where the path turned.
+  /// equilibrium. Where the smallest step fails the elements are held harder against buckling
+  /// inside, from then on (StaticModel::firm_stabilisation). Where the next one fails contracting
+  /// muscle gives way (give_way), a few times; where that fails too its path is followed by its
+  /// length (follow_path), past limit points. Else the engine stays at the last equilibrium, and
+  /// says where the path turned.
   Outcome<double> go_to(const Loads& loads, const std::function<void(const Step&)>& observe = {});
 
   /// Replaces the muscle and finds the equilibrium under the same loads, at once if Newton's method
-  /// manages or contracting muscle gives way, else all the way from rest; returns the cavity's
+  /// manages, elements that are held harder do or contracting muscle gives way, else all the way
+  /// from rest; returns the cavity's
   /// volume [mm^3]. Without loads the wall is undeformed, as at first: balanced by the tension of
   /// resting muscle alone it would lie on the switches I4 = 1 of (2.16), where Newton's method
   /// finds no way on.
@@ -102,6 +105,13 @@ class Engine {
     const std::string& why;
   };
 
+  /// The muscle with its elements held as hard as this engine has had to.
+  [[nodiscard]] StaticModel held(StaticModel model) const;
+
+  /// Holds the elements harder, if they are not yet, and stays under the same loads; whether there
+  /// is an equilibrium.
+  [[nodiscard]] bool hold_firmly();
+
   [[nodiscard]] bool contracting_gives_way(State& state, const Loads& loads);
 
   /// Brings contracting muscle to an equilibrium farther on, and returns by which share of the way.
@@ -112,6 +122,7 @@ class Engine {
   Newton newton_;
   State state_;
   Loads loads_;
+  bool is_firm_ = false;
 };
 
 }  // namespace lv::implicit

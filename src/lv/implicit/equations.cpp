@@ -7,12 +7,20 @@
 #include "lv/mesh/shapes.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
+#include <variant>
 
 namespace lv::implicit {
 namespace {
 
 using material::Tangent;
+
+/// a exp[b (I1-3)] of (2.18) at the endocardium at end-diastole [kPa].
+double isotropic_load(const material::HolzapfelOgden& law) {
+  constexpr double filled = 0.4;  // I1 - 3
+  return law.a * std::exp(filled * law.b);
+}
 
 /// The mean shear modulus of a tangent dP/dF [kPa]: of its nine directions the one that changes
 /// volume is left out; isotropic linear elasticity gives mu.
@@ -192,6 +200,15 @@ StaticModel for_order(StaticModel model, int order) {
 }
 
 }  // namespace
+
+material::Volumetric held_against_buckling(const material::AnyPassiveLaw& passive,
+                                           const material::Volumetric& usual) {
+  const auto* law = std::get_if<material::HolzapfelOgden>(&passive);
+  if (law == nullptr)
+    return usual;
+  const double stiffer = isotropic_load(*law) / isotropic_load({});
+  return {.beta_s = usual.beta_s * std::max(1.0, stiffer)};
+}
 
 ElementState element_state(const ReferenceWall& wall, int e, const State& state) {
   const auto nodes = wall.elements.element(e);

@@ -25,19 +25,35 @@ using TensionAt = std::function<Tension(std::size_t element, std::size_t point, 
 /// Springs that yield by micrometres under the pressures of a ventricle [kPa/mm].
 inline constexpr double rigid_base = 1e6;
 
+/// Volumetric stiffness at every quadrature point, beside the pressures' weaker constraint. Zero at
+/// J = 1, so no solution sees it, but it holds the deformations inside an element that change
+/// volume here and there and not in the mean: under what acts there as a pressure they would
+/// buckle. That is p, and in muscle of Holzapfel and Ogden's law a exp[b(I1-3)] of (2.18), which
+/// grows without bound as stiff muscle is filled. So what is `usual` for the paper's muscle (a_0,
+/// b_0) is grown by
+///
+///   max(1, a exp(b x)/[a_0 exp(b_0 x)]),  x = 0.4,
+///
+/// x being I1 - 3 of the endocardium at end-diastole, where muscle is stretched by some 1.2 along
+/// and across its fibres. As much for soft muscle would stiffen its elements (docs/method.md). Of
+/// quadratic elements only: linear ones would lock.
+[[nodiscard]] material::Volumetric held_against_buckling(const material::AnyPassiveLaw& passive,
+                                                         const material::Volumetric& usual);
+
 /// A cardiac model as the implicit engine sees it. Viscosity, density and dashpots count in a
 /// motion alone.
 struct StaticModel {
-  /// Volumetric stiffness at every quadrature point, beside the pressures' weaker constraint. Zero
-  /// at J = 1, so no solution sees it, but it holds the deformations inside an element that change
-  /// volume here and there and not in the mean: under p they would buckle in so soft a muscle. Of
-  /// quadratic elements only: linear ones would lock.
+  /// Of the paper's muscle and softer one (held_against_buckling).
   static constexpr material::Volumetric default_stabilisation{.beta_s = 10.0};
+  /// Where less has failed: more than the pressure p of contracted muscle, up to 50 kPa.
+  static constexpr material::Volumetric firm_stabilisation{.beta_s = 100.0};
 
   // NOLINTNEXTLINE(google-explicit-constructor): it is the same model
   StaticModel(const solid::CardiacModel& model, const material::Calcium& calcium = {},
               const material::Volumetric& at_points = default_stabilisation)
-      : heart(model), contractility(heart.myocardium.active, calcium), stabilisation(at_points) {}
+      : heart(model),
+        contractility(heart.myocardium.active, calcium),
+        stabilisation(held_against_buckling(heart.myocardium.passive, at_points)) {}
 
   solid::CardiacModel heart;  ///< its volumetric penalty is not used: the wall is incompressible
   Contractility contractility;

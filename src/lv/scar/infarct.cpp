@@ -108,6 +108,18 @@ Vec3 in_images(const Case& c, const anatomy::Shape& shape, const Vec3& X) {
   return shape.frame.to_image(X) - Vec3(c.scar.shift[0], c.scar.shift[1], c.scar.shift[2]);
 }
 
+/// A side of the wall as the shifted images have it.
+Triangles in_images(const Case& c, const anatomy::Shape& shape, const Mesh& mesh,
+                    const mesh::Surface& side) {
+  const auto x = [&](int node) { return in_images(c, shape, mesh.nodes[node]); };
+  Triangles triangles;
+  for (int f = 0; f < side.size(); ++f)
+    mesh::for_triangles(side.face(f), [&](int a, int b, int d) {
+      triangles.push_back({x(a), x(b), x(d)});
+    });
+  return triangles;
+}
+
 /// Warns where a map shows less than the wall: there is no scar where nothing is shown.
 void check_shown(const Mesh& mesh, const std::string& file, const std::function<bool(int)>& shows) {
   constexpr double worth_saying = 0.05;  // of the wall
@@ -122,11 +134,9 @@ std::vector<Vec3> moves_onto_wall(const Case& c, const anatomy::Shape& shape, co
   image::require_labels(volume, 0, c.scar.muscle, case_file::place_of(c, "infarct.labels.muscle"),
                         "infarct.labels.muscle");
   muscle.insert(muscle.end(), c.scar.muscle.begin(), c.scar.muscle.end());
-  std::vector<image::Weighted> wall;
-  for (int cell = 0; cell < mesh.cell_count(); ++cell)
-    wall.push_back(
-        {in_images(c, shape, mesh::cell_centre(mesh, cell)), mesh::cell_volume(mesh, cell)});
-  std::vector<Vec3> moves = image::slice_moves(volume, muscle, wall);
+  std::vector<Vec3> moves =
+      moves_of_labels(image::cine_of(volume), muscle, in_images(c, shape, mesh, mesh.endo),
+                      in_images(c, shape, mesh, mesh.epi));
   for (std::size_t s = 0; s < moves.size(); ++s)
     if (moves[s].norm() > c.anatomy.contours.fit.largest_shift)
       throw InputError(
@@ -213,18 +223,6 @@ std::vector<double> brightness(const Case& c, const anatomy::Shape& shape, const
   for (int cell = 0; cell < mesh.cell_count(); ++cell)
     values.push_back(image::sample(lge, in_images(c, shape, mesh::cell_centre(mesh, cell))));
   return values;
-}
-
-/// A side of the wall as the shifted images have it.
-Triangles in_images(const Case& c, const anatomy::Shape& shape, const Mesh& mesh,
-                    const mesh::Surface& side) {
-  const auto x = [&](int node) { return in_images(c, shape, mesh.nodes[node]); };
-  Triangles triangles;
-  for (int f = 0; f < side.size(); ++f)
-    mesh::for_triangles(side.face(f), [&](int a, int b, int d) {
-      triangles.push_back({x(a), x(b), x(d)});
-    });
-  return triangles;
 }
 
 /// How each slice of a late-enhancement image moves in its plane onto the wall.

@@ -2,6 +2,7 @@
 
 #include "lv/base/log.hpp"
 #include "lv/base/time_left.hpp"
+#include "lv/image/lookup.hpp"
 #include "lv/image/slice_registration.hpp"
 
 #include <Eigen/Geometry>
@@ -88,6 +89,50 @@ SliceMove move_of(const image::Picture& picture, const std::vector<WallOutlines>
   return {found.move, found.doubt, Evidence::clear};
 }
 
+/// A sum of places by their weights.
+struct Balance {
+  Eigen::Vector2d moment = Eigen::Vector2d::Zero();
+  double weight = 0.0;
+
+  void add(const Eigen::Vector2d& x, double w) {
+    moment += w * x;
+    weight += w;
+  }
+};
+
+/// Adds sign times the area that a line encloses.
+void add_area(const geometry::Polygon& line, double sign, Balance& balance) {
+  double signed_area = 0.0;
+  Eigen::Vector2d moment = Eigen::Vector2d::Zero();
+  for (std::size_t k = 0; k < line.size(); ++k) {
+    const Eigen::Vector2d& a = line[k];
+    const Eigen::Vector2d& b = line[(k + 1) % line.size()];
+    const double twice = a.x() * b.y() - a.y() * b.x();
+    signed_area += 0.5 * twice;
+    moment += twice / 6.0 * (a + b);
+  }
+  const double turn = signed_area < 0.0 ? -sign : sign;
+  balance.moment += turn * moment;
+  balance.weight += turn * signed_area;
+}
+
+Balance section_of(const WallOutlines& lines) {
+  Balance wall;
+  add_area(lines.epi, 1.0, wall);
+  add_area(lines.endo, -1.0, wall);
+  return wall;
+}
+
+Balance pixels_of(const image::Picture& picture, const std::vector<int>& labels) {
+  const image::Plane& plane = picture.plane;
+  Balance pixels;
+  for (int j = 0; j < plane.rows; ++j)
+    for (int i = 0; i < plane.columns; ++i)
+      if (image::is_one_of(picture.at(i, j), labels))
+        pixels.add({i * plane.spacing_i, j * plane.spacing_j}, 1.0);
+  return pixels;
+}
+
 }  // namespace
 
 const char* name(Evidence evidence) {
@@ -113,6 +158,22 @@ std::vector<SliceMove> register_slices(const image::Cine& stack, const Triangles
     moves.push_back(move_of(
         picture, outlines_in_slab(endo, epi, picture.plane, slab.below, slab.above), largest));
     progress.add();
+  }
+  return moves;
+}
+
+std::vector<Vec3> moves_of_labels(const image::Cine& stack, const std::vector<int>& labels,
+                                  const Triangles& endo, const Triangles& epi) {
+  std::vector<Vec3> moves(stack.slices.size(), Vec3::Zero());
+  for (std::size_t s = 0; s < stack.slices.size(); ++s) {
+    const image::Picture& picture = stack.slices[s].frames.front();
+    const auto lines = wall_outlines(endo, epi, picture.plane);
+    const Balance shown = pixels_of(picture, labels);
+    if (!lines || shown.weight == 0.0)
+      continue;
+    const Balance wall = section_of(*lines);
+    const Eigen::Vector2d move = wall.moment / wall.weight - shown.moment / shown.weight;
+    moves[s] = move.x() * picture.plane.along_row + move.y() * picture.plane.along_column;
   }
   return moves;
 }

@@ -32,6 +32,18 @@ struct SliceMove {
                                                      const Triangles& endo, const Triangles& epi,
                                                      double largest);
 
+/// How each slice of a stack of label maps (first frames) must be moved in its plane [mm] so that
+/// the middle of its pixels with these labels falls on the middle of the wall's section there,
+///
+///   x_c = (A_epi x_epi - A_endo x_endo) / (A_epi - A_endo),
+///
+/// of the areas that the wall's sides, in image space, enclose in its plane. Zero where they are
+/// not closed, as at an oblique base, of which a plane cuts one side alone, and where a slice shows
+/// none of the labels.
+[[nodiscard]] std::vector<Vec3> moves_of_labels(const image::Cine& stack,
+                                                const std::vector<int>& labels,
+                                                const Triangles& endo, const Triangles& epi);
+
 /// Logs what became of each slice of a late-enhancement image; those that stay where they are
 /// although the wall reaches into them, in a warning.
 void report_moves(const image::Cine& image, const std::vector<SliceMove>& moves);

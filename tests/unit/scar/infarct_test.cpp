@@ -3,8 +3,11 @@
 #include "lv/base/files.hpp"
 #include "lv/base/log.hpp"
 #include "lv/geometry/contours.hpp"
+#include "lv/image/volume_file.hpp"
 #include "lv/mesh/cell.hpp"
 #include "lv/mesh/infarct.hpp"
+#include "lv/mesh/surface.hpp"
+#include "lv/scar/slice_moves.hpp"
 #include "lv/work/ingredients.hpp"
 
 #include "mesh_io/mesh_files.hpp"
@@ -326,6 +329,55 @@ TEST_CASE("slices of a late-enhancement image are moved onto the wall", "[unit][
     }
   CHECK_THROWS_WITH(volume("flat.nii", true),
                     Catch::Matchers::Contains("shows the wall clearly within 3 mm"));
+}
+
+TEST_CASE("slices of labels are moved onto the wall, whatever its elements and its base",
+          "[unit][scar]") {
+  const geometry::Ellipsoid ellipsoid;
+  // slices lie askew to the wall by 12 degrees, so that one at the base cuts one side of it
+  const Mat3 turn = Eigen::AngleAxisd(0.21, Vec3::UnitX()).toRotationMatrix();
+  const auto inside = [&](double a, double c, const Vec3& X) {
+    const double z = X.z() + ellipsoid.base_height;
+    return X.head<2>().squaredNorm() / (a * a) + z * z / (c * c) < 1.0;
+  };
+  const auto breath = [](double z) {
+    return Vec3(3.0 * std::sin(z), 4.0 * std::cos(2.0 * z), 0.0);
+  };
+  const Vec3 first(-59.5, -59.5, -92.0);
+  const auto label = [&](const Vec3& image) {
+    const Vec3 X = turn.transpose() * (image - breath(image.z()));
+    if (!inside(ellipsoid.epi_radius, ellipsoid.epi_length, X) ||
+        inside(ellipsoid.endo_radius, ellipsoid.endo_length, X))
+      return 0;
+    return X.y() > 0.0 && std::abs(X.x()) < 12.0 ? 4 : 2;
+  };
+  const test::TemporaryFolder folder;
+  test::write_bytes(folder / "scar.nii",
+                    test::nifti_bytes(test::label_map({120, 120, 14}, Mat3::Identity(),
+                                                      Vec3(1.0, 1.0, 8.0), first, label)));
+  const image::Cine stack = image::cine_of(image::read_volume(folder / "scar.nii"));
+  for (const double edge : {4.0, 13.0}) {
+    const mesh::Mesh wall = test::ellipsoid_mesh(ellipsoid, edge);
+    const auto side = [&](const mesh::Surface& surface) {
+      scar::Triangles triangles;
+      for (int f = 0; f < surface.size(); ++f)
+        mesh::for_triangles(surface.face(f), [&](int a, int b, int c) {
+          triangles.push_back({turn * wall.nodes[a], turn * wall.nodes[b], turn * wall.nodes[c]});
+        });
+      return triangles;
+    };
+    const auto moves = scar::moves_of_labels(stack, {2, 4}, side(wall.endo), side(wall.epi));
+    int moved = 0;
+    for (std::size_t s = 0; s < moves.size(); ++s) {
+      const double z = first.z() + 8.0 * static_cast<double>(s);
+      if (moves[s].norm() == 0.0)
+        continue;
+      ++moved;
+      INFO("slice " << s + 1 << " at " << z << " mm, elements of " << edge << " mm");
+      CHECK((moves[s] + breath(z)).norm() < 0.1 * edge);
+    }
+    CHECK(moved >= 8);
+  }
 }
 
 TEST_CASE("late enhancement that shows no scar, bright blood or the wall elsewhere is warned of",
