@@ -8,6 +8,21 @@
 #include <algorithm>
 
 namespace lv::implicit {
+namespace {
+
+constexpr int most_room = 4000;
+
+/// Whether MUMPS found the room too small that it had set aside for pivots that move (MUMPS 5.5
+/// Users' Guide, section 8: INFOG(1) = -8 or -9), though there is memory.
+bool lacks_room(PC pc) {
+  Mat factor = nullptr;
+  check(PCFactorGetMatrix(pc, &factor));
+  PetscInt error = 0;
+  check(MatMumpsGetInfog(factor, 1, &error));
+  return error == -8 || error == -9;
+}
+
+}  // namespace
 
 DirectSolver::~DirectSolver() {
   KSPDestroy(&ksp_);
@@ -56,7 +71,7 @@ void DirectSolver::configure() {
   check(PCFactorSetUpMatSolverType(pc));
   Mat factor = nullptr;
   check(PCFactorGetMatrix(pc, &factor));
-  check(MatMumpsSetIcntl(factor, 14, 60));  // room for pivots that move, in per cent
+  check(MatMumpsSetIcntl(factor, 14, room_));
 }
 
 void DirectSolver::forget_factors() {
@@ -87,18 +102,8 @@ KSPConvergedReason DirectSolver::solve_here(std::span<const double> b, std::span
   check(VecGetArray(b_, &values));
   std::copy(b.begin(), b.end(), values);
   check(VecRestoreArray(b_, &values));
-  check(KSPSolve(ksp_, b_, x_));
-  KSPConvergedReason reason{};
-  check(KSPGetConvergedReason(ksp_, &reason));
+  const KSPConvergedReason reason = solve_with_room();
   if (reason < 0) {
-    PC pc = nullptr;
-    check(KSPGetPC(ksp_, &pc));
-    PCFailedReason failure{};
-    check(PCGetFailedReason(pc, &failure));
-    if (failure == PC_FACTOR_OUTMEMORY)
-      throw RunError("Memory does not suffice to factorise the linear equations",
-                     "Take a coarser mesh, a machine with more memory, or "
-                     "quasi_static.linear_solver = \"iterative\"");
     forget_factors();  // MUMPS cannot go on with those of a singular matrix
     return reason;
   }
@@ -107,6 +112,32 @@ KSPConvergedReason DirectSolver::solve_here(std::span<const double> b, std::span
   std::copy(found, found + x.size(), x.begin());
   check(VecRestoreArrayRead(x_, &found));
   return reason;
+}
+
+/// Solves, with as much room for pivots as it takes: a matrix whose pivots need more than any is as
+/// good as singular.
+KSPConvergedReason DirectSolver::solve_with_room() {
+  while (true) {
+    check(KSPSolve(ksp_, b_, x_));
+    KSPConvergedReason reason{};
+    check(KSPGetConvergedReason(ksp_, &reason));
+    if (reason >= 0)
+      return reason;
+    PC pc = nullptr;
+    check(KSPGetPC(ksp_, &pc));
+    PCFailedReason failure{};
+    check(PCGetFailedReason(pc, &failure));
+    if (failure != PC_FACTOR_OUTMEMORY)
+      return reason;
+    if (!lacks_room(pc))
+      throw RunError("Memory does not suffice to factorise the linear equations",
+                     "Take a coarser mesh, a machine with more memory, or "
+                     "quasi_static.linear_solver = \"iterative\"");
+    if (room_ >= most_room)
+      return reason;
+    room_ *= 3;
+    forget_factors();
+  }
 }
 
 }  // namespace lv::implicit

@@ -39,11 +39,13 @@ class DirectSolver {
   void configure();
   [[nodiscard]] Mat here() const;
   [[nodiscard]] KSPConvergedReason solve_here(std::span<const double> b, std::span<double> x);
+  [[nodiscard]] KSPConvergedReason solve_with_room();
 
   Mat matrix_;
   Mat* whole_ = nullptr;  ///< on the first of several ranks: the whole; on the others: nothing
   KSP ksp_ = nullptr;     ///< on the first rank
   Vec x_ = nullptr, b_ = nullptr;
+  int room_ = 60;  ///< for pivots that move [%]
 };
 
 }  // namespace lv::implicit
