@@ -62,6 +62,20 @@ def check_way(folder):
     check("images end with the lines of a case", "[anatomy.labels]" in listed.stdout, listed.stdout)
     again = ventricle("new", case, "--from", labels)
     check("a case that exists is not overwritten", again.returncode == 1 and "exists already" in again.stderr)
+    check_outputs(case)
+
+
+def check_outputs(case):
+    before = case.read_bytes()
+    for ask in (["draw", case, "--export", case], ["report", case.parent, "--output", case], ["compare", case.parent, case.parent, "--output", case]):
+        asked = ventricle(*ask)
+        check(f"{ask[0]} replaces no file that is not its own",
+              asked.returncode == 1 and "no page that this program wrote" in asked.stderr and case.read_bytes() == before, asked.stderr)
+        asked = ventricle(*ask[:-1], case.parent / "absent" / "page.html")
+        check(f"{ask[0]} says which folder is missing", asked.returncode == 1 and "there is no folder" in asked.stderr, asked.stderr)
+    for more in ([], ["--export", case.parent / "page.html"], ["--import", case]):
+        asked = ventricle("draw", case, "--no-browser", "--to", case, *more)
+        check("draw keeps no drawing in a file", asked.returncode == 1 and "is no folder" in asked.stderr, asked.stderr)
 
 
 with tempfile.TemporaryDirectory() as temporary:

@@ -1,6 +1,7 @@
 // `ventricle draw` in a real browser, on a phantom's cine.
-// node draw.mjs VENTRICLE [--case CASE.toml] [--scar] [--long-axis] [--screenshots FOLDER]   exit code 77: skipped
-// With --case only pictures are taken, of a case that is there; with --scar the scar alone is tried, with --long-axis the long axes.
+// node draw.mjs VENTRICLE [--case CASE.toml] [--scar] [--long-axis] [--two-programs] [--screenshots FOLDER]   exit code 77: skipped
+// With --case only pictures are taken, of a case that is there; with --scar the scar alone is tried, with --long-axis the long axes,
+// with --two-programs what another program or hand does to the saved files, and the letters of the patient's directions.
 import { execFileSync, spawn } from "node:child_process";
 import { chmodSync, cpSync, existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
 import http from "node:http";
@@ -9,6 +10,7 @@ import { connect } from "node:net";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";
+import { gunzipSync } from "node:zlib";
 
 const root = fileURLToPath(new URL("../..", import.meta.url));
 const program = resolve(process.argv[2]);
@@ -326,6 +328,95 @@ async function checkStopped(page, server) {
   check("what was drawn is rescued by a download", borders(phaseFile(join(folder, "rescued"), 3))["6/endo"].how === "corrected");
 }
 
+/** The letter of the largest part of where a NIfTI file's first or second axis leads: its header has x to the right, y to the front, z up. */
+function letterOfAxis(file, axis) {
+  const header = gunzipSync(readFileSync(file));
+  const along = [280, 296, 312].map((row) => header.readFloatLE(row + 4 * axis));
+  const largest = along.reduce((best, value, i) => (Math.abs(value) > Math.abs(along[best]) ? i : best), 0);
+  return ["RL", "AP", "HF"][largest][along[largest] > 0 ? 0 : 1];
+}
+const oppositeOf = { R: "L", L: "R", A: "P", P: "A", H: "F", F: "H" };
+
+/** Pixels of the letters' colour within 30 pixels of each edge of the picture. */
+const letteredEdges = (page) => page.locator("canvas.slice").evaluate((canvas) => {
+  const { width: w, height: h } = canvas;
+  const of = (x, y, width, height) => {
+    const { data } = canvas.getContext("2d").getImageData(x, y, width, height);
+    let found = 0;
+    for (let i = 0; i < data.length; i += 4) if (data[i] === 0xff && data[i + 1] === 0xe9 && data[i + 2] === 0xb0) ++found;
+    return found;
+  };
+  return [of(0, h / 3, 60, h / 3), of(w - 60, h / 3, 60, h / 3), of(w / 3, 0, w / 3, 30), of(w / 3, h - 30, w / 3, 30)];
+});
+
+async function checkLetters(page, file) {
+  const [right, bottom] = [letterOfAxis(file, 0), letterOfAxis(file, 1)];
+  const edges = (await page.locator("canvas.slice").getAttribute("data-edges")).split(" ").map((letters) => letters[0]).join("");
+  const wanted = oppositeOf[right] + right + oppositeOf[bottom] + bottom;
+  check("left, right, top and bottom bear the letters of the image's directions", edges === wanted, `${edges} ${wanted}`);
+  const seen = await letteredEdges(page);
+  check("and all four are seen", seen.every((pixels) => pixels > 8), seen.join());
+}
+
+const firstPhase = (where) => borders(phaseFile(where, 1));
+
+/** Two programs on one folder, and a hand in it. */
+async function checkTwoPrograms() {
+  const own = join(folder, "shared");
+  const servers = [await start(caseFile, { more: ["--no-browser", "--to", own] }), await start(caseFile, { more: ["--no-browser", "--to", own] })];
+  const [one, two] = [await open(servers[0].url), await open(servers[1].url)];
+  await checkLetters(one.page, join(study, "nifti/cine_short_axis.nii.gz"));
+  await shot(one.page, "letters");
+  const deleteAndSave = async (page, slice) => {
+    await go(page, slice, 1);
+    await page.locator("#delete").click();
+    await page.locator("#save").click();
+  };
+  await deleteAndSave(one.page, 5);
+  await waitFor(one.page, "#said", "Saved in");
+  await deleteAndSave(two.page, 4);
+  await waitFor(two.page, "#banners", "another ventricle draw");
+  check("a second program does not save over the first", !("5/endo" in firstPhase(own)) && "4/endo" in firstPhase(own));
+  await shot(two.page, "two-programs");
+  await two.page.getByRole("button", { name: "Show what is saved" }).click();
+  await waitFor(two.page, "#state", "0 changes; as saved in shared");
+  await deleteAndSave(two.page, 4);
+  await waitFor(two.page, "#said", "Saved in");
+  check("and saves once it has seen it", !("5/endo" in firstPhase(own)) && !("4/endo" in firstPhase(own)));
+  writeFileSync(phaseFile(own, 1), readFileSync(phaseFile(own, 1), "utf8").split("\n").filter((row) => !row.startsWith("6,")).join("\n"));
+  await deleteAndSave(two.page, 7);
+  await waitFor(two.page, "#banners", "Not saved: phase_01.csv has changed");
+  check("a file that a hand has changed is kept", "7/endo" in firstPhase(own));
+  await two.page.getByRole("button", { name: "Save this one over it" }).click();
+  await waitFor(two.page, "#state", ", saved at");
+  check("until the page is told to", "6/endo" in firstPhase(own) && !("7/endo" in firstPhase(own)));
+  await checkFaults(two.page, servers[1].url);
+  for (const { context } of [one, two]) await context.close();
+  for (const server of servers) await server.stop();
+}
+
+/** Exchanged borders are kept, and told. */
+async function checkFaults(page, url) {
+  check("good borders are not complained of", await page.locator('[data-about="faults"]').count() === 0);
+  const told = await (await fetch(`${url}study`)).json();
+  const contours = told.contours.map((line) => (line.slice === 8 ? { ...line, side: line.side === "endo" ? "epi" : "endo" } : line));
+  const body = JSON.stringify({ revision: told.revision, contours, landmarks: told.landmarks, confidence: told.confidence });
+  const kept = await fetch(`${url}save`, { method: "POST", body, headers: { Origin: new URL(url).origin } });
+  check("exchanged borders are kept", kept.status === 200, kept.status);
+  await page.reload();
+  await waitFor(page, '[data-about="faults"]', "slice 8, phases 1-10: the endocardium encloses the epicardium");
+  await go(page, 8, 1);
+  await page.locator("#delete-both").click();
+  await page.locator("#save").click();
+  await waitFor(page, '[data-about="faults"]', "slice 8, phases 2-10");
+  check("slices of which no wall can be made are named after a reload and a save", true);
+}
+
+async function onTwoPrograms() {
+  makeStudy();
+  await checkTwoPrograms();
+}
+
 async function checkReadOnly() {
   const locked = join(folder, patient);
   cpSync(study, locked, { recursive: true });
@@ -519,6 +610,7 @@ async function checkLongAxis() {
   const slices = parseInt(/of (\d+)/.exec(await text(page, "#where"))[1], 10);
   await go(page, 6, 1);
   await go(page, slices + 1, 1);
+  await checkLetters(page, join(study, "nifti/cine_long_axis_1.nii.gz"));
   check("a long-axis image follows the slices, and says what it shows", /^long axis 1 of 2, phase 1 of 10.*cut by slice 6/.test(await text(page, "#where")), await text(page, "#where"));
   check("its ends are proposed on it", /landmarks: .*annulus 1, annulus 2/.test(await text(page, "#where")), await text(page, "#where"));
   const proposed = (await (await fetch(`${server.url}study`)).json()).landmarks;
@@ -902,7 +994,7 @@ async function checkAll() {
   check("nothing went wrong on the way", one.said.filter((line) => !line.includes("409")).length === 0, one.said.join("\n"));
   await timed(checkStopped, one.page, server);
   await one.context.close();
-  for (const part of [checkReadOnly, checkKeyboard, checkBrowserFile, checkExport, checkLongAxis, checkFiveCorrections, checkScar]) await timed(part);
+  for (const part of [checkTwoPrograms, checkReadOnly, checkKeyboard, checkBrowserFile, checkExport, checkLongAxis, checkFiveCorrections, checkScar]) await timed(part);
   console.log(`seconds: ${seconds.join(", ")}`);
 }
 
@@ -911,6 +1003,7 @@ try {
   if (given) await takePictures(given);
   else if (process.argv.includes("--scar")) await onScar();
   else if (process.argv.includes("--long-axis")) await onLongAxis();
+  else if (process.argv.includes("--two-programs")) await onTwoPrograms();
   else await checkAll();
 } finally {
   await browser.close();

@@ -113,6 +113,21 @@ std::string Table::number(double value, int digits) {
   return std::isnan(value) ? "" : fmt::format("{:.{}g}", value, digits);
 }
 
+namespace {
+
+/// What to do about a file that cannot be written.
+std::string way_to_write(const std::filesystem::path& file) {
+  std::error_code none;
+  const std::filesystem::path folder = file.parent_path();
+  if (!folder.empty() && !std::filesystem::exists(folder, none))
+    return fmt::format("There is no folder {}: make it, or name another one", folder.string());
+  if (std::filesystem::is_directory(file, none))
+    return "It is a folder: name a file, in it or elsewhere";
+  return "Check the folder's permissions and the space left on the disk";
+}
+
+}  // namespace
+
 void write_file(const std::filesystem::path& file, const std::string& text) {
   const std::filesystem::path unfinished = file.string() + ".part";
   std::error_code error;
@@ -122,10 +137,11 @@ void write_file(const std::filesystem::path& file, const std::string& text) {
   out.close();
   if (out)
     std::filesystem::rename(unfinished, file, error);
-  if (!out || error)
-    throw RunError(fmt::format("{} cannot be written: {}", file.string(),
-                               error ? error.message() : std::strerror(errno)),
-                   "Check the folder's permissions and the space left on the disk");
+  if (!out || error) {
+    const std::string why = error ? error.message() : std::strerror(errno);
+    std::filesystem::remove(unfinished, error);
+    throw RunError(fmt::format("{} cannot be written: {}", file.string(), why), way_to_write(file));
+  }
 }
 
 std::string read_file(const std::filesystem::path& file) {

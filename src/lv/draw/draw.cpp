@@ -14,6 +14,7 @@
 #include "lv/draw/study.hpp"
 #include "lv/draw/study_json.hpp"
 #include "lv/page/packing.hpp"
+#include "lv/page/place.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -33,10 +34,19 @@ Answer refused(unsigned status, const std::string& why) {
 
 Answer keep(Study& study, const std::string& body, bool whatever_stands) {
   Kept kept = read_kept(body, study);
-  if (kept.revision != study.revision && !whatever_stands)
-    return refused(409, "another tab has saved since this one was opened");
+  if (!whatever_stands) {
+    if (kept.revision != study.revision)
+      return refused(409, "another tab has saved since this one was opened");
+    if (const auto file = changed_elsewhere(study))
+      return refused(409, fmt::format("{} has changed since it was read or saved here: another "
+                                      "ventricle draw, or another program, has been in {}",
+                                      printable(file->filename().string()),
+                                      printable(study.folder.filename().string())));
+  }
   save(study, std::move(kept.drawing), std::move(kept.scar));
-  return {200, "application/json", nlohmann::json{{"revision", study.revision}}.dump()};
+  return {200, "application/json",
+          nlohmann::json{{"revision", study.revision}, {"faults", faults_of(study.drawing.lines)}}
+              .dump()};
 }
 
 /// What `bytes` makes of the number of one of so many slices.
@@ -73,13 +83,15 @@ std::string redrawn(const Study& study, const std::string& body) {
                                      set == 0.0 ? study.proposal.fall : set, "what the page sent"));
 }
 
-Answer shown(const Study& study, const std::string& place) {
+Answer shown(Study& study, const std::string& place) {
   constexpr std::string_view slices = "slice/";
   constexpr std::string_view enhanced = "enhanced/";
   if (place.empty())
     return {200, "text/html; charset=utf-8", std::string(page_bundle())};
-  if (place == "study")
+  if (place == "study") {
+    catch_up(study);
     return {200, "application/json", study_json(study)};
+  }
   if (place == "alive")
     return {200, "application/json", nlohmann::json{{"revision", study.revision}}.dump()};
   if (place.starts_with(slices))
@@ -178,12 +190,16 @@ void run(const case_file::Case& c, const Options& options) {
   fs::path folder = options.folder;
   if (folder.empty())
     folder = c.file.parent_path() / (c.file.stem().string() + ".draw");
+  if (!options.page.empty())
+    page::require_place(options.page);
   Study study = open_study(c, folder);
   if (!options.drawing.empty()) {
     require_readable(options.drawing, "Name what the page let you download");
     Kept kept = read_kept(read_file(options.drawing), study);
     save(study, std::move(kept.drawing), std::move(kept.scar));
     print(fmt::format("wrote {}\n", folder.string()));
+    for (const std::string& fault : faults_of(study.drawing.lines))
+      print(fmt::format("note: {}\n", fault));
   } else if (!options.page.empty()) {
     write_file(options.page, page_with(study));
     print(fmt::format("wrote {}; it shows the images, so treat it as you treat them\n",

@@ -21,10 +21,6 @@ using scar::ScarMap;
 using scar::Tissue;
 using scar::WallOutlines;
 
-constexpr const char* drawn_file = "scar.csv";
-constexpr const char* proposed_file = "scar_proposed.csv";
-constexpr const char* walls_file = "scar_wall.csv";
-
 const image::Plane& plane_of(const image::Cine& image, std::size_t slice) {
   return image.slices[slice].frames.front().plane;
 }
@@ -160,11 +156,11 @@ std::optional<Enhancement> open_enhancement(const case_file::Case& c, const fs::
   Enhancement e;
   e.image = scar::read_late_enhancement(c);
   e.greys = grey_range(e.image.slices);
-  e.saved = fs::exists(folder / drawn_file);
+  e.saved = fs::exists(folder / scar_file);
   if (e.saved) {
-    e.scar = {read_walls(folder / walls_file, e.image),
-              scar::read_scar_map(folder / proposed_file, e.image),
-              scar::read_scar_map(folder / drawn_file, e.image)};
+    e.scar = {read_walls(folder / scar_walls_file, e.image),
+              scar::read_scar_map(folder / proposed_scar_file, e.image),
+              scar::read_scar_map(folder / scar_file, e.image)};
     return e;
   }
   e.scar.walls = walls_on(c, e.image, lines);
@@ -219,9 +215,9 @@ ScarMap propose_scar(const case_file::Case& c, const image::Cine& image, const S
 
 void save_scar(Enhancement& enhancement, ScarDrawing scar, const fs::path& folder) {
   fs::create_directories(folder);
-  table_of(scar.proposed, enhancement.image).write_csv(folder / proposed_file);
-  write_walls(scar.walls, enhancement.image, folder / walls_file);
-  table_of(scar.drawn, enhancement.image).write_csv(folder / drawn_file);
+  table_of(scar.proposed, enhancement.image).write_csv(folder / proposed_scar_file);
+  write_walls(scar.walls, enhancement.image, folder / scar_walls_file);
+  table_of(scar.drawn, enhancement.image).write_csv(folder / scar_file);
   enhancement.scar = std::move(scar);
   enhancement.saved = true;
   enhancement.note.clear();

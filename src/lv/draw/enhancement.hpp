@@ -66,6 +66,11 @@ struct ScarWish {
 [[nodiscard]] scar::ScarMap propose_scar(const case_file::Case& c, const image::Cine& image,
                                          const ScarWish& wish);
 
+// what save_scar writes
+inline constexpr const char* scar_file = "scar.csv";
+inline constexpr const char* proposed_scar_file = "scar_proposed.csv";
+inline constexpr const char* scar_walls_file = "scar_wall.csv";
+
 /// Writes into a folder
 ///
 ///   scar.csv           as infarct.lge.drawn reads it

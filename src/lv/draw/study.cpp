@@ -3,10 +3,12 @@
 #include "lv/anatomy/segmentation.hpp"
 #include "lv/base/check.hpp"
 #include "lv/base/table.hpp"
+#include "lv/geometry/contour_checks.hpp"
 #include "lv/geometry/contour_measures.hpp"
 #include "lv/geometry/contour_table.hpp"
 #include "lv/image/label_contours.hpp"
 #include "lv/image/volume.hpp"
+#include "lv/work/workspace.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -258,9 +260,99 @@ void write_volumes(const Drawing& drawing, double spacing, const fs::path& folde
   table.write_csv(folder / "volumes.csv");
 }
 
+void write_drawing(const Study& study, const Drawing& drawing) {
+  fs::create_directories(study.folder / "contours");
+  for (std::size_t t = 0; t < drawing.lines.size(); ++t)
+    write_phase(phase_file(study.folder, t), drawing.lines[t]);
+  write_marks(drawing, study.folder);
+  write_quality(drawing, study.folder);
+  write_volumes(drawing, study.spacing, study.folder);
+}
+
+/// Fingerprints of the files that save replaces, of those that are there.
+std::map<fs::path, std::string> fingerprints(const Study& study) {
+  std::map<fs::path, std::string> all;
+  const auto add = [&](const fs::path& file) {
+    std::error_code none;
+    if (fs::exists(file, none))
+      all[file] = work::fingerprint_of_file(file);
+  };
+  for (std::size_t t = 0; t < study.phases(); ++t)
+    add(phase_file(study.folder, t));
+  for (const char* name : {"landmarks.csv", "apex_endo.csv", "apex_epi.csv", "quality.csv",
+                           "volumes.csv", scar_file, proposed_scar_file, scar_walls_file})
+    add(study.folder / name);
+  return all;
+}
+
+/// The drawing that is kept in the study's folder, else the proposal.
+void read_folder(Study& study) {
+  const fs::path& folder = study.folder;
+  auto files = fingerprints(study);  // before they are read: what comes later has changed
+  study.saved = fs::exists(folder / "contours");
+  if (study.saved)
+    study.drawing = {read_lines(folder, study.cine, "drawn"),
+                     kept_landmarks(folder / "landmarks.csv", study),
+                     read_confidence(folder / "quality.csv")};
+  else
+    study.drawing = {study.proposal.lines, study.proposal.landmarks, study.proposal.confidence};
+  const int phase = shape_phase(study);
+  study.enhancement =
+      open_enhancement(study.settings, folder, phase, study.drawing.lines.at(phase - 1));
+  study.files = std::move(files);
+}
+
+/// "phase 3", "phases 1-4, 6".
+std::string phases_in_words(const std::vector<std::size_t>& phases) {
+  std::string words = phases.size() == 1 ? "phase " : "phases ";
+  for (std::size_t i = 0; i < phases.size();) {
+    std::size_t last = i;
+    while (last + 1 < phases.size() && phases[last + 1] == phases[last] + 1)
+      ++last;
+    words += (i == 0 ? "" : ", ") + std::to_string(phases[i]);
+    if (last > i)
+      words += "-" + std::to_string(phases[last]);
+    i = last + 1;
+  }
+  return words;
+}
+
 }  // namespace
 
+std::optional<fs::path> changed_elsewhere(const Study& study) {
+  const auto now = fingerprints(study);
+  for (const auto* one : {&study.files, &now}) {
+    const auto& other = one == &now ? study.files : now;
+    for (const auto& [file, content] : *one)
+      if (const auto same = other.find(file); same == other.end() || same->second != content)
+        return file;
+  }
+  return {};
+}
+
+void catch_up(Study& study) {
+  if (!changed_elsewhere(study))
+    return;
+  ++study.revision;  // first: what was shown is old, even if what is there now cannot be read
+  read_folder(study);
+}
+
+std::vector<std::string> faults_of(const Lines& lines) {
+  std::map<std::pair<int, std::string>, std::vector<std::size_t>> phases;
+  for (std::size_t t = 0; t < lines.size(); ++t)
+    for (const geometry::SliceFault& fault : geometry::slice_faults(lines[t]))
+      phases[{fault.slice, fault.what}].push_back(t + 1);
+  std::vector<std::string> sentences;
+  for (const auto& [fault, when] : phases)
+    sentences.push_back(
+        fmt::format("slice {}, {}: {}", fault.first, phases_in_words(when), fault.second));
+  return sentences;
+}
+
 Study open_study(const case_file::Case& c, const fs::path& folder) {
+  if (fs::exists(folder) && !fs::is_directory(folder))
+    throw InputError(folder.string(), "is no folder, and a drawing is kept in one",
+                     "Name a folder with --to, which need not be there yet");
   Study study;
   study.name = c.name;
   study.settings = c;
@@ -275,15 +367,7 @@ Study open_study(const case_file::Case& c, const fs::path& folder) {
     study.long_axis.push_back({std::move(view), greys});
   }
   study.proposal = find_proposal(study);
-  study.saved = fs::exists(folder / "contours");
-  if (study.saved)
-    study.drawing = {read_lines(folder, study.cine, "drawn"),
-                     kept_landmarks(folder / "landmarks.csv", study),
-                     read_confidence(folder / "quality.csv")};
-  else
-    study.drawing = {study.proposal.lines, study.proposal.landmarks, study.proposal.confidence};
-  const int phase = shape_phase(study);
-  study.enhancement = open_enhancement(c, folder, phase, study.drawing.lines.at(phase - 1));
+  read_folder(study);
   if (!may_write(folder))
     study.hindrance = fmt::format("{} may not be written", folder.filename().string());
   return study;
@@ -305,14 +389,15 @@ void save(Study& study, Drawing drawing, std::optional<ScarDrawing> scar) {
   if (!may_write(study.folder))
     throw RunError(fmt::format("{} may not be written", study.folder.filename().string()),
                    "Allow it, or download the drawing");
-  fs::create_directories(study.folder / "contours");
-  for (std::size_t t = 0; t < drawing.lines.size(); ++t)
-    write_phase(phase_file(study.folder, t), drawing.lines[t]);
-  write_marks(drawing, study.folder);
-  write_quality(drawing, study.folder);
-  write_volumes(drawing, study.spacing, study.folder);
-  if (scar && study.enhancement)
-    save_scar(*study.enhancement, std::move(*scar), study.folder);
+  try {
+    write_drawing(study, drawing);
+    if (scar && study.enhancement)
+      save_scar(*study.enhancement, std::move(*scar), study.folder);
+  } catch (...) {
+    study.files = fingerprints(study);  // a part may be written, by no other program
+    throw;
+  }
+  study.files = fingerprints(study);
   study.drawing = std::move(drawing);
   study.saved = true;
   ++study.revision;

@@ -8,6 +8,7 @@
 #include "lv/segment/segment.hpp"
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -60,7 +61,9 @@ struct Study {
   std::optional<Enhancement> enhancement;
   bool saved = false;     ///< the drawing comes from its folder
   std::string hindrance;  ///< why nothing can be saved; empty if it can
-  int revision = 0;       ///< grows with each time it is saved
+  int revision = 0;       ///< grows with each time it is saved, or read again
+  /// Fingerprints of the drawing's files as they were read or written last, by their places.
+  std::map<std::filesystem::path, std::string> files;
 
   [[nodiscard]] std::size_t phases() const { return cine.slices.front().frames.size(); }
   /// How many pictures bear a number: the slices and, counted on, the long-axis images.
@@ -75,9 +78,21 @@ struct Study {
 /// The cine of segment.cine with the borders that are kept in `folder`, or, if there is no such
 /// folder, those that the program proposes: from CASE.segment beside the case file, which is made
 /// if it is absent and can be. Where no ventricle is found there is a doubt and no border. Throws
-/// InputError where the case does not name the cine, or a folder holds borders of another one, or
-/// landmarks that lie on no image.
+/// InputError where the case does not name the cine, `folder` is a file, or a folder holds borders
+/// of another cine, or landmarks that lie on no image.
 [[nodiscard]] Study open_study(const case_file::Case& c, const std::filesystem::path& folder);
+
+/// A file that save would replace and that is not, by its content, as the study read or wrote it
+/// last: another program or a hand has been there. Nothing if there is none.
+[[nodiscard]] std::optional<std::filesystem::path> changed_elsewhere(const Study& study);
+
+/// Reads the drawing's folder again if something of it has changed elsewhere. Throws InputError as
+/// open_study does.
+void catch_up(Study& study);
+
+/// What check_contours would refuse of single slices, in sentences: "slice 3, phases 1-4: the
+/// endocardium crosses itself".
+[[nodiscard]] std::vector<std::string> faults_of(const Lines& lines);
 
 /// The phase, from 1, of segment.moment by the volumes of the drawing (areas times spacing).
 [[nodiscard]] int shape_phase(const Study& study);
@@ -93,8 +108,8 @@ struct Study {
 ///   quality.csv            confidence of the proposal that the drawing started from
 ///   volumes.csv            cavity and muscle per phase, areas times spacing
 ///
-/// and the scar, if there is one to keep (see save_scar), and takes them for the study's. Throws
-/// RunError when a file cannot be written.
+/// and the scar, if there is one to keep (see save_scar), and takes them for the study's, whatever
+/// changed_elsewhere says. Throws RunError when a file cannot be written.
 void save(Study& study, Drawing drawing, std::optional<ScarDrawing> scar = {});
 
 }  // namespace lv::draw

@@ -155,6 +155,7 @@ std::string study_json(const Study& study) {
                  {"confidence", confidence_json(study.drawing.confidence)},
                  {"proposal", lines_json(study.proposal.lines)},
                  {"doubts", study.proposal.doubts},
+                 {"faults", faults_of(study.drawing.lines)},
                  {"scar", enhancement_json(study)},
                  {"saved", study.saved},
                  {"hindrance", study.hindrance},

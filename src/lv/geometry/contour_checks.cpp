@@ -90,6 +90,17 @@ std::optional<Crossing> crossing(const Polygon& a, const Polygon& b) {
   return std::nullopt;
 }
 
+/// How the endocardium lies to the epicardium of its slice.
+enum class Pairing { inside, crossing, exchanged, beside };
+
+Pairing pairing(const Polygon& inner, const Polygon& outer) {
+  if (crossing(inner, outer))
+    return Pairing::crossing;
+  if (encloses(inner, outer.front()))
+    return Pairing::exchanged;
+  return encloses(outer, inner.front()) ? Pairing::inside : Pairing::beside;
+}
+
 void check_counts(const Contours& contours) {
   const auto check = [](const Contour& c, std::size_t least, const char* kind) {
     if (c.points.size() < least)
@@ -237,22 +248,42 @@ void check_pair(const Contour& endo, const Contour& epi) {
              "Both borders of a slice lie on one image: check the slice numbers");
   const Polygon inner = project(endo, plane);
   const Polygon outer = project(epi, plane);
-  if (const auto c = crossing(inner, outer))
-    throw InputError(
-        endo.where(c->first),
-        fmt::format("slice {}: the endocardium crosses the epicardium ({}) at {}", endo.slice,
-                    epi.where(c->second), place(plane.to_image({c->at.x(), c->at.y(), 0.0}))),
-        "Redraw the borders there: the wall lies between them");
-  if (encloses(inner, outer.front()))
-    throw InputError(
-        endo.where(),
-        fmt::format("slice {}: the endo loop encloses the epi loop ({})", endo.slice, epi.where()),
-        "The names seem swapped: endo is the inner border, epi the outer one");
-  if (!encloses(outer, inner.front()))
-    throw InputError(endo.where(),
-                     fmt::format("slice {}: the endo loop lies beside the epi loop ({})",
-                                 endo.slice, epi.where()),
-                     "Check that both borders belong to the same slice and image");
+  switch (pairing(inner, outer)) {
+    case Pairing::crossing: {
+      const Crossing c = *crossing(inner, outer);
+      throw InputError(
+          endo.where(c.first),
+          fmt::format("slice {}: the endocardium crosses the epicardium ({}) at {}", endo.slice,
+                      epi.where(c.second), place(plane.to_image({c.at.x(), c.at.y(), 0.0}))),
+          "Redraw the borders there: the wall lies between them");
+    }
+    case Pairing::exchanged:
+      throw InputError(endo.where(),
+                       fmt::format("slice {}: the endo loop encloses the epi loop ({})", endo.slice,
+                                   epi.where()),
+                       "The names seem swapped: endo is the inner border, epi the outer one");
+    case Pairing::beside:
+      throw InputError(endo.where(),
+                       fmt::format("slice {}: the endo loop lies beside the epi loop ({})",
+                                   endo.slice, epi.where()),
+                       "Check that both borders belong to the same slice and image");
+    case Pairing::inside:
+      return;
+  }
+}
+
+const char* in_words(Pairing pairing) {
+  switch (pairing) {
+    case Pairing::crossing:
+      return "the endocardium crosses the epicardium";
+    case Pairing::exchanged:
+      return "the endocardium encloses the epicardium, as if they were exchanged";
+    case Pairing::beside:
+      return "the endocardium lies beside the epicardium";
+    case Pairing::inside:
+      break;
+  }
+  return "";
 }
 
 void check_slices(const Contours& contours) {
@@ -478,6 +509,23 @@ void check_contours(const Contours& contours) {
   check_curves_meet(contours);
   check_lone_epicardium(contours);
   check_enough_epicardium(contours);
+}
+
+std::vector<SliceFault> slice_faults(const std::vector<Contour>& loops) {
+  std::vector<SliceFault> faults;
+  for (const Contour& loop : loops) {
+    const Frame plane = plane_of(loop.points);
+    const Polygon polygon = project(loop, plane);
+    if (self_crossing(polygon))
+      faults.push_back({loop.slice, loop.side == Side::endo ? "the endocardium crosses itself"
+                                                            : "the epicardium crosses itself"});
+    const Contour* epi = find(loops, loop.slice, Side::epi);
+    if (loop.side != Side::endo || epi == nullptr)
+      continue;
+    if (const Pairing is = pairing(polygon, project(*epi, plane)); is != Pairing::inside)
+      faults.push_back({loop.slice, in_words(is)});
+  }
+  return faults;
 }
 
 std::vector<std::string> notes_on_spacing(const Contours& contours) {

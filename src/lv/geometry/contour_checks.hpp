@@ -18,6 +18,17 @@ namespace lv::geometry {
 /// accepted. @throws InputError
 void check_contours(const Contours& contours);
 
+/// What keeps the closed lines of a slice from being borders of one wall.
+struct SliceFault {
+  int slice = 0;
+  std::string what;  ///< "the endocardium crosses itself"
+};
+
+/// Loops that cross themselves, and endocardia that cross, enclose or lie beside the epicardium of
+/// their slice: what check_contours refuses of single slices, which need not be a whole ventricle's
+/// yet.
+[[nodiscard]] std::vector<SliceFault> slice_faults(const std::vector<Contour>& loops);
+
 /// Slices (of endocardial loops) that lie much farther apart than usual, the usual distance being
 /// the median: some between them may be missing. Where a wide step and a narrow one beside it are
 /// together two usual ones, the slice between both seems misplaced.

@@ -11,6 +11,7 @@
 #include "lv/case_file/parameters.hpp"
 #include "lv/cine/strain.hpp"
 #include "lv/page/page.hpp"
+#include "lv/page/place.hpp"
 #include "lv/pipeline/base_motion.hpp"
 #include "lv/pipeline/calibration.hpp"
 #include "lv/pipeline/circulation.hpp"
@@ -409,6 +410,7 @@ void run(const Case& c, const RunOptions& options) {
 
 void write_page(const std::vector<std::filesystem::path>& works,
                 const std::filesystem::path& file) {
+  page::require_place(file);
   std::vector<page::PageCase> cases;
   for (const std::filesystem::path& work : works) {
     const std::vector<std::string> state = work::state_of(work);

@@ -277,3 +277,87 @@ TEST_CASE("pictures are bytes between the study's darkest and brightest", "[draw
   for (int t = 0; t < 6; ++t)
     CHECK(static_cast<unsigned char>(bytes[t * 1600]) == 51 * t);
 }
+
+TEST_CASE("a file of the drawing that another hand has changed is named", "[draw]") {
+  const test::TemporaryFolder folder;
+  draw::Study study = small_study(folder / "heart.draw");
+  CHECK_FALSE(draw::changed_elsewhere(study));
+  draw::save(study, study.drawing);
+  CHECK_FALSE(draw::changed_elsewhere(study));
+  const auto phase = folder / "heart.draw" / "contours" / "phase_01.csv";
+  const std::string text = read_file(phase);
+  SECTION("its content") {
+    write_file(phase, text.substr(0, text.rfind('\n', text.size() - 2) + 1));
+    CHECK(draw::changed_elsewhere(study) == phase);
+  }
+  SECTION("it is gone") {
+    std::filesystem::remove(phase);
+    CHECK(draw::changed_elsewhere(study) == phase);
+  }
+  SECTION("it is written again as it was") {
+    write_file(phase, text);
+    CHECK_FALSE(draw::changed_elsewhere(study));
+  }
+  SECTION("a file that no save replaces does not count") {
+    write_file(folder / "heart.draw" / "notes.csv", "a\n");
+    CHECK_FALSE(draw::changed_elsewhere(study));
+  }
+}
+
+TEST_CASE("a second study of one folder sees what the first has saved", "[draw]") {
+  const test::TemporaryFolder folder;
+  draw::Study one = small_study(folder / "heart.draw");
+  draw::Study other = small_study(folder / "heart.draw");
+  draw::save(one, one.drawing);
+  REQUIRE(draw::changed_elsewhere(other));
+  draw::catch_up(other);
+  CHECK_FALSE(draw::changed_elsewhere(other));
+  CHECK(other.saved);
+  CHECK(other.revision == 1);
+  draw::catch_up(other);
+  CHECK(other.revision == 1);
+  draw::Drawing smaller = one.drawing;
+  smaller.lines[2][1] = circle(1, Side::epi, 25.0);
+  draw::save(one, smaller);
+  draw::catch_up(other);
+  const Contour* changed = geometry::find(other.drawing.lines[2], 1, Side::epi);
+  REQUIRE(changed != nullptr);
+  CHECK(changed->points[0].x() == Approx(25.0));
+}
+
+TEST_CASE("what another hand has spoilt is told each time, and never taken for read", "[draw]") {
+  const test::TemporaryFolder folder;
+  draw::Study study = small_study(folder / "heart.draw");
+  draw::save(study, study.drawing);
+  write_file(folder / "heart.draw" / "contours" / "phase_02.csv", "slice\n1\n");
+  for (int again = 0; again < 2; ++again)
+    CHECK_THROWS_AS(draw::catch_up(study), InputError);
+  CHECK(draw::changed_elsewhere(study));
+  CHECK(study.revision == 3);
+}
+
+TEST_CASE("borders of which no wall can be made are named by slice and phases", "[draw]") {
+  const test::TemporaryFolder folder;
+  draw::Study study = small_study(folder / "heart.draw");
+  CHECK(draw::faults_of(study.drawing.lines).empty());
+  draw::Lines lines = study.drawing.lines;
+  for (const std::size_t t : {0U, 1U, 2U, 4U})
+    for (Contour& line : lines[t])
+      if (line.slice == 3)
+        line.side = line.side == Side::endo ? Side::epi : Side::endo;
+  std::swap(lines[5][0].points[10], lines[5][0].points[30]);
+  CHECK(draw::faults_of(lines) ==
+        std::vector<std::string>{
+            "slice 1, phase 6: the endocardium crosses itself",
+            "slice 3, phases 1-3, 5: the endocardium encloses the epicardium, as if they were "
+            "exchanged"});
+  draw::save(study, {lines, {}, {}});
+  CHECK(json::parse(draw::study_json(study))["faults"].size() == 2);
+}
+
+TEST_CASE("a drawing is kept in no file", "[draw]") {
+  const test::TemporaryFolder folder;
+  write_file(folder / "a.toml", "name = \"heart\"\n");
+  case_file::Case c;
+  CHECK_THROWS_WITH(draw::open_study(c, folder / "a.toml"), Contains("is no folder"));
+}

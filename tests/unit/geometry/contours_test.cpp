@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -249,6 +250,31 @@ TEST_CASE("an open loop is refused with its gap", "[unit][geometry]") {
   CHECK_THAT(complaint_after([](Contours& c) { loop(c, 1, Side::endo).points.resize(33); }),
              Contains("file:34: slice 1, endo: the loop is open") &&
                  Contains("mm apart where neighbouring points are 2.9 mm apart"));
+}
+
+TEST_CASE("what is wrong with single slices is told of all, and nothing of good ones",
+          "[unit][geometry]") {
+  using lv::geometry::slice_faults;
+  Contours wrong = draw(in_scanner());
+  CHECK(slice_faults(wrong.short_axis).empty());
+  auto& points = loop(wrong, 3, Side::epi).points;
+  std::swap(points[10], points[13]);
+  for (Contour& c : wrong.short_axis)
+    if (c.slice == 2)
+      c.side = c.side == Side::endo ? Side::epi : Side::endo;
+  for (Vec3& x : loop(wrong, 4, Side::endo).points)
+    x += 300.0 * oblique_frame().axes.col(0);
+  for (Vec3& x : loop(wrong, 5, Side::endo).points)
+    x += 20.0 * oblique_frame().axes.col(0);
+  std::vector<std::string> told;
+  for (const auto& fault : slice_faults(wrong.short_axis))
+    told.push_back(fmt::format("{}: {}", fault.slice, fault.what));
+  std::sort(told.begin(), told.end());
+  CHECK(told == std::vector<std::string>{
+                    "2: the endocardium encloses the epicardium, as if they were exchanged",
+                    "3: the epicardium crosses itself",
+                    "4: the endocardium lies beside the epicardium",
+                    "5: the endocardium crosses the epicardium"});
 }
 
 TEST_CASE("a loop that crosses itself is refused with the place", "[unit][geometry]") {

@@ -1,9 +1,11 @@
 #include "lv/page/page.hpp"
 
+#include "lv/base/check.hpp"
 #include "lv/base/table.hpp"
 #include "lv/page/bundle.hpp"
 #include "lv/page/modes.hpp"
 #include "lv/page/packing.hpp"
+#include "lv/page/place.hpp"
 
 #include "support/temporary_folder.hpp"
 #include <catch2/catch.hpp>
@@ -94,4 +96,24 @@ TEST_CASE("a page of frames without named moments says so", "[page]") {
   CHECK(page().find("03_beat has no moments.csv") != std::string::npos);
   write_file(beat / "moments.csv", "moment,phase,time_s,by_criterion\n");
   CHECK(page().find("no moments.csv") == std::string::npos);
+}
+
+TEST_CASE("a page takes the place of a page alone", "[page]") {
+  using Catch::Matchers::Contains;
+  const test::TemporaryFolder folder;
+  CHECK_NOTHROW(page::require_place(folder / "new.html"));
+  CHECK_NOTHROW(page::require_place("new.html"));
+  write_file(folder / "empty.html", "");
+  CHECK_NOTHROW(page::require_place(folder / "empty.html"));
+  write_file(folder / "report.html", std::string(page::page_bundle()));
+  CHECK_NOTHROW(page::require_place(folder / "report.html"));
+  write_file(folder / "a.toml", "name = \"heart\"\n");
+  write_file(folder / "other.html", "<!doctype html>\n<title>Ours</title>\n");
+  for (const char* name : {"a.toml", "other.html"})
+    CHECK_THROWS_WITH(page::require_place(folder / name),
+                      Contains(name) && Contains("no page that this program wrote"));
+  CHECK_THROWS_WITH(page::require_place(folder / ""), Contains("is a folder"));
+  CHECK_THROWS_AS(page::require_place(folder / "absent/report.html"), InputError);
+  CHECK_THROWS_WITH(page::require_place(folder / "absent/report.html"),
+                    Contains("there is no folder") && Contains("Make it"));
 }

@@ -6,6 +6,9 @@ import type { Place, Point, SaidProposal, SaidStudy, Side } from "./study.ts";
 /** One border and the points through which it is wanted; lines that do not stand are empty. */
 export interface Wish { slice: number; phase: number; side: Side; points: Point[]; endo: Point[]; epi: Point[] }
 
+/** The new revision, and what keeps borders of the kept drawing from being those of a wall, in sentences. */
+export interface Kept { revision: number; faults: string[] }
+
 export class Refused extends Error {
   status: number;
   constructor(status: number, words: string) { super(words); this.status = status; }
@@ -20,8 +23,8 @@ export interface Keeper {
   slice(number: number): Promise<Uint8Array<ArrayBuffer>>;
   /** Those of an enhanced slice. */
   enhanced(number: number): Promise<Uint8Array<ArrayBuffer>>;
-  /** Keeps a drawing and says the new revision; none where it was downloaded. */
-  save?(drawing: string, whateverStands: boolean): Promise<number>;
+  /** Keeps a drawing; none where it is downloaded. */
+  save?(drawing: string, whateverStands: boolean): Promise<Kept>;
   propose?(centre: Point): Promise<SaidProposal>;
   /** A border anew through points of it. */
   redraw?(wish: Wish): Promise<Point[]>;
@@ -49,7 +52,7 @@ const served: Keeper = {
   study: async () => (await ask("study")).json(),
   slice: async (number) => new Uint8Array(await (await ask(`slice/${number}`)).arrayBuffer()),
   enhanced: async (number) => new Uint8Array(await (await ask(`enhanced/${number}`)).arrayBuffer()),
-  save: async (drawing, whateverStands) => (await (await ask(whateverStands ? "overwrite" : "save", drawing)).json()).revision,
+  save: async (drawing, whateverStands) => (await ask(whateverStands ? "overwrite" : "save", drawing)).json(),
   propose: async (centre) => (await ask("segment", JSON.stringify({ centre }))).json(),
   redraw: async (wish) => (await (await ask("redraw", JSON.stringify(wish))).json()).points,
   wall: async (lines) => (await (await ask("wall", lines)).json()).walls,

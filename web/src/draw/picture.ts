@@ -1,11 +1,12 @@
 // One slice at one phase with its borders, on a canvas that can be moved and magnified.
 import { el } from "../dom.ts";
-import { sides, type Landmark, type Line, type Place, type Plane, type Side } from "./study.ts";
+import { edgeLetters, sides, type Landmark, type Line, type Place, type Plane, type Side } from "./study.ts";
 
 export const colours: Record<Side, string> = { endo: "#ffd23f", epi: "#5ad1ff" };
 const doubtColour = "#ff7b1a";
 const wantedColour = "#7dff5a";
 const cutColour = "#c9a0ff";
+const letterColour = "#ffe9b0";
 
 /** What is shown. */
 export interface Scene {
@@ -138,6 +139,30 @@ export class Picture {
     if (this.scene.stroke.length > 1) this.drawLine(context, this.scene.stroke, "#fff", 2, [], false);
     for (const mark of this.scene.marks) this.drawMark(context, mark);
     this.drawBrush(context);
+    this.drawLetters(context);
+  }
+
+  /** Which way the patient lies, at the edges of what is seen. */
+  private drawLetters(context: CanvasRenderingContext2D): void {
+    const [w, h] = this.size;
+    const letters = edgeLetters(this.scene!.plane);
+    context.font = "bold 16px system-ui, sans-serif";
+    context.textBaseline = "middle";
+    context.lineWidth = 3;
+    context.strokeStyle = "#000";
+    context.fillStyle = letterColour;
+    const write = (words: string, x: number, y: number, align: CanvasTextAlign) => {
+      context.textAlign = align;
+      context.strokeText(words, x, y);
+      context.fillText(words, x, y);
+    };
+    write(letters.left, 8, h / 2, "left");
+    write(letters.right, w - 8, h / 2, "right");
+    write(letters.top, w / 2, 14, "center");
+    write(letters.bottom, w / 2, h - 14, "center");
+    context.textAlign = "start";
+    context.textBaseline = "alphabetic";
+    this.canvas.dataset.edges = Object.values(letters).join(" ");
   }
 
   private drawGreys(context: CanvasRenderingContext2D): void {

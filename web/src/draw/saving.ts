@@ -23,6 +23,7 @@ export class Saving {
     this.revision = study.revision;
     this.button.textContent = source.save ? "Save" : "Download the result";
     if (source.save && study.hindrance) this.warn("hindrance", `Nothing can be saved: ${study.hindrance}. Allow it and save again, or download what you draw.`, this.downloadButton());
+    this.tellFaults(study.faults);
     if (source.alive) setInterval(() => void this.lookAfter(), asking);
     if (source.save) this.meetOtherTabs();
     addEventListener("beforeunload", (event) => { if (this.editor.drawing.unsaved) event.preventDefault(); });
@@ -59,6 +60,12 @@ export class Saving {
     this.shown.delete(about);
   }
 
+  /** Borders that are kept as they are, of which no run can make a wall. */
+  private tellFaults(faults: string[]): void {
+    this.unwarn("faults");
+    if (faults.length > 0) this.warn("faults", `These borders are saved, but no wall can be made of them: ${faults.join("; ")}.`);
+  }
+
   async save(whateverStands = false): Promise<void> {
     if (!this.source.save) {
       downloadDrawing(this.study.name, this.text());
@@ -66,11 +73,13 @@ export class Saving {
       return this.say("Downloaded. ventricle draw CASE.toml --import FILE keeps it beside the case.");
     }
     try {
-      this.revision = await this.source.save(this.text(), whateverStands);
+      const { revision, faults } = await this.source.save(this.text(), whateverStands);
+      this.revision = revision;
       this.kept();
       for (const about of ["refused", "other", "hindrance"]) this.unwarn(about);
       this.channel?.postMessage({ saved: this.revision });
       this.say(`Saved in ${this.study.folder}/contours.`);
+      this.tellFaults(faults);
     } catch (error) {
       this.explain(error);
     }
@@ -85,8 +94,8 @@ export class Saving {
     if (error instanceof Stopped) return this.stopped();
     this.unwarn("other");
     if (error instanceof Refused && error.status === 409)
-      return this.warn("refused", "Not saved: another tab has saved since this one was opened.",
-        el("button", { type: "button", click: () => location.reload() }, "Show what it saved (drops what was drawn here)"),
+      return this.warn("refused", `Not saved: ${error.message}.`,
+        el("button", { type: "button", click: () => location.reload() }, "Show what is saved (drops what was drawn here)"),
         el("button", { type: "button", click: () => void this.save(true) }, "Save this one over it"));
     this.warn("refused", `Not saved: ${(error as Error).message}`, this.downloadButton());
   }

@@ -24,7 +24,7 @@ export const programsOwn = "proposed";
 /** What the program hands over; slices and phases count from 1. Landmarks count the long-axis images on, after the slices. */
 export interface SaidStudy extends SaidProposal {
   name: string; folder: string; phases: number; times: number[]; spacing: number; slices: Plane[]; long_axis: LongAxis[]; doubtful: number;
-  proposal: SaidLine[]; saved: boolean; hindrance: string; revision: number; scar: SaidScar | null;
+  proposal: SaidLine[]; saved: boolean; faults: string[]; hindrance: string; revision: number; scar: SaidScar | null;
 }
 
 export const sides: Side[] = ["endo", "epi"];
@@ -73,6 +73,19 @@ export function said(lines: Map<string, Line>, landmarks: Map<string, Landmark>,
     ({ ...ofKey(key), ...line, points: toldPoints(planes[ofKey(key).slice - 1], line.points) }));
   const marks = [...landmarks.values()].map((mark) => ({ ...mark, at: rounded(inSpace(planes[mark.slice - 1], mark.at)) }));
   return { contours, landmarks: marks, confidence };
+}
+
+/** Where a direction of image space (x to the patient's left, y to the back, z to the head) points, as viewers write it: the letters of
+ * its parts by their size, without those of less than a quarter (15 degrees beside the plane of the others). */
+export function directionLetters(d: Point): string {
+  const ends: [string, string][] = [["L", "R"], ["P", "A"], ["H", "F"]];
+  return [0, 1, 2].filter((i) => Math.abs(d[i]) >= 0.25).sort((i, j) => Math.abs(d[j]) - Math.abs(d[i])).map((i) => ends[i][d[i] > 0 ? 0 : 1]).join("");
+}
+
+/** The letters at the edges of a picture. */
+export function edgeLetters({ along_row, along_column }: Plane): Record<"left" | "right" | "top" | "bottom", string> {
+  const back = (d: Point): Point => [-d[0], -d[1], -d[2]];
+  return { left: directionLetters(back(along_row)), right: directionLetters(along_row), top: directionLetters(back(along_column)), bottom: directionLetters(along_column) };
 }
 
 /** The area that a closed line encloses [mm²]. */

@@ -1,0 +1,42 @@
+#include "lv/page/place.hpp"
+
+#include "lv/base/check.hpp"
+#include "lv/base/files.hpp"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <system_error>
+
+namespace lv::page {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Both pages have their title before all that grows; report.html has a licence before it.
+bool begins_as_page(const std::string& text) {
+  return text.starts_with("<!doctype html>") && text.find("<title>ventricle") != std::string::npos;
+}
+
+}  // namespace
+
+void require_place(const fs::path& file) {
+  constexpr std::size_t head = 4096;  // bytes
+  std::error_code none;
+  const fs::path folder = file.parent_path();
+  if (!folder.empty() && !fs::is_directory(folder, none))
+    throw InputError(file.string(), fmt::format("there is no folder {}", folder.string()),
+                     "Make it, or name a file in another one");
+  if (!fs::exists(file, none))
+    return;
+  if (fs::is_directory(file, none))
+    throw InputError(file.string(), "is a folder", "Name a file, in it or elsewhere");
+  if (!fs::is_regular_file(file, none))
+    throw InputError(file.string(), "is neither a file nor a folder", "Name a file");
+  const bool is_empty = fs::file_size(file, none) == 0;
+  if (!is_empty && !begins_as_page(first_bytes(file, head)))
+    throw InputError(file.string(), "exists already and is no page that this program wrote",
+                     "Choose another name, or remove it");
+}
+
+}  // namespace lv::page
