@@ -1,6 +1,7 @@
 #include "lv/anatomy/anatomy.hpp"
 
 #include "lv/anatomy/drawn.hpp"
+#include "lv/anatomy/heart_size.hpp"
 #include "lv/base/json_file.hpp"
 #include "lv/base/table.hpp"
 #include "lv/case_file/case_lines.hpp"
@@ -10,11 +11,13 @@
 #include "lv/geometry/lie_in_patient.hpp"
 #include "lv/heartbeat/archive.hpp"
 #include "lv/mesh/fibres.hpp"
+#include "lv/mesh/quality.hpp"
 #include "lv/mesh/refine.hpp"
 #include "lv/mesh_io/foreign_mesh.hpp"
 #include "lv/mesh_io/import.hpp"
 #include "lv/report/fields_vtk.hpp"
 #include "lv/report/tables_csv.hpp"
+#include "lv/solid/endocardial_surface.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -61,11 +64,11 @@ geometry::BaseAt base_at(const Case& c, const Drawn& drawn) {
   }
 }
 
-/// A shape that is filled, or may be, is taken as free of stress; a warning goes first.
-void assume_moment(const Case& c, const std::vector<std::string>& warnings, bool is_known,
+/// A shape that is filled, or may be, is taken as free of stress; warnings of what was read go
+/// first.
+void assume_moment(const Case& c, const std::vector<geometry::Assumption>& warnings, bool is_known,
                    Shape& shape) {
-  for (const std::string& text : warnings)
-    shape.warnings.push_back({"early diastole", text});
+  shape.warnings.insert(shape.warnings.end(), warnings.begin(), warnings.end());
   if (!case_file::is_loaded(c) && !is_known)
     shape.assumed.push_back({"early diastole", assumed_moment});
 }
@@ -117,6 +120,12 @@ void check_contours_met(const geometry::FitReport& fit, Shape& shape) {
         {"contours", fmt::format("the wall passes the contours by: {}; a point of them slipped, or "
                                  "the image lies elsewhere: look at fit.csv, and redraw it",
                                  fmt::join(where, ", "))});
+}
+
+/// Warns of a size that no human heart has: of a wrong voxel size or unit.
+void check_size(double cavity, double wall, std::optional<double> thickness, Shape& shape) {
+  if (std::string odd = odd_size(cavity, wall, thickness); !odd.empty())
+    shape.warnings.push_back({"size", std::move(odd)});
 }
 
 /// Throws InputError for a point of the septum that lies far outside of the wall.
@@ -190,6 +199,9 @@ Shape from_drawn(const Case& c) {
     shape.warnings.push_back({"septum", assumed_septum});
   check_septum_point(c, shape);
   check_contours_met(wall->report(), shape);
+  const double wall_volume = wall->report().volume_wall;
+  check_size(wall->report().volume_cavity, wall_volume, mean_thickness(shape.wall, wall_volume),
+             shape);
   check_orientation(c, fit.frame.septum.has_value(), shape);
   shape.assumed = wall->report().assumed;
   assume_moment(c, drawn.warnings, drawn.moment_is_known, shape);
@@ -261,6 +273,8 @@ Shape from_mesh(const Case& c) {
   if (!case_file::is_set(c, "regions.septum_angle"))
     shape.warnings.push_back({"septum", assumed_septum_of_mesh});
   check_fibres(shape);
+  check_size(solid::EndocardialSurface(*shape.given).volume(shape.given->nodes),
+             mesh::quality(*shape.given).wall_volume, {}, shape);
   assume_moment(c, {}, false, shape);
   collect_remarks(shape);
   return shape;

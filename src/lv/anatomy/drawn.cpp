@@ -117,9 +117,13 @@ void check_meaning(const Case& c) {
   add("anatomy.labels.right_ventricle", a.right_ventricle);
 }
 
-void warn(const std::string& warning, Drawn& drawn) {
+void warn(const char* part, const std::string& warning, Drawn& drawn) {
   if (!warning.empty())
-    drawn.warnings.push_back(warning);
+    drawn.warnings.push_back({part, warning});
+}
+
+void warn_of_moment(const std::string& warning, Drawn& drawn) {
+  warn("early diastole", warning, drawn);
 }
 
 /// Labels of which the case says nothing: a scar that is drawn by itself is muscle too.
@@ -165,10 +169,11 @@ Drawn from_labels(const Case& c) {
   drawn.septum = traced.septum;
   drawn.usual_base = geometry::BaseAt::slab;
   drawn.notes = std::move(traced.notes);
+  warn("slices", traced.alike, drawn);
   note_unnamed(image::label_volumes(volume, frame), a, drawn.notes);
   drawn.moment_is_known = volume.frames > 1;
   const Moments moments = moments_of(volume, a.cavity);
-  warn(end_diastole_note(c, moments, frame + 1), drawn);
+  warn_of_moment(end_diastole_note(c, moments, frame + 1), drawn);
   if (const auto es = other_end_systole(moments, frame + 1))
     try {
       drawn.end_systole =
@@ -207,7 +212,7 @@ Drawn from_sunnybrook(const Case& c) {
   drawn.notes.insert(drawn.notes.end(), chosen.read.notes.begin(), chosen.read.notes.end());
   drawn.moment_is_known = chosen.read.phases.size() > 1;
   const Moments moments = moments_of(chosen.read.phases);
-  warn(end_diastole_note(c, moments, a.phase), drawn);
+  warn_of_moment(end_diastole_note(c, moments, a.phase), drawn);
   if (const auto es = other_end_systole(moments, a.phase))
     drawn.end_systole = chosen.read.phases.at(*es);
   drawn.contours = std::move(chosen.read.phases.at(a.phase));
@@ -229,7 +234,7 @@ Drawn from_guide_points(const Case& c) {
     }
     drawn.moment_is_known = true;
     const Moments moments = moments_of(frames);
-    warn(end_diastole_note(c, moments, a.frame), drawn);
+    warn_of_moment(end_diastole_note(c, moments, a.frame), drawn);
     if (const auto es = other_end_systole(moments, a.frame))
       drawn.end_systole = frames.at(*es);
   }
@@ -294,10 +299,11 @@ Drawn from_contour_file(const Case& c) {
   drawn.notes.insert(drawn.notes.end(), read.notes.begin(), read.notes.end());
   const bool is_marked = read.phases.size() == 1 && file.end_diastole == phase;
   drawn.moment_is_known = read.phases.size() > 1 || is_marked;
-  warn(is_marked ? end_diastole_note(c, fmt::format("time {} is end-diastole, as {} marks it",
-                                                    phase, c.anatomy.contour_file.file))
-                 : end_diastole_note(c, moments, phase),
-       drawn);
+  warn_of_moment(is_marked
+                     ? end_diastole_note(c, fmt::format("time {} is end-diastole, as {} marks it",
+                                                        phase, c.anatomy.contour_file.file))
+                     : end_diastole_note(c, moments, phase),
+                 drawn);
   drawn.contours = std::move(read.phases.at(phase));
   return drawn;
 }
@@ -339,6 +345,7 @@ Drawn from_surfaces(const Case& c) {
   drawn.source = "surfaces of endocardium and epicardium";
   drawn.usual_base = geometry::BaseAt::slice;
   drawn.notes = std::move(cut.notes);
+  warn("cut cavity", cut.warning, drawn);
   return drawn;
 }
 
@@ -367,7 +374,7 @@ Drawn from_cine(const Case& c) {
   drawn.moment_is_known = true;
   const Moments moments = moments_of(found->found);
   const int chosen = static_cast<int>(frame) + 1;
-  warn(end_diastole_note(c, moments, chosen), drawn);
+  warn_of_moment(end_diastole_note(c, moments, chosen), drawn);
   if (const auto es = other_end_systole(moments, chosen))
     drawn.end_systole =
         segment::contours_at(found->cine, found->found, static_cast<std::size_t>(*es - 1));

@@ -3,6 +3,7 @@
 #include "lv/anatomy/segmentation.hpp"
 #include "lv/case_file/case.hpp"
 #include "lv/geometry/contours.hpp"
+#include "lv/geometry/fit_report.hpp"
 
 #include <array>
 #include <map>
@@ -25,8 +26,10 @@ struct Drawn {
   std::vector<std::string> notes;
   /// Of the moment with the smallest cavity, where the source shows it besides.
   std::optional<geometry::Contours> end_systole;
-  bool moment_is_known = false;       ///< it was chosen among several
-  std::vector<std::string> warnings;  ///< of an end-diastolic shape that is taken as free of stress
+  bool moment_is_known = false;  ///< it was chosen among several
+  /// Of an end-diastolic shape that is taken as free of stress, a base that cuts the cavity, slices
+  /// that are alike.
+  std::vector<geometry::Assumption> warnings;
 };
 
 /// Reads what the case names. Throws InputError naming file, slice and remedy; where a choice is

@@ -128,6 +128,13 @@ LV_CONDITION(tagged, c.anatomy.mesh.import.sides == mesh::SideSource::tags,
 LV_CONDITION(drawn, is_drawn(c), LV_DRAWN)
 LV_CONDITION(fitted, s == Stage::strain ? !c.strain.long_axis_cine.empty() : is_drawn(c),
              LV_DRAWN ", or with strain.long_axis_cine")
+LV_CONDITION(
+    base_may_tilt,
+    s == Stage::strain ? !c.strain.long_axis_cine.empty()
+                       : is_drawn(c) && c.anatomy.source != Source::surfaces,
+    "for a wall that is drawn in slices (anatomy.source = \"contours\", \"labels\", "
+    "\"sunnybrook\", \"guide_points\", \"cine\" or \"contour_file\"; surfaces are cut across "
+    "the long axis), or with strain.long_axis_cine")
 LV_CONDITION(septum_shown, s == Stage::strain ? !c.strain.septum_point : is_drawn(c),
              LV_DRAWN ", or with strain.cine and no strain.septum_point")
 

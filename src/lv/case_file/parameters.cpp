@@ -70,7 +70,7 @@ constexpr Group of_anatomy[]{
               "the distance of the model's end-systolic surfaces is reported; may be left out"),
      }},
     {Stages(Stage::strain, Stage::anatomy),
-     {&fitted},
+     {&base_may_tilt},
      {
          choice("anatomy.contours.base_plane", LV_AT(anatomy.contours.fit.frame.base_plane),
                 "long_axis basal_slice",

@@ -410,6 +410,73 @@ std::optional<std::array<double, 3>> middle_of(const Volume& volume, const std::
   return std::array{x.x(), x.y(), x.z()};
 }
 
+/// What each pixel of a slice is to the ventricle.
+struct Meant {
+  PlaneMask cavity, muscle;
+};
+
+/// Neighbouring slices with cavity and muscle: how many pairs there are, and which of them are the
+/// same, by the number of the first. Two tips may be one stamp of the same brush.
+struct Neighbours {
+  int pairs = 0;
+  std::vector<int> same;
+};
+
+Neighbours neighbours_of(const std::vector<Meant>& slices) {
+  Neighbours found;
+  for (std::size_t s = 0; s + 1 < slices.size(); ++s) {
+    const Meant& a = slices[s];
+    const Meant& b = slices[s + 1];
+    const auto lacks = [](const Meant& m) {
+      return m.cavity.count() == 0 || m.muscle.count() == 0;
+    };
+    if (lacks(a) || lacks(b))
+      continue;
+    ++found.pairs;
+    if (a.muscle.inside == b.muscle.inside && a.cavity.inside == b.cavity.inside)
+      found.same.push_back(static_cast<int>(s) + 1);
+  }
+  return found;
+}
+
+/// A slice that was put in twice, or over another, makes a wall that nobody drew. Nobody draws two
+/// slices alike to the voxel, but resampling to thinner slices makes them.
+void check_alike(const Volume& stack, const std::vector<Picture>& pictures,
+                 const LabelMeaning& meaning, LabelContours& traced) {
+  constexpr double thin = 3.0;     // [mm]; thinner slices than are drawn on
+  constexpr int of_resampled = 4;  // of so many neighbours one is the same, or more
+  const double spacing = stack.spacing[slice_axis(stack)];
+  if (spacing < thin)
+    return;
+  std::vector<Meant> slices;
+  for (const Picture& picture : pictures)
+    slices.push_back({mask_of(picture, meaning.cavity), mask_of(picture, meaning.muscle)});
+  const Neighbours found = neighbours_of(slices);
+  const auto same = static_cast<int>(found.same.size());
+  if (same == 0)
+    return;
+  if (same > std::max(1, found.pairs / of_resampled)) {
+    traced.notes.push_back(
+        fmt::format("{} of {} neighbouring slices are the same as the next, voxel for "
+                    "voxel: the map seems to be resampled from thicker slices, and the wall has "
+                    "their steps; give the slices as they were drawn",
+                    same, found.pairs));
+    return;
+  }
+  std::vector<std::string> which;
+  double cavity = 0.0;
+  for (const int first : found.same) {
+    which.push_back(fmt::format("{} and {}", first, first + 1));
+    cavity += static_cast<double>(slices[static_cast<std::size_t>(first)].cavity.count()) *
+              stack.voxel_volume();
+  }
+  traced.alike = fmt::format(
+      "slices {} of {} are the same, voxel for voxel, as no two slices are drawn: one stands in "
+      "another's place, or is in twice, which makes the ventricle {:.1f} mm longer and the cavity "
+      "{:.1f} ml larger; look at them in the label map",
+      fmt::join(which, ", "), stack.file, spacing * same, 1e-3 * cavity);
+}
+
 double volume_of(const Volume& volume, const std::vector<int>& labels, int frame) {
   const std::size_t n = volume.voxels();
   std::size_t count = 0;
@@ -429,8 +496,11 @@ LabelContours trace_labels(const Volume& volume, const LabelMeaning& meaning, in
   Tracer tracer(stack, meaning, traced.notes);
   std::vector<Slice> traces;
   int number = 0;
-  for (const Picture& picture : slices(stack, slice_axis(stack), resampled ? 0 : frame))
+  const std::vector<Picture> pictures = slices(stack, slice_axis(stack), resampled ? 0 : frame);
+  for (const Picture& picture : pictures)
     traces.push_back(tracer.trace(picture, ++number));
+  if (!resampled)
+    check_alike(stack, pictures, meaning, traced);
   const Run run = main_run(traces, volume.file, traced.notes);
   check_across(traces, run, volume.file, traced.notes);
   keep_apical_muscle(traces, run, traced.notes);

@@ -24,6 +24,7 @@ struct LabelContours {
   double muscle = 0.0;                          ///< volume of all voxels of the muscle [mm^3]
   std::optional<std::array<double, 3>> septum;  ///< towards the middle of the right ventricle [mm]
   std::vector<std::string> notes;               ///< what was filled, dropped, or left out, by slice
+  std::string alike;  ///< a warning of neighbouring slices that are the same; or empty
 };
 
 /// Draws the borders on every slice across slice_axis, half way between pixels inside and outside
@@ -47,6 +48,9 @@ struct LabelContours {
 /// - A wall that reaches the edge of the image is noted.
 /// - Slices with muscle alone count beyond the apex (the end with the smaller cavity), next to it;
 ///   elsewhere they are left out.
+/// - Neighbouring slices with cavity and muscle that are the same, voxel for voxel, are warned of
+///   where they are at least 3 mm apart and few: no more than a quarter of all such neighbours, or
+///   one pair. Where more are, the map was resampled from thicker slices, which a note says.
 ///
 /// Throws InputError naming the file and the slice; the labels must be in the frame (see
 /// require_labels).

@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <utility>
 
 namespace lv::mesh_io {
 namespace {
@@ -287,6 +288,101 @@ void note_base(const OpenSurface& s, const Vec3& up, double base, std::vector<st
       high - base));
 }
 
+/// The triangles, turned so that two run through the edge between them in opposite ways: not all
+/// programs see to that.
+mesh::Surface turned_alike(mesh::Surface faces) {
+  std::map<Edge, std::vector<int>> beside;
+  const auto has_way = [&](int f, int a, int b) {
+    const auto n = faces.face(f);
+    return (n[0] == a && n[1] == b) || (n[1] == a && n[2] == b) || (n[2] == a && n[0] == b);
+  };
+  for (int f = 0; f < faces.size(); ++f)
+    for (int i = 0; i < 3; ++i)
+      beside[edge_of(faces.face(f)[i], faces.face(f)[(i + 1) % 3])].push_back(f);
+  std::vector<bool> done(static_cast<std::size_t>(faces.size()), false);
+  for (int first = 0; first < faces.size(); ++first) {
+    std::vector<int> open;
+    if (!done[first])
+      open.push_back(first);
+    done[first] = true;
+    while (!open.empty()) {
+      const int f = open.back();
+      open.pop_back();
+      const std::array<int, 3> n{faces.face(f)[0], faces.face(f)[1], faces.face(f)[2]};
+      for (int i = 0; i < 3; ++i)
+        for (const int other : beside.at(edge_of(n[i], n[(i + 1) % 3]))) {
+          if (done[other])
+            continue;
+          if (has_way(other, n[i], n[(i + 1) % 3]))
+            std::swap(faces.nodes[3 * static_cast<std::size_t>(other)],
+                      faces.nodes[3 * static_cast<std::size_t>(other) + 1]);
+          done[other] = true;
+          open.push_back(other);
+        }
+    }
+  }
+  return faces;
+}
+
+/// The part of a triangle below a plane, as a polygon.
+std::vector<Vec3> part_below(const std::array<Vec3, 3>& triangle, const CutPlane& plane) {
+  std::vector<Vec3> part;
+  for (int i = 0; i < 3; ++i) {
+    const Vec3& a = triangle[i];
+    const Vec3& b = triangle[(i + 1) % 3];
+    const double height_a = plane.normal.dot(a) - plane.offset;
+    const double height_b = plane.normal.dot(b) - plane.offset;
+    if (height_a <= 0.0)
+      part.push_back(a);
+    if ((height_a <= 0.0) != (height_b <= 0.0))
+      part.emplace_back(a + height_a / (height_a - height_b) * (b - a));
+  }
+  return part;
+}
+
+/// int (x - o).n dA / 3 over the part of a surface below a plane, o in the plane, which closes it
+/// [mm^3].
+double volume_below(const std::vector<Vec3>& nodes, const mesh::Surface& faces,
+                    const CutPlane& plane) {
+  const Vec3 o = plane.offset * plane.normal;
+  double six_V = 0.0;
+  for (int f = 0; f < faces.size(); ++f) {
+    const auto n = faces.face(f);
+    const std::vector<Vec3> part = part_below({nodes[n[0]], nodes[n[1]], nodes[n[2]]}, plane);
+    for (std::size_t i = 2; i < part.size(); ++i)
+      six_V += (part[0] - o).dot((part[i - 1] - o).cross(part[i] - o));
+  }
+  return std::abs(six_V) / 6.0;
+}
+
+/// Says how much of the cavity lies above the base plane, as a note or a warning. Throws InputError
+/// where it is too much.
+void tell_left_out(const OpenSurface& inner, const Triangles& lowest, const CutPlane& base,
+                   CutSurfaces& cut) {
+  constexpr double worth_a_warning = 0.05;
+  constexpr double too_much = 1.0 / 3.0;
+  const std::vector<Vec3>& nodes = inner.triangles.nodes;
+  const mesh::Surface faces = turned_alike(inner.triangles.faces);
+  const double whole = std::abs(mesh::signed_volume(nodes, faces, inner.middle));
+  const double left_out = std::max(0.0, whole - volume_below(nodes, faces, base));
+  const double share = left_out / whole;
+  const std::string text = fmt::format(
+      "the endocardium, closed at its rim, holds {:.1f} ml; {:.1f} ml of it ({:.0f}%) lie above "
+      "the base plane, which goes across the long axis through the lowest point of both rims (that "
+      "of {})",
+      1e-3 * whole, 1e-3 * left_out, 100.0 * share, lowest.file);
+  constexpr const char* remedy =
+      "cut both surfaces open in one plane across the long axis, as high as there is muscle all "
+      "round";
+  if (share > too_much)
+    fail_surface(inner.triangles, text + ": they would be left out",
+                 fmt::format("The rims must lie at one height: {}", remedy));
+  if (share > worth_a_warning)
+    cut.warning = fmt::format("{}, and are left out: {}", text, remedy);
+  else
+    cut.notes.push_back(text);
+}
+
 }  // namespace
 
 CutSurfaces cut_across(const Triangles& endo, const Triangles& epi) {
@@ -301,7 +397,9 @@ CutSurfaces cut_across(const Triangles& endo, const Triangles& epi) {
     return (a - inner.middle).norm() < (b - inner.middle).norm();
   });
   const Vec3 up = (inner.middle - far).normalized();
-  const double base = std::min(lowest_height(inner.rim, up), lowest_height(outer.rim, up));
+  const double inner_rim = lowest_height(inner.rim, up);
+  const double outer_rim = lowest_height(outer.rim, up);
+  const double base = std::min(inner_rim, outer_rim);
   const double tip = lowest_height(used, up);
   if (!(lowest_height(used_nodes(outer.triangles), up) < tip && tip < base))
     fail_surface(epi, "does not reach below the endocardium at the apex",
@@ -310,6 +408,7 @@ CutSurfaces cut_across(const Triangles& endo, const Triangles& epi) {
   const int count = std::clamp(static_cast<int>((base - tip) / usual_step), fewest, most);
   const double step = (base - tip) / count;
   CutSurfaces cut;
+  tell_left_out(inner, inner_rim <= outer_rim ? endo : epi, {up, base}, cut);
   for (int s = 0; s < count; ++s) {
     const CutPlane plane{up, base - (s == 0 ? below : s) * step};
     for (const auto& [surface, side] : {std::pair(&inner, Side::endo), {&outer, Side::epi}})

@@ -4,6 +4,7 @@
 #include "lv/base/ending.hpp"
 #include "lv/base/files.hpp"
 #include "lv/base/formats.hpp"
+#include "lv/base/lines.hpp"
 #include "lv/mesh_io/vtk_file.hpp"
 
 #include <fmt/format.h>
@@ -16,9 +17,11 @@
 #include <vtkSTLReader.h>
 #include <vtkXMLPolyDataReader.h>
 
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <sstream>
 
 namespace lv::mesh_io {
 namespace {
@@ -54,6 +57,28 @@ void check_stl_length(const std::string& file) {
         "Copy or export the file again");
 }
 
+/// Throws InputError for a vertex without three finite coordinates: VTK says nothing of it.
+void check_obj_vertices(const std::string& file) {
+  LineReader line(file, Columns::any);
+  for (int vertex = 1; line.next();) {
+    std::istringstream words{std::string(line.text())};
+    std::string word;
+    if (!(words >> word) || word != "v")
+      continue;
+    for (int i = 0; i < 3; ++i) {
+      word.clear();
+      words >> word;
+      const auto x = number_of<double>(word);
+      if (!x || !std::isfinite(*x))
+        throw InputError(
+            line.where(),
+            fmt::format("vertex {} is not a place: \"{}\"", vertex, trimmed(line.text())),
+            "Repair the coordinates in the file");
+    }
+    ++vertex;
+  }
+}
+
 }  // namespace
 
 vtkSmartPointer<vtkPolyData> read_polygons(const std::string& file) {
@@ -66,8 +91,10 @@ vtkSmartPointer<vtkPolyData> read_polygons(const std::string& file) {
     }
     if (ending == ".ply")
       return read_with<vtkPLYReader>(file);
-    if (ending == ".obj")
+    if (ending == ".obj") {
+      check_obj_vertices(file);
       return read_with<vtkOBJReader>(file);
+    }
     if (ending == ".vtp")
       return read_with<vtkXMLPolyDataReader>(file);
     if (ending == ".vtk") {

@@ -45,6 +45,9 @@ std::string name_of(const geometry::Assumption& warning) {
                                                         {"orientation", "orientation"},
                                                         {"contours", "contours off the wall"},
                                                         {"fibres", "fibres out of the wall"},
+                                                        {"size", "size of no human heart"},
+                                                        {"cut cavity", "cavity cut off"},
+                                                        {"slices", "slices alike"},
                                                         {"early diastole", "end-diastolic shape"}};
   return names.at(warning.part);
 }

@@ -17,6 +17,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -324,4 +325,43 @@ TEST_CASE("phases are proposed from the volume curve", "[unit][image]") {
   CHECK(p.end_systole == 3);
   CHECK(p.early_diastole == 5);
   CHECK(propose_phases({70.0}).early_diastole == 0);
+}
+
+namespace {
+
+/// Overwrites one slice across the third axis with another.
+Volume copied(Volume map, int from, int to) {
+  const auto n = static_cast<std::ptrdiff_t>(map.size[0]) * map.size[1];
+  std::copy_n(map.values.begin() + n * from, n, map.values.begin() + n * to);
+  return map;
+}
+
+/// So many copies of each slice, so much thinner.
+Volume resampled(const Volume& map, int copies) {
+  Volume thin = map;
+  const auto n = static_cast<std::ptrdiff_t>(map.size[0]) * map.size[1];
+  thin.size[2] *= copies;
+  thin.spacing[2] /= copies;
+  thin.values.clear();
+  for (int k = 0; k < thin.size[2]; ++k)
+    thin.values.insert(thin.values.end(), map.values.begin() + n * (k / copies),
+                       map.values.begin() + n * (k / copies + 1));
+  return thin;
+}
+
+}  // namespace
+
+TEST_CASE("two neighbouring slices that are the same are warned of, many are a resampled map",
+          "[unit][image]") {
+  const Volume map = askew(2, unchanged);
+  const LabelMeaning meaning{{1}, {2}, {}};
+  CHECK(trace_labels(map, meaning, 0).alike.empty());
+  CHECK_THAT(trace_labels(copied(map, 4, 5), meaning, 0).alike,
+             Contains("slices 5 and 6 of ") && Contains("8.0 mm longer"));
+  const LabelContours twice = trace_labels(resampled(map, 2), meaning, 0);  // 4 mm
+  CHECK(twice.alike.empty());
+  CHECK_THAT(all(twice.notes), Contains("seems to be resampled"));
+  const LabelContours thin = trace_labels(resampled(map, 4), meaning, 0);  // 2 mm
+  CHECK(thin.alike.empty());
+  CHECK_THAT(all(thin.notes), !Contains("resampled"));
 }

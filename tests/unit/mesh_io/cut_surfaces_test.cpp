@@ -10,7 +10,10 @@
 #include <catch2/catch.hpp>
 
 #include <array>
+#include <cmath>
+#include <limits>
 #include <numbers>
+#include <utility>
 
 namespace {
 
@@ -50,7 +53,7 @@ TEST_CASE("open and lidded surfaces are cut into the wall that they enclose", "[
   for (const bool lid : {false, true}) {
     const mesh_io::CutSurfaces cut =
         mesh_io::cut_across(written(bowl(25.0, 60.0, lid)), written(bowl(35.0, 70.0, lid)));
-    CHECK_THAT(cut.notes.front(), Contains(lid ? "flat lid is taken off" : "is open at the base"));
+    CHECK_THAT(cut.notes.at(1), Contains(lid ? "flat lid is taken off" : "is open at the base"));
     geometry::check_contours(cut.contours);
     const geometry::FitReport report = geometry::fit_spline_wall(cut.contours, {}).report();
     // both bowls end at a third of their length: the lower rim is that of the endocardium
@@ -107,4 +110,50 @@ TEST_CASE("a binary STL file that lacks triangles is refused", "[unit][mesh_io]"
   CHECK(triangles(0) == static_cast<int>((whole.size() - 84) / 50));
   for (const std::size_t lacking : {1, 50, 1000})
     CHECK_THROWS_WITH(triangles(lacking), Contains("the file is truncated"));
+}
+
+TEST_CASE("what of the cavity lies above the base plane is said, warned of or refused",
+          "[unit][mesh_io]") {
+  const double whole = cut_volume(25.0, 60.0, 20.0);
+  const auto cut_at = [](double part) {  // of the epicardium's length
+    test::Bowl epi = test::half_ellipsoid(35.0, 70.0, part, false);
+    for (Vec3& x : epi.points)
+      x = aside + turned_axes() * x;
+    return mesh_io::cut_across(written(bowl(25.0, 60.0, false)), written(epi, "epi.obj"));
+  };
+  const mesh_io::CutSurfaces high = cut_at(1.0 / 3.0);
+  CHECK(high.warning.empty());
+  CHECK_THAT(high.notes.front(), Contains("0.0 ml of it (0%) lie above the base plane"));
+  const double left_out = whole - cut_volume(25.0, 60.0, 7.0);  // the rim at a tenth of 70 mm
+  CHECK(left_out / whole == Approx(0.21).margin(0.01));
+  CHECK_THAT(cut_at(0.1).warning,
+             Contains("(21%) lie above") && Contains("epi.obj") && Contains("are left out"));
+  CHECK_THROWS_WITH(cut_at(-0.1), Contains("lie above") && Contains("rims must lie at one height"));
+}
+
+TEST_CASE("the cavity of a surface counts whichever way its triangles are turned",
+          "[unit][mesh_io]") {
+  const Triangles epi = written(bowl(35.0, 70.0, false));
+  Triangles endo = written(bowl(25.0, 60.0, false));
+  const std::string said = mesh_io::cut_across(endo, epi).notes.front();
+  for (std::size_t f = 0; f < endo.faces.nodes.size(); f += 6)  // every other triangle
+    std::swap(endo.faces.nodes[f], endo.faces.nodes[f + 1]);
+  CHECK(mesh_io::cut_across(endo, epi).notes.front() == said);
+}
+
+TEST_CASE("a vertex that is no place is refused in every form of surface", "[unit][mesh_io]") {
+  const test::TemporaryFolder folder;
+  test::Bowl made = bowl(25.0, 60.0, false);
+  const auto read = [&](const std::string& name, const std::string& bytes) {
+    test::write_bytes(folder / name, bytes);
+    return mesh_io::read_triangles((folder / name).string(), 1.0, "LPS");
+  };
+  for (const double wrong : {std::nan(""), std::numeric_limits<double>::infinity()}) {
+    made.points[700].x() = wrong;
+    CHECK_THROWS_WITH(read("x.obj", test::obj_text(made)),
+                      Contains("x.obj:701") && Contains("vertex 701 is not a place"));
+    CHECK_THROWS_WITH(read("x.stl", test::stl_text(made)), Contains("is not a place"));
+    CHECK_THROWS_WITH(read("y.stl", test::binary_stl(made)), Contains("is not a place"));
+  }
+  CHECK_THROWS_WITH(read("x.obj", "v 1 2\n"), Contains("x.obj:1") && Contains("not a place"));
 }
