@@ -61,8 +61,9 @@ class Pipeline {
       log::warn("{}: {}", case_.file.string(), no_parameters);
     for (const std::string& what : case_.without_effect)
       log::warn("{}", what);
-    for (const std::string& odd : {fit_outside_heartbeats(case_), left_handed_fibres(case_),
-                                   high_filling_pressure(case_), base_away_from_apex(case_)})
+    for (const std::string& odd :
+         {fit_outside_heartbeats(case_), left_handed_fibres(case_), high_filling_pressure(case_),
+          unlike_end_diastole(case_), base_away_from_apex(case_)})
       if (!odd.empty())
         log::warn("{}", odd);
     if (const int members = check_study(case_); members > 0)
