@@ -415,6 +415,8 @@ void write_page(const std::vector<std::filesystem::path>& works,
     const std::vector<std::string> state = work::state_of(work);
     cases.push_back({work, state.empty(), state});
   }
+  if (const std::string unlike = page::unlike_moments(cases); !unlike.empty())
+    log::warn("{}", unlike);
   write_file(file, page::page(cases, work::version()));
 }
 
