@@ -91,6 +91,7 @@ async function pretendBeats() {
     data: [{ name: "EDV", d_ln_datum_by_d_ln: { "circulation.windkessel.p_ven": 0.4321 } }] }));
   await ventricle("report", "beats.work", "--output", "beats.html");
   await ventricle("compare", "beats.work", "stiff.work", "--output", "loops.html");
+  await ventricle("compare", work, "beats.work", "--output", "unlike.html");
 }
 
 /** A run that is not complete, and one that has a mesh alone. */

@@ -179,5 +179,10 @@ export async function checkBeats() {
   const expected = ["beats.work", "stiff.work"].map((name) => Number(ofBeats(name).at(-1).esv_ml));
   check("two cases: one loop each over the other, and the difference of each measure", lines === 2 && close(both[2], expected[1] - expected[0], 0.01) && close(both[1], expected[1], 1e-3),
     `${lines} ${both} ${expected}`);
+  check("two cases of heartbeats: nothing is said of their moments", await two.page.locator("#unlike-moments").count() === 0);
   await two.close();
+  const unlike = await open("unlike.html", { width: 1400, height: 900 });
+  const sentence = await unlike.page.locator("header #unlike-moments").innerText().catch((e) => String(e));
+  check("heartbeats beside the paper's protocol: the page says at its top that moments are not defined alike", sentence.includes("not defined alike"), sentence);
+  await unlike.close();
 }

@@ -340,6 +340,6 @@ export function rowAt(rows: Row[], time: number): Row | undefined {
   return rows[nearest(timesOf.get(rows)!, time)];
 }
 
-export interface About { version: string; cases: number }
+export interface About { version: string; cases: number; unlike_moments: string }
 export function about(): About { return JSON.parse(text("about")); }
 export type { FlowJson };

@@ -13,11 +13,12 @@ import { bullsEyeSection } from "./regions_section.ts";
 import { detailsSection, inputSection, normalSection, parameterSection, zoneSection } from "./tables_section.ts";
 import { wallSection } from "./wall_section.ts";
 
-function header(cases: Case[]): HTMLElement {
+function header(cases: Case[], unlikeMoments: string): HTMLElement {
   const title = cases.map((c) => c.name).join(" beside ");
   document.title = `${title} – ventricle`;
   const unfinished = cases.filter((c) => !c.json.complete);
   return el("header", {}, el("h1", {}, title), ...cases.map((c) => el("p", { class: "sentence" }, sentence(c) + assumedSentence(c))),
+    unlikeMoments ? el("p", { class: "warning", id: "unlike-moments" }, unlikeMoments) : undefined,
     ...unfinished.map((c) => el("div", { class: "state", role: "alert" }, el("strong", {}, `The run of ${c.name} is not complete. `),
       "What there is, is shown; what is not there, is said to be missing.", el("ul", {}, ...c.json.state.map((line) => el("li", {}, line))))));
 }
@@ -47,7 +48,7 @@ const painted = () => new Promise((done) => {
 });
 
 async function main(): Promise<void> {
-  const { version, cases: count } = about();
+  const { version, cases: count, unlike_moments: unlikeMoments } = about();
   const cases = Array.from({ length: count }, (_, i) => Case.read(i));
   if (new Set(cases.map((c) => c.name)).size < cases.length) for (const c of cases) c.name += ` (${c.json.folder})`;
   const page = document.getElementById("page")!;
@@ -57,7 +58,7 @@ async function main(): Promise<void> {
   const shared = new Shared({ quantity, step: time.start, cut: { kind: "long", angle: 0, height: -40 }, fibres: false, fixed: false });
   const wall = wallSection(cases, shared, time);
   const nav = el("nav", { "aria-label": "sections" });
-  page.append(header(cases), el("div", { class: "first" }, firstSection(cases), remarks(cases), wall.element), nav);
+  page.append(header(cases, unlikeMoments), el("div", { class: "first" }, firstSection(cases), remarks(cases), wall.element), nav);
   await wall.opened;
   await onScreen();
   document.body.dataset.first = performance.now().toFixed(0);

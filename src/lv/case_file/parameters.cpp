@@ -1148,6 +1148,9 @@ constexpr Group of_measurements[]{
 
 constexpr Range of_factor = between(0.1, 10.0);
 
+/// What beats may still change by where they count as a limit cycle.
+constexpr Range of_limit_cycle = between(0.0, 0.1);
+
 /// No stage reads a study; the beats are those that it makes a family of.
 constexpr Group of_study[]{
     {Stages(Stage::beat),
@@ -1182,9 +1185,10 @@ constexpr Group of_protocol[]{
      {&heartbeats},
      {
          number("cycle.beats", LV_AT(protocol.cycle.beats), "", between(1, 1000), "beats at most"),
-         number("cycle.tolerance", LV_AT(protocol.cycle.tolerance), "", not_negative,
+         number("cycle.tolerance", LV_AT(protocol.cycle.tolerance), "", of_limit_cycle,
                 "beats end when the last has changed no state of the circuit, nor end-diastolic or "
-                "end-systolic volume, by more than this part of itself; 0: never"),
+                "end-systolic volume, by more than this part of itself, and those to come would "
+                "add at most ten times as much; 0: never"),
      }},
     {beating,
      {&heartbeats, &closed_loop},
@@ -1407,9 +1411,9 @@ constexpr Group of_circulation[]{
                 "of time"),
          number("circulation.beats", LV_AT(circulation.beats), "", between(1, 10000),
                 "beats at most"),
-         number("circulation.tolerance", LV_AT(circulation.tolerance), "", not_negative,
-                "beats end when the last has changed no state by more than this part of itself; 0: "
-                "never"),
+         number("circulation.tolerance", LV_AT(circulation.tolerance), "", of_limit_cycle,
+                "beats end when the last has changed no state by more than this part of itself, "
+                "and those to come would add at most ten times as much; 0: never"),
      }},
     {joined,
      {&circuit},

@@ -340,6 +340,12 @@ class CaseReader {
     const circulation::CircuitParameters& p = case_.circulation;
     together(p.step <= 0.05 * p.period, {"circulation.step", "circulation.period"},
              "must be at most a twentieth of the period");
+    together(p.step >= 1e-4 * p.period, {"circulation.step", "circulation.period"},
+             "must be at least a ten-thousandth of the period, where the steps' own error is some "
+             "millionths");
+    together(p.left_ventricle.t_C < p.period,
+             {"circulation.left_ventricle.t_C", "circulation.period"},
+             "must lie within a beat (circulation.period)");
     together(p.valves.closed_resistance >=
                  100.0 * std::max({p.windkessel.R_mv, p.windkessel.R_ao + p.windkessel.R_c,
                                    p.closed_loop.valve_resistance}),
@@ -436,10 +442,6 @@ class CaseReader {
          "prescribes a tension, which knows no time: a cycle takes \"land2017\" (or \"niederer\")");
     together(p.cycle.step <= 0.05 * case_.circulation.period, {"cycle.step", "circulation.period"},
              "must be at most a twentieth of circulation.period");
-    together(case_.circulation.kind != circulation::Kind::closed_loop ||
-                 case_.circulation.left_ventricle.t_C < case_.circulation.period,
-             {"circulation.left_ventricle.t_C", "circulation.period"},
-             "must lie within a beat (circulation.period)");
     material::Calcium calcium = p.calcium;
     calcium.mode = material::Calcium::Mode::transient;
     constexpr double most = 0.25;  // of its rise, when the next beat begins it anew

@@ -25,6 +25,12 @@ std::vector<double> after_beat(CircuitParameters p, const StandIn& ventricle,
   return run_alone(p, ventricle).states;
 }
 
+/// That beats as the ventricle did.
+StandIn stand_in_of(const BeatenStates& beaten) {
+  return {
+      beaten.beat, beaten.measures.end_diastolic_volume, {beaten.measures.end_diastolic_pressure}};
+}
+
 /// Nothing where the two rows do not come together.
 std::optional<std::vector<double>> newton_step(const CircuitParameters& p, const StandIn& ventricle,
                                                std::vector<double> behind,
@@ -51,14 +57,21 @@ std::optional<std::vector<double>> foretold_limit(const CircuitParameters& p, do
   alone.closed_loop.blood = 0.0;  // the states have it
   alone.step = step;
   alone.beats = 1;
-  const StandIn ventricle(beaten.beat, beaten.measures.end_diastolic_volume,
-                          {beaten.measures.end_diastolic_pressure});
+  alone.tolerance = 0.0;
   try {
-    return newton_step(alone, ventricle, {beaten.before.begin(), beaten.before.end()},
+    return newton_step(alone, stand_in_of(beaten), {beaten.before.begin(), beaten.before.end()},
                        {beaten.after.begin(), beaten.after.end()});
   } catch (const NoSolution&) {
     return {};  // a step of it has no solution: beats go on as they are
   }
+}
+
+double change_to_come(const CircuitParameters& p, double step, const BeatenStates& beaten) {
+  if (!has_beaten(beaten.measures))
+    return 1.0;
+  CircuitParameters alone = p;
+  alone.step = step;
+  return change_to_come(alone, stand_in_of(beaten), beaten.before, beaten.after);
 }
 
 }  // namespace lv::circulation

@@ -29,4 +29,9 @@ struct BeatenStates {
                                                                 double step,
                                                                 const BeatenStates& beaten);
 
+/// What beats to come would add to the change that the ventricle's beat made, with the slopes of a
+/// stand-in that beats as it did: see change_to_come. 1 where the ventricle did not beat.
+[[nodiscard]] double change_to_come(const CircuitParameters& p, double step,
+                                    const BeatenStates& beaten);
+
 }  // namespace lv::circulation

@@ -3,7 +3,8 @@
 #include "lv/base/check.hpp"
 #include "lv/base/log.hpp"
 #include "lv/base/units.hpp"
-#include "lv/circulation/leap.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -160,7 +161,7 @@ void CycleRecord::end_beat() {
         cycle_.change, circulation::largest_change(
                            std::array{before.end_diastolic_volume, before.end_systolic_volume},
                            std::array{now.end_diastolic_volume, now.end_systolic_volume}));
-    cycle_.is_limit = cycle_.change <= course_.cycle.tolerance;
+    judge();
   }
   if (blood_at_start_ > 0.0)
     cycle_.blood_lost = std::abs(circuit_.blood() / blood_at_start_ - 1.0);
@@ -180,15 +181,28 @@ void CycleRecord::end_beat() {
     leap();
 }
 
+/// What beats to come would add costs a fraction of a second, but tells nothing where this one's
+/// change is too large already.
+void CycleRecord::judge() {
+  const double tolerance = course_.cycle.tolerance;
+  const bool changed_little = tolerance > 0.0 && cycle_.change <= tolerance;
+  cycle_.to_come = changed_little
+                       ? circulation::change_to_come(course_.circuit, course_.cycle.step, beaten())
+                       : 0.0;
+  cycle_.is_limit = circulation::is_limit_cycle(cycle_.change, cycle_.to_come, tolerance);
+}
+
+circulation::BeatenStates CycleRecord::beaten() const {
+  return {states_before_, circuit_.states(), std::span(cycle_.samples).subspan(begins_.back()),
+          cycle_.beats.back()};
+}
+
 /// The vessels of a closed loop take tens of beats to share out its blood: this saves them.
 void CycleRecord::leap() {
   const bool is_loop = course_.circuit.kind == circulation::Kind::closed_loop;
   if (!is_loop || course_.cycle.tolerance == 0.0)
     return;
-  const auto limit = circulation::foretold_limit(
-      course_.circuit, course_.cycle.step,
-      {states_before_, circuit_.states(), std::span(cycle_.samples).subspan(begins_.back()),
-       cycle_.beats.back()});
+  const auto limit = circulation::foretold_limit(course_.circuit, course_.cycle.step, beaten());
   if (!limit)
     return;
   circuit_.leap_to(*limit);
@@ -222,8 +236,8 @@ double CycleRecord::beats_left() const {
   const double fall = std::log(change_before_ / cycle_.change);
   if (beat_ < 3 || !(fall > 0.0))
     return std::min(most, std::max(usual - beat_ - 1.0, 0.0));
-  return std::clamp(std::ceil(std::log(cycle_.change / course_.cycle.tolerance) / fall) - 1.0, 0.0,
-                    most);
+  const double above = std::max(cycle_.change, cycle_.to_come / circulation::most_to_come);
+  return std::clamp(std::ceil(std::log(above / course_.cycle.tolerance) / fall) - 1.0, 0.0, most);
 }
 
 void CycleRecord::show_progress(const Observers& observers) {
@@ -245,8 +259,11 @@ Beat CycleRecord::result(const Observers& observers) {
         "Look at cycle.csv: the ventricle does not reach the aorta's pressure, or does "
         "not relax within a beat");
   if (!cycle_.is_limit)
-    log::warn("no limit cycle after {} beats: the last changed the states by {:.2g} of themselves",
-              beat_, cycle_.change);
+    log::warn(
+        "no limit cycle after {} beats: the last changed the states by {:.2g} of themselves{}",
+        beat_, cycle_.change,
+        cycle_.to_come > 0.0 ? fmt::format(", and beats to come would add {:.2g}", cycle_.to_come)
+                             : "");
   whole_.cycle = std::move(cycle_);
   if (observers.curves) {
     run_.beat = whole_;
@@ -325,10 +342,11 @@ void store(const circulation::Cycle& cycle, Archive& archive) {
   archive.set("cycle.samples", std::move(numbers));
   archive.set_words("cycle.columns", names);
   archive.set_words("cycle.units", units);
-  archive.set("cycle.facts",
-              {cycle.period, static_cast<double>(cycle.beats.size()), cycle.is_limit ? 1.0 : 0.0,
-               cycle.cut_short ? 1.0 : 0.0, cycle.change, cycle.blood_lost, cycle.volume_gap,
-               static_cast<double>(cycle.gave_way), static_cast<double>(cycle.leaps)});
+  archive.set(
+      "cycle.facts",
+      {cycle.period, static_cast<double>(cycle.beats.size()), cycle.is_limit ? 1.0 : 0.0,
+       cycle.cut_short ? 1.0 : 0.0, cycle.change, cycle.blood_lost, cycle.volume_gap,
+       static_cast<double>(cycle.gave_way), static_cast<double>(cycle.leaps), cycle.to_come});
 }
 
 namespace {
@@ -364,7 +382,7 @@ EnergyBalance load_energy(const Archive& archive) {
 }
 
 circulation::Cycle load_cycle(const Archive& archive) {
-  const auto& facts = archive.get_rows("cycle.facts", 9, 1, not_negative);
+  const auto& facts = archive.get_rows("cycle.facts", 10, 1, not_negative);
   const auto names = archive.get_words("cycle.columns");
   const auto units = archive.get_words("cycle.units");
   if (names.size() != units.size())
@@ -383,6 +401,7 @@ circulation::Cycle load_cycle(const Archive& archive) {
   cycle.volume_gap = facts[6];
   cycle.gave_way = archive.whole_number(facts[7], {0.0, 1e6});
   cycle.leaps = archive.whole_number(facts[8], {0.0, 1e6});
+  cycle.to_come = facts[9];
   const double most = cycle.samples.back().time / cycle.period + 1e-9;
   const int beats = archive.whole_number(facts[1], {0.0, most});
   for (int b = 0; b < beats; ++b)

@@ -2,6 +2,7 @@
 
 #include "lv/base/check.hpp"
 #include "lv/circulation/circuit.hpp"
+#include "lv/circulation/leap.hpp"
 #include "lv/heartbeat/observers.hpp"
 
 #include <array>
@@ -51,7 +52,8 @@ struct CycleCourse {
 /// far, the beats' moments, and whether they go on. A copy of it is a place to go back to.
 ///
 /// Beats end when the last has changed no state of the circuit, nor end-diastolic or end-systolic
-/// volume, by more than the tolerance, or with their largest number. Between two beats a closed
+/// volume, by more than the tolerance and beats to come would add little (is_limit_cycle), or with
+/// their largest number. Between two beats a closed
 /// loop may leap to the limit cycle that is foretold (circulation::foretold_limit); a beat that
 /// changes nothing is one of wall and circuit all the same.
 class CycleRecord {
@@ -144,6 +146,10 @@ class CycleRecord {
   void load(Archive& archive, std::size_t nodes);
 
  private:
+  /// Whether the beat that has just ended is that of a limit cycle.
+  void judge();
+  /// It, while the circuit is where it ended.
+  [[nodiscard]] circulation::BeatenStates beaten() const;
   void leap();
 
   CycleCourse course_;

@@ -440,6 +440,20 @@ Json beat_measures_json() {
 
 }  // namespace
 
+std::string unlike_moments(const std::vector<PageCase>& cases) {
+  std::size_t beats = 0, heartbeats = 0;
+  for (const PageCase& shown : cases) {
+    beats += report::file_of(shown.work, "beat", "moments.csv").empty() ? 0 : 1;
+    heartbeats += report::file_of(shown.work, "beat", "cycle.csv").empty() ? 0 : 1;
+  }
+  if (beats < 2 || heartbeats == 0 || heartbeats == beats)
+    return "";
+  return "The moments are not defined alike: one case has heartbeats, whose end-diastole and "
+         "end-systole are where the mitral and the aortic valve close, and the other the paper's "
+         "protocol, whose are steady states under given pressures. Differences of volumes, "
+         "strains and stresses between them are those of the protocols too.";
+}
+
 std::string page(const std::vector<PageCase>& cases, const std::string& version) {
   std::string html(page_bundle());
   const auto put = [&](std::string_view mark, const std::string& data) {
@@ -450,6 +464,7 @@ std::string page(const std::vector<PageCase>& cases, const std::string& version)
   Data data{element("about", "application/json",
                     Json{{"version", version},
                          {"cases", cases.size()},
+                         {"unlike_moments", unlike_moments(cases)},
                          {"quantities", quantities_json()},
                          {"moments", moments_json()},
                          {"infarct", quantity_json(analysis::infarct_extent())},

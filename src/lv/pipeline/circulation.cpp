@@ -6,6 +6,7 @@
 #include "lv/heartbeat/immersed_cycle.hpp"
 #include "lv/pipeline/base_motion.hpp"
 #include "lv/report/cycle_tables.hpp"
+#include "lv/report/plausibility.hpp"
 
 #include <fmt/format.h>
 
@@ -13,16 +14,33 @@ namespace lv::pipeline {
 
 using case_file::Case;
 
+namespace {
+
+std::string words_of_what_is_to_come(const circulation::Cycle& cycle) {
+  if (cycle.to_come >= 1.0)
+    return ", but the circuit is still as far from where beats would take it as the states are "
+           "large, or how far is not known";
+  return cycle.to_come > 0.0 ? fmt::format(", and beats to come would add {:.2g}", cycle.to_come)
+                             : "";
+}
+
+}  // namespace
+
 void make_circulation(const Case& c, const std::filesystem::path& folder) {
   const circulation::Cycle cycle = circulation::run_alone(c.circulation);
   const std::string end = cycle_end(cycle);
   if (!cycle.is_limit)
     log::warn("circulation: {}", end);
+  std::string unlike;
+  for (const std::string& sentence : report::unlike_any_patient(cycle.beats.back())) {
+    log::warn("circulation: {}", sentence);
+    unlike += fmt::format("warning: {}\n", sentence);
+  }
   write_cycle_tables(cycle, folder);
   write_cycle(cycle, {}, folder);
   write_file(folder / "circulation.txt",
-             fmt::format("circulation with an elastance for the left ventricle\n{}\n\n{}", end,
-                         report::beat_text(cycle.beats.back())));
+             fmt::format("circulation with an elastance for the left ventricle\n{}\n{}\n{}", end,
+                         unlike, report::beat_text(cycle.beats.back())));
 }
 
 heartbeat::Beat make_cycle(const Case& c, const mesh::Mesh& mesh,
@@ -60,10 +78,11 @@ void write_cycle(const circulation::Cycle& cycle, const std::optional<Table>& cu
 std::string cycle_end(const circulation::Cycle& cycle) {
   return fmt::format(
       "{} after {} beat{} of {:.3g} s{}: the last changed the states by {:.2g} of themselves at "
-      "most",
+      "most{}",
       cycle.is_limit ? "limit cycle" : "no limit cycle", cycle.beats.size(),
       cycle.beats.size() == 1 ? "" : "s", cycle.period,
-      cycle.leaps > 0 ? fmt::format(", {} of them after a leap", cycle.leaps) : "", cycle.change);
+      cycle.leaps > 0 ? fmt::format(", {} of them after a leap", cycle.leaps) : "", cycle.change,
+      words_of_what_is_to_come(cycle));
 }
 
 std::vector<std::string> cycle_warnings(const Case& c, const circulation::Cycle& cycle) {

@@ -62,8 +62,9 @@ class Pipeline {
       log::warn("{}: {}", case_.file.string(), no_parameters);
     for (const std::string& what : case_.without_effect)
       log::warn("{}", what);
-    for (const std::string& odd : {fit_outside_heartbeats(case_), left_handed_fibres(case_),
-                                   high_filling_pressure(case_), base_away_from_apex(case_)})
+    for (const std::string& odd :
+         {fit_outside_heartbeats(case_), left_handed_fibres(case_), high_filling_pressure(case_),
+          unlike_end_diastole(case_), base_away_from_apex(case_)})
       if (!odd.empty())
         log::warn("{}", odd);
     if (const int members = check_study(case_); members > 0)
@@ -416,6 +417,8 @@ void write_page(const std::vector<std::filesystem::path>& works,
     const std::vector<std::string> state = work::state_of(work);
     cases.push_back({work, state.empty(), state});
   }
+  if (const std::string unlike = page::unlike_moments(cases); !unlike.empty())
+    log::warn("{}", unlike);
   write_file(file, page::page(cases, work::version()));
 }
 

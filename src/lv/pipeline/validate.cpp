@@ -69,6 +69,8 @@ std::vector<Warning> warnings_of(const Case& c, const anatomy::Shape& shape, dou
     warnings.push_back({"left-handed fibres", std::move(turned)});
   if (std::string high = high_filling_pressure(c); !high.empty())
     warnings.push_back({"high filling pressure", std::move(high)});
+  if (std::string unlike = unlike_end_diastole(c); !unlike.empty())
+    warnings.push_back({"another end-diastole", std::move(unlike)});
   if (std::string away = base_away_from_apex(c); !away.empty())
     warnings.push_back({"base away from apex", std::move(away)});
   for (const geometry::Assumption& a : shape.warnings)
@@ -185,6 +187,23 @@ std::string high_filling_pressure(const Case& c) {
       "protocol.ed_pressure is {:g} mmHg, more than the left ventricle of a patient is filled with "
       "({:g} mmHg, in the worst failure): is its unit right? 1 kPa is 7.5 mmHg",
       p / mmHg, most / mmHg);
+}
+
+std::string unlike_end_diastole(const Case& c) {
+  if (!case_file::is_loaded(c) || case_file::is_cycle(c))
+    return "";
+  const double seen = c.unloaded.pressure;
+  const double filled = c.protocol.ed_pressure;
+  const bool differs = std::abs(seen - filled) > std::min(1.0 * mmHg, 0.1 * filled);
+  const bool is_end_diastole = c.anatomy.source == case_file::AnatomySource::cine &&
+                               c.anatomy.cine.moment == case_file::ShapeMoment::end_diastole;
+  if (!differs || (!is_end_diastole && seen < filled))
+    return "";
+  return fmt::format(
+      "the shape that was seen bears {:g} mmHg (unloaded.pressure) and the model is filled to {:g} "
+      "mmHg (protocol.ed_pressure): the end-diastole of the model is not that of the images, and "
+      "its volume will be another",
+      seen / mmHg, filled / mmHg);
 }
 
 std::string validate(const Case& c) {

@@ -28,4 +28,9 @@ inline constexpr const char* no_parameters =
 /// may go there, so it is no mistake.
 [[nodiscard]] std::string high_filling_pressure(const case_file::Case& c);
 
+/// What is odd about a shape that bears another pressure than the model has at end-diastole, where
+/// it is that of end-diastole or bears more; empty for others. One that bears less may be that of
+/// an earlier moment.
+[[nodiscard]] std::string unlike_end_diastole(const case_file::Case& c);
+
 }  // namespace lv::pipeline

@@ -189,4 +189,42 @@ std::vector<std::string> impossible_values(const std::vector<Judgement>& judgeme
   return sentences;
 }
 
+namespace {
+
+const PlausibleRange& range_of(const char* quantity) {
+  const auto& all = plausible_ranges();
+  return *std::find_if(all.begin(), all.end(),
+                       [&](const PlausibleRange& r) { return r.quantity == quantity; });
+}
+
+/// A number of a beat, and what patients have.
+struct OfPatients {
+  const char* label;
+  const char* unit;
+  double value, low, high;
+};
+
+}  // namespace
+
+std::vector<std::string> unlike_any_patient(const circulation::BeatMeasures& beat) {
+  constexpr double wide = 2.0;
+  const PlausibleRange& edv = range_of("edv_ml");
+  const PlausibleRange& fraction = range_of("ejection_fraction_percent");
+  const OfPatients all[]{
+      {"peak pressure", "mmHg", beat.peak_pressure / units::mmHg, 40.0, 300.0},
+      {"end-diastolic volume", "ml", beat.end_diastolic_volume / units::ml, edv.low / wide,
+       edv.high * wide},
+      {"ejection fraction", "%", 100.0 * beat.ejection_fraction, 10.0, 90.0},
+      {"stroke volume", "ml", beat.stroke_volume / units::ml, edv.low / wide * fraction.low / 100.0,
+       edv.high * wide * fraction.high / 100.0}};
+  std::vector<std::string> sentences;
+  for (const OfPatients& m : all)
+    if (m.value < m.low || m.value > m.high)
+      sentences.push_back(fmt::format(
+          "the {} is {:.3g} {}, and no patient's is outside of {:.3g} to {:.3g} {}: check the "
+          "circulation's values and their units",
+          m.label, m.value, m.unit, m.low, m.high, m.unit));
+  return sentences;
+}
+
 }  // namespace lv::report

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lv/analysis/results.hpp"
+#include "lv/circulation/beat_measures.hpp"
 
 #include <string>
 #include <vector>
@@ -54,5 +55,11 @@ struct Judgement {
 
 /// A sentence for each value that cannot be.
 [[nodiscard]] std::vector<std::string> impossible_values(const std::vector<Judgement>& judgements);
+
+/// A sentence for each of peak pressure, end-diastolic volume, ejection fraction and stroke volume
+/// of a beat that lies where no patient's is: a volume beyond half the least and twice the largest
+/// of plausible_ranges, a stroke volume beyond those times the fractions there, a fraction below
+/// 10% or above 90%, a pressure below 40 or above 300 mmHg. What did not happen is not judged.
+[[nodiscard]] std::vector<std::string> unlike_any_patient(const circulation::BeatMeasures& beat);
 
 }  // namespace lv::report

@@ -4,9 +4,11 @@
 #include "lv/report/cycle_tables.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace lv::report {
 namespace {
@@ -76,6 +78,45 @@ std::vector<std::string> missing_row(const circulation::MissingBeat& beat, std::
   return row;
 }
 
+/// "2 of 4 loads did not come to a limit cycle"; empty where all did.
+std::string words_of_unfinished(std::span<const LoadedBeat> beats) {
+  const auto unfinished = std::ranges::count(beats, false, &LoadedBeat::is_limit);
+  return unfinished == 0 ? ""
+                         : fmt::format("{} of {} load{} did not come to a limit cycle", unfinished,
+                                       beats.size(), beats.size() == 1 ? "" : "s");
+}
+
+std::vector<std::string> names_of_unfinished(std::span<const LoadedBeat> beats) {
+  std::vector<std::string> names;
+  for (const LoadedBeat& beat : beats)
+    if (!beat.is_limit)
+      names.push_back(beat.name);
+  return names;
+}
+
+/// Points of beats: circles, and triangles of those that are no limit cycles.
+struct Points {
+  drawing::Series limits, others;
+
+  Points(drawing::Colour colour, const std::string& label)
+      : limits{.label = label, .colour = colour, .width = 0.0, .marker = drawing::Marker::circle},
+        others{.colour = colour, .width = 0.0, .marker = drawing::Marker::triangle} {}
+
+  void add(bool is_limit, double x, double y) {
+    drawing::Series& to = is_limit ? limits : others;
+    to.x.push_back(x);
+    to.y.push_back(y);
+  }
+
+  void draw(drawing::LineChart& chart) {
+    if (limits.x.empty())
+      others.label = std::exchange(limits.label, "");
+    for (drawing::Series* series : {&limits, &others})
+      if (!series->x.empty())
+        chart.series.push_back(std::move(*series));
+  }
+};
+
 /// A line from where it is zero to a little beyond the farthest of its points.
 drawing::Series drawn(const Line& line, double farthest, double y_unit, drawing::Colour colour) {
   const double end = line.intercept + 1.08 * (farthest - line.intercept);
@@ -87,7 +128,7 @@ drawing::Series drawn(const Line& line, double farthest, double y_unit, drawing:
 }
 
 void add_loops(const Contractility& state, drawing::Colour colour, drawing::LineChart& chart) {
-  drawing::Series points{.colour = colour, .width = 0.0, .marker = drawing::Marker::circle};
+  Points points(colour, "");
   double farthest = 0.0;
   for (std::size_t b = 0; b < state.beats.size(); ++b) {
     drawing::Series loop{
@@ -98,29 +139,25 @@ void add_loops(const Contractility& state, drawing::Colour colour, drawing::Line
     }
     chart.series.push_back(std::move(loop));
     const LoopPoint& point = state.end_systole.points[b];
-    points.x.push_back(point.volume / units::ml);
-    points.y.push_back(point.pressure / mmHg);
+    points.add(state.beats[b].is_limit, point.volume / units::ml, point.pressure / mmHg);
     farthest = std::max(farthest, point.volume);
   }
-  chart.series.push_back(std::move(points));
+  points.draw(chart);
   if (!std::isnan(state.end_systole.line.slope))
     chart.series.push_back(drawn(state.end_systole.line, farthest, mmHg, colour));
 }
 
 void add_works(const Contractility& state, drawing::Colour colour, drawing::LineChart& chart) {
-  drawing::Series points{.label = state_words(state),
-                         .colour = colour,
-                         .width = 0.0,
-                         .marker = drawing::Marker::circle};
+  Points points(colour, state_words(state));
   double farthest = 0.0;
   for (const LoadedBeat& beat : state.beats) {
     if (!beat.factors.is_preload())
       continue;
-    points.x.push_back(beat.measures.end_diastolic_volume / units::ml);
-    points.y.push_back(beat.measures.stroke_work / in_mmHg_ml);
+    points.add(beat.is_limit, beat.measures.end_diastolic_volume / units::ml,
+               beat.measures.stroke_work / in_mmHg_ml);
     farthest = std::max(farthest, beat.measures.end_diastolic_volume);
   }
-  chart.series.push_back(std::move(points));
+  points.draw(chart);
   if (!std::isnan(state.stroke_work.slope))
     chart.series.push_back(drawn(state.stroke_work, farthest, in_mmHg_ml, colour));
 }
@@ -169,23 +206,33 @@ drawing::Figure study_figure(std::span<const Contractility> family) {
   drawing::LineChart loops{.x = {"volume [ml]"}, .y = {"pressure [mmHg]"}};
   drawing::LineChart works{.x = {"end-diastolic volume [ml]"}, .y = {"stroke work [mmHg ml]"}};
   int category = 0;
+  std::vector<std::string> unfinished;
   for (const Contractility& state : family) {
+    if (const std::string words = words_of_unfinished(state.beats); !words.empty())
+      unfinished.push_back(fmt::format("{}: {}", state_words(state), words));
     const drawing::Colour colour = drawing::category(category++);
     add_loops(state, colour, loops);
     add_works(state, colour, works);
   }
   return {.panels = {{.title = "loops, end-systolic relation", .content = loops},
                      {.title = "preload-recruitable stroke work", .content = works}},
-          .panel_width = 380.0};
+          .panel_width = 380.0,
+          .footnote = unfinished.empty() ? ""
+                                         : fmt::format("{} (triangles); the lines rest on them",
+                                                       fmt::join(unfinished, "; "))};
 }
 
 std::string study_text(std::span<const Contractility> family,
                        std::span<const circulation::MissingBeat> missing) {
   std::string text;
-  for (const Contractility& state : family)
+  for (const Contractility& state : family) {
     text += fmt::format("  {}\n", state_words(state)) +
             line_text(state.end_systole.line, elastance_words) +
             line_text(state.stroke_work, work_words);
+    if (const std::string words = words_of_unfinished(state.beats); !words.empty())
+      text += fmt::format("    warning: {}, and these lines rest on them: {}\n", words,
+                          fmt::join(names_of_unfinished(state.beats), ", "));
+  }
   for (const circulation::MissingBeat& beat : missing)
     text += fmt::format("  {} has no beat: {}\n", beat.name, beat.why);
   return text;

@@ -17,10 +17,12 @@ namespace lv::report {
                                 std::span<const circulation::MissingBeat> missing = {});
 
 /// Loops with the end-systolic relations, and stroke work against end-diastolic volume with the
-/// lines of preload-recruitable stroke work; a colour per contractility and heart rate.
+/// lines of preload-recruitable stroke work; a colour per contractility and heart rate;
+/// beats that are no limit cycles are triangles, and a footnote counts them.
 [[nodiscard]] drawing::Figure study_figure(std::span<const circulation::Contractility> family);
 
-/// The lines with their units, and which cases have no beat.
+/// The lines with their units, which of their beats are no limit cycles, and which cases have no
+/// beat.
 [[nodiscard]] std::string study_text(std::span<const circulation::Contractility> family,
                                      std::span<const circulation::MissingBeat> missing = {});
 

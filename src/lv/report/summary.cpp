@@ -279,6 +279,7 @@ Json cycle_json(const heartbeat::Beat& beat) {
           {"was_cut_short", cycle.cut_short},
           {"leaps", cycle.leaps},
           {"largest_change_of_last_beat", number(cycle.change)},
+          {"change_to_come", cycle.to_come > 0.0 ? number(cycle.to_come) : Json()},
           {"last_beat", std::move(last)},
           {"last_activation_ms", latest_activation(beat)},
           {"largest_volume_gap", number(cycle.volume_gap)},

@@ -1,13 +1,17 @@
 #include "lv/circulation/cycle.hpp"
 
+#include "lv/base/interrupt.hpp"
 #include "lv/circulation/closed_loop.hpp"
 #include "lv/circulation/elastance.hpp"
 #include "lv/circulation/implicit_step.hpp"
 #include "lv/circulation/windkessel.hpp"
 
 #include <catch2/catch.hpp>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <cmath>
+#include <csignal>
 
 namespace {
 
@@ -105,6 +109,79 @@ TEST_CASE("a circulation comes to its limit cycle and stays there", "[unit][circ
     CHECK(last.aortic_opens > last.mitral_closes);
     CHECK(last.mitral_opens > last.aortic_closes);
   }
+}
+
+TEST_CASE("a circuit that fills slowly is no limit cycle where it starts", "[unit][circulation]") {
+  CircuitParameters p = quick(Kind::windkessel);
+  p.windkessel.C = 100.0 * compliance;  // 105 s with its resistance
+  const Cycle early = run_alone(p);
+  CHECK(early.change < 1e-3);
+  CHECK(early.beats.size() > 20);
+  p.start.p_ar_sys = 60.0 * mmHg;
+  p.beats = 1000;
+  const Cycle from_below = run_alone(p);
+  p.start.p_ar_sys = 150.0 * mmHg;
+  const Cycle from_above = run_alone(p);
+  for (const Cycle* cycle : {&from_below, &from_above}) {
+    CHECK(cycle->is_limit);
+    CHECK(cycle->to_come <= 1e-2);
+  }
+  CHECK(from_below.beats.back().aortic_mean ==
+        Approx(from_above.beats.back().aortic_mean).epsilon(2e-2));
+  CircuitParameters slower = quick(Kind::windkessel);
+  slower.windkessel.C = 1e4 * compliance;
+  slower.beats = 3;
+  const Cycle slow = run_alone(slower);
+  CHECK(slow.change < 1e-3);
+  CHECK_FALSE(slow.is_limit);
+}
+
+TEST_CASE("what is to come of a beat is what comes", "[unit][circulation]") {
+  for (const Kind kind : {Kind::windkessel, Kind::closed_loop}) {
+    CircuitParameters p = quick(kind);
+    if (kind == Kind::windkessel)
+      p.windkessel.C = 20.0 * compliance;
+    const Cycle to_tolerance = run_alone(p);
+    REQUIRE(to_tolerance.is_limit);
+    p.tolerance = 1e-8;
+    p.beats = 2000;
+    const Cycle in_the_end = run_alone(p);
+    const auto& there = to_tolerance.samples.back().signals;
+    const auto& end = in_the_end.samples.back().signals;
+    std::vector<double> a{there.volume, there.aortic_pressure};
+    std::vector<double> b{end.volume, end.aortic_pressure};
+    if (kind == Kind::closed_loop) {  // without the pressures of chambers, which are no states
+      for (const std::size_t i : {0U, 1U, 2U, 5U, 6U, 7U}) {
+        a.push_back(there.others.at(i));
+        b.push_back(end.others.at(i));
+      }
+    }
+    const double came = largest_change(a, b);
+    INFO(came << " came, " << to_tolerance.to_come << " was foretold");
+    CHECK(came <= 1.3 * to_tolerance.to_come);
+    if (kind == Kind::windkessel)
+      CHECK(came >= 0.7 * to_tolerance.to_come);
+  }
+}
+
+TEST_CASE("a circulation sees within a beat that it is to stop", "[unit][circulation]") {
+  const pid_t child = fork();
+  if (child == 0) {
+    lv::interrupt::install();
+    CircuitParameters p = quick(Kind::windkessel);
+    p.step = 1e-9;  // a beat takes hours
+    alarm(30);
+    std::raise(SIGTERM);
+    try {
+      static_cast<void>(run_alone(p));
+    } catch (const lv::Interrupted&) {
+      _exit(200);
+    }
+    _exit(0);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  CHECK((WIFEXITED(status) && WEXITSTATUS(status) == 200));
 }
 
 TEST_CASE("a closed circulation keeps its blood", "[unit][circulation]") {

@@ -86,6 +86,23 @@ TEST_CASE("a page of an empty work folder has its state and no wall", "[page]") 
   CHECK(page.find("\"wall\":") == std::string::npos);
 }
 
+TEST_CASE("two cases whose moments are not defined alike are told apart", "[page]") {
+  const test::TemporaryFolder folder;
+  std::vector<page::PageCase> cases;
+  for (const char* name : {"paper", "beats", "others"}) {
+    const std::filesystem::path beat = folder / name / "03_beat";
+    std::filesystem::create_directories(beat);
+    write_file(beat / "moments.csv", "moment,phase,time_s,by_criterion\n");
+    cases.push_back({folder / name, true, {}});
+  }
+  CHECK(page::unlike_moments({cases[0], cases[1]}).empty());
+  write_file(folder / "beats" / "03_beat" / "cycle.csv", "beat\n");
+  CHECK_THAT(page::unlike_moments({cases[0], cases[1]}), Catch::Contains("not defined alike"));
+  CHECK(page::unlike_moments({cases[1]}).empty());
+  write_file(folder / "others" / "03_beat" / "cycle.csv", "beat\n");
+  CHECK(page::unlike_moments({cases[1], cases[2]}).empty());
+}
+
 TEST_CASE("a page of frames without named moments says so", "[page]") {
   const test::TemporaryFolder folder;
   const std::filesystem::path beat = folder / "work" / "03_beat";

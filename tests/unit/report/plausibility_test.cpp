@@ -1,5 +1,7 @@
 #include "lv/report/plausibility.hpp"
 
+#include "lv/circulation/cycle.hpp"
+
 #include <catch2/catch.hpp>
 
 #include <algorithm>
@@ -37,6 +39,19 @@ report::JudgedBeat of(const analysis::Results& results) {
 }
 
 }  // namespace
+
+TEST_CASE("a circulation's beat that no patient has is said to be one", "[unit][report]") {
+  circulation::CircuitParameters p;
+  p.kind = circulation::Kind::windkessel;
+  p.step = 2e-3;
+  CHECK(report::unlike_any_patient(circulation::run_alone(p).beats.back()).empty());
+  p.windkessel.p_ven = 100.0 * units::mmHg;
+  const auto said = report::unlike_any_patient(circulation::run_alone(p).beats.back());
+  REQUIRE(said.size() == 3);
+  CHECK_THAT(said[0], Catch::Contains("peak pressure"));
+  CHECK_THAT(said[1], Catch::Contains("end-diastolic volume"));
+  CHECK_THAT(said[2], Catch::Contains("stroke volume"));
+}
 
 TEST_CASE("every range is a range, lies in what is possible and has a source", "[report]") {
   for (const report::PlausibleRange& range : report::plausible_ranges()) {
