@@ -49,7 +49,7 @@ std::string shows_none(const SliceBorders& slice, double usual) {
         100.0 * wall);
   if (slice.contrast < told * usual)
     return fmt::format(
-        "what muscle surrounds stands out from it {:.0f}% as much as the blood of most slices; the "
+        "blood is not told from muscle, they differ by {:.0f}% of what they do in most slices; the "
         "tip, or beyond it",
         100.0 * std::max(0.0, slice.contrast) / usual);
   return {};

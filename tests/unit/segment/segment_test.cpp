@@ -191,7 +191,7 @@ TEST_CASE("a slice is left out for the reason that decided", "[segment]") {
   const auto doubt = std::find_if(found.doubts.begin(), found.doubts.end(),
                                   [&](const std::string& d) { return d.starts_with(about); });
   REQUIRE(doubt != found.doubts.end());
-  CHECK_THAT(*doubt, Catch::Contains("as much as the blood of most slices"));
+  CHECK_THAT(*doubt, Catch::Contains("of what they do in most slices"));
 }
 
 TEST_CASE("volumes that rest on doubtful borders say so", "[segment]") {
