@@ -81,7 +81,7 @@ Table quality_table(const Segmentation& found) {
 }
 
 Table volumes_table(const Segmentation& found) {
-  Table table({"phase", "cavity_volume_ml", "wall_volume_ml", "slices"});
+  Table table({"phase", "cavity_volume_ml", "wall_volume_ml", "slices", "doubtful_part"});
   for (std::size_t t = 0; t < found.volumes.size(); ++t) {
     double whole = 0.0;
     int slices = 0;
@@ -91,7 +91,8 @@ Table volumes_table(const Segmentation& found) {
         ++slices;
       }
     table.add_row({std::to_string(t + 1), Table::number(1e-3 * found.volumes[t], 5),
-                   Table::number(1e-3 * (whole - found.volumes[t]), 5), std::to_string(slices)});
+                   Table::number(1e-3 * (whole - found.volumes[t]), 5), std::to_string(slices),
+                   fmt::format("{:.2f}", segment::doubtful_part(found, t))});
   }
   return table;
 }
@@ -271,11 +272,24 @@ std::size_t shape_frame(const Case& c, const CineSegmentation& segmentation) {
                                       : phases.early_diastole);
 }
 
+namespace {
+
+/// ", 40% of it in slices whose endocardium is doubtful"; empty where none is.
+std::string within_doubtful(const Segmentation& found, int frame) {
+  const double part = segment::doubtful_part(found, static_cast<std::size_t>(frame));
+  return part > 0.0
+             ? fmt::format(", {:.0f}% of it in slices whose endocardium is doubtful", 100.0 * part)
+             : "";
+}
+
+}  // namespace
+
 std::string describe(const CineSegmentation& segmentation) {
   const Segmentation& found = segmentation.found;
   const auto moment = [&](const char* name, int frame) {
-    return fmt::format("{}: phase {}, cavity {:.1f} ml\n", name, frame + 1,
-                       1e-3 * found.volumes[static_cast<std::size_t>(frame)]);
+    return fmt::format("{}: phase {}, cavity {:.1f} ml{}\n", name, frame + 1,
+                       1e-3 * found.volumes[static_cast<std::size_t>(frame)],
+                       within_doubtful(found, frame));
   };
   std::string text =
       moment("end-diastole", found.phases.end_diastole) +

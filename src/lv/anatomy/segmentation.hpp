@@ -57,7 +57,7 @@ struct Cines {
 ///
 ///   contours/phase_NN.csv  the borders of a phase, as anatomy.source = "contours" reads them
 ///   quality.csv            a row per slice and phase: areas, confidence of both borders, doubtful
-///   volumes.csv            cavity and muscle per phase, areas times spacing
+///   volumes.csv            cavity and muscle per phase, areas times spacing, and doubtful_part
 ///   pictures/phase_NN.png  all slices of a phase with their borders, long axes with their ends
 ///   landmarks/phase_NN.csv proposed_landmarks, as anatomy.contours.landmarks reads them, and
 ///   long_axis.csv          every end with its confidence; both only where there are long axes

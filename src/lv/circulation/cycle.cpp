@@ -62,10 +62,11 @@ class BeatMap {
  private:
   static constexpr double least_scale = 1e-6;  ///< [mm^3, kPa, mm^3/s]
   static constexpr double part = 1e-3;         ///< of a state, for differences
+  static constexpr int most_steps = 200;       ///< of a beat, which slopes need no finer
 
   [[nodiscard]] States after_beat(const States& begin) const {
     History<size> history{begin};
-    const int steps = steps_of_beat(p_);
+    const int steps = std::min(steps_of_beat(p_), most_steps);
     const double dt = p_.period / steps;
     for (int i = 1; i <= steps; ++i)
       take_step(circuit_, ventricle_, i * dt, dt, history);

@@ -221,7 +221,7 @@ std::vector<std::string> unlike_any_patient(const circulation::BeatMeasures& bea
   for (const OfPatients& m : all)
     if (m.value < m.low || m.value > m.high)
       sentences.push_back(fmt::format(
-          "the {} is {:.3g} {}, and no patient's is outside of {:.3g} to {:.3g} {}: check the "
+          "the {} is {:.4g} {}, and no patient's is outside of {:.3g} to {:.3g} {}: check the "
           "circulation's values and their units",
           m.label, m.value, m.unit, m.low, m.high, m.unit));
   return sentences;

@@ -9,6 +9,7 @@
 #include "lv/segment/grey_levels.hpp"
 #include "lv/segment/redraw_border.hpp"
 #include "lv/segment/smooth_border.hpp"
+#include "lv/segment/steady_in_time.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -119,28 +120,6 @@ Polar epicardial_cost(const Polar& values, const Radii& middle, const Levels& le
   return region * sum - edge.min(strongest) + forbid(distance_from(middle), 1.0, 14.0);
 }
 
-/// What each ray's radius is in time when single frames are left out that stand off: the median of
-/// the frame's own radius r, counted twice, of the straight lines through the two frames before and
-/// the two after it, and of the mean of its neighbours. Where the radius turns round, at
-/// end-diastole and end-systole, the lines lie beyond r and the mean within, and r stays; a median
-/// of neighbours alone would take a part of the stroke away.
-std::vector<Radii> steady_in_time(const std::vector<Radii>& lines) {
-  const int n = static_cast<int>(lines.size());
-  std::vector<Radii> result(lines);
-  for (int t = 0; t < n; ++t) {
-    const auto at = [&](int d) -> const Radii& {
-      return lines[static_cast<std::size_t>(((t + d) % n + n) % n)];
-    };
-    for (Eigen::Index i = 0; i < at(0).size(); ++i) {
-      const double r = at(0)(i);
-      result[static_cast<std::size_t>(t)](i) =
-          median({r, r, 2.0 * at(-1)(i) - at(-2)(i), 2.0 * at(1)(i) - at(2)(i),
-                  0.5 * (at(-1)(i) + at(1)(i))});
-    }
-  }
-  return result;
-}
-
 constexpr PathRule epicardial_rule{.reach = 1, .stiffness = 0.15};
 
 /// What it costs the epicardium to leave the place where it is expected.
@@ -151,12 +130,12 @@ Polar pull_to(const Radii& expected) {
 }
 
 /// The epicardium of all frames; the second and third time close to what the frames around it show.
-std::vector<Radii> epicardium(const std::vector<Polar>& costs) {
+std::vector<Radii> epicardium(const std::vector<Polar>& costs, const std::vector<double>& motion) {
   std::vector<Radii> lines;
   for (const Polar& cost : costs)
     lines.push_back(closed_path(cost, epicardial_rule, grid));
   for (int round = 0; round < 2; ++round) {
-    const std::vector<Radii> usual = steady_in_time(lines);
+    const std::vector<Radii> usual = steady_in_time(lines, motion);
     for (std::size_t t = 0; t < costs.size(); ++t)
       lines[t] = closed_path(costs[t] + pull_to(harmonics_of(usual[t], epi_harmonics)),
                              epicardial_rule, grid);
@@ -207,6 +186,7 @@ Radii wall_behind(const Polar& values, const Radii& line, Levels levels, double 
 struct Work {
   std::vector<Polar> values;
   std::vector<Radii> blood, middle, epi, endo;
+  std::vector<double> motion;  ///< of the blood's edge, see shared_motion
   Levels levels;
   double inside = 0.0;  ///< grey value of blood or, at the tip, of what is blood and muscle
 };
@@ -226,11 +206,23 @@ void find_middle(Work& work) {
   }
 }
 
+/// Sees in the blood's edges how far the motion stands off between frames.
+void see_motion(std::vector<Work>& work) {
+  std::vector<std::vector<double>> radii;
+  for (const Work& slice : work) {
+    radii.emplace_back();
+    for (const Radii& blood : slice.blood)
+      radii.back().push_back(blood.mean());
+  }
+  for (std::size_t s = 0; s < work.size(); ++s)
+    work[s].motion = shared_motion(radii, s);
+}
+
 void find_borders(Work& work, double fall) {
   std::vector<Polar> costs;
   for (std::size_t t = 0; t < work.values.size(); ++t)
     costs.push_back(epicardial_cost(work.values[t], work.middle[t], work.levels));
-  work.epi = epicardium(costs);
+  work.epi = epicardium(costs, work.motion);
   for (std::size_t t = 0; t < work.values.size(); ++t) {
     const Radii outside = harmonics_of(work.epi[t], epi_harmonics).min(work.middle[t] + 3.0);
     work.endo.push_back(endocardium(work.values[t], outside, work.levels, fall));
@@ -315,7 +307,7 @@ std::vector<Radii> drawn_endocardium(const Work& work, const std::vector<Radii>&
     const Radii expected = closed_straight(shape, seen, sees[t]);
     lines.push_back(convex(fit_border(endocardial_fit(seen, sees[t], expected))));
   }
-  return steady_in_time(lines);
+  return steady_in_time(lines, work.motion);
 }
 
 double part_within(const Radii& a, const Radii& b, double most) {
@@ -543,6 +535,7 @@ Drawn draw_borders(const image::Cine& cine, const Heart& heart, const std::optio
     interrupt::check();
     find_middle(slice);
   }
+  see_motion(work);
   Drawn drawn{{}, fall ? *fall : darkness_at_border(relative_edge_widths(cine, work))};
   for (Work& slice : work) {
     interrupt::check();

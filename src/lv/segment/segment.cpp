@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace lv::segment {
 namespace {
@@ -32,16 +33,32 @@ double usual_wall(const SliceBorders& slice) {
   return median(std::move(parts));
 }
 
-/// The slices round the seed that muscle surrounds and whose blood is told from it.
-Run walled_run(const std::vector<SliceBorders>& borders, std::size_t seed) {
-  constexpr double told = 0.5;  // of the usual contrast
+double usual_contrast(const std::vector<SliceBorders>& borders) {
   std::vector<double> contrasts;
   for (const SliceBorders& slice : borders)
     contrasts.push_back(slice.contrast);
-  const double usual = median(std::move(contrasts));
-  const auto belongs = [&](std::size_t s) {
-    return usual_wall(borders[s]) >= surrounded && borders[s].contrast >= told * usual;
-  };
+  return median(std::move(contrasts));
+}
+
+/// Why a slice by itself shows no ventricle; empty if it may show it.
+std::string shows_none(const SliceBorders& slice, double usual) {
+  constexpr double told = 0.5;  // of the usual contrast
+  if (const double wall = usual_wall(slice); wall < surrounded)
+    return fmt::format(
+        "muscle surrounds {:.0f}% of its blood; an atrium, the outflow tract or beyond the tip",
+        100.0 * wall);
+  if (slice.contrast < told * usual)
+    return fmt::format(
+        "blood is not told from muscle, they differ by {:.0f}% of what they do in most slices; the "
+        "tip, or beyond it",
+        100.0 * std::max(0.0, slice.contrast) / usual);
+  return {};
+}
+
+/// The slices round the seed that muscle surrounds and whose blood is told from it.
+Run walled_run(const std::vector<SliceBorders>& borders, std::size_t seed) {
+  const double usual = usual_contrast(borders);
+  const auto belongs = [&](std::size_t s) { return shows_none(borders[s], usual).empty(); };
   Run run{seed, seed};
   while (run.first > 0 && belongs(run.first - 1))
     --run.first;
@@ -174,13 +191,21 @@ std::string ranges(const std::vector<std::size_t>& numbers) {
   return text;
 }
 
-void doubt_ends(const std::vector<std::size_t>& slices, Segmentation& found) {
+/// Why a slice is left out: by itself, or for where it lies.
+std::string why_left_out(const std::vector<SliceBorders>& borders, const Run& run, std::size_t s) {
+  if (s >= run.first && s <= run.last)
+    return "its blood grows while that of the others shrinks; an atrium";
+  const std::string by_itself = shows_none(borders[s], usual_contrast(borders));
+  return by_itself.empty() ? fmt::format("it lies beyond slice {}, which shows no ventricle",
+                                         s < run.first ? run.first : run.last + 2)
+                           : by_itself;
+}
+
+void doubt_ends(const Run& run, const std::vector<std::size_t>& slices, Segmentation& found) {
   for (std::size_t s = 0; s < found.borders.size(); ++s)
     if (std::find(slices.begin(), slices.end(), s) == slices.end())
       found.doubts.push_back(
-          fmt::format("slice {} is left out: muscle surrounds {:.0f}% of its blood; an atrium, the "
-                      "outflow tract or beyond the tip",
-                      s + 1, 100.0 * usual_wall(found.borders[s])));
+          fmt::format("slice {} is left out: {}", s + 1, why_left_out(found.borders, run, s)));
   found.doubts.push_back(fmt::format(
       "slice {} is taken for the most basal one and slice {} for the most apical one, by rule: "
       "look whether a valve, an atrium or the tip is missed or taken in",
@@ -204,6 +229,16 @@ void doubt_borders(Segmentation& found) {
                         s + 1, side == &FrameBorders::endo_agrees ? "endocardium" : "epicardium",
                         frames.size() == 1 ? "" : "s", ranges(frames), least));
     }
+}
+
+void doubt_volumes(Segmentation& found) {
+  for (const auto& [name, frame] : {std::pair("end-diastole", found.phases.end_diastole),
+                                    {"end-systole", found.phases.end_systole}})
+    if (const double part = doubtful_part(found, static_cast<std::size_t>(frame)); part > 0.0)
+      found.doubts.push_back(fmt::format(
+          "{:.0f}% of the cavity at {} (phase {}) lies in slices whose endocardium is doubtful: so "
+          "are its volume and the ejection fraction",
+          100.0 * part, name, frame + 1));
 }
 
 void doubt_places(const Cine& cine, const std::vector<std::size_t>& slices, Segmentation& found) {
@@ -280,10 +315,18 @@ Segmentation segment(const Cine& cine, const SegmentParameters& parameters,
   found.volumes =
       volumes_of(found, [&](std::size_t s, std::size_t t) { return found.shows[s][t] != 0; });
   found.phases = phases_of(found);
-  doubt_ends(slices, found);
+  doubt_ends(run, slices, found);
   doubt_places(cine, slices, found);
   doubt_borders(found);
+  doubt_volumes(found);
   return found;
+}
+
+double doubtful_part(const Segmentation& found, std::size_t frame) {
+  const std::vector<double> doubted = volumes_of(found, [&](std::size_t s, std::size_t t) {
+    return found.shows[s][t] != 0 && found.borders[s].frames[t].endo_agrees < doubtful;
+  });
+  return found.volumes[frame] > 0.0 ? doubted[frame] / found.volumes[frame] : 0.0;
 }
 
 geometry::Contours contours_at(const Cine& cine, const Segmentation& found, std::size_t frame) {

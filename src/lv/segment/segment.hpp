@@ -54,6 +54,9 @@ void require_cine(const image::Cine& cine, const std::string& where);
 [[nodiscard]] Segmentation segment(const image::Cine& cine, const SegmentParameters& parameters,
                                    const std::string& where);
 
+/// The part of a frame's cavity volume that lies in slices whose endocardium is doubtful, 0 to 1.
+[[nodiscard]] double doubtful_part(const Segmentation& found, std::size_t frame);
+
 /// The loops of a frame, slices counted from 1 in the cine's order.
 [[nodiscard]] geometry::Contours contours_at(const image::Cine& cine, const Segmentation& found,
                                              std::size_t frame);

@@ -83,6 +83,27 @@ TEST_CASE("a circuit that leaps keeps its blood and the ventricle's volume",
   }
 }
 
+TEST_CASE("a stand-in tells what is to come of a circuit that fills slowly",
+          "[unit][circulation]") {
+  CircuitParameters p;
+  p.kind = Kind::windkessel;
+  p.step = 2e-3;
+  p.windkessel.C = 100.0 * compliance;
+  const std::vector<double> begin = states_at_end(p, 2);
+  const std::vector<double> end = states_at_end(p, 3);
+  CircuitParameters three_beats = p;
+  three_beats.beats = 3;
+  const Cycle beats = run_alone(three_beats);
+  const BeatenStates beaten{begin, end, samples_of(beats, 2), beats.beats.back()};
+  const double came = largest_change(end, states_at_end(p, 1000));
+  CHECK(largest_change(begin, end) < 1e-3);
+  CHECK(came > 0.02);
+  CHECK(change_to_come(p, p.step, beaten) == Approx(came).epsilon(0.4));
+  BeatMeasures none;
+  none.end_diastolic_volume = std::nan("");
+  CHECK(change_to_come(p, p.step, {begin, end, samples_of(beats, 2), none}) == 1.0);
+}
+
 TEST_CASE("the limit cycle is foretold from one beat that is far from it", "[unit][circulation]") {
   CircuitParameters p = published_loop();
   p.start.p_ven_sys *= 1.4;  // where the blood takes long to come from

@@ -156,6 +156,61 @@ TEST_CASE("a phantom with papillary muscles, noise and shifts is segmented to 3%
     try_phantom(seed);
 }
 
+TEST_CASE("end-systole that one of few frames shows is as small as in many", "[segment]") {
+  for (const int phases : {5, 6}) {
+    phantom::Scan scan = test::noisy_scan(1);
+    scan.phases = phases;
+    const test::KnownCine known = test::phantom_study("phantom", scan, 0.0);
+    const segment::Segmentation found = segment::segment(known.cine, {}, "phantom");
+    CHECK(found.phases.end_systole == known.end_systole);
+    for (const int frame : {known.end_diastole, known.end_systole}) {
+      const Agreement endo =
+          agreement(segment::contours_at(known.cine, found, static_cast<std::size_t>(frame)),
+                    known.truth.at(frame), Side::endo);
+      tell(fmt::format("phantom of {} phases, phase {}, endocardium", phases, frame + 1), endo);
+      CHECK(std::abs(endo.volume) < 0.03);
+      CHECK(endo.pooled > 0.95);
+    }
+  }
+}
+
+TEST_CASE("a slice is left out for the reason that decided", "[segment]") {
+  phantom::Scan scan = test::noisy_scan(1);
+  scan.phases = 5;
+  image::Cine cine = test::phantom_study("phantom", scan, 0.0).cine;
+  const segment::Segmentation whole = segment::segment(cine, {}, "phantom");
+  // the slice at an end loses most of its contrast
+  std::size_t end = 0;
+  while (whole.shows[end][0] == 0)
+    ++end;
+  for (image::Picture& picture : cine.slices[end].frames)
+    for (float& value : picture.values)
+      value = 100.0F + 0.1F * value;
+  const segment::Segmentation found = segment::segment(cine, {}, "phantom");
+  const std::string about = fmt::format("slice {} is left out: ", end + 1);
+  const auto doubt = std::find_if(found.doubts.begin(), found.doubts.end(),
+                                  [&](const std::string& d) { return d.starts_with(about); });
+  REQUIRE(doubt != found.doubts.end());
+  CHECK_THAT(*doubt, Catch::Contains("of what they do in most slices"));
+}
+
+TEST_CASE("volumes that rest on doubtful borders say so", "[segment]") {
+  segment::Segmentation found;
+  found.spacing = 8.0;
+  segment::SliceBorders slice;
+  slice.frames.resize(1);
+  slice.frames.front().endo = segment::Radii::Constant(72, 20.0);
+  slice.frames.front().endo_agrees = 1.0;
+  found.borders.assign(4, slice);
+  found.shows.assign(4, {1});
+  found.volumes = {4.0 * 8.0 * segment::area(slice.frames.front().endo)};
+  CHECK(segment::doubtful_part(found, 0) == 0.0);
+  found.borders[1].frames.front().endo_agrees = 0.5;
+  found.borders[3].frames.front().endo_agrees = 0.5;
+  found.shows[3][0] = 0;  // does not count
+  CHECK(segment::doubtful_part(found, 0) == Approx(0.25));
+}
+
 TEST_CASE("trabeculae of a phantom are taken into the cavity", "[segment]") {
   try_trabeculae(1);
 }

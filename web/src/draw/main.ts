@@ -81,7 +81,7 @@ function build(study: SaidStudy): { editor: Editor; scar: ScarEditor | undefined
   canvas.setAttribute("aria-describedby", "where");
   const look = () => {
     where.textContent = statusWords(editor);
-    curve.show(drawing.lines, editor.phase);
+    curve.show(drawing, editor.phase);
     map.point(editor.slice, editor.phase);
     for (const bar of bars) bar.show();
   };

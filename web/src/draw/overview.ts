@@ -113,9 +113,17 @@ export class VolumeCurve {
     this.proposed = volumes(proposal, study.phases, study.spacing);
   }
 
-  show(lines: Map<string, Line>, phase: number): void {
+  /** How much of a phase's volume lies in slices whose endocardium is doubtful. */
+  private doubted(drawing: Drawing, phase: number): string {
+    const doubtful = doubtfulKeys(drawing, this.study.doubtful).map(({ key }) => key)
+      .filter((key) => ofKey(key).side === "endo" && ofKey(key).phase === phase);
+    const within = volumes(new Map(doubtful.map((key) => [key, drawing.lines.get(key)!])), this.study.phases, this.study.spacing)[phase - 1];
+    return within > 0 ? `, ${(100 * within / this.now[phase - 1]).toFixed(0)}% of it doubtful` : "";
+  }
+
+  show(drawing: Drawing, phase: number): void {
     const { phases, spacing } = this.study;
-    this.now = volumes(lines, phases, spacing);
+    this.now = volumes(drawing.lines, phases, spacing);
     const most = 1.08 * Math.max(...this.now, ...this.proposed, 1);
     const x = (t: number) => left + (chartWidth - left - 8) * t / Math.max(phases - 1, 1);
     const y = (v: number) => 6 + (chartHeight - bottom - 6) * (1 - v / most);
@@ -132,8 +140,8 @@ export class VolumeCurve {
       svg("path", { d: curve(this.now), fill: "none", stroke: "var(--accent)", "stroke-width": 2, class: "now" }),
       svg("circle", { cx: x(phase - 1), cy: y(this.now[phase - 1]), r: 4.5, fill: "var(--accent)" }));
     const [largest, smallest] = [Math.max(...this.now), Math.min(...this.now)];
-    const words = `${this.now[phase - 1].toFixed(1)} ml at phase ${phase}; largest ${largest.toFixed(1)} ml (phase ${this.now.indexOf(largest) + 1}), smallest ${smallest.toFixed(1)} ml (phase ${
-      this.now.indexOf(smallest) + 1}), ejection fraction ${largest > 0 ? (100 * (1 - smallest / largest)).toFixed(0) : "–"}%`;
+    const at = (v: number) => `${v.toFixed(1)} ml (phase ${this.now.indexOf(v) + 1}${this.doubted(drawing, this.now.indexOf(v) + 1)})`;
+    const words = `${this.now[phase - 1].toFixed(1)} ml at phase ${phase}; largest ${at(largest)}, smallest ${at(smallest)}, ejection fraction ${largest > 0 ? (100 * (1 - smallest / largest)).toFixed(0) : "–"}%`;
     this.figures.textContent = words;
     this.chart.setAttribute("aria-label", words);
   }
