@@ -323,10 +323,12 @@ Segmentation segment(const Cine& cine, const SegmentParameters& parameters,
 }
 
 double doubtful_part(const Segmentation& found, std::size_t frame) {
+  if (!(found.volumes[frame] > 0.0))
+    return 0.0;
   const std::vector<double> doubted = volumes_of(found, [&](std::size_t s, std::size_t t) {
     return found.shows[s][t] != 0 && found.borders[s].frames[t].endo_agrees < doubtful;
   });
-  return found.volumes[frame] > 0.0 ? doubted[frame] / found.volumes[frame] : 0.0;
+  return doubted[frame] / found.volumes[frame];
 }
 
 geometry::Contours contours_at(const Cine& cine, const Segmentation& found, std::size_t frame) {
