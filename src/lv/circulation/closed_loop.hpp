@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 
 namespace lv::circulation {
 
@@ -48,11 +49,12 @@ class ClosedLoop {
         ra_(p_.right_atrium, period),
         rv_(p_.right_ventricle, period) {}
 
-  /// With as much blood as the parameters say.
+  /// With as much blood as the parameters say, if the left ventricle's volume is known: that of a
+  /// wall is not before it has been filled.
   [[nodiscard]] States<double> start(const Start& s) const {
     States<double> y{s.V_lv,     s.V_la,      s.V_ra,     s.V_rv,      s.p_ar_sys, s.p_ven_sys,
                      s.p_ar_pul, s.p_ven_pul, s.Q_ar_sys, s.Q_ven_sys, s.Q_ar_pul, s.Q_ven_pul};
-    if (p_.blood > 0.0)
+    if (p_.blood > 0.0 && !std::isnan(s.V_lv))
       fill_to(p_.blood, y);
     return y;
   }

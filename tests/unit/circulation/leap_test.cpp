@@ -104,6 +104,18 @@ TEST_CASE("a stand-in tells what is to come of a circuit that fills slowly",
   CHECK(change_to_come(p, p.step, {begin, end, samples_of(beats, 2), none}) == 1.0);
 }
 
+TEST_CASE("a loop joined to a wall has its blood once the wall's volume is known",
+          "[unit][circulation]") {
+  CircuitParameters p = published_loop();
+  const double filling = Circuit(p).signals(0.0, 0.0).filling_pressure;
+  p.closed_loop.blood = 1350.0 * ml;
+  p.start.V_lv = std::nan("");
+  Circuit circuit(p);
+  CHECK(circuit.signals(0.0, 0.0).filling_pressure == Approx(filling));
+  circuit.start_around(130.0 * ml);
+  CHECK(circuit.blood() == Approx(1350.0 * ml).epsilon(1e-12));
+}
+
 TEST_CASE("the limit cycle is foretold from one beat that is far from it", "[unit][circulation]") {
   CircuitParameters p = published_loop();
   p.start.p_ven_sys *= 1.4;  // where the blood takes long to come from
