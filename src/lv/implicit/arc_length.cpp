@@ -103,7 +103,7 @@ class Follower {
     if (!factorise(guess))
       return {};
     const int before = corrections_;
-    const std::optional<Balance> end =
+    std::optional<Balance> end =
         corrected(std::move(guess), {std::vector<double>(response_.size(), 0.0), 1.0});
     corrections_ += before;
     return end;
@@ -185,7 +185,7 @@ class Follower {
     auto b = tangent_.solve(slope);
     if (!b)
       return false;
-    response_ = std::move(*b);
+    response_ = *b;
     return true;
   }
 
@@ -223,7 +223,7 @@ class Follower {
     auto against = tangent_.solve(R);
     if (!against)
       return {};
-    Change change{std::move(*against), 0.0};
+    Change change{*against, 0.0};
     change.share =
         product(t.u, change.u) / (load_scale * load_scale * t.share + product(t.u, response_));
     for (std::size_t k = 0; k < change.u.size(); ++k)

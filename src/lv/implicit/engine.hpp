@@ -46,7 +46,7 @@ class Engine {
   /// muscle gives way (give_way), a few times; where that fails too its path is followed by its
   /// length (follow_path), past limit points. Else the engine stays at the last equilibrium, and
   /// says where the path turned.
-  Outcome<double> go_to(const Loads& loads, const std::function<void(const Step&)>& observe = {});
+  Outcome<double> go_to(const Loads& target, const std::function<void(const Step&)>& observe = {});
 
   /// Replaces the muscle and finds the equilibrium under the same loads, at once if Newton's method
   /// manages, elements that are held harder do or contracting muscle gives way, else all the way
