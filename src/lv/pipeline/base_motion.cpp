@@ -15,21 +15,17 @@ Case with_base_of_cine(Case c, const std::filesystem::path& strain) {
   return c;
 }
 
-namespace {
-
-heartbeat::MeasuredMotion read(const Case& c) {
+heartbeat::MeasuredMotion measured_base_motion(const Case& c) {
   return heartbeat::read_motion(
       {case_file::beside(c, c.base_motion.file).string(), c.circulation.period});
 }
-
-}  // namespace
 
 heartbeat::BaseMotion base_motion(const Case& c, const mesh::Mesh& mesh) {
   if (c.base_motion.file.empty())
     return {};
   const double period = c.circulation.period;
   const bool has_atria = c.circulation.kind == circulation::Kind::closed_loop;
-  return {read(c),
+  return {measured_base_motion(c),
           solid::base_frame(mesh, c.regions.septum_angle),
           {period, has_atria ? c.circulation.left_ventricle.t_C : 0.0, c.base_motion.zero}};
 }
@@ -39,7 +35,7 @@ std::string base_away_from_apex(const Case& c) {
     return "";
   double towards = 0.0;
   double away = 0.0;
-  const std::vector<solid::BasePose> poses = read(c).poses;
+  const std::vector<solid::BasePose> poses = measured_base_motion(c).poses;
   for (const solid::BasePose& p : poses) {
     towards = std::max(towards, p.axial - poses.front().axial);
     away = std::max(away, poses.front().axial - p.axial);

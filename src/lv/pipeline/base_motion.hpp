@@ -12,13 +12,16 @@ namespace lv::pipeline {
 [[nodiscard]] case_file::Case with_base_of_cine(case_file::Case c,
                                                 const std::filesystem::path& strain);
 
+/// The table base.motion_file of a case that has one. Throws InputError for one that does not hold
+/// a beat of the case (heartbeat::read_motion).
+[[nodiscard]] heartbeat::MeasuredMotion measured_base_motion(const case_file::Case& c);
+
 /// How the base of a case moves over a beat, as the table base.motion_file says; one that stays
-/// without it. Throws InputError for a table that does not hold a beat of the case
-/// (heartbeat::read_motion).
+/// without it. Throws InputError as measured_base_motion.
 [[nodiscard]] heartbeat::BaseMotion base_motion(const case_file::Case& c, const mesh::Mesh& mesh);
 
 /// What is odd about that table, in words: a base that goes away from the apex instead of towards
-/// it. Throws InputError as base_motion.
+/// it. Throws InputError as measured_base_motion.
 [[nodiscard]] std::string base_away_from_apex(const case_file::Case& c);
 
 }  // namespace lv::pipeline

@@ -10,8 +10,8 @@
 #include "lv/case_file/parameters.hpp"
 #include "lv/circulation/circuit.hpp"
 #include "lv/circulation/cycle.hpp"
-#include "lv/heartbeat/base_motion.hpp"
 #include "lv/heartbeat/cycle.hpp"
+#include "lv/pipeline/base_motion.hpp"
 #include "lv/pipeline/beat_result.hpp"
 #include "lv/pipeline/calibration.hpp"
 #include "lv/report/study_tables.hpp"
@@ -215,8 +215,7 @@ int check_study(const Case& c) {
   for (const Member& member : members) {
     const Case there = case_file::under(member.factors, c);
     if (!there.base_motion.file.empty())  // of one period, if it has times in seconds
-      static_cast<void>(heartbeat::read_motion(
-          {case_file::beside(there, there.base_motion.file).string(), there.circulation.period}));
+      static_cast<void>(measured_base_motion(there));
   }
   return c.study.asked() ? static_cast<int>(members.size()) : 0;
 }
