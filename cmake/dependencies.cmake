@@ -19,6 +19,8 @@ target_compile_definitions(PkgConfig::MPI INTERFACE OMPI_SKIP_MPICXX)
 
 find_package(Boost 1.74 REQUIRED)  # headers alone: the R-tree
 
+find_path(LAPACKE_INCLUDE lapacke.h REQUIRED)
+find_library(LAPACKE lapacke REQUIRED)
 find_path(METIS_INCLUDE metis.h REQUIRED)
 find_library(METIS metis REQUIRED)
 pkg_check_modules(PETSC REQUIRED IMPORTED_TARGET PETSc)

@@ -4,7 +4,7 @@
 set -e
 packages="g++ cmake ninja-build pkg-config openmpi-bin libopenmpi-dev libfftw3-dev libfftw3-mpi-dev
   libeigen3-dev libxsimd-dev libboost-dev libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libspdlog-dev
-  libfmt-dev libmetis-dev libpetsc-real-dev libopenblas0-pthread libvtk9-dev libinsighttoolkit5-dev libgdcm-dev libmatio-dev libpugixml-dev libminizip-dev zlib1g-dev libcairo2-dev fonts-dejavu-core"
+  libfmt-dev libmetis-dev libpetsc-real-dev libopenblas0-pthread liblapacke-dev libvtk9-dev libinsighttoolkit5-dev libgdcm-dev libmatio-dev libpugixml-dev libminizip-dev zlib1g-dev libcairo2-dev fonts-dejavu-core"
 case "$1" in
   --tests)
     packages="$packages catch2 libsundials-dev python3 python3-pandas python3-meshio python3-pydicom python3-nibabel python3-scipy clang-format clang-tidy chromium man-db"

@@ -6,8 +6,8 @@
 
 #include <vector>
 
-/// Solutions of small dense problems. Eigen's decompositions are templates that take a compiler
-/// seconds each; those that several rooms need stand compiled here, once.
+/// Solutions of small dense problems, by LAPACK: templates for them take a compiler seconds each.
+/// Where there is no solution, or a number is none, neither are those of the result.
 namespace lv::dense {
 
 /// Numbers as a vector.

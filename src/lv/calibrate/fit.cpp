@@ -37,10 +37,11 @@ constexpr double weight_of_edv = 1e3;
 /// The same, below it, for a shape of end-diastole; and how V0 weighs against them.
 constexpr std::array<double, 2> ratios_below{0.25, 0.5};
 constexpr double weight_of_unloaded = 3.0;
-constexpr double rough = 0.03;                // a first V0, as a fraction
-constexpr double rough_esv = 0.02;            // of ln(V/V_target), with a first T_scale
-constexpr double first_stiffness = 2.0;       // stiff walls are unloaded more easily
-constexpr double shortest_step = 5e-3;        // of the logarithms of scale and exponent
+constexpr double rough = 0.03;           // a first V0, as a fraction
+constexpr double rough_esv = 0.02;       // of ln(V/V_target), with a first T_scale
+constexpr double first_stiffness = 2.0;  // stiff walls are unloaded more easily
+constexpr double shortest_step = 5e-3;   // of the logarithms of scale and exponent
+constexpr double shortest_of_strains = 1e-4;
 constexpr double unloaded_difference = 0.05;  // unloading leaves volumes scattered
 
 /// First steps of a bracket.
@@ -260,10 +261,9 @@ class Fitter {
       weighted[0] *= weight_of_unloaded;
       return weighted;
     };
-    const auto minimum =
-        broyden_least_squares(residuals, logs.start, logs.low, logs.high,
-                              {unloaded_difference, longest_step, shortest_step, fit_.slopes,
-                               [&](double n) { forecast_.expect(n); }});
+    const auto minimum = least_squares(residuals, logs.start, logs.low, logs.high,
+                                       {unloaded_difference, longest_step, shortest_step,
+                                        fit_.slopes, [&](double n) { forecast_.expect(n); }});
     p = moved_to(fitted, minimum.value().x);
     fit_.slopes = minimum->slopes;
     // where no exponent brings the curve near, V0 must not pay for it
@@ -373,30 +373,28 @@ class Fitter {
     return r;
   }
 
-  /// Levenberg-Marquardt in the logarithms of the parameters.
+  /// By the logarithms of the parameters.
   void fit_strains(const std::vector<Fitted>& fitted) {
     begin(of_strains);
-    const auto n = static_cast<Eigen::Index>(fitted.size());
-    Eigen::VectorXd start(n), low(n), high(n);
-    for (Eigen::Index j = 0; j < n; ++j) {
-      const Range& range = range_of(fitted[j]);
-      start[j] = std::log(fit_.parameters.*fitted[j].member);
-      low[j] = std::log(range.low) - start[j];
-      high[j] = std::log(range.high) - start[j];
-    }
-    const auto parameters = [&](const Eigen::VectorXd& x) {
-      FitParameters p = fit_.parameters;
-      for (Eigen::Index j = 0; j < n; ++j)
-        p.*fitted[j].member = std::exp(start[j] + x[j]);
-      return p;
-    };
+    const Logarithms logs = logarithms(fitted);
     const Minimum minimum =
-        least_squares([&](const Eigen::VectorXd& x) { return weighted_residuals(parameters(x)); },
-                      Eigen::VectorXd::Zero(n), low, high, difference, longest_step);
-    fit_.parameters = parameters(minimum.x);
+        least_squares(
+            [&](const Eigen::VectorXd& x) { return weighted_residuals(moved_to(fitted, x)); },
+            logs.start, logs.low, logs.high,
+            {.difference = difference,
+             .longest = longest_step,
+             .shortest = shortest_of_strains,
+             .confirms = true})
+            .value();
+    if (!minimum.is_found)
+      throw NoSolution(
+          fmt::format("The fit to strains did not come to an end in {} equilibria, |r| = {:.4g}",
+                      minimum.evaluations, minimum.r.norm()),
+          "Fit fewer parameters, or start nearer to the values that are expected");
+    fit_.parameters = moved_to(fitted, minimum.x);
     StrainFit& s = fit_.strain_fit.emplace();
     s.chi_squared = minimum.r.squaredNorm();
-    s.degrees_of_freedom = static_cast<int>(minimum.r.size() - n);
+    s.degrees_of_freedom = static_cast<int>(minimum.r.size() - minimum.x.size());
   }
 
   [[nodiscard]] const Range& range_of(const Fitted& which) const {

@@ -118,7 +118,7 @@ struct Fit {
 ///
 ///   sum_k [(V_k/V_k,measured - 1)/sigma_V]^2 + sum_i [(E_i - E_i,measured)/sigma_E]^2,
 ///
-/// by Levenberg-Marquardt in their logarithms (the points of the Klotz curve count as volumes). It
+/// by Gauss-Newton steps in their logarithms (least_squares.hpp) (the points of the Klotz curve count as volumes). It
 /// need not meet the volumes within the tolerance.
 ///
 /// Throws OutOfReach for a volume out of reach and NoSolution when a fitted model misses the

@@ -1,13 +1,12 @@
 #include "lv/image/plane_mask.hpp"
 
-#include <itkBinaryFillholeImageFilter.h>
 #include <itkConnectedComponentImageFilter.h>
 #include <itkContourExtractor2DImageFilter.h>
 #include <itkImage.h>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <span>
 #include <utility>
 
 namespace lv::image {
@@ -27,13 +26,23 @@ Image::Pointer to_itk(const PlaneMask& mask) {
   return image;
 }
 
-template <class ItkImage, class Chosen>
-PlaneMask from_itk(const ItkImage& image, int columns, int rows, const Chosen& chosen) {
+using Labels = itk::Image<unsigned, 2>;
+
+/// Numbers from 1 of the parts that hang together along edges, 0 outside them.
+itk::ConnectedComponentImageFilter<Image, Labels>::Pointer labelled(const Image* image) {
+  const auto filter = itk::ConnectedComponentImageFilter<Image, Labels>::New();
+  filter->SetInput(image);
+  filter->Update();
+  return filter;
+}
+
+template <class Chosen>
+PlaneMask from_itk(const Labels& labels, int columns, int rows, const Chosen& chosen) {
   PlaneMask mask(columns, rows);
   for (int j = 0; j < rows; ++j)
     for (int i = 0; i < columns; ++i)
       mask.inside[static_cast<std::size_t>(j) * columns + i] =
-          chosen(image.GetPixel({i + 1, j + 1})) ? 1 : 0;
+          chosen(labels.GetPixel({i + 1, j + 1})) ? 1 : 0;
   return mask;
 }
 
@@ -44,10 +53,7 @@ std::size_t PlaneMask::count() const {
 }
 
 std::vector<PlaneMask> parts(const PlaneMask& mask) {
-  using Labels = itk::Image<unsigned, 2>;
-  const auto filter = itk::ConnectedComponentImageFilter<Image, Labels>::New();
-  filter->SetInput(to_itk(mask));
-  filter->Update();
+  const auto filter = labelled(to_itk(mask));
   const auto count = static_cast<unsigned>(filter->GetObjectCount());
   std::vector<PlaneMask> found;
   for (unsigned label = 1; label <= count; ++label)
@@ -59,13 +65,15 @@ std::vector<PlaneMask> parts(const PlaneMask& mask) {
 }
 
 PlaneMask filled(const PlaneMask& mask) {
-  const auto filter = itk::BinaryFillholeImageFilter<Image>::New();
-  filter->SetInput(to_itk(mask));
-  filter->SetForegroundValue(1);
-  filter->FullyConnectedOff();
-  filter->Update();
-  return from_itk(*filter->GetOutput(), mask.columns, mask.rows,
-                  [](unsigned char value) { return value == 1; });
+  const Image::Pointer around = to_itk(mask);
+  for (unsigned char& pixel :
+       std::span(around->GetBufferPointer(), around->GetPixelContainer()->Size()))
+    pixel = 1 - pixel;
+  const auto filter = labelled(around);
+  const Labels& labels = *filter->GetOutput();
+  const unsigned outside = labels.GetPixel({0, 0});
+  return from_itk(labels, mask.columns, mask.rows,
+                  [outside](unsigned label) { return label != outside; });
 }
 
 PixelLoop outline(const PlaneMask& mask) {
