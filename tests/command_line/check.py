@@ -54,6 +54,8 @@ def check_way(folder):
     check("the last line says costs, warnings and the next command",
           "immersed about" in last and "quasi_static about" in last and "septum assumed" in last
           and last.endswith(f"next: ventricle run {case}"), last)
+    check("and before it which part it was at", all(part in valid.stdout for part in (
+        "anatomy ...", "mesh ...", "trying steps of the immersed engine ...", "trying a load step of the quasi-static engine ...")), valid.stdout[:400])
     check("nothing is coloured in a pipe", "\033" not in valid.stdout + valid.stderr)
     dry = ventricle("run", case, "--dry-run")
     check("a dry run says what would run, and runs nothing",

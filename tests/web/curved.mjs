@@ -1,5 +1,6 @@
 // How the page draws quadratic elements: the drawn nodes lie where the elements' shape functions put them, neighbours share theirs,
-// a section has the area that the curved wall has and the outline that its surface has.   exit code 77: skipped
+// a section has the area that the curved wall has and the outline that its surface has. How it draws a surface roughly: with fewer corners
+// of its own, edges and thin walls as they are.   exit code 77: skipped
 import { existsSync } from "node:fs";
 import { createRequire } from "node:module";
 import { join } from "node:path";
@@ -11,9 +12,9 @@ if (!existsSync(join(web, "node_modules/esbuild"))) {
   process.exit(77);
 }
 const { buildSync } = createRequire(join(web, "/"))("esbuild");
-const { outputFiles } = buildSync({ stdin: { contents: `export * from "./src/curved.ts"; export * from "./src/section.ts";`, resolveDir: web },
+const { outputFiles } = buildSync({ stdin: { contents: `export * from "./src/curved.ts"; export * from "./src/section.ts"; export * from "./src/rougher.ts";`, resolveDir: web },
   bundle: true, format: "esm", write: false });
-const { DrawnWall, cutWall, atPoints, outline } = await import(`data:text/javascript;base64,${Buffer.from(outputFiles[0].contents).toString("base64")}`);
+const { DrawnWall, cutWall, atPoints, outline, rougher, triangles } = await import(`data:text/javascript;base64,${Buffer.from(outputFiles[0].contents).toString("base64")}`);
 
 let failed = 0;
 function check(claim, holds, detail = "") {
@@ -121,5 +122,50 @@ const places = both.at(tets.positions, 3);
 // x = a + a^2 of the place a, which the elements' polynomials repeat exactly: a is known from the straight field
 const straight = both.at(Float32Array.from(tets.positions.slice(0, m), (v) => (Math.sqrt(1 + 4 * v) - 1) / 2));
 check("quadratic tetrahedra: drawn nodes lie on x = a + a^2", n > m + 20 && straight.every((a, i) => Math.abs(places[i] - a - a * a) < 1e-4), n);
+/** The surface of a tube of radius 20 and 22 and height 30, in faces of about 1 x 1. */
+function tube() {
+  const [around, up] = [130, 30];
+  const nodes = [];
+  const faces = [];
+  const ring = (r, z) => nodes.push(...Array.from({ length: around }, (_, i) => [r * Math.cos((2 * Math.PI * i) / around), r * Math.sin((2 * Math.PI * i) / around), z])) - around;
+  const band = (below, above) => { for (let i = 0; i < around; ++i) faces.push(below + i, below + ((i + 1) % around), above + ((i + 1) % around), above + i); };
+  const [outer, inner] = [22, 20].map((r) => Array.from({ length: up + 1 }, (_, k) => ring(r, k)));
+  for (let k = 0; k < up; ++k) { band(outer[k], outer[k + 1]); band(inner[k + 1], inner[k]); }
+  band(outer[up], inner[up]);
+  band(inner[0], outer[0]);
+  return { faces: Int32Array.from(faces), at: (node) => nodes[node] };
+}
+
+/** Enclosed by triangles that face outwards. */
+function volume({ nodes }, at) {
+  let sum = 0;
+  for (let t = 0; t < nodes.length; t += 3) {
+    const [a, b, c] = [0, 1, 2].map((i) => at(nodes[t + i]));
+    sum += (a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0])) / 6;
+  }
+  return sum;
+}
+
+const { faces, at: place } = tube();
+const smooth = triangles(faces, 4);
+const coarse = rougher(smooth, place, 3.2);
+check("a rough surface has less than a third of the triangles", coarse.faces.length < smooth.faces.length / 3 && coarse.nodes.length === 3 * coarse.faces.length,
+  `${coarse.faces.length} ${smooth.faces.length}`);
+check("its corners are the surface's own", [...coarse.nodes].every((node) => faces.includes(node)));
+const radiiOf = [...new Set(coarse.nodes)].map((node) => Math.hypot(...place(node).slice(0, 2)));
+check("both sides of a wall of 2 mm and its ends stay where they are", [20, 22].every((r) => radiiOf.some((one) => Math.abs(one - r) < 1e-9)) &&
+  [0, 30].every((z) => [...coarse.nodes].some((node) => place(node)[2] === z)));
+const [full, less] = [smooth, coarse].map((one) => volume(one, place));
+check("what it encloses differs by less than 5% (chords of 4 mm lie 0.1 mm off a radius of 20 mm)", Math.abs(less / full - 1) < 0.05, `${less} ${full}`);
+const sidesOf = new Map();
+for (let t = 0; t < coarse.nodes.length; t += 3)
+  for (const [i, j] of [[0, 1], [1, 2], [2, 0]]) {
+    const key = [coarse.nodes[t + i], coarse.nodes[t + j]];
+    const name = [...key].sort((p, q) => p - q).join();
+    sidesOf.set(name, (sidesOf.get(name) ?? 0) + (key[0] < key[1] ? 1 : -1));
+  }
+check("and it has no hole", [...sidesOf.values()].every((count) => count === 0));
+check("corners far apart stay as they are", rougher(smooth, place, 0.2).nodes.join() === smooth.nodes.join());
+
 console.log(`${failed} failed`);
 process.exit(failed ? 1 : 0);

@@ -157,6 +157,8 @@ export async function checkMixed() {
   check("beside a case without images one with them shows them, the other says so",
     (await page.locator("#outlines .missing").count()) === 1 && (await page.locator("#strain .missing").count()) === 1 && said.length === 0, said.join("\n"));
   const axes = await page.locator("#curves svg.chart").evaluateAll((all) => all.slice(1).map((one) => one.getAttribute("aria-label").split(" against ")[1]));
+  const bars = await page.locator("#wall svg.overlay > path").evaluateAll((all) => all.map((one) => Number(one.getAttribute("d").match(/h([\d.]+)/)[1])));
+  check("two walls are seen at one scale", bars.length === 2 && Math.abs(bars[0] - bars[1]) < 0.1, bars);
   check("load and time share no axis", axes.length === 8 && axes.filter((name) => name === "time (s)").length === 4 && axes.filter((name) => /^load/.test(name)).length === 4, axes);
   await done();
 }

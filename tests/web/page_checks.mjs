@@ -263,16 +263,16 @@ async function checkSlowArrival() {
   server.close();
 }
 
-/** The picture that the page opens with, before any array is unpacked, beside the wall that takes its place. */
-async function checkOpening() {
+/** The pictures that a page opens with, before any array is unpacked, beside the walls that take their place. */
+export async function checkOpening(file, count) {
   const settings = { viewport: { width: 1280, height: 720 } };
   const early = await newPage(browser, settings);
   await early.addInitScript(() => { Blob.prototype.stream = () => new ReadableStream(); });
-  await early.goto(pathToFileURL(join(folder, "page.html")).href);
+  await early.goto(pathToFileURL(join(folder, file)).href);
   await early.waitForFunction(() => document.body?.dataset.first);
-  const late = await openPage(browser, join(folder, "page.html"), settings);
+  const late = await openPage(browser, join(folder, file), settings);
   await settled(late);
-  const shots = await Promise.all([early, late].map(async (page) => (await page.locator("#wall .view").screenshot()).toString("base64")));
+  const shots = await Promise.all([early, late].map(async (page) => (await page.locator("#wall .cases").screenshot()).toString("base64")));
   const { both, one } = await late.evaluate(async (shots) => {
     const all = await Promise.all(shots.map(async (data) => {
       const image = new Image();
@@ -291,9 +291,30 @@ async function checkOpening() {
     }
     return { both, one };
   }, shots);
-  check("the page opens with a picture of the wall, with its words, letters and legend, where the wall then is", both > 20_000 && one < 0.03 * both, `${both} ${one}`);
+  const pictures = await early.locator("img.opening").count();
+  check(`${file} opens with ${count} picture(s) of the wall, with words, letters and legend, where the wall then is`, pictures === count && both > 20_000 && one < 0.03 * both,
+    `${pictures} ${both} ${one}`);
   await early.context().close();
   await late.context().close();
+}
+
+/** Of the parameters print has those that the case file sets, and says how many have their defaults. */
+async function checkPrintedParameters(page) {
+  const { parameters, set_in_case_file: set } = JSON.parse(readFileSync(join(work, "04_results/summary.json"), "utf8"));
+  const seen = () => page.locator("#parameters details").evaluate((one) => {
+    one.open = true;
+    return { names: [...one.querySelectorAll("tbody tr")].filter((row) => row.getClientRects().length).map((row) => row.firstChild.textContent),
+      words: one.innerText };
+  });
+  const onScreen = await seen();
+  await page.emulateMedia({ media: "print" });
+  const printed = await seen();
+  await page.emulateMedia({ media: "screen" });
+  const [all, few] = [parameters, set].map((one) => Object.keys(one).length);
+  check("all parameters stand on the screen, in print those that were set", onScreen.names.length === all && few > 3 && printed.names.sort().join() === Object.keys(set).sort().join(),
+    `${onScreen.names.length} ${all} ${printed.names}`);
+  check("and print says how many have their defaults", printed.words.includes(`Printed are the ${few} `) && printed.words.includes(`other ${all - few} have`) && !onScreen.words.includes("Printed"),
+    printed.words.slice(-200));
 }
 
 export async function checkPage() {
@@ -314,9 +335,10 @@ export async function checkPage() {
   await checkDownloads(page, work);
   await checkSpeed(page);
   check("it prints", (await page.pdf()).length > 30_000);
+  await checkPrintedParameters(page);
   check("no error is reported", said.length === 0, said.join("\n"));
   check("nothing is asked from a network", nothingAsked(asked), asked.join(" "));
   await done();
   await checkSlowArrival();
-  await checkOpening();
+  await checkOpening("page.html", 1);
 }

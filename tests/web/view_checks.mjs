@@ -1,5 +1,6 @@
 // Pages of other runs: where the walls are seen, what was assumed, unfinished runs, two cases, heartbeats, flow.
 import { settled } from "./browser.mjs";
+import { checkOpening } from "./page_checks.mjs";
 import { ofBeats } from "./runs.mjs";
 import { check, close, coloursIn, nothingAsked, number, open, pixels, saved, setSlider } from "./setting.mjs";
 
@@ -125,6 +126,7 @@ export async function checkHalf() {
   const { page, said, close: done } = await open("half.html");
   const state = await page.locator(".state").innerText();
   check("an unfinished run says so", /not complete/.test(state) && /03_beat is unfinished/.test(state) && /04_results has not been made/.test(state), state);
+  check("and bears the name of its case", (await page.locator("h1").innerText()) === "small", await page.locator("h1").innerText());
   check("and shows the frames that there are", (await pixels(page, "canvas.wall")).drawn > 0.08);
   check("and says what is missing", (await page.locator(".missing").count()) >= 5);
   const text = await page.locator("body").innerText();
@@ -149,6 +151,7 @@ export async function checkCompare() {
   check("turning one turns the other", turned.print !== later[1].print);
   check("no error, no network", said.length === 0 && nothingAsked(asked), said.join("\n"));
   await done();
+  await checkOpening("compare.html", 2);
 }
 
 /** Rows of the table of the last beat: measure, then its cells. */

@@ -10,8 +10,8 @@ interface Packed { step: number; values: string }
 
 export interface Reach { radius: number; bottom: number; top: number }
 
-/** A picture of the four-chamber view, whose middle lies on the long axis half-way between bottom and top of the reach. */
-interface OpeningJson { png: string; width_mm: number }
+/** A picture of the four-chamber view at a frame, whose middle lies on the long axis half-way between bottom and top of the reach. */
+interface OpeningJson { png: string; width_mm: number; frame: number }
 
 interface WallJson {
   reach: Reach;
@@ -60,6 +60,7 @@ export interface Outlined {
 
 interface CaseJson {
   folder: string;
+  name?: string;           // of the case, as its run left it
   complete: boolean;
   state: string[];
   files: Record<string, string>;
@@ -219,7 +220,7 @@ export class Case {
   name: string;
   readonly wall?: Wall;
   private constructor(readonly json: CaseJson, readonly summary: any) {
-    this.name = summary?.case ?? json.folder;
+    this.name = summary?.case ?? json.name ?? json.folder;
     this.wall = json.wall && new Wall(json.wall);
     this.regions = this.table("regions.csv");
     for (const r of this.regions) this.regional.set([r.state, r.scheme, r.region, r.quantity].join("/"), r);

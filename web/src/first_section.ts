@@ -75,11 +75,16 @@ function ofOne(c: Case, measured: boolean): (string | number)[][] {
 
 const anyMeasured = (c: Case) => figures.some((f) => f.measured?.(c) !== undefined);
 
+/** The second less the first; what is less than half of the last of three digits is nothing. */
+function difference(x: number | undefined, y: number | undefined): string {
+  if (x === undefined || y === undefined) return "–";
+  return shown(Math.abs(y - x) < 5e-4 * Math.max(Math.abs(x), Math.abs(y)) ? 0 : y - x);
+}
+
 function ofTwo(cases: Case[]): (string | number)[][] {
   return figures.filter((f) => cases.some((c) => f.of(c) !== undefined)).map((f) => {
     const [x, y] = cases.map((c) => f.of(c));
-    const less = x !== undefined && y !== undefined ? shown(y - x) : "–";
-    return [`${f.title} (${f.unit})`, ...cases.flatMap((c) => [shown(f.of(c)), ...(anyMeasured(c) ? [shown(f.measured?.(c))] : [])]), less];
+    return [`${f.title} (${f.unit})`, ...cases.flatMap((c) => [shown(f.of(c)), ...(anyMeasured(c) ? [shown(f.measured?.(c))] : [])]), difference(x, y)];
   });
 }
 

@@ -60,8 +60,9 @@ function runTable(c: Case): HTMLElement {
   const r = s.resolution ?? {};
   return table(fileName(c.name, "run"), ["", "value"], [
     ["program", `${s.program?.name} ${s.program?.version}`], ["engine", s.program?.engine ?? "–"],
-    ["wall", `${r.elements ?? "–"} elements, ${r.nodes ?? "–"} nodes`], ["grid of the box", r.grid ?? "–"],
-    ["mesh width (mm)", shown(r.mesh_width_mm, 4)], ["steps", `${r.steps ?? "–"} (${r.retries ?? "–"} taken back)`],
+    ["wall", `${r.elements ?? "–"}${r.order === 2 ? " quadratic" : ""} elements, ${r.nodes ?? "–"} nodes`],
+    ...(r.grid ? [["grid of the box", r.grid], ["mesh width (mm)", shown(r.mesh_width_mm, 4)]] : []),  // the immersed engine's
+    ["steps", `${r.steps ?? "–"} (${r.retries ?? "–"} taken back)`],
     ["time of the beat", r.wall_clock_s === undefined ? "–" : `${shown(r.wall_clock_s / 60)} min on ${r.ranks} rank${r.ranks === 1 ? "" : "s"}`],
     ...steadyKeys(c).map((key) => [`${key.slice(0, -endedSteady.length)} ended steady`, s[key] ? "yes" : "NO"])]);
 }
@@ -73,8 +74,9 @@ function detailsOf(c: Case): (Node | undefined)[] {
     stateTable(c), ...calibration(c),
     el("h3", {}, "Does it look like a heart?"), plausibilityTable(c),
     el("h3", {}, "Whole wall, mean ± standard deviation"),
-    table(fileName(c.name, "whole-wall"), ["quantity", ...momentsOf(c).map(stateTitle), "origin"], quantities.map((q) => [label(q),
-      ...momentsOf(c).map((state) => pm(s.whole_wall?.[state]?.[q.name])), marks(c, "whole_wall")])),
+    table(fileName(c.name, "whole-wall"), ["quantity", ...momentsOf(c).map(stateTitle), "origin"], quantities
+      .filter((q) => momentsOf(c).some((state) => s.whole_wall?.[state]?.[q.name])).map((q) => [label(q),
+        ...momentsOf(c).map((state) => pm(s.whole_wall?.[state]?.[q.name])), marks(c, "whole_wall")])),
     el("p", { class: "help" }, `Strain: ${s.strain ?? "not stated"}.`),
     el("h3", {}, "Run"), runTable(c),
     ...Object.keys(s).filter((key) => ![...known, ...momentsOf(c), ...steadyKeys(c)].includes(key)).map((key) =>
@@ -162,17 +164,26 @@ export function inputSection(cases: Case[]): HTMLElement {
       el("h3", {}, "Mesh"), rows(c, "quality.csv", "quality.csv is missing: the mesh has not been made.")]));
 }
 
+/** All parameters; the rows of those that no case file sets have the class by-default: print leaves them out. */
+function parameterTable(cases: Case[], names: string[]): HTMLElement {
+  const place = (c: Case, name: string) => c.summary?.set_in_case_file?.[name] ?? (c.summary ? "default" : "–");
+  const all = table(fileName(...cases.map((c) => c.name), "parameters"), ["parameter", ...cases.flatMap((c) => [c.name, "set in"])],
+    names.map((name) => [name, ...cases.flatMap((c) => [c.parameter(name) ?? "–", place(c, name)])]));
+  all.querySelectorAll("tbody tr").forEach((row, i) => row.classList.toggle("by-default", cases.every((c) => !c.summary?.set_in_case_file?.[names[i]])));
+  return all;
+}
+
 export function parameterSection(cases: Case[]): HTMLElement {
   const names = [...new Set(cases.flatMap((c) => Object.keys(c.summary?.parameters ?? {})))];
   const differ = (name: string) => cases.length > 1 && new Set(cases.map((c) => c.parameter(name))).size > 1;
-  const place = (c: Case, name: string) => c.summary?.set_in_case_file?.[name] ?? (c.summary ? "default" : "–");
+  const isSet = (name: string) => cases.some((c) => c.summary?.set_in_case_file?.[name]);
   return section("parameters", "Parameters and files",
     "Every parameter of the run, with the line of the case file that sets it, or default. " +
     (cases.length > 1 ? "Those in which the cases differ come first." : ""),
     names.length ? el("details", { open: cases.length > 1 }, el("summary", {}, `${names.length} parameters`),
-      table(fileName(...cases.map((c) => c.name), "parameters"), ["parameter", ...cases.flatMap((c) => [c.name, "set in"])],
-        [...names.filter(differ), ...names.filter((name) => !differ(name))].map((name) =>
-          [name, ...cases.flatMap((c) => [c.parameter(name) ?? "–", place(c, name)])])))
+      parameterTable(cases, [...names.filter(differ), ...names.filter((name) => !differ(name))]),
+      el("p", { class: "help in-print" }, `Printed are the ${names.filter(isSet).length} that were set or fitted. The other ${
+        names.filter((name) => !isSet(name)).length} have their defaults, which summary.json holds and ventricle parameters lists.`))
       : missing("summary.json is missing, and with it the parameters."),
     perCase(cases, (c) => [el("p", {}, "Save the files that this page was made from: "),
       el("div", { class: "buttons" }, ...Object.entries(c.json.files).map(([name, text]) =>

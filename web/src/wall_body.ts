@@ -5,6 +5,7 @@ import {
 import { type Scale, uncoloured, uncolouredRange } from "./colours.ts";
 import { DrawnWall } from "./curved.ts";
 import type { Wall } from "./data.ts";
+import { rougher, type Triangles, triangles } from "./rougher.ts";
 import { atPoints, cutWall, type Plane, type Section } from "./section.ts";
 
 const vertexShader = `
@@ -62,6 +63,8 @@ function material(flatLight: number): ShaderMaterial {
     choosing: { value: 0 }, plain: { value: 0 }, flatLight: { value: flatLight } } });
 }
 
+const roughSize = 3.2;  // between corners of a rough surface [mm]
+
 /** What is shown: positions and values of the wall's own nodes (no values: no colours), and the plane that cuts them. */
 export interface Shape { positions: Float32Array; values?: Float32Array; plane?: Plane }
 
@@ -73,12 +76,20 @@ export class WallBody {
   section?: Section;
   positions!: Float32Array;   // of all nodes that are drawn
   private values?: Float32Array;
+  private triangles: Triangles;  // of the skin
+  private cells: number[];       // behind each
   private skinNodes: Int32Array;
 
-  /** Quadratic elements are drawn curved, or roughly, with their parts straight. */
-  constructor(private wall: Wall, isRough: boolean) {
+  /** Quadratic elements are drawn curved, or roughly, with their parts straight; of linear ones a rough surface has fewer corners. */
+  constructor(wall: Wall, isRough: boolean) {
     this.drawn = new DrawnWall(wall, isRough);
-    this.skinNodes = Int32Array.from(new Set(this.drawn.skin)).sort();
+    this.triangles = triangles(this.drawn.skin, wall.nodesPerFace);
+    if (isRough && wall.order === 1) {
+      const { nodes, undeformed: x } = wall;
+      this.triangles = rougher(this.triangles, (node) => [x[node], x[nodes + node], x[2 * nodes + node]], roughSize);
+    }
+    this.cells = Array.from(this.triangles.faces, (face) => this.drawn.skinCells[face]);
+    this.skinNodes = Int32Array.from(new Set(this.triangles.nodes)).sort();
     this.skin = this.makeSkin();
     this.cap = new Mesh(new BufferGeometry(), material(1));
     for (const object of [this.skin, this.cap]) object.frustumCulled = false;
@@ -88,16 +99,10 @@ export class WallBody {
   private get surfaces(): Surface[] { return [this.skin, this.cap]; }
 
   private makeSkin(): Surface {
-    const { drawn, skinNodes } = this;
+    const { skinNodes } = this;
     const place = new Map<number, number>();
     skinNodes.forEach((node, i) => place.set(node, i));
-    const corners = Int32Array.from(drawn.skin, (node) => place.get(node)!);
-    const index: number[] = [];
-    const n = drawn.wall.nodesPerFace;
-    for (let f = 0; f < corners.length; f += n) {
-      index.push(corners[f], corners[f + 1], corners[f + 2]);
-      if (n === 4) index.push(corners[f], corners[f + 2], corners[f + 3]);
-    }
+    const index = Array.from(this.triangles.nodes, (node) => place.get(node)!);
     const geometry = new BufferGeometry();
     geometry.setAttribute("position", dynamic(skinNodes.length, 3));
     geometry.setAttribute("normal", dynamic(skinNodes.length, 3));
@@ -166,25 +171,24 @@ export class WallBody {
   outline(region: Int16Array | undefined, index: number): void {
     for (const { material: { uniforms } } of this.surfaces) uniforms.choosing.value = region ? 1 : 0;
     if (!region) return;
-    this.mark(this.skin.geometry, this.drawn.skinCells, this.trianglesPerFace, region, index);
-    if (this.section) this.mark(this.cap.geometry, this.section.cells, 1, region, index);
+    this.mark(this.skin.geometry, this.cells, region, index);
+    if (this.section) this.mark(this.cap.geometry, this.section.cells, region, index);
   }
 
-  private mark(geometry: BufferGeometry, cells: ArrayLike<number>, trianglesPerCell: number, region: Int16Array, index: number): void {
+  /** `cells`: behind each triangle. */
+  private mark(geometry: BufferGeometry, cells: number[], region: Int16Array, index: number): void {
     const chosen = geometry.getAttribute("chosen") as BufferAttribute;
     (chosen.array as Float32Array).fill(0);
     const corners = geometry.getIndex()!.array;
-    for (let i = 0; i < cells.length; ++i)
-      if (region[cells[i]] === index)
-        for (let k = 3 * trianglesPerCell * i; k < 3 * trianglesPerCell * (i + 1); ++k) chosen.setX(corners[k], 1);
+    cells.forEach((cell, t) => {
+      if (region[cell] === index) for (let k = 3 * t; k < 3 * t + 3; ++k) chosen.setX(corners[k], 1);
+    });
     chosen.needsUpdate = true;
   }
 
-  private get trianglesPerFace(): number { return this.wall.nodesPerFace === 4 ? 2 : 1; }
-
   /** The wall's cell behind a triangle of one of the surfaces. */
   cellAt(surface: object, triangle: number): number {
-    return surface === this.cap ? this.section!.cells[triangle] : this.drawn.skinCells[Math.floor(triangle / this.trianglesPerFace)];
+    return surface === this.cap ? this.section!.cells[triangle] : this.cells[triangle];
   }
 }
 

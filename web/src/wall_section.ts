@@ -7,7 +7,7 @@ import { cutName, heartOf, looks } from "./orientation.ts";
 import { Overlay } from "./overlay.ts";
 import { infarct, label, quantities, quantity, shown } from "./quantities.ts";
 import { type Cut, scaleOf, Shared, type Timeline } from "./shared.ts";
-import { WallView } from "./wall_view.ts";
+import { type Room, roomOf, WallView } from "./wall_view.ts";
 
 function select(title: string, options: [string, string][], chosen: string, change: (value: string) => void): HTMLElement {
   return el("label", {}, title, el("select", { change: (event: Event) => change((event.target as HTMLSelectElement).value) },
@@ -33,16 +33,19 @@ class Panel {
   private fibres?: Fibres;
   private opening?: HTMLImageElement;  // what the program has drawn, until the wall is
   private read = el("p", { class: "read", "aria-live": "polite" });
-  constructor(private c: Case, private number: number, private shared: Shared, private time: Timeline, private scale: () => Scale) {
+  constructor(private c: Case, private number: number, private shared: Shared, private time: Timeline, private scale: () => Scale, room: Room) {
     this.element = el("div", { class: "panel" });
     if (!c.wall) {
       this.element.append(missing("No wall is shown: the work folder holds neither frames of a beat nor a mesh."));
       return;
     }
-    this.view = new WallView(c.wall, heartOf(c));
+    this.view = new WallView(c.wall, heartOf(c), room);
     this.overlay = new Overlay(this.view);
-    this.opening = c.wall.opening && el("img", { class: "opening", alt: "", src: `data:image/png;base64,${c.wall.opening.png}` });
-    if (this.opening) this.opening.decoding = "sync";  // it is part of the first picture of the page
+    const { opening } = c.wall;
+    if (opening && opening.frame === time.frame(number, time.start)) {
+      this.opening = el("img", { class: "opening", alt: "", src: `data:image/png;base64,${opening.png}` });
+      this.opening.decoding = "sync";  // it is part of the first picture of the page
+    }
     const { canvas } = this.view;
     canvas.className = "wall";
     canvas.setAttribute("role", "img");
@@ -217,7 +220,8 @@ export function wallSection(cases: Case[], shared: Shared, time: Timeline): Wall
     const usual = scaleOf(cases, name);
     return range ? { ...usual, min: range[0], max: range[1] } : usual;
   };
-  const panels = cases.map((c, i) => new Panel(c, i, shared, time, scale));
+  const room = roomOf(cases.flatMap((c) => c.wall ?? []));
+  const panels = cases.map((c, i) => new Panel(c, i, shared, time, scale, room));
   const views = panels.map((panel) => panel.camera).filter((view) => view !== undefined);
   panels.forEach((panel) => {
     const { camera: view } = panel;

@@ -21,6 +21,13 @@ function planeOf(cut: Cut, heart: Heart): Plane | undefined {
 
 const turned = ({ normal: [x, y, z], offset }: Plane): Plane => ({ normal: [-x, -y, -z], offset: -offset });
 
+/** What has to fit into a picture: about the long axis, and along it [mm]. */
+export interface Room { radius: number; length: number }
+
+/** What holds each of some walls at all their moments: they are seen at one scale. */
+export const roomOf = (walls: Wall[]): Room => ({ radius: Math.max(...walls.map(({ reach }) => reach.radius)),
+  length: Math.max(...walls.map(({ reach: { top, bottom } }) => top - bottom)) });
+
 /** A letter of the picture, in pixels of the screen from its upper left corner. */
 export interface Letter { name: string; label: string; x: number; y: number; seen: boolean }
 
@@ -32,7 +39,7 @@ export class WallView {
   private renderer?: WebGLRenderer;
   private scene = new Scene();
   private fine!: WallBody;   // at rest
-  private rough!: WallBody;  // in motion: the same where a graphics processor draws
+  private rough?: WallBody;  // in motion, made when it first moves: the same where a graphics processor draws
   private body!: WallBody;   // of these, what is drawn
   private sticks!: LineSegments;
   private shape?: Shape;
@@ -49,7 +56,7 @@ export class WallView {
   private paper = "#fff";
   onRender?: () => void;
 
-  constructor(readonly wall: Wall, readonly heart: Heart) {
+  constructor(readonly wall: Wall, readonly heart: Heart, private room: Room) {
     this.controls = new OrbitControls(this.camera, this.canvas);
     this.controls.enablePan = false;
     this.controls.addEventListener("change", () => this.render());
@@ -77,13 +84,20 @@ export class WallView {
     const facts = context.getExtension("WEBGL_debug_renderer_info");
     this.slow = /swiftshader|llvmpipe|software/i.test(facts ? String(context.getParameter(facts.UNMASKED_RENDERER_WEBGL)) : "");
     this.fine = new WallBody(this.wall, false);
-    this.rough = this.slow && this.wall.order === 2 ? new WallBody(this.wall, true) : this.fine;
     this.body = this.fine;
     this.sticks = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ color: 0x101010 }));
     this.sticks.frustumCulled = false;
-    this.scene.add(...new Set([this.fine.group, this.rough.group]), this.sticks);
+    this.scene.add(this.fine.group, this.sticks);
     renderer.setClearColor(this.paper);
     renderer.setSize(this.canvas.clientWidth, this.canvas.clientHeight, false);
+  }
+
+  private inMotion(): WallBody {
+    if (!this.rough) {
+      this.rough = this.slow ? new WallBody(this.wall, true) : this.fine;
+      this.scene.add(this.rough.group);
+    }
+    return this.rough;
   }
 
   /** The camera at an azimuth from the septum, anticlockwise seen from the base, and an elevation [degrees]. */
@@ -128,10 +142,9 @@ export class WallView {
     if (!width || !height) return;
     this.renderer?.setSize(width, height, false);
     // room for letters around the wall, for the caption above and the apex below it
-    const { radius, bottom, top } = this.wall.reach;
     const [above, below] = [84, 22];  // [pixels]
-    const across = 2 * (radius + 16);
-    const mm = Math.max(Math.max(top - bottom + 8, across) / Math.max(height - above - below, 1), across / width);  // a pixel
+    const across = 2 * (this.room.radius + 16);
+    const mm = Math.max(Math.max(this.room.length + 8, across) / Math.max(height - above - below, 1), across / width);  // a pixel
     const [half, lower] = [0.5 * mm * height, 0.5 * mm * (above - below)];
     Object.assign(this.camera, { left: -0.5 * mm * width, right: 0.5 * mm * width, top: half + lower, bottom: lower - half });
     this.camera.updateProjectionMatrix();
@@ -160,7 +173,7 @@ export class WallView {
       return { name, label, x: 0.5 * (1 + at.x) * width, y: 0.5 * (1 - at.y) * clientHeight, seen: Math.abs(eye.dot(direction)) < 0.8 };
     };
     const up = new Vector3(0, 0, 1);
-    const ends: Record<string, number> = { apex: this.lowest - 5, base: this.wall.reach.top + 4 };
+    const ends: Record<string, number> = { apex: this.lowest - 5, base: this.wall.reach.top + 4 + 0.14 * this.wall.reach.radius /* the far rim, seen from a little above */ };
     return [...walls.map(([name, angle]) => {
       const [x, y] = unit(this.heart.septum + angle);
       const direction = new Vector3(x, y, 0);
@@ -193,7 +206,7 @@ export class WallView {
     const values = field instanceof Float32Array ? field : field?.addTo(new Float32Array(this.wall.nodes), frame);
     this.shape = { positions, values, plane: planeOf(cut, this.heart) };
     this.valueScale = scale;
-    this.form(isFirst ? this.fine : this.rough);
+    this.form(isFirst ? this.fine : this.inMotion());
     if (isFirst) this.rest();
     else this.render();
   }
@@ -201,7 +214,7 @@ export class WallView {
   /** Gives a body the shape that is shown, and draws that body from now on. */
   private form(body: WallBody): void {
     this.body = body;
-    for (const one of [this.fine, this.rough]) one.group.visible = one === body;
+    for (const one of [this.fine, this.rough]) if (one) one.group.visible = one === body;
     body.show(this.shape!);
     this.takeColours(colourTable(this.valueScale));
     body.colour(this.valueScale, this.colours!.map);
@@ -342,7 +355,7 @@ export class WallView {
     requestAnimationFrame(() => {
       this.waiting = false;
       if (!isRough) { this.rest(); return; }
-      if (this.body !== this.rough) this.form(this.rough);
+      if (this.body !== this.inMotion()) this.form(this.inMotion());
       this.draw(this.slow ? 0.5 : 1);
       this.onRender?.();
       this.atRest = window.setTimeout(() => this.rest(), 250);

@@ -104,10 +104,13 @@ std::vector<Letter> assumed_ends(const Orientation& orientation, const std::vect
   constexpr double apart = 7.0;  // from the wall [mm]
   double lowest = 0.0;
   double highest = 0.0;
+  double radius = 0.0;
   for (const Vec3& x : points) {
     lowest = std::min(lowest, x.z());
     highest = std::max(highest, x.z());
+    radius = std::max(radius, std::hypot(x.x(), x.y()));
   }
+  highest += tilt * radius;  // where the far side of the base is seen
   std::vector<Letter> letters;
   if (orientation.assumes("apex"))
     letters.push_back({"apex*", (lowest - apart) * Vec3::UnitZ()});

@@ -52,6 +52,45 @@ drawing::Camera camera_of(const Reach& reach, const drawing::Orientation& orient
           .height = height};
 }
 
+/// How far the quantity's percentiles over the whole wall lie from its middle; 0 without results.
+double most_off_middle(const std::filesystem::path& work, const analysis::Quantity& quantity) {
+  const auto regions = report::table_of(work, "results", "regions.csv");
+  if (!regions)
+    return 0.0;
+  const auto scheme = regions->words("scheme");
+  const auto name = regions->words("quantity");
+  const auto low = regions->numbers("p1");
+  const auto high = regions->numbers("p99");
+  double most = 0.0;
+  for (std::size_t i = 0; i < scheme.size(); ++i)
+    if (scheme[i] == "whole" && name[i] == quantity.name)
+      for (const double value : {low[i], high[i]})
+        if (std::isfinite(value))
+          most = std::max(most, std::abs(value - quantity.middle));
+  return most;
+}
+
+std::size_t nearest(const std::vector<double>& times, double time) {
+  const auto found = std::min_element(times.begin(), times.end(), [&](double a, double b) {
+    return std::abs(a - time) < std::abs(b - time);
+  });
+  return static_cast<std::size_t>(found - times.begin());
+}
+
+double at_share(const Course& c, double share) {
+  return c.times.front() + share * (c.times.back() - c.times.front());
+}
+
+/// Of the slider's even steps through a beat, the one that is nearest to its end-systole.
+double opening_share(const Course& c) {
+  constexpr double steps = 80.0;
+  const double span = c.times.back() - c.times.front();
+  if (!c.end_systole || !(span > 0.0))
+    return 0.0;
+  const double share = (*c.end_systole - c.times.front()) / span;
+  return std::clamp(std::round(steps * share) / steps, 0.0, 1.0);
+}
+
 }  // namespace
 
 Reach reach_of(const WallSeries& wall) {
@@ -65,25 +104,37 @@ Reach reach_of(const WallSeries& wall) {
   return reach;
 }
 
-std::optional<drawing::ColourScale> opening_scale(const std::filesystem::path& work) {
-  const auto regions = report::table_of(work, "results", "regions.csv");
-  if (!regions)
-    return {};
+std::optional<drawing::ColourScale> opening_scale(const std::vector<std::filesystem::path>& works) {
   const analysis::Quantity& quantity = analysis::quantity(opening_quantity);
-  const auto scheme = regions->words("scheme");
-  const auto name = regions->words("quantity");
-  const auto low = regions->numbers("p1");
-  const auto high = regions->numbers("p99");
   double most = 0.0;
-  for (std::size_t i = 0; i < scheme.size(); ++i)
-    if (scheme[i] == "whole" && name[i] == opening_quantity)
-      for (const double value : {low[i], high[i]})
-        if (std::isfinite(value))
-          most = std::max(most, std::abs(value - quantity.middle));
+  for (const std::filesystem::path& work : works)
+    most = std::max(most, most_off_middle(work, quantity));
   if (most <= 0.0)
     return {};
   return drawing::ColourScale{drawing::diverging(), quantity.middle - most, quantity.middle + most,
                               quantity.middle, quantity.floor};
+}
+
+std::vector<std::optional<std::size_t>> opening_frames(const std::vector<Course>& cases) {
+  const auto all = [&](const auto& holds) {
+    return std::all_of(cases.begin(), cases.end(), holds);
+  };
+  const bool are_beats =
+      cases.size() > 1 && all([](const Course& c) { return c.has_beats && !c.times.empty(); });
+  const bool all_contract = all([](const Course& c) {
+    constexpr double rounding = 1e-5;  // of times in a series [s]
+    return c.end_systole && (c.times.empty() || *c.end_systole <= c.times.back() + rounding);
+  });
+  const double share = are_beats ? opening_share(cases.front()) : 0.0;
+  std::vector<std::optional<std::size_t>> frames;
+  for (const Course& c : cases)
+    if (c.times.empty())
+      frames.emplace_back();
+    else if (are_beats)
+      frames.emplace_back(nearest(c.times, at_share(c, share)));
+    else
+      frames.emplace_back(all_contract ? nearest(c.times, *c.end_systole) : c.times.size() - 1);
+  return frames;
 }
 
 Opening opening(const WallSeries& wall, const std::vector<std::int32_t>& skin, bool is_quadratic,

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace lv::page {
 
@@ -30,8 +31,24 @@ struct Opening {
 inline constexpr const char* opening_quantity = "circumferential_strain";
 
 /// The scale of that quantity on the page: from the 1st to the 99th percentile over the wall at all
-/// moments of regions.csv, as far to both sides of the middle; nothing without results.
-[[nodiscard]] std::optional<drawing::ColourScale> opening_scale(const std::filesystem::path& work);
+/// moments of the regions.csv of all cases, as far to both sides of the middle; nothing without
+/// results.
+[[nodiscard]] std::optional<drawing::ColourScale> opening_scale(
+    const std::vector<std::filesystem::path>& works);
+
+/// The frames of a case's wall in time.
+struct Course {
+  std::vector<double> times;          ///< of the frames [s]; none without a wall
+  std::optional<double> end_systole;  ///< [s]
+  bool has_beats = false;             ///< of a circulation
+};
+
+/// The frame of each case that the page opens with, as its time slider has it
+/// (web/src/shared.ts): end-systole's, or the last where one case has not come to it; of two cases
+/// of heartbeats the first one's end-systole, and as far in the second one's beat. Nothing for a
+/// case without a wall.
+[[nodiscard]] std::vector<std::optional<std::size_t>> opening_frames(
+    const std::vector<Course>& cases);
 
 /// The faces of the wall's surface are `skin`; `is_quadratic`: eight consecutive cells are the
 /// parts of one element.

@@ -344,38 +344,54 @@ std::vector<TimedFrame> wall_frames(const fs::path& work) {
   return frames;
 }
 
-/// The frame that the page opens with: end-systole's, or the last.
-std::size_t opening_frame(const WallSeries& wall, const fs::path& work) {
-  const auto time = report::time_of(work, heartbeat::end_systole);
-  if (!time)
-    return wall.times.size() - 1;
-  const auto nearest = std::min_element(
-      wall.times.begin(), wall.times.end(),
-      [&](double a, double b) { return std::abs(a - *time) < std::abs(b - *time); });
-  return static_cast<std::size_t>(nearest - wall.times.begin());
+/// Where a case's wall stands in time.
+Course course_of(const fs::path& work) {
+  Course course;
+  for (const TimedFrame& frame : wall_frames(work))
+    course.times.push_back(frame.time);
+  course.end_systole = report::time_of(work, heartbeat::end_systole);
+  course.has_beats = !report::file_of(work, "beat", "cycle.csv").empty();
+  return course;
+}
+
+/// What the page opens with: one scale for all cases, and a frame of each.
+struct OpeningPlan {
+  std::optional<drawing::ColourScale> scale;
+  std::vector<std::optional<std::size_t>> frames;
+};
+
+OpeningPlan opening_plan(const std::vector<PageCase>& cases) {
+  std::vector<fs::path> works;
+  std::vector<Course> courses;
+  for (const PageCase& shown : cases) {
+    works.push_back(shown.work);
+    courses.push_back(course_of(shown.work));
+  }
+  return {opening_scale(works), opening_frames(courses)};
 }
 
 /// Nothing where results or the quantity are missing.
-Json opening_json(const WallSeries& wall, const report::MeshFacts& mesh, const fs::path& work) {
-  const auto scale = opening_scale(work);
+Json opening_json(const WallSeries& wall, const report::MeshFacts& mesh,
+                  const std::optional<drawing::ColourScale>& scale, std::size_t frame) {
   const auto found = wall.quantities.find(opening_quantity);
   if (!scale || found == wall.quantities.end() || found->second.size() != wall.times.size())
     return {};
-  const Opening drawn =
-      opening(wall, skin_of(wall).nodes, mesh.order == 2, opening_frame(wall, work),
-              {.septum_angle = mesh.septum_angle}, *scale);
-  return {{"png", base64(drawn.png)}, {"width_mm", rounded(drawn.width_mm)}};
+  const Opening drawn = opening(wall, skin_of(wall).nodes, mesh.order == 2, frame,
+                                {.septum_angle = mesh.septum_angle}, *scale);
+  return {{"png", base64(drawn.png)}, {"width_mm", rounded(drawn.width_mm)}, {"frame", frame}};
 }
 
 /// A page is passed on, and the name of a folder may be that of a patient.
-Data case_html(const PageCase& shown, int number, std::size_t count) {
+Data case_html(const PageCase& shown, int number, const OpeningPlan& plan) {
   static constexpr std::array<const char*, 2> folders{"the first work folder",
                                                       "the second work folder"};
   PagedArrays arrays(number);
-  Json json{{"folder", count < 2 ? "the work folder" : folders.at(number)},
+  Json json{{"folder", plan.frames.size() < 2 ? "the work folder" : folders.at(number)},
             {"complete", shown.complete},
             {"state", state_of(shown)},
             {"files", files_json(shown.work)}};
+  if (const std::string name = report::case_name(shown.work); !name.empty())
+    json["name"] = name;
   add_mesh_facts(json, shown.work);
   const auto blood = frames_of(report::file_of(shown.work, "beat", "blood.pvd"));
   json["has_blood"] = !blood.empty();
@@ -386,9 +402,9 @@ Data case_html(const PageCase& shown, int number, std::size_t count) {
     json["wall"] = wall_json(wall, arrays);
     const auto mesh = report::mesh_facts(shown.work).value_or(report::MeshFacts{});
     json["wall"]["order"] = mesh.order;
-    if (count == 1)  // two cases have one scale, and moments of their own
-      if (Json first = opening_json(wall, mesh, shown.work); !first.is_null())
-        json["wall"]["opening"] = std::move(first);
+    if (Json first = opening_json(wall, mesh, plan.scale, plan.frames[number].value());
+        !first.is_null())
+      json["wall"]["opening"] = std::move(first);
     const LongAxis plane{mesh.septum_angle};  // the four-chamber view's
     const auto [lower, upper] = surroundings(wall, plane);
     // the wall's frames are the blood's borders; the undeformed mesh is none
@@ -471,8 +487,9 @@ std::string page(const std::vector<PageCase>& cases, const std::string& version)
                          {"beat_measures", beat_measures_json()}}
                         .dump()),
             "", ""};
+  const OpeningPlan plan = opening_plan(cases);
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    const Data one = case_html(cases[i], static_cast<int>(i), cases.size());
+    const Data one = case_html(cases[i], static_cast<int>(i), plan);
     data.summary += one.summary;
     data.wall += one.wall;
     data.more += one.more;

@@ -54,6 +54,7 @@ std::string beat_of_immersed(const Case& c, double step) {
 }
 
 Estimate of_immersed(const Case& c, const mesh::Mesh& mesh) {
+  log::info("trying steps of the immersed engine ...");
   const immersed::ModelParameters p = case_file::model_parameters(c, mesh);
   immersed::Model model(mesh, case_file::cardiac_model(c), p);
   model.relax(c.protocol.calcium.Ca_0);
@@ -80,6 +81,7 @@ std::string beat_in_words(const Case& c, double load_step) {
 }
 
 Estimate of_quasi_static(const Case& c, const mesh::Mesh& mesh) {
+  log::info("trying a load step of the quasi-static engine ...");
   implicit::SolverParameters solver = c.quasi_static.solver;
   const double share = solver.first_step;
   solver.first_step = 1.0;

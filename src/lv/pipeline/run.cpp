@@ -24,6 +24,7 @@
 #include "lv/report/paraview_script.hpp"
 #include "lv/report/stage_facts.hpp"
 #include "lv/report/table_figures.hpp"
+#include "lv/report/work_folder.hpp"
 #include "lv/scar/infarct.hpp"
 #include "lv/work/ingredients.hpp"
 #include "lv/work/version.hpp"
@@ -56,6 +57,7 @@ class Pipeline {
     std::optional<work::WorkLock> lock;
     on_root([&] { lock.emplace(work_); });
     on_root([&] { log::to_file(work_ / "log.txt", case_file::names_alone(case_, work_)); });
+    on_root([&] { report::write_case_name(work_, case_.name); });
     log::info("{}: ventricle {} on {} rank{}, results in {}", case_.name, work::version(),
               parallel::size(), parallel::size() == 1 ? "" : "s", work_.string());
     if (case_.origin.empty())

@@ -8,6 +8,7 @@
 #include "lv/base/log.hpp"
 #include "lv/base/parallel.hpp"
 #include "lv/base/table.hpp"
+#include "lv/base/time_left.hpp"
 #include "lv/case_file/beat_fit.hpp"
 #include "lv/case_file/parameters.hpp"
 #include "lv/cine/strain.hpp"
@@ -172,7 +173,8 @@ report::RunFacts run_facts(const Case& c, const anatomy::MeshResult& mesh, const
   facts.engine = c.engine == case_file::EngineChoice::immersed ? "immersed" : "quasi-static";
   facts.ranks = beat.ranks;
   facts.nodes = static_cast<int>(mesh.mesh.nodes.size());
-  facts.cells = mesh.mesh.cell_count();
+  facts.order = mesh.mesh.order;
+  facts.elements = mesh.mesh.cell_count() / (mesh.mesh.order == 2 ? 8 : 1);
   if (c.engine == case_file::EngineChoice::immersed) {
     facts.grid = fmt::format("{} x {} x {}", c.box.cells[0], c.box.cells[1], c.box.cells[2]);
     facts.mesh_width = case_file::model_parameters(c, mesh.mesh).grid.spacing.minCoeff();
@@ -384,9 +386,13 @@ void show_mesh(const anatomy::MeshResult& result, const Case& c,
     report::quality_table(mesh::quality(m)).write_csv(folder / "quality.csv");
     interrupt::check();
     drawing::Orientation orientation{c.regions.septum_angle, anatomy_beside(folder).assumed};
+    const std::string infarct = scar::describe_infarct(c, result);
+    Progress pictures("pictures of the mesh", infarct.empty() ? 2 : 3);
     drawing::write(report::mesh_figure(m, orientation), folder / "mesh.png");
+    pictures.add();
     drawing::write(report::fibre_figure(m, undeformed, orientation), folder / "fibres.png");
-    if (const std::string infarct = scar::describe_infarct(c, result); !infarct.empty()) {
+    pictures.add();
+    if (!infarct.empty()) {
       log::info("{}", infarct);
       scar::infarct_table(c, result).write_csv(folder / "infarct.csv");
       if (!scar_is_measured(c))

@@ -211,11 +211,13 @@ std::string validate(const Case& c) {
   std::string strain;
   std::optional<anatomy::Shape> shape;
   mistakes.attempt([&] { strain = cine::check_strain(c); });
+  log::info("anatomy ...");  // each of these may take long
   mistakes.attempt([&] { shape = anatomy::make_anatomy(c); });
   mistakes.attempt([&] { scar::require_infarct(c); });
   mistakes.raise();
   check_measured_volumes(c, *shape);
   const int members = check_study(c);
+  log::info("mesh ...");
   const anatomy::MeshResult result = make_mesh(c, *shape);
   check_room(c, result.mesh);
   static_cast<void>(activation_times(c, result));  // which may not fit to the wall

@@ -178,6 +178,12 @@ std::string base_and_apex(const drawing::Orientation& o) {
   return fmt::format("{} above, {} below", o.starred("base", "base"), o.starred("apex", "apex"));
 }
 
+/// ", early diastole*": of a picture of the undeformed wall where that moment was assumed; else
+/// empty.
+std::string moment_if_assumed(const drawing::Orientation& o) {
+  return o.assumes("early diastole") ? ", " + o.at_rest() : "";
+}
+
 /// Long-axis pictures in a row, short-axis sections of the same walls below.
 std::vector<drawing::Panel> both_axes(const std::vector<std::string>& titles,
                                       const std::vector<PaintedWall>& walls,
@@ -265,8 +271,8 @@ drawing::Figure mesh_figure(const Mesh& mesh, const drawing::Orientation& o) {
                  {.title = o.starred("apex", "apex") + ", from below",
                   .content = picture({{outside.items.front()}, {}}, drawing::short_axis(o), o)}},
       .columns = 3,
-      .title = fmt::format("mesh: {}, {} nodes; {}", elements_text(mesh), mesh.nodes.size(),
-                           base_and_apex(o)),
+      .title = fmt::format("mesh{}: {}, {} nodes; {}", moment_if_assumed(o), elements_text(mesh),
+                           mesh.nodes.size(), base_and_apex(o)),
       .footnote = notes(o)};
 }
 
@@ -291,7 +297,7 @@ drawing::Figure fibre_figure(const Mesh& mesh, const std::vector<CellFields>& un
                       .content = picture(wall.open(drawing::four_chamber_plane(o)),
                                          drawing::four_chamber(o), o)}},
           .columns = 3,
-          .title = "fibres",
+          .title = "fibres" + moment_if_assumed(o),
           .footnote =
               "Helix angle as in Gao et al. 2014: negative where the fibre rises towards "
               "the base when followed anticlockwise seen from the base, a right-handed "
@@ -319,7 +325,7 @@ drawing::Figure infarct_figure(const Mesh& mesh, const drawing::Orientation& o) 
                       .content = picture(wall.open(drawing::two_chamber_plane(o)),
                                          drawing::two_chamber(o), o)}},
           .columns = 2,
-          .title = o.starred("infarct", "infarct"),
+          .title = o.starred("infarct", "infarct") + moment_if_assumed(o),
           .footnote = notes(o),
           .colour_bar = drawing::ColourBar{"extent M: 1 infarct, 0 remote muscle", scale}};
 }

@@ -84,8 +84,10 @@ Marks marks(const RunFacts& facts, const std::vector<std::string>& moments) {
   for (const std::string& moment : moments)
     all.insert(all.end(), {{moment, Mark::computed}, {moment + ".pressure_mmHg", facts.pressure}});
   mark_volumes(facts, all);
-  for (const char* figure : {"mass_g", "whole_wall", "zones", "fibre_shortening_percent",
-                             "rotation", "plausibility", "calibration.beat_ml", "cycle"})
+  // the mass is the shape's volume times a density, which no beat changes
+  all.emplace_back("mass_g", facts.shape == Mark::assumed ? Mark::assumed : Mark::computed);
+  for (const char* figure : {"whole_wall", "zones", "fibre_shortening_percent", "rotation",
+                             "plausibility", "calibration.beat_ml", "cycle"})
     all.emplace_back(figure, Mark::computed);
   all.insert(all.end(),
              {{"calibration.measured_ml", Mark::measured},

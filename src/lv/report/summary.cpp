@@ -364,6 +364,10 @@ Json pairs(const std::vector<std::pair<std::string, std::string>>& list) {
   return json;
 }
 
+std::string elements_of(const RunFacts& facts) {
+  return fmt::format("{}{} elements", facts.elements, facts.order == 2 ? " quadratic" : "");
+}
+
 }  // namespace
 
 std::string summary_json(const RunFacts& facts, const heartbeat::Beat& beat, const Results& r) {
@@ -373,7 +377,8 @@ std::string summary_json(const RunFacts& facts, const heartbeat::Beat& beat, con
   json["resolution"] = {{"grid", facts.grid.empty() ? Json() : Json(facts.grid)},
                         {"mesh_width_mm", number(facts.mesh_width)},
                         {"nodes", facts.nodes},
-                        {"elements", facts.cells},
+                        {"elements", facts.elements},
+                        {"order", facts.order},
                         {"ranks", facts.ranks},
                         {"steps", beat.steps},
                         {"retries", beat.retries},
@@ -421,10 +426,10 @@ std::string summary_json(const RunFacts& facts, const heartbeat::Beat& beat, con
 }
 
 std::string summary_text(const RunFacts& facts, const heartbeat::Beat& beat, const Results& r) {
-  std::string text = fmt::format(
-      "{}: {}, {} elements, {} nodes{}, {} steps in {:.0f} s on {} rank{}\n\n", facts.case_name,
-      facts.engine, facts.cells, facts.nodes, facts.grid.empty() ? "" : ", grid " + facts.grid,
-      beat.steps, facts.wall_clock, facts.ranks, facts.ranks == 1 ? "" : "s");
+  std::string text = fmt::format("{}: {}, {}, {} nodes{}, {} steps in {:.0f} s on {} rank{}\n\n",
+                                 facts.case_name, facts.engine, elements_of(facts), facts.nodes,
+                                 facts.grid.empty() ? "" : ", grid " + facts.grid, beat.steps,
+                                 facts.wall_clock, facts.ranks, facts.ranks == 1 ? "" : "s");
   text += shapes_text(facts, r);
   text += fmt::format(
       "\n  ejection fraction {:.1f}%, mass {:.1f} g ({:g} g/ml)\n\n", 100.0 * r.ejection_fraction(),

@@ -68,7 +68,8 @@ struct RunFacts {
   std::string engine;
   int ranks = 1;
   int nodes = 0;
-  int cells = 0;
+  int elements = 0;  ///< finite elements of `order`; a quadratic one is drawn as eight parts
+  int order = 1;
   std::string grid;  ///< "96 x 96 x 128"; empty without blood
   double mesh_width = std::numeric_limits<double>::quiet_NaN();  ///< of the grid [mm]
   double wall_clock = 0.0;                                       ///< of the beat [s]

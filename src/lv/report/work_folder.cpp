@@ -6,6 +6,12 @@ namespace lv::report {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+constexpr const char* case_file_name = "case.txt";
+
+}  // namespace
+
 fs::path folder_of(const fs::path& work, const std::string& stage) {
   const fs::path finished = work / stage_folder(stage);
   const fs::path unfinished = finished.string() + ".part";
@@ -26,6 +32,18 @@ std::optional<Table> table_of(const fs::path& work, const std::string& stage,
   if (table.rows().empty())
     return {};
   return table;
+}
+
+void write_case_name(const fs::path& work, const std::string& name) {
+  write_file(work / case_file_name, name + "\n");
+}
+
+std::string case_name(const fs::path& work) {
+  const fs::path file = work / case_file_name;
+  if (!fs::is_regular_file(file))
+    return "";
+  const std::string text = read_file(file);
+  return text.substr(0, text.find('\n'));
 }
 
 std::vector<std::pair<std::string, double>> moments_of(const fs::path& work) {

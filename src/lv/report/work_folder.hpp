@@ -23,6 +23,13 @@ namespace lv::report {
 [[nodiscard]] std::optional<Table> table_of(const std::filesystem::path& work,
                                             const std::string& stage, const std::string& file);
 
+/// Leaves a case's name in its work folder, as `case.txt`: before there are results no other file
+/// has it. Throws RunError naming a file that cannot be written.
+void write_case_name(const std::filesystem::path& work, const std::string& name);
+
+/// The name that a run left in its work folder; empty where none did.
+[[nodiscard]] std::string case_name(const std::filesystem::path& work);
+
 /// The moments of the beat, with their times, by its moments.csv [s].
 [[nodiscard]] std::vector<std::pair<std::string, double>> moments_of(
     const std::filesystem::path& work);

@@ -1,5 +1,6 @@
 #include "lv/drawing/orientation.hpp"
 
+#include "lv/analysis/wall_fields.hpp"
 #include "lv/geometry/ellipsoid.hpp"
 #include "lv/mesh/wall_mesh.hpp"
 #include "lv/report/heart_figures.hpp"
@@ -8,6 +9,7 @@
 #include "support/pixels.hpp"
 #include <catch2/catch.hpp>
 
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -135,10 +137,33 @@ TEST_CASE("a septum that was assumed has stars and a note", "[drawing]") {
   CHECK(drawing::star_note(turned, {"septum"}).empty());
 }
 
+TEST_CASE("the name of an assumed base stands above the base as it is seen", "[drawing]") {
+  const Orientation assumed{septum_angle, {{"base", "not drawn"}}};
+  const auto four = letters(drawing::svg(
+      Figure{.panels = {report::infarct_figure(phantom(turned.anterior()), assumed).panels[2]}}));
+  REQUIRE(four.contains("base*"));
+  CHECK(four.at("base*")[1] < four.at("S")[1] - 10.0);  // which stands as high as the far rim
+}
+
 TEST_CASE("a wall that was unloaded is not called early diastole", "[drawing]") {
   CHECK(turned.at_rest() == "early diastole");
   CHECK(Orientation{0.0, {{"early diastole", "nobody knows"}}}.at_rest() == "early diastole*");
   CHECK(Orientation{0.0, {}, true}.at_rest() == "the wall without load");
+}
+
+TEST_CASE("a picture of the undeformed wall whose moment was assumed has a star for its note",
+          "[drawing]") {
+  const Orientation assumed{septum_angle, {{"early diastole", "nobody knows when"}}};
+  const mesh::Mesh wall = phantom(turned.anterior());
+  const std::vector<analysis::CellFields> at_rest = analysis::FieldAnalysis(wall, {}).at_rest();
+  const std::array figures{report::mesh_figure(wall, assumed),
+                           report::infarct_figure(wall, assumed),
+                           report::fibre_figure(wall, at_rest, assumed)};
+  for (const Figure& figure : figures) {
+    CHECK_THAT(figure.footnote, Catch::Contains("* assumed: nobody knows when"));
+    CHECK_THAT(figure.title, Catch::Contains("early diastole*"));
+  }
+  CHECK_THAT(report::mesh_figure(wall, turned).title, !Catch::Contains("diastole"));
 }
 
 TEST_CASE("an infarct that no image shows has a star", "[drawing]") {

@@ -6,6 +6,7 @@
 #include "lv/page/modes.hpp"
 #include "lv/page/packing.hpp"
 #include "lv/page/place.hpp"
+#include "lv/report/work_folder.hpp"
 
 #include "support/temporary_folder.hpp"
 #include <catch2/catch.hpp>
@@ -84,6 +85,18 @@ TEST_CASE("a page of an empty work folder has its state and no wall", "[page]") 
   CHECK(page.find("\"version\":\"1.2.3\"") != std::string::npos);
   CHECK(page.find("\\u003c1>") != std::string::npos);  // no file ends the script element
   CHECK(page.find("\"wall\":") == std::string::npos);
+}
+
+TEST_CASE("a page of a run without results knows its case's name", "[page]") {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path work = folder / "work";
+  std::filesystem::create_directories(work / "04_results");
+  const auto page = [&] { return page::page({{work, false, {}}}, "1"); };
+  CHECK(report::case_name(work).empty());
+  CHECK(page().find("\"name\":\"HV01\"") == std::string::npos);
+  report::write_case_name(work, "HV01");
+  CHECK(report::case_name(work) == "HV01");
+  CHECK(page().find("\"name\":\"HV01\"") != std::string::npos);
 }
 
 TEST_CASE("two cases whose moments are not defined alike are told apart", "[page]") {

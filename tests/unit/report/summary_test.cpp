@@ -108,6 +108,11 @@ TEST_CASE("every figure of the summary is measured, fitted, assumed or computed"
   CHECK(mark("parameters.passive.C_a") == "fitted");
   CHECK(mark("parameters.calibrate.edv") == "measured");
   CHECK(mark("parameters.box.size") == "assumed");
+  CHECK(mark("mass_g") == "computed");
+
+  report::RunFacts ellipsoid;
+  const json assumed = json::parse(report::summary_json(ellipsoid, {}, results(true)));
+  CHECK(mark_of(assumed["marks"], "mass_g") == "assumed");  // its shape is
 
   report::RunFacts heartbeat = calibrated_facts();
   heartbeat.pressure = report::Mark::computed;
