@@ -79,9 +79,6 @@ LV_CONDITION(elastic_base, c.base.kind == solid::BasalSupport::Kind::elastic,
              "with base.support = \"elastic\"")
 LV_CONDITION(rigid_base, c.base.kind != solid::BasalSupport::Kind::elastic,
              "with base.support = \"sliding\" or \"fixed\"")
-LV_CONDITION(engine_of_moving_base, c.engine == EngineChoice::quasi_static,
-             "with engine = \"quasi_static\" (heartbeats of the other go by what the endocardium "
-             "sweeps around a base that stays)")
 LV_CONDITION(beats_of_moving_base, beats_in(c, s),
              "with protocol.kind = \"cycle\" (a motion over the beat says nothing to loads without "
              "a time)")

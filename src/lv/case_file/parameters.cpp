@@ -874,14 +874,14 @@ constexpr Group of_blood_and_base[]{
                 "kPa s/mm", not_negative, "dashpots per area in its plane"),
      }},
     {beating,
-     {&engine_of_moving_base, &beats_of_moving_base},
+     {&beats_of_moving_base},
      {
          choice("base.motion", LV_AT(base_motion.source), "none table cine",
                 "the base stays, or its springs and dashpots move with it through every beat: as a "
                 "table says, or as strain.long_axis_cine shows"),
      }},
     {beating,
-     {&engine_of_moving_base, &beats_of_moving_base, &base_table},
+     {&beats_of_moving_base, &base_table},
      {
          file("base.motion_file", LV_AT(base_motion.file),
               "CSV with the columns time_s (after the calcium of a beat begins) or cycle_share, "
@@ -889,7 +889,7 @@ constexpr Group of_blood_and_base[]{
               "the apex) and rotation_deg (anticlockwise seen from the apex)"),
      }},
     {beating,
-     {&engine_of_moving_base, &beats_of_moving_base, &moving_base},
+     {&beats_of_moving_base, &moving_base},
      {
          number("base.motion_zero", LV_AT(base_motion.zero), "s", not_negative,
                 "time of the motion at which the base is where the wall without load has it: the "

@@ -431,12 +431,6 @@ class CaseReader {
     rule(case_.circulation.asked(), "protocol.kind",
          "is \"cycle\", which needs a circulation: set circulation.kind to \"windkessel\" or "
          "\"closed_loop\"");
-    rule(case_.engine == EngineChoice::quasi_static ||
-             case_.base.kind != solid::BasalSupport::Kind::elastic,
-         "base.support",
-         "is \"elastic\", which heartbeats of engine = \"immersed\" do not take yet: their circuit "
-         "goes by what the endocardium sweeps, with a base that stays in its plane; take "
-         "\"sliding\" or \"fixed\", or engine = \"quasi_static\"");
     rule(case_.active_law == ActiveChoice::land2017 || case_.active_law == ActiveChoice::niederer,
          "active.law",
          "prescribes a tension, which knows no time: a cycle takes \"land2017\" (or \"niederer\")");

@@ -10,6 +10,7 @@ namespace {
 
 constexpr const char* steps_name = "steps";  ///< the last two
 constexpr const char* calcium_name = "calcium";
+constexpr const char* slack_name = "slack";
 
 std::string modes_name(int c) {
   return fmt::format("modes.{}", c);
@@ -50,7 +51,7 @@ immersed::ModelState load_model_state(const Archive& archive, immersed::Model& m
   state.calcium = archive.get_rows(calcium_name, 1, {}, not_negative);
   if (state.calcium.size() != 1 && state.calcium.size() != nodes)
     archive.refuse("it has calcium for another number of nodes");
-  state.slack = false;
+  state.slack = archive.whole_number(archive.number(slack_name), {0.0, 1.0}) == 1;
   if (!model.inside_box(state.positions))
     throw RunError("the archive has a wall that is not inside the box",
                    "Delete it to start this stage again");
@@ -66,7 +67,6 @@ immersed::ModelState load_model_state(const Archive& archive, immersed::Model& m
 }
 
 Archive archived(const immersed::ModelState& state, const fluid::BoxTransform& transform) {
-  LV_CHECK(!state.slack);  // muscle is while a wall is filled, of which no archive is made
   Archive archive;
   archive.set("positions", flat(state.positions));
   archive.set("node_velocities", flat(state.node_velocities));
@@ -74,6 +74,7 @@ Archive archived(const immersed::ModelState& state, const fluid::BoxTransform& t
   archive.set("contraction", state.contraction);
   archive.set(steps_name, {state.dt, state.dt_before});
   archive.set(calcium_name, state.calcium);
+  archive.set(slack_name, {state.slack ? 1.0 : 0.0});
   for (int c = 0; c < 3; ++c) {
     archive.set(modes_name(c), transform.gather(state.velocity_modes, c));
     archive.set(convection_name(c), fluid::gather(state.convection.component[c]));

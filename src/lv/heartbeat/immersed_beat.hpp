@@ -1,5 +1,6 @@
 #pragma once
 
+#include "lv/heartbeat/base_motion.hpp"
 #include "lv/heartbeat/observers.hpp"
 
 #include <filesystem>
@@ -16,6 +17,7 @@ struct BeatSetup {
   /// Of heartbeats: when each node is activated after the calcium of a beat begins [s]; empty: all
   /// at once.
   std::vector<double> activation_times = {};
+  BaseMotion base_motion = {};  ///< of heartbeats
 };
 
 /// Fills the ventricle to end-diastole and contracts it to end-systole with the immersed engine

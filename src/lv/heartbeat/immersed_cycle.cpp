@@ -36,10 +36,22 @@ namespace {
 
 using units::mmHg;
 
+constexpr const char* filling_name = "filling";  ///< of a checkpoint: of a wall that is filled
+
 /// Filling as the protocol does it, to another pressure.
 Phase filling_to(double pressure, Protocol protocol) {
   protocol.ed_pressure = pressure;
   return phases(protocol).front();
+}
+
+/// The places of a base one step before the present one, at its start and at its end.
+struct BaseCourse {
+  solid::AffineField before, start, end;
+};
+
+immersed::HeldBase held_base(const BaseCourse& base, double dt) {
+  return {{base.start, solid::BaseStep{base.before, base.start}.at(1.0, dt).velocity},
+          solid::BaseStep{base.start, base.end}.at(1.0, dt).velocity};
 }
 
 /// The steps of a wall in blood are its own; those of a stand-in for it are the other engine's.
@@ -60,31 +72,39 @@ class ImmersedCycleRun {
         model_(setup.mesh, setup.heart, setup.model),
         steps_(setup.control, model_, setup.model.blood.density),
         record_(course_of(setup, circuit)),
+        filling_(filling_to(record_.filling_pressure(), setup.protocol)),
         checkpoint_timer_(setup.output.checkpoint_interval) {}
 
   Beat run();
 
  private:
+  void begin_filling();
   void fill();
-  [[nodiscard]] bool is_filled(const Phase& phase) const;
+  void fill_step();
+  [[nodiscard]] bool is_filled() const;
+  void hold_filling_base(double dt);
   void begin_beat();
   void step();
   void end_beat();
-  [[nodiscard]] bool has_failed(const std::string& where);
-  void take_back(const std::string& where, const std::string& why);
+  [[nodiscard]] bool has_failed();
+  void take_back(const std::string& why);
   [[nodiscard]] solid::Loads loads() const;
   void observe();
   void record_curve();
   void write_frame();
   [[nodiscard]] Snapshot snapshot() const;
   void housekeeping();
+  [[nodiscard]] std::string place() const;
   void report_progress();
+  void report_filling() const;
   void count_time();
   void keep() { kept_ = {model_.state(), record_}; }
   void keep_sometimes();
   void save();
   [[nodiscard]] bool resume();
 
+  /// The beats have not begun.
+  [[nodiscard]] bool is_filling() const { return record_.cycle().samples.empty(); }
   [[nodiscard]] RunState& state() { return record_.run(); }
   [[nodiscard]] const RunState& state() const { return record_.run(); }
   /// Whether the run may be stored now: the response to the pressure is found anew in the next
@@ -98,7 +118,7 @@ class ImmersedCycleRun {
   };
   [[nodiscard]] Archive archived_place(const immersed::ModelState& model,
                                        const CycleRecord& record) const;
-  [[nodiscard]] Place load_place(Archive archive);
+  [[nodiscard]] Place load_place(Archive archive, bool of_filling);
 
   static constexpr int steps_of_response = 10;  ///< that see the same response to the pressure
   static constexpr int steps_kept = 200;        ///< between places to go back to
@@ -108,7 +128,8 @@ class ImmersedCycleRun {
   const Observers& observers_;
   immersed::Model model_;
   ImmersedSteps steps_;
-  CycleRecord record_;
+  CycleRecord record_;  ///< while the wall is filled, its run alone
+  Phase filling_;
   immersed::StepReport last_;
   std::optional<Place> kept_;  ///< to go back to when a step fails
 
@@ -120,7 +141,9 @@ class ImmersedCycleRun {
 };
 
 Beat ImmersedCycleRun::run() {
-  if (!resume()) {
+  if (!resume())
+    begin_filling();
+  if (is_filling()) {
     fill();
     begin_beat();
   }
@@ -136,41 +159,53 @@ Beat ImmersedCycleRun::run() {
   return beat;
 }
 
-/// From the undeformed wall to one at rest under the pressure before the mitral valve.
-void ImmersedCycleRun::fill() {
-  const double pressure = record_.filling_pressure();
-  const Phase phase = filling_to(pressure, setup_.protocol);
+void ImmersedCycleRun::begin_filling() {
   model_.slacken();
-  state().steady = criterion(phase);
+  state().steady = criterion(filling_);
   keep();
-  while (!is_filled(phase)) {
-    if (is_at_stop())
-      interrupt::check_together();
-    const double time = state().time;
-    const double dt = steps_.size(state());
-    last_ = model_.step(phase.loads(time), dt, time >= phase.settled ? phase.drag : 0.0);
-    state().time += dt;
-    if (has_failed(fmt::format("{:.4f} s of filling", time)))
-      continue;
-    state().steady.record(state().time, model_.cavity_volume());
-    keep_sometimes();
-    if (is_at_stop() && progress_timer_.due(wall_clock()))
-      log::info("filling {:.3f} s  {:.1f} mmHg  {:.1f} ml", state().time,
-                phase.loads(state().time).pressure / mmHg, 1e-3 * model_.cavity_volume());
-  }
-  model_.balance(setup_.protocol.calcium.Ca_0);
-  record_.start(model_.cavity_volume(), pressure);
 }
 
-bool ImmersedCycleRun::is_filled(const Phase& phase) const {
-  if (state().time >= phase.settled && state().steady.reached())
+/// From the undeformed wall to one at rest under the pressure before the mitral valve.
+void ImmersedCycleRun::fill() {
+  while (!is_filled()) {
+    fill_step();
+    housekeeping();
+  }
+  model_.balance(setup_.protocol.calcium.Ca_0);
+  record_.start(model_.cavity_volume(), record_.filling_pressure());
+}
+
+void ImmersedCycleRun::fill_step() {
+  const double time = state().time;
+  const double dt = steps_.size(state());
+  hold_filling_base(dt);
+  last_ = model_.step(filling_.loads(time), dt, time >= filling_.settled ? filling_.drag : 0.0);
+  state().time += dt;
+  if (has_failed())
+    return;
+  state().steady.record(state().time, model_.cavity_volume());
+  keep_sometimes();
+}
+
+/// A base that moves is taken to where a beat begins as the pressure rises.
+void ImmersedCycleRun::hold_filling_base(double dt) {
+  const solid::AffineField there = setup_.base_motion.at(0.0);
+  const auto at = [&](double time) {
+    return solid::between({}, there, smooth_step(time / filling_.ramp));
+  };
+  const double time = state().time;
+  model_.hold_base(held_base({at(time - dt), at(time), at(time + dt)}, dt));
+}
+
+bool ImmersedCycleRun::is_filled() const {
+  if (state().time >= filling_.settled && state().steady.reached())
     return true;
-  if (state().time < phase.longest)
+  if (state().time < filling_.longest)
     return false;
   log::warn(
       "filling did not meet its end criterion within {} s: the volume still varies by {:.2g}% "
       "per {} s",
-      phase.longest, 100.0 * state().steady.variation(), phase.window);
+      filling_.longest, 100.0 * state().steady.variation(), filling_.window);
   return true;
 }
 
@@ -187,14 +222,17 @@ void ImmersedCycleRun::begin_beat() {
 void ImmersedCycleRun::step() {
   const double dt = record_.step_size(steps_.size(state()));
   const auto circuit = [&](double p) { return record_.volume_after(dt, p); };
-  // the circuit goes by what the endocardium sweeps; the fan at the base is no part of it
+  // the circuit goes by what the endocardium sweeps against the lid, not by the fan at its edge
   const double share_of_base = model_.cavity_volume() - record_.now().signals.volume;
   const auto pressure = [&](immersed::StepVolume wall) {
     wall.volume -= share_of_base;
     return matching_pressure(wall, circuit);
   };
+  const auto base_at = [&](double since) { return setup_.base_motion.at(since); };
+  const double since = record_.since();
+  model_.hold_base(held_base({base_at(since - dt), base_at(since), base_at(since + dt)}, dt));
   last_ = model_.step(loads(), dt, pressure, is_at_stop());
-  if (has_failed(fmt::format("{:.4f} s of beat {}", record_.since(), record_.beat() + 1)))
+  if (has_failed())
     return;
   const bool is_sample = record_.begin() + record_.after(dt) >= state().next_curve;
   record_.step(dt, last_.pressure, model_.cavity_volume(), is_sample);
@@ -219,16 +257,17 @@ void ImmersedCycleRun::end_beat() {
     begin_beat();
 }
 
-bool ImmersedCycleRun::has_failed(const std::string& where) {
+bool ImmersedCycleRun::has_failed() {
   const std::string why = steps_.failure(last_, state());
   if (why.empty())
     return false;
-  take_back(where, why);
+  take_back(why);
   return true;
 }
 
-void ImmersedCycleRun::take_back(const std::string& where, const std::string& why) {
+void ImmersedCycleRun::take_back(const std::string& why) {
   count_time();
+  const std::string where = place();
   const RunState failed = state();
   model_.restore(kept_->model);
   record_ = kept_->record;
@@ -300,15 +339,23 @@ void ImmersedCycleRun::housekeeping() {
   if (parallel::any(interrupt::requested())) {
     save();
     record_.show_progress(observers_);
-    throw Interrupted(
-        fmt::format("stopped at {:.4f} s of beat {}; run the same command again to go on",
-                    record_.since(), record_.beat() + 1));
+    throw Interrupted(fmt::format("stopped at {}; run the same command again to go on", place()));
   }
   const double now = wall_clock();
   if (checkpoint_timer_.due(now))
     save();
   if (progress_timer_.due(now))
-    report_progress();
+    is_filling() ? report_filling() : report_progress();
+}
+
+std::string ImmersedCycleRun::place() const {
+  return is_filling() ? fmt::format("{:.4f} s of filling", state().time)
+                      : fmt::format("{:.4f} s of beat {}", record_.since(), record_.beat() + 1);
+}
+
+void ImmersedCycleRun::report_filling() const {
+  log::info("filling {:.3f} s  {:.1f} mmHg  {:.1f} ml", state().time,
+            filling_.loads(state().time).pressure / mmHg, 1e-3 * model_.cavity_volume());
 }
 
 void ImmersedCycleRun::report_progress() {
@@ -332,7 +379,10 @@ void ImmersedCycleRun::count_time() {
 Archive ImmersedCycleRun::archived_place(const immersed::ModelState& model,
                                          const CycleRecord& record) const {
   Archive archive;
-  record.store(archive);
+  if (is_filling())
+    heartbeat::store(record.run(), archive);
+  else
+    record.store(archive);
   archive.add("model", heartbeat::archived(model, model_.transform()));
   return archive;
 }
@@ -340,14 +390,19 @@ Archive ImmersedCycleRun::archived_place(const immersed::ModelState& model,
 void ImmersedCycleRun::save() {
   count_time();
   Archive archive;
+  archive.set(filling_name, {is_filling() ? 1.0 : 0.0});
   archive.add("now", archived_place(model_.state(), record_));
   archive.add("kept", archived_place(kept_->model, kept_->record));
   parallel::on_root([&] { archive.write(folder_ / checkpoint_name); });
 }
 
-ImmersedCycleRun::Place ImmersedCycleRun::load_place(Archive archive) {
+ImmersedCycleRun::Place ImmersedCycleRun::load_place(Archive archive, bool of_filling) {
   CycleRecord record = record_;
-  record.load(archive, setup_.mesh.nodes.size());
+  const std::size_t nodes = setup_.mesh.nodes.size();
+  if (of_filling)
+    record.run() = load_run_state(archive, {filling_}, nodes);
+  else
+    record.load(archive, nodes);
   return {load_model_state(archive.take("model"), model_), std::move(record)};
 }
 
@@ -356,11 +411,12 @@ bool ImmersedCycleRun::resume() {
   if (!parallel::root_says(std::filesystem::exists(file)))
     return false;
   Archive archive = Archive::read(file);
-  Place now = load_place(archive.take("now"));
-  kept_ = load_place(archive.take("kept"));
+  const bool of_filling = archive.whole_number(archive.number(filling_name), {0.0, 1.0}) == 1;
+  Place now = load_place(archive.take("now"), of_filling);
+  kept_ = load_place(archive.take("kept"), of_filling);
   model_.restore(now.model);
   record_ = std::move(now.record);
-  log::info("going on from {:.4f} s of beat {}", record_.since(), record_.beat() + 1);
+  log::info("going on from {}", place());
   return true;
 }
 

@@ -18,10 +18,14 @@ namespace lv::heartbeat {
 /// resting calcium. Calcium, moments and the end of the beats are those of run_cycle. The cavity is
 /// open to the box; what flows there is the blood between the valves and the circuit.
 ///
-/// Resumes from `folder`/checkpoint when there is one, bit for bit on as many ranks as wrote it;
-/// none is written while the wall is filled. Throws Interrupted after SIGINT or SIGTERM; RunError
-/// when the first beat stays unstable at the smallest step, or when the aortic valve does not open
-/// and close in the last. Collective.
+/// A base that moves (setup.base_motion) is taken to where a beat begins while the wall is filled.
+/// The cavity's volume in the circuit is what its endocardium sweeps against the lid on its opening
+/// (immersed::StepVolume).
+///
+/// Resumes from `folder`/checkpoint when there is one, bit for bit on as many ranks as wrote it.
+/// Throws Interrupted after SIGINT or SIGTERM; RunError when filling or the first beat stays
+/// unstable at the smallest step, or when the aortic valve does not open and close in the last.
+/// Collective.
 [[nodiscard]] Beat run_immersed_cycle(const BeatSetup& setup,
                                       const circulation::CircuitParameters& circuit,
                                       const std::filesystem::path& folder,

@@ -32,6 +32,8 @@ Model::Model(const mesh::Mesh& mesh, const solid::CardiacModel& heart,
       longest_step_(heart.surroundings.longest_step(parameters.blood.density *
                                                     parameters.grid.spacing.minCoeff())),
       endocardium_(mesh),
+      opening_(mesh),
+      base_is_elastic_(heart.base.kind == solid::BasalSupport::Kind::elastic),
       transfer_(parameters.grid, slab_, parameters.coupling.kernel),
       coupling_(make_coupling(parameters.coupling, mesh, parameters.grid, slab_)),
       transform_(parameters.grid, slab_),
@@ -114,7 +116,7 @@ solid::VolumeRange Model::nodal_forces(double pressure) {
   const solid::VolumeRange J =
       wall_.add_elastic_forces(state_.positions, contraction_.tension(), node_forces_);
   endocardium_.add_gradient(pressure, state_.positions, node_forces_);
-  supports_.add_forces(state_.positions, state_.node_velocities, node_forces_);
+  supports_.add_forces(state_.positions, state_.node_velocities, node_forces_, base_.start);
   parallel::sum({node_forces_.data()->data(), 3 * node_forces_.size()});
   return J;
 }
@@ -177,9 +179,11 @@ double Model::find_pressure(double guess, double dt, const PressureOfStep& press
   std::vector<Vec3> gradient(U.size(), Vec3::Zero());
   endocardium_.add_gradient(1.0, midpoints_, gradient);
   std::array<double, 2> flow{};  // under the guess, and of the response [mm^3/s]
+  const Vec3 L = base_is_elastic_ ? opening_.carried(U) : base_.velocity.at(opening_.centre());
+  const Vec3 L_1 = base_is_elastic_ ? opening_.carried(response_->nodes) : Vec3::Zero();
   for (std::size_t a = 0; a < U.size(); ++a) {
-    flow[0] += gradient[a].dot(U[a]);
-    flow[1] += gradient[a].dot(response_->nodes[a]);
+    flow[0] += gradient[a].dot(U[a] - L);
+    flow[1] += gradient[a].dot(response_->nodes[a] - L_1);
   }
   parallel::sum(flow);
   const double found = pressure({guess, cavity_volume() + dt * flow[0], dt * flow[1]});

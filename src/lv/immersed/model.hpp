@@ -7,6 +7,7 @@
 #include "lv/solid/contraction.hpp"
 #include "lv/solid/endocardial_surface.hpp"
 #include "lv/solid/loads.hpp"
+#include "lv/solid/opening.hpp"
 #include "lv/solid/support.hpp"
 #include "lv/solid/wall.hpp"
 
@@ -49,14 +50,23 @@ struct StepReport {
 };
 
 /// How the cavity's volume at the end of a step follows the pressure p during it,
-/// V + dV/dp (p - guess). V is that before the step and what the endocardium sweeps in it: the fan
-/// that closes the cavity at the base is held, since the pressure does not push it
-/// (solid::EndocardialSurface). A volume that followed the base's own vibration would give its edge
-/// a negative mass.
+/// V + dV/dp (p - guess). V is that before the step and what the endocardium sweeps in it against
+/// the lid on the opening, which an elastic base carries (solid::Opening) and which otherwise goes
+/// with the place where the base is held. It does not go with the endocardium's edge: that edge is
+/// light, the pressure does not push the lid (solid::EndocardialSurface), and a volume that
+/// followed it would give it a negative mass.
 struct StepVolume {
   double guess = 0.0;         ///< [kPa]
   double volume = 0.0;        ///< V [mm^3]
   double per_pressure = 0.0;  ///< dV/dp [mm^3/kPa]
+};
+
+/// How the base is held in a step. Both at rest: it stays where it was undeformed.
+struct HeldBase {
+  /// Where its springs pull to at the start of the step, and how fast that place moves in the half
+  /// step before, whose velocity the dashpots see.
+  solid::BasePlace start{};
+  solid::AffineField velocity{};  ///< of that place in the step [mm/s]
 };
 
 /// The pressure that a step should have [kPa]; not a number: there is none, and the step fails.
@@ -85,12 +95,16 @@ class Model {
   /// with u_g under a guess, that of `loads`, and the response u_1 of wall and blood at rest to a
   /// unit pressure over this step, another solve of the same equations,
   ///
-  ///   u = u_g + (p - guess) u_1,   x^{n+1} = x^n + dt U,   dV = dt dV/dx(x^n + dt/2 U^{n-1/2}) . U
+  ///   u = u_g + (p - guess) u_1,   x^{n+1} = x^n + dt U,
+  ///   dV = dt dV/dx(x^n + dt/2 U^{n-1/2}) . (U - L),   L the velocity of the lid
   ///
   /// u_1 changes as slowly as the wall's shape does: it is kept until `anew` asks for another or
   /// dt changes. `anew` also makes the velocity anew from its modes, so that a restored model takes
   /// the same steps from there on to the last bit.
   StepReport step(const solid::Loads& loads, double dt, const PressureOfStep& pressure, bool anew);
+
+  /// How the base is held in the steps from now on; no part of the state.
+  void hold_base(const HeldBase& base) { base_ = base; }
 
   /// The longest step that the supports of epicardium and base allow [s]: the springs move at least
   /// the blood of one mesh width h with the wall, rho h per area (Surroundings::longest_step). The
@@ -156,6 +170,9 @@ class Model {
   solid::Supports supports_;
   double longest_step_;
   solid::EndocardialSurface endocardium_;
+  solid::Opening opening_;
+  bool base_is_elastic_;
+  HeldBase base_;
   Transfer transfer_;
   std::unique_ptr<Coupling> coupling_;
   fluid::BoxTransform transform_;

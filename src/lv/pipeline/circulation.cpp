@@ -10,6 +10,9 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <utility>
+
 namespace lv::pipeline {
 
 using case_file::Case;
@@ -31,8 +34,11 @@ void make_circulation(const Case& c, const std::filesystem::path& folder) {
   const std::string end = cycle_end(cycle);
   if (!cycle.is_limit)
     log::warn("circulation: {}", end);
+  std::vector<std::string> odd = report::unlike_any_patient(cycle.beats.back());
+  if (std::string beyond = chamber_beyond_beat(c); !beyond.empty())
+    odd.insert(odd.begin(), std::move(beyond));
   std::string unlike;
-  for (const std::string& sentence : report::unlike_any_patient(cycle.beats.back())) {
+  for (const std::string& sentence : odd) {
     log::warn("circulation: {}", sentence);
     unlike += fmt::format("warning: {}\n", sentence);
   }
@@ -52,6 +58,7 @@ heartbeat::Beat make_cycle(const Case& c, const mesh::Mesh& mesh,
   if (c.engine == case_file::EngineChoice::immersed) {
     heartbeat::BeatSetup setup = case_file::beat_setup(c, mesh);
     setup.activation_times = activation_times;
+    setup.base_motion = base_motion(c, mesh);
     return heartbeat::run_immersed_cycle(setup, c.circulation, folder, observers);
   }
   const std::string& begin = c.protocol.cycle.begin;
@@ -99,8 +106,9 @@ std::vector<std::string> cycle_warnings(const Case& c, const circulation::Cycle&
                     cycle.gave_way, cycle.gave_way == 1 ? "" : "s"));
   if (!cycle.is_limit)
     warnings.push_back(cycle_end(cycle));
-  if (std::string slow = slow_relaxation(c); !slow.empty())
-    warnings.push_back(std::move(slow));
+  for (std::string odd : {slow_relaxation(c), chamber_beyond_beat(c)})
+    if (!odd.empty())
+      warnings.push_back(std::move(odd));
   return warnings;
 }
 
@@ -111,6 +119,28 @@ std::string slow_relaxation(const Case& c) {
          "does "
          "not end within a human beat, so the mitral valve opens late or not at all; "
          "active.law = \"land2017\" is human";
+}
+
+std::string chamber_beyond_beat(const Case& c) {
+  if (c.circulation.kind != circulation::Kind::closed_loop)
+    return "";
+  const circulation::ClosedLoopParameters& loop = c.circulation.closed_loop;
+  const double period = c.circulation.period;
+  std::string text;
+  for (const auto& [name, chamber] :
+       {std::pair{"left_atrium", &loop.left_atrium}, std::pair{"right_atrium", &loop.right_atrium},
+        std::pair{"right_ventricle", &loop.right_ventricle}})
+    if (chamber->t_C >= period)
+      text += fmt::format(
+          "{}circulation.closed_loop.{}.t_C is {:g} s and begins {:.3g} s after a "
+          "beat does",
+          text.empty() ? "" : ", ", name, chamber->t_C, std::fmod(chamber->t_C, period));
+  if (text.empty())
+    return "";
+  return fmt::format(
+      "{}, for a beat lasts {:.3g} s (circulation.period): atria contract 0.1 to 0.2 s before the "
+      "ventricles (circulation.left_ventricle.t_C is {:g} s); set t_C to less than the period",
+      text, period, c.circulation.left_ventricle.t_C);
 }
 
 }  // namespace lv::pipeline

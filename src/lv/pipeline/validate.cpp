@@ -5,6 +5,7 @@
 #include "lv/base/mistakes.hpp"
 #include "lv/base/units.hpp"
 #include "lv/case_file/beat_fit.hpp"
+#include "lv/case_file/family.hpp"
 #include "lv/cine/strain.hpp"
 #include "lv/cine/strain_targets.hpp"
 #include "lv/mesh/quality.hpp"
@@ -55,6 +56,16 @@ std::string name_of(const geometry::Assumption& warning) {
 /// A cavity that fills by less than this from early to end-diastole is worth a question.
 constexpr double little_filling = 1.25;
 
+/// Of the case, or of the first of its study that has such a chamber.
+std::string study_beyond_beat(const Case& c) {
+  for (const case_file::Member& member : case_file::family(c.study))
+    if (std::string beyond = chamber_beyond_beat(case_file::under(member.factors, c));
+        !beyond.empty())
+      return member.name == "case" ? beyond
+                                   : fmt::format("in {} of the study, {}", member.name, beyond);
+  return "";
+}
+
 std::vector<Warning> warnings_of(const Case& c, const anatomy::Shape& shape, double cavity) {
   std::vector<Warning> warnings;
   if (c.origin.empty())
@@ -63,6 +74,8 @@ std::vector<Warning> warnings_of(const Case& c, const anatomy::Shape& shape, dou
     warnings.push_back({"no effect", text});
   if (std::string slow = slow_relaxation(c); !slow.empty())
     warnings.push_back({"slow relaxation", std::move(slow)});
+  if (std::string beyond = study_beyond_beat(c); !beyond.empty())
+    warnings.push_back({"contraction beyond the beat", std::move(beyond)});
   if (std::string outside = fit_outside_heartbeats(c); !outside.empty())
     warnings.push_back({"fit outside heartbeats", std::move(outside)});
   if (std::string turned = left_handed_fibres(c); !turned.empty())

@@ -6,15 +6,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace lv::solid {
 
-BasalPenalty::BasalPenalty(const mesh::Mesh& mesh, const BasalSupport& support) {
-  if (support.kind == BasalSupport::Kind::elastic)
-    return;
+std::map<int, double> nodal_areas(const mesh::Mesh& mesh, const mesh::Surface& surface) {
   std::map<int, double> area;
-  const mesh::ElementNodes faces = mesh::sides(mesh.kind, 1, mesh.base);
+  const mesh::ElementNodes faces = mesh::sides(mesh.kind, 1, surface);
   const ShapeTable shapes = side_shapes(mesh.kind, 1);
   for (int f = 0; f < faces.size(); ++f) {
     const auto nodes = faces.element(f);
@@ -24,7 +21,13 @@ BasalPenalty::BasalPenalty(const mesh::Mesh& mesh, const BasalSupport& support) 
         area[nodes[a]] += shapes.value(point.q, a) * da;
     });
   }
-  for (const auto& [node, A] : area) {
+  return area;
+}
+
+BasalPenalty::BasalPenalty(const mesh::Mesh& mesh, const BasalSupport& support) {
+  if (support.kind == BasalSupport::Kind::elastic)
+    return;
+  for (const auto& [node, A] : nodal_areas(mesh, mesh.base)) {
     const Vec3& X = mesh.nodes[node];
     Mat3 held = Mat3::Identity();
     if (support.kind == BasalSupport::Kind::sliding) {

@@ -3,6 +3,7 @@
 #include "lv/mesh/mesh.hpp"
 #include "lv/solid/base_motion.hpp"
 
+#include <map>
 #include <span>
 #include <vector>
 
@@ -18,6 +19,11 @@ struct BasalSupport {
   Kind kind = Kind::sliding;
   double stiffness = 300.0;  ///< kappa, of springs per reference area, unless elastic [kPa/mm]
 };
+
+/// The nodes of a surface and their shares of its undeformed area, faces being flat or bilinear
+/// [mm^2].
+[[nodiscard]] std::map<int, double> nodal_areas(const mesh::Mesh& mesh,
+                                                const mesh::Surface& surface);
 
 /// The springs that hold the base:
 ///

@@ -7,6 +7,8 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <functional>
+#include <numeric>
 
 namespace {
 
@@ -83,6 +85,13 @@ double swept(const mesh::Mesh& mesh, const std::vector<Vec3>& from, const std::v
   for (std::size_t a = 0; a < from.size(); ++a)
     sum += gradient[a].dot(to[a] - from[a]);
   return sum;
+}
+
+/// int n da over the endocardium [mm^2].
+Vec3 opening_area(const mesh::Mesh& mesh, const std::vector<Vec3>& positions) {
+  std::vector<Vec3> gradient(positions.size(), Vec3::Zero());
+  solid::EndocardialSurface(mesh).add_gradient(1.0, positions, gradient);
+  return -std::reduce(gradient.begin(), gradient.end(), Vec3(Vec3::Zero()));
 }
 
 }  // namespace
@@ -166,6 +175,90 @@ TEST_CASE("a closed valve is held over many steps with an old response", "[unit]
   }
   CHECK(pressure > 1.0);      // it contracts against the closed valve
   CHECK(largest_jump < 0.5);  // [kPa]
+}
+
+TEST_CASE("a lid that the base carries follows the pressure less than the endocardium's edge does",
+          "[unit][immersed]") {
+  const mesh::Mesh mesh = coarse_mesh();
+  const auto velocities = [&](double pressure) {
+    Model model(mesh, held_by({.base = {5.0, 5.0, 0.0, 0.0, {}}}),
+                verify::in_default_box(mesh, cells));
+    for (int n = 0; n < 2; ++n)
+      static_cast<void>(model.step({pressure, 0.0, 0.0}, 2e-4));
+    return model.state().node_velocities;
+  };
+  std::vector<Vec3> response = velocities(1.0);
+  const std::vector<Vec3> without = velocities(0.0);
+  for (std::size_t a = 0; a < response.size(); ++a)
+    response[a] -= without[a];
+  std::vector<Vec3> swept(response.size(), Vec3::Zero());
+  std::vector<Vec3> closed(response.size(), Vec3::Zero());
+  solid::EndocardialSurface(mesh).add_gradient(1.0, mesh.nodes, swept);
+  solid::EndocardialSurface(mesh).add_volume_gradient(mesh.nodes, closed);
+  const auto sum = [&](const std::vector<Vec3>& gradient) {
+    return std::transform_reduce(gradient.begin(), gradient.end(), response.begin(), 0.0,
+                                 std::plus<>(),
+                                 [](const Vec3& g, const Vec3& v) { return g.dot(v); });
+  };
+  const Vec3 opening = -std::reduce(swept.begin(), swept.end(), Vec3(Vec3::Zero()));
+  const double of_lid = opening.dot(solid::Opening(mesh).carried(response));
+  const double of_edge = sum(closed) - sum(swept);
+  CHECK(sum(swept) > 0.0);
+  CHECK(of_edge < 0.0);
+  CHECK(std::abs(of_lid) < 0.3 * std::abs(of_edge));
+}
+
+TEST_CASE("a closed valve goes along with an elastic base", "[unit][immersed]") {
+  const mesh::Mesh mesh = coarse_mesh();
+  Model model(mesh, held_by({.base = {5.0, 5.0, 0.005, 0.005, {}}}),
+              verify::in_default_box(mesh, cells));
+  model.relax(0.01);
+  const solid::Opening opening(mesh);
+  double pressure = 0.0;
+  double by_endocardium = 0.0;
+  double largest_jump = 0.0;
+  for (int n = 0; n < 400; ++n) {
+    const std::vector<Vec3> before = model.state().positions;
+    const auto report = model.step(
+        {pressure, 0.0, 0.01 + 0.0025 * n}, 2e-4,
+        [&](const immersed::StepVolume& v) {
+          return v.guess - (v.volume - model.cavity_volume()) / v.per_pressure;
+        },
+        n % 10 == 0);
+    largest_jump = std::max(largest_jump, std::abs(report.pressure - pressure));
+    pressure = report.pressure;
+    const std::vector<Vec3>& after = model.state().positions;
+    const double dV = swept(mesh, before, after);
+    const Vec3 lid = opening.carried(after) - opening.carried(before);
+    CHECK(std::abs(dV + opening_area(mesh, before).dot(lid)) < 1e-3);  // [mm^3]
+    by_endocardium += dV;
+  }
+  CHECK(pressure > 1.0);       // it contracts against the closed valve
+  CHECK(largest_jump < 0.05);  // [kPa]
+  // the base gives way, towards the apex, and the endocardium with it
+  CHECK(opening.carried(model.positions()).z() < -0.2);
+  CHECK(by_endocardium > 200.0);
+}
+
+TEST_CASE("a lid on a rigid base goes where the base is held", "[unit][immersed]") {
+  const mesh::Mesh mesh = coarse_mesh();
+  Model model(mesh, {}, verify::in_default_box(mesh, cells));
+  const auto volume_at_guess = [&](const Vec3& velocity) {
+    model.hold_base({{}, {Mat3::Zero(), velocity}});
+    double volume = 0.0;
+    static_cast<void>(model.step(
+        {}, 2e-4,
+        [&](const immersed::StepVolume& v) {
+          volume = v.volume;
+          return v.guess;
+        },
+        true));
+    return volume - model.cavity_volume();
+  };
+  const double still = volume_at_guess(Vec3::Zero());
+  // 2e-4 s at 100 mm/s towards the apex, over an opening of some 1000 mm^2
+  const double moving = volume_at_guess({0.0, 0.0, -100.0});
+  CHECK(moving - still == Approx(-0.02 * opening_area(mesh, mesh.nodes).z()).epsilon(0.01));
 }
 
 TEST_CASE("that muscle is slack is part of the state", "[unit][immersed]") {

@@ -2,8 +2,11 @@
 
 #include "lv/base/units.hpp"
 #include "lv/case_file/case.hpp"
+#include "lv/pipeline/circulation.hpp"
 
 #include <catch2/catch.hpp>
+
+#include <algorithm>
 
 using namespace lv;
 using units::mmHg;
@@ -24,4 +27,20 @@ TEST_CASE("an end-diastole that is not that of the images is warned of", "[unit]
   CHECK_THAT(pipeline::unlike_end_diastole(c), Catch::Contains("filled to 8 mmHg"));
   c.protocol.kind = heartbeat::ProtocolKind::cycle;  // which has no such pressure
   CHECK(pipeline::unlike_end_diastole(c).empty());
+}
+
+TEST_CASE("a chamber that contracts after the beat's end is warned of", "[unit][pipeline]") {
+  case_file::Case c;
+  CHECK(pipeline::chamber_beyond_beat(c).empty());
+  c.circulation.kind = circulation::Kind::closed_loop;
+  CHECK(pipeline::chamber_beyond_beat(c).empty());
+  c.circulation.period = 0.6;
+  const std::string beyond = pipeline::chamber_beyond_beat(c);
+  CHECK_THAT(beyond, Catch::Contains("left_atrium.t_C is 0.72 s and begins 0.12 s after a beat") &&
+                         Catch::Contains("right_atrium.t_C"));
+  CHECK_THAT(beyond, !Catch::Contains("right_ventricle.t_C"));
+  const auto warnings = pipeline::cycle_warnings(c, {});
+  CHECK(std::find(warnings.begin(), warnings.end(), beyond) != warnings.end());
+  c.circulation.kind = circulation::Kind::windkessel;  // which has no such chambers
+  CHECK(pipeline::chamber_beyond_beat(c).empty());
 }
