@@ -10,14 +10,6 @@
 
 namespace lv::page {
 
-/// How far the wall reaches about the long axis, at all moments [mm].
-struct Reach {
-  double radius = 0.0;
-  double bottom = 0.0;  ///< z
-  double top = 0.0;     ///< z
-};
-[[nodiscard]] Reach reach_of(const WallSeries& wall);
-
 /// The wall as the page opens with it: circumferential strain at end-systole, in the four-chamber
 /// view, cut open. The browser has it before it can draw by itself.
 struct Opening {
@@ -33,10 +25,8 @@ inline constexpr const char* opening_quantity = "circumferential_strain";
 /// moments of regions.csv, as far to both sides of the middle; nothing without results.
 [[nodiscard]] std::optional<drawing::ColourScale> opening_scale(const std::filesystem::path& work);
 
-/// The faces of the wall's surface are `skin`; `is_quadratic`: eight consecutive cells are the
-/// parts of one element.
-[[nodiscard]] Opening opening(const WallSeries& wall, const std::vector<std::int32_t>& skin,
-                              bool is_quadratic, std::size_t frame,
+/// `is_quadratic`: eight consecutive cells are the parts of one element.
+[[nodiscard]] Opening opening(const WallSeries& wall, bool is_quadratic, std::size_t frame,
                               const drawing::Orientation& orientation,
                               const drawing::ColourScale& scale);
 
