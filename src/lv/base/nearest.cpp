@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -54,6 +55,14 @@ std::string nearest_name(const std::string& wanted, std::span<const std::string>
       nearest = name;
     }
   return nearest;
+}
+
+std::size_t nearest_number(double wanted, std::span<const double> numbers) {
+  const auto is_nearer = [wanted](double a, double b) {
+    return std::abs(a - wanted) < std::abs(b - wanted);
+  };
+  const auto nearest = std::min_element(numbers.begin(), numbers.end(), is_nearer);
+  return static_cast<std::size_t>(nearest - numbers.begin());
 }
 
 }  // namespace lv

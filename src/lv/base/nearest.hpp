@@ -10,4 +10,7 @@ namespace lv {
 [[nodiscard]] std::string nearest_name(const std::string& wanted,
                                        std::span<const std::string> names);
 
+/// Which of the numbers, of which there are some, is nearest; the first of those equally near.
+[[nodiscard]] std::size_t nearest_number(double wanted, std::span<const double> numbers);
+
 }  // namespace lv

@@ -30,28 +30,21 @@ Circuit::Kinds Circuit::kind_of(const CircuitParameters& p) {
                    "Set it to \"windkessel\" or \"closed_loop\"");
 }
 
-Circuit::Circuit(const CircuitParameters& parameters)
-    : kind_(kind_of(parameters)), asked_blood_(parameters.closed_loop.blood) {}
+Circuit::Circuit(const CircuitParameters& parameters) : kind_(kind_of(parameters)) {}
+
+void Circuit::start(const Start& start) {
+  std::visit([&](auto& part) { part.history = {part.circuit.start(start)}; }, kind_);
+}
 
 void Circuit::start_around(double volume) {
-  std::visit(
-      [&](auto& part) {
-        part.history.now[0] = volume;
-        part.history.step = 0.0;
-      },
-      kind_);
-  fill_as_asked();
+  Start same = start_of(states());
+  same.V_lv = volume;
+  start(same);
 }
 
 void Circuit::start_from(std::span<const double> states) {
   LV_CHECK(states.size() == this->states().size());
-  std::visit(
-      [&](auto& part) {
-        std::copy(states.begin(), states.end(), part.history.now.begin());
-        part.history.step = 0.0;
-      },
-      kind_);
-  fill_as_asked();
+  start(start_of(states));
 }
 
 void Circuit::scale_arterial_pressure(double factor) {
@@ -62,11 +55,6 @@ void Circuit::scale_arterial_pressure(double factor) {
         part.history.step = 0.0;
       },
       kind_);
-}
-
-void Circuit::fill_as_asked() {
-  if (asked_blood_ > 0.0)
-    fill_to(asked_blood_);
 }
 
 void Circuit::fill_to(double blood) {

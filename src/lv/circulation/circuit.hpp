@@ -76,10 +76,9 @@ class Circuit {
   };
   using Kinds = std::variant<Part<Windkessel>, Part<ClosedLoop>>;
   static Kinds kind_of(const CircuitParameters& parameters);
-  void fill_as_asked();
+  void start(const Start& start);
 
   Kinds kind_;
-  double asked_blood_ = 0.0;  ///< of a closed loop [mm^3]; 0: what its start holds
 };
 
 /// What a closed loop holds that shows such signals [mm^3]; 0 of a windkessel.

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <memory>
 #include <numbers>
@@ -316,21 +315,6 @@ std::string grey_png(int columns, int rows, const std::vector<unsigned char>& le
   std::string png;
   require(cairo_surface_write_to_png_stream(surface.get(), &append, &png));
   return png;
-}
-
-void write_whole(const std::filesystem::path& file, const std::string& bytes) {
-  const std::filesystem::path partial = file.string() + ".partial";
-  std::ofstream stream(partial, std::ios::binary);
-  stream << bytes;
-  stream.close();
-  std::error_code error;
-  if (stream)
-    std::filesystem::rename(partial, file, error);
-  if (!stream || error) {
-    std::filesystem::remove(partial, error);
-    throw RunError("cannot write " + file.string(),
-                   "Check that the folder exists, may be written to and has space left");
-  }
 }
 
 }  // namespace lv::drawing

@@ -3,7 +3,6 @@
 #include "lv/drawing/colour_map.hpp"
 #include "lv/drawing/scene.hpp"
 
-#include <filesystem>
 #include <functional>
 #include <numbers>
 #include <span>
@@ -101,9 +100,5 @@ using Draw = std::function<void(Canvas&)>;
 
 /// The bytes of a PNG with 8 bits of grey a pixel, given row by row.
 [[nodiscard]] std::string grey_png(int columns, int rows, const std::vector<unsigned char>& levels);
-
-/// Writes under a temporary name and renames, so that a half-written file never looks whole.
-/// Throws RunError naming the file.
-void write_whole(const std::filesystem::path& file, const std::string& bytes);
 
 }  // namespace lv::drawing

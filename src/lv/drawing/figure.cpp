@@ -1,6 +1,7 @@
 #include "lv/drawing/figure.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/table.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -299,7 +300,7 @@ std::string svg(const Figure& figure, double pixels_per_point) {
 void write(const Figure& figure, const std::filesystem::path& file) {
   const auto kind = file.extension();
   LV_CHECK(kind == ".png" || kind == ".svg");
-  write_whole(file, kind == ".png" ? png(figure) : svg(figure));
+  write_file(file, kind == ".png" ? png(figure) : svg(figure));
 }
 
 }  // namespace lv::drawing

@@ -1,5 +1,6 @@
 #include "lv/drawing/picture_files.hpp"
 
+#include "lv/base/table.hpp"
 #include "lv/drawing/canvas.hpp"
 
 #include <fmt/format.h>
@@ -115,8 +116,8 @@ void write_pictures(const std::vector<PictureFile>& pictures, const fs::path& fo
   Table list(columns());
   for (const PictureFile& p : pictures) {
     const std::string file = file_name(p);
-    write_whole(folder / file,
-                grey_png(p.picture.plane.columns, p.picture.plane.rows, grey_levels(p.picture)));
+    write_file(folder / file,
+               grey_png(p.picture.plane.columns, p.picture.plane.rows, grey_levels(p.picture)));
     list.add_row(fields(p, file));
   }
   list.write_csv(folder / list_name);

@@ -30,15 +30,6 @@ struct WallPatch {
       values.push_back((1.0 - o.w) * nodal[o.a] + o.w * nodal[o.b]);
     return values;
   }
-
-  /// A field of the cells at the patch's triangles.
-  template <class Field>
-  [[nodiscard]] auto at_triangles(const Field& cellwise) const {
-    std::vector<std::decay_t<decltype(cellwise[0])>> values;
-    for (const int cell : cells)
-      values.push_back(cellwise[cell]);
-    return values;
-  }
 };
 
 /// One side of the wall (`mesh.endo`, `mesh.epi` or `mesh.base`) with the nodes at `positions`; so

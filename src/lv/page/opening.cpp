@@ -1,6 +1,7 @@
 #include "lv/page/opening.hpp"
 
 #include "lv/analysis/quantities.hpp"
+#include "lv/base/nearest.hpp"
 #include "lv/base/units.hpp"
 #include "lv/drawing/canvas.hpp"
 #include "lv/drawing/wall_surface.hpp"
@@ -14,27 +15,18 @@ namespace lv::page {
 namespace {
 
 /// The mesh of a series, with all its surface as one side.
-mesh::Mesh mesh_of(const WallSeries& wall, const std::vector<std::int32_t>& skin,
-                   bool is_quadratic) {
+mesh::Mesh mesh_of(const WallSeries& wall, bool is_quadratic) {
   mesh::Mesh mesh;
   mesh.kind = wall.kind;
   mesh.nodes = wall.undeformed;
   mesh.cells = wall.cells;
   mesh.epi.nodes_per_face = wall.kind == mesh::CellKind::hexahedron ? 4 : 3;
-  mesh.epi.nodes.assign(skin.begin(), skin.end());
+  mesh.epi.nodes.assign(wall.skin.nodes.begin(), wall.skin.nodes.end());
   mesh.endo.nodes_per_face = mesh.base.nodes_per_face = mesh.epi.nodes_per_face;
   mesh.order = is_quadratic ? 2 : 1;
   mesh.transmural.assign(mesh.nodes.size(), 0.0);
   mesh.infarct = mesh.transmural;
   return mesh;
-}
-
-std::vector<Vec3> positions(const WallSeries& wall, std::size_t frame) {
-  std::vector<Vec3> x = wall.undeformed;
-  const std::vector<float>& u = wall.displacement[frame];
-  for (std::size_t a = 0; a < x.size(); ++a)
-    x[a] += Vec3(u[3 * a], u[3 * a + 1], u[3 * a + 2]);
-  return x;
 }
 
 /// That of the page's four-chamber view (web/src/orientation.ts).
@@ -70,13 +62,6 @@ double most_off_middle(const std::filesystem::path& work, const analysis::Quanti
   return most;
 }
 
-std::size_t nearest(const std::vector<double>& times, double time) {
-  const auto found = std::min_element(times.begin(), times.end(), [&](double a, double b) {
-    return std::abs(a - time) < std::abs(b - time);
-  });
-  return static_cast<std::size_t>(found - times.begin());
-}
-
 double at_share(const Course& c, double share) {
   return c.times.front() + share * (c.times.back() - c.times.front());
 }
@@ -92,17 +77,6 @@ double opening_share(const Course& c) {
 }
 
 }  // namespace
-
-Reach reach_of(const WallSeries& wall) {
-  Reach reach;
-  for (std::size_t frame = 0; frame < wall.displacement.size(); ++frame)
-    for (const Vec3& x : positions(wall, frame)) {
-      reach.radius = std::max(reach.radius, std::hypot(x.x(), x.y()));
-      reach.bottom = std::min(reach.bottom, x.z());
-      reach.top = std::max(reach.top, x.z());
-    }
-  return reach;
-}
 
 std::optional<drawing::ColourScale> opening_scale(const std::vector<std::filesystem::path>& works) {
   const analysis::Quantity& quantity = analysis::quantity(opening_quantity);
@@ -131,18 +105,18 @@ std::vector<std::optional<std::size_t>> opening_frames(const std::vector<Course>
     if (c.times.empty())
       frames.emplace_back();
     else if (are_beats)
-      frames.emplace_back(nearest(c.times, at_share(c, share)));
+      frames.emplace_back(nearest_number(at_share(c, share), c.times));
     else
-      frames.emplace_back(all_contract ? nearest(c.times, *c.end_systole) : c.times.size() - 1);
+      frames.emplace_back(all_contract ? nearest_number(*c.end_systole, c.times)
+                                       : c.times.size() - 1);
   return frames;
 }
 
-Opening opening(const WallSeries& wall, const std::vector<std::int32_t>& skin, bool is_quadratic,
-                std::size_t frame, const drawing::Orientation& orientation,
-                const drawing::ColourScale& scale) {
+Opening opening(const WallSeries& wall, bool is_quadratic, std::size_t frame,
+                const drawing::Orientation& orientation, const drawing::ColourScale& scale) {
   constexpr double pixels_per_mm = 5.0;
-  const mesh::CurvedMesh curved = mesh::curved(mesh_of(wall, skin, is_quadratic));
-  const std::vector<Vec3> x = curved.at_nodes(positions(wall, frame));
+  const mesh::CurvedMesh curved = mesh::curved(mesh_of(wall, is_quadratic));
+  const std::vector<Vec3> x = curved.at_nodes(wall.positions(frame));
   const std::vector<float>& field = wall.quantities.at(opening_quantity)[frame];
   const std::vector<double> values =
       curved.at_nodes(std::vector<double>(field.begin(), field.end()));
@@ -156,7 +130,7 @@ Opening opening(const WallSeries& wall, const std::vector<std::int32_t>& skin, b
       .items = {item(drawing::wall_surface(curved.mesh, x, curved.mesh.epi), true),
                 item(drawing::wall_section(curved.mesh, x, plane), false)},
       .cut = plane};
-  const drawing::Camera camera = camera_of(reach_of(wall), orientation);
+  const drawing::Camera camera = camera_of(wall.reach, orientation);
   const auto pixels = [&](double mm) { return static_cast<int>(std::lround(mm * pixels_per_mm)); };
   const drawing::Image image = drawing::render(
       scene, camera, {.width = pixels(camera.width), .height = pixels(camera.height)});

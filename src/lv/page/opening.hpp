@@ -11,14 +11,6 @@
 
 namespace lv::page {
 
-/// How far the wall reaches about the long axis, at all moments [mm].
-struct Reach {
-  double radius = 0.0;
-  double bottom = 0.0;  ///< z
-  double top = 0.0;     ///< z
-};
-[[nodiscard]] Reach reach_of(const WallSeries& wall);
-
 /// The wall as the page opens with it: circumferential strain at end-systole, in the four-chamber
 /// view, cut open. The browser has it before it can draw by itself.
 struct Opening {
@@ -50,10 +42,8 @@ struct Course {
 [[nodiscard]] std::vector<std::optional<std::size_t>> opening_frames(
     const std::vector<Course>& cases);
 
-/// The faces of the wall's surface are `skin`; `is_quadratic`: eight consecutive cells are the
-/// parts of one element.
-[[nodiscard]] Opening opening(const WallSeries& wall, const std::vector<std::int32_t>& skin,
-                              bool is_quadratic, std::size_t frame,
+/// `is_quadratic`: eight consecutive cells are the parts of one element.
+[[nodiscard]] Opening opening(const WallSeries& wall, bool is_quadratic, std::size_t frame,
                               const drawing::Orientation& orientation,
                               const drawing::ColourScale& scale);
 

@@ -3,6 +3,7 @@
 #include "lv/analysis/quantities.hpp"
 #include "lv/base/check.hpp"
 #include "lv/base/json_file.hpp"
+#include "lv/base/nearest.hpp"
 #include "lv/base/table.hpp"
 #include "lv/base/units.hpp"
 #include "lv/heartbeat/beat.hpp"
@@ -112,43 +113,6 @@ Range range_of(const NodalSeries& series) {
   return range;
 }
 
-/// The faces that belong to one cell only, with normals that point out of the wall.
-struct Skin {
-  std::vector<std::int32_t> nodes;  ///< face after face
-  std::vector<std::int32_t> cells;  ///< behind each face
-};
-
-Skin skin_of(const WallSeries& wall) {
-  const int per_cell = mesh::nodes_per_cell(wall.kind);
-  const int per_face = wall.kind == mesh::CellKind::hexahedron ? 4 : 3;
-  struct Face {
-    std::array<int, 4> sorted, nodes;
-    int cell;
-  };
-  std::vector<Face> faces;
-  for (std::size_t first = 0; first < wall.cells.size(); first += per_cell)
-    for (const mesh::LocalFace& local : mesh::cell_faces(wall.kind)) {
-      Face face{{-1, -1, -1, -1}, {-1, -1, -1, -1}, static_cast<int>(first) / per_cell};
-      for (int i = 0; i < per_face; ++i)
-        face.nodes.at(i) = wall.cells[first + local.at(i)];
-      face.sorted = face.nodes;
-      std::sort(face.sorted.begin(), face.sorted.end());
-      faces.push_back(face);
-    }
-  std::stable_sort(faces.begin(), faces.end(),
-                   [](const Face& a, const Face& b) { return a.sorted < b.sorted; });
-  Skin skin;
-  for (std::size_t f = 0; f < faces.size(); ++f) {
-    const bool shared = (f > 0 && faces[f - 1].sorted == faces[f].sorted) ||
-                        (f + 1 < faces.size() && faces[f + 1].sorted == faces[f].sorted);
-    if (shared)
-      continue;
-    skin.nodes.insert(skin.nodes.end(), faces[f].nodes.begin(), faces[f].nodes.begin() + per_face);
-    skin.cells.push_back(faces[f].cell);
-  }
-  return skin;
-}
-
 std::vector<std::int16_t> flattened(const std::vector<Vec3>& vectors, double step) {
   std::vector<std::int16_t> numbers;
   for (int d = 0; d < 3; ++d)  // by component: neighbours then differ little
@@ -183,14 +147,13 @@ Json wall_json(const WallSeries& wall, PagedArrays& arrays) {
   constexpr double node_step = 0.01;       // [mm]
   constexpr double direction_step = 0.01;  // of unit vectors
   constexpr double infarct_step = 1e-4;
-  const Skin skin = skin_of(wall);
   Json json{{"nodes_per_cell", mesh::nodes_per_cell(wall.kind)},
             {"nodes", wall.undeformed.size()},
             {"times", rounded(wall.times)},
-            {"reach", reach_json(reach_of(wall))}};
+            {"reach", reach_json(wall.reach)}};
   json["cells"] = arrays.add(std::vector<std::int32_t>(wall.cells.begin(), wall.cells.end()));
-  json["skin"] = arrays.add(skin.nodes);
-  json["skin_cells"] = arrays.add(skin.cells);
+  json["skin"] = arrays.add(wall.skin.nodes);
+  json["skin_cells"] = arrays.add(wall.skin.cells);
   json["undeformed"] = {{"step", node_step},
                         {"values", arrays.add(flattened(wall.undeformed, node_step))}};
   if (std::any_of(wall.infarct.begin(), wall.infarct.end(), [](float M) { return M > 0.0F; })) {
@@ -258,9 +221,8 @@ std::array<std::array<double, 2>, 2> surroundings(const WallSeries& wall, const 
   constexpr double above = 35.0;  // [mm]
   std::array<double, 2> lower{1e9, 1e9};
   std::array<double, 2> upper{-1e9, -1e9};
-  for (const auto& frame : wall.displacement)
-    for (std::size_t a = 0; a < wall.undeformed.size(); ++a) {
-      const Vec3 x = wall.undeformed[a] + Vec3(frame[3 * a], frame[3 * a + 1], frame[3 * a + 2]);
+  for (std::size_t frame = 0; frame < wall.times.size(); ++frame)
+    for (const Vec3& x : wall.positions(frame)) {
       const std::array<double, 2> at{plane.along(x.x(), x.y()), x.z()};
       for (const std::size_t i : {0U, 1U}) {
         lower.at(i) = std::min(lower.at(i), at.at(i));
@@ -312,14 +274,11 @@ Json files_json(const fs::path& work) {
 }
 
 /// What the mesh was made with: where the septum is, and the engine.
-void add_mesh_facts(Json& json, const fs::path& work) {
-  const auto mesh = report::mesh_facts(work);
-  if (!mesh)
-    return;
-  json["septum_deg"] = mesh->septum_angle / units::degree;
+void add_mesh_facts(Json& json, const report::MeshFacts& mesh, const fs::path& work) {
+  json["septum_deg"] = mesh.septum_angle / units::degree;
   // equilibria have shares of loads where heartbeats have times
   if (!report::beat_facts(work).value_or(report::BeatFacts{}).has_valves)
-    json["engine"] = mesh->is_immersed ? "immersed" : "quasi_static";
+    json["engine"] = mesh.is_immersed ? "immersed" : "quasi_static";
 }
 
 /// What the page says of a case's state.
@@ -376,8 +335,8 @@ Json opening_json(const WallSeries& wall, const report::MeshFacts& mesh,
   const auto found = wall.quantities.find(opening_quantity);
   if (!scale || found == wall.quantities.end() || found->second.size() != wall.times.size())
     return {};
-  const Opening drawn = opening(wall, skin_of(wall).nodes, mesh.order == 2, frame,
-                                {.septum_angle = mesh.septum_angle}, *scale);
+  const Opening drawn =
+      opening(wall, mesh.order == 2, frame, {.septum_angle = mesh.septum_angle}, *scale);
   return {{"png", base64(drawn.png)}, {"width_mm", rounded(drawn.width_mm)}, {"frame", frame}};
 }
 
@@ -392,7 +351,9 @@ Data case_html(const PageCase& shown, int number, const OpeningPlan& plan) {
             {"files", files_json(shown.work)}};
   if (const std::string name = report::case_name(shown.work); !name.empty())
     json["name"] = name;
-  add_mesh_facts(json, shown.work);
+  const auto known_mesh = report::mesh_facts(shown.work);
+  if (known_mesh)
+    add_mesh_facts(json, *known_mesh, shown.work);
   const auto blood = frames_of(report::file_of(shown.work, "beat", "blood.pvd"));
   json["has_blood"] = !blood.empty();
   if (const auto frames = wall_frames(shown.work); !frames.empty()) {
@@ -400,7 +361,7 @@ Data case_html(const PageCase& shown, int number, const OpeningPlan& plan) {
     const WallSeries wall = read_wall_series(
         frames, report::time_of(shown.work, heartbeat::end_diastole).value_or(never));
     json["wall"] = wall_json(wall, arrays);
-    const auto mesh = report::mesh_facts(shown.work).value_or(report::MeshFacts{});
+    const auto mesh = known_mesh.value_or(report::MeshFacts{});
     json["wall"]["order"] = mesh.order;
     if (Json first = opening_json(wall, mesh, plan.scale, plan.frames[number].value());
         !first.is_null())

@@ -16,6 +16,7 @@
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -159,6 +160,48 @@ void add_frame(WallSeries& wall, const TimedFrame& timed, bool from_end_diastole
         wall.quantities[q.name].push_back(to_nodes(array, wall));
 }
 
+Skin skin_of(const WallSeries& wall) {
+  const int per_cell = mesh::nodes_per_cell(wall.kind);
+  const int per_face = wall.kind == mesh::CellKind::hexahedron ? 4 : 3;
+  struct Face {
+    std::array<int, 4> sorted, nodes;
+    int cell;
+  };
+  std::vector<Face> faces;
+  for (std::size_t first = 0; first < wall.cells.size(); first += per_cell)
+    for (const mesh::LocalFace& local : mesh::cell_faces(wall.kind)) {
+      Face face{{-1, -1, -1, -1}, {-1, -1, -1, -1}, static_cast<int>(first) / per_cell};
+      for (int i = 0; i < per_face; ++i)
+        face.nodes.at(i) = wall.cells[first + local.at(i)];
+      face.sorted = face.nodes;
+      std::sort(face.sorted.begin(), face.sorted.end());
+      faces.push_back(face);
+    }
+  std::stable_sort(faces.begin(), faces.end(),
+                   [](const Face& a, const Face& b) { return a.sorted < b.sorted; });
+  Skin skin;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const bool shared = (f > 0 && faces[f - 1].sorted == faces[f].sorted) ||
+                        (f + 1 < faces.size() && faces[f + 1].sorted == faces[f].sorted);
+    if (shared)
+      continue;
+    skin.nodes.insert(skin.nodes.end(), faces[f].nodes.begin(), faces[f].nodes.begin() + per_face);
+    skin.cells.push_back(faces[f].cell);
+  }
+  return skin;
+}
+
+Reach reach_of(const WallSeries& wall) {
+  Reach reach;
+  for (std::size_t frame = 0; frame < wall.displacement.size(); ++frame)
+    for (const Vec3& x : wall.positions(frame)) {
+      reach.radius = std::max(reach.radius, std::hypot(x.x(), x.y()));
+      reach.bottom = std::min(reach.bottom, x.z());
+      reach.top = std::max(reach.top, x.z());
+    }
+  return reach;
+}
+
 /// The value of an attribute in the text of an XML element; empty if it has none.
 std::string_view attribute(std::string_view element, const std::string& name) {
   const std::string begin = fmt::format(" {}=\"", name);
@@ -170,6 +213,14 @@ std::string_view attribute(std::string_view element, const std::string& name) {
 }
 
 }  // namespace
+
+std::vector<Vec3> WallSeries::positions(std::size_t frame) const {
+  std::vector<Vec3> x = undeformed;
+  const std::vector<float>& u = displacement[frame];
+  for (std::size_t a = 0; a < x.size(); ++a)
+    x[a] += Vec3(u[3 * a], u[3 * a + 1], u[3 * a + 2]);
+  return x;
+}
 
 std::vector<TimedFrame> frames_of(const std::filesystem::path& pvd) {
   if (!std::filesystem::exists(pvd))
@@ -200,6 +251,8 @@ WallSeries read_wall_series(const std::vector<TimedFrame>& frames, double end_di
     interrupt::check();
     add_frame(wall, frame, frame.time > end_diastole + rounding);
   }
+  wall.skin = skin_of(wall);
+  wall.reach = reach_of(wall);
   return wall;
 }
 

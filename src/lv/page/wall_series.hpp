@@ -12,6 +12,19 @@ namespace lv::page {
 /// A number per node at each time.
 using NodalSeries = std::vector<std::vector<float>>;
 
+/// The faces that belong to one cell only, with normals that point out of the wall.
+struct Skin {
+  std::vector<std::int32_t> nodes;  ///< face after face
+  std::vector<std::int32_t> cells;  ///< behind each face
+};
+
+/// How far the wall reaches about the long axis, at all moments [mm].
+struct Reach {
+  double radius = 0.0;
+  double bottom = 0.0;  ///< z
+  double top = 0.0;     ///< z
+};
+
 /// The wall of a beat as its files on disk (`wall.pvd` and the frames it names) give it. Values of
 /// elements are averaged to the nodes.
 struct WallSeries {
@@ -26,6 +39,11 @@ struct WallSeries {
   /// By the names of regions.csv. Strains are from early diastole up to `end_diastole`, from
   /// end-diastole after it.
   std::map<std::string, NodalSeries> quantities;
+  Skin skin;
+  Reach reach;
+
+  /// The nodes at a frame [mm].
+  [[nodiscard]] std::vector<Vec3> positions(std::size_t frame) const;
 };
 
 /// One file of a ParaView series.

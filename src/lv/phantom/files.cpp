@@ -168,6 +168,16 @@ typename Volume<Pixel>::Pointer volume(const std::vector<image::Plane>& planes, 
 
 }  // namespace
 
+void make_study_folder(const std::filesystem::path& folder) {
+  if (std::filesystem::exists(folder) && !std::filesystem::is_empty(folder))
+    throw InputError(folder.string(), "is not empty", "Name a folder that does not exist yet");
+  std::error_code error;
+  std::filesystem::create_directories(folder / "contours", error);
+  if (error)
+    throw RunError(fmt::format("{} cannot be made: {}", folder.string(), error.message()),
+                   "Check the permissions, or name another folder");
+}
+
 void write_dicom(const StudyHeader& header, const std::vector<Series>& series,
                  const std::filesystem::path& folder) {
   int file = 0;

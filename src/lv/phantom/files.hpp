@@ -25,6 +25,10 @@ struct Series {
   image::Cine cine;
 };
 
+/// Makes the folder of a study, with one for contours in it. Throws InputError where it is there
+/// and not empty, RunError where it cannot be made.
+void make_study_folder(const std::filesystem::path& folder);
+
 /// Writes one MR image object per picture, as a scanner does: position, orientation and spacing,
 /// thickness, trigger time, nominal interval, study, series and frame of reference. The files'
 /// names count through the series and say nothing of place and time. Throws RunError.

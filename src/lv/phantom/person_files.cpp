@@ -93,13 +93,7 @@ std::string truth_json(const Person& p, const PersonStudy& study, const PersonVo
 }  // namespace
 
 std::string write_person(std::uint32_t seed, const fs::path& folder) {
-  if (fs::exists(folder) && !fs::is_empty(folder))
-    throw InputError(folder.string(), "is not empty", "Name a folder that does not exist yet");
-  std::error_code error;
-  fs::create_directories(folder / "contours", error);
-  if (error)
-    throw RunError(fmt::format("{} cannot be made: {}", folder.string(), error.message()),
-                   "Check the permissions, or name another folder");
+  make_study_folder(folder);
   const Person p = person(seed);
   const PersonStudy study = study_of(p);
   const PersonVolumes v = volumes(p);

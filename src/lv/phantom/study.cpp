@@ -245,13 +245,7 @@ image::Cine long_axis_cine(const Ventricle& ventricle, const Scan& scan, const S
 std::string write_study(const Ventricle& v, const Scan& scan, const StudyFiles& files,
                         const fs::path& folder) {
   check(v, scan);
-  if (fs::exists(folder) && !fs::is_empty(folder))
-    throw InputError(folder.string(), "is not empty", "Name a folder that does not exist yet");
-  std::error_code error;
-  fs::create_directories(folder / "contours", error);
-  if (error)
-    throw RunError(fmt::format("{} cannot be made: {}", folder.string(), error.message()),
-                   "Check the permissions, or name another folder");
+  make_study_folder(folder);
   const ScanPlanes all = planes(v, scan);
   const Truth t = truth(v, scan, all);
   write_images(Scanner(v, scan), scan, all, files, phase_times(scan).at(t.early_diastole - 1),

@@ -5,6 +5,7 @@
 #include "lv/base/parallel.hpp"
 #include "lv/base/table.hpp"
 #include "lv/base/units.hpp"
+#include "lv/beating_wall/heartbeat_fit.hpp"
 #include "lv/calibrate/fit_out_of_reach.hpp"
 #include "lv/calibrate/fit_parts.hpp"
 #include "lv/calibrate/record.hpp"
@@ -16,7 +17,6 @@
 #include "lv/pipeline/answer_record.hpp"
 #include "lv/pipeline/confirmation.hpp"
 #include "lv/pipeline/fit_archive.hpp"
-#include "lv/pipeline/heartbeat_fit.hpp"
 #include "lv/pipeline/unloading.hpp"
 #include "lv/solid/endocardial_surface.hpp"
 
@@ -28,6 +28,10 @@
 namespace lv::pipeline {
 namespace {
 
+using beating_wall::HeartbeatFit;
+using beating_wall::heartbeats_json;
+using beating_wall::heartbeats_name;
+using beating_wall::read_heartbeats;
 using calibrate::FitParameters;
 using calibrate::FittedPassive;
 using case_file::Case;
@@ -301,7 +305,7 @@ std::vector<geometry::Assumption> assumed_pressures(const Case& c) {
 
 /// What heartbeats were fitted to, and what was not measured of them.
 void add_beats(const HeartbeatFit& fit, const Case& c, FitRecord& record) {
-  for (const FittedDatum& d : fit.data)
+  for (const beating_wall::FittedDatum& d : fit.data)
     if (!std::isnan(d.measured))
       record.beats.push_back({d.name, d.unit, d.measured, d.model});
   for (const std::string& sentence : fit.left_alone)
@@ -451,7 +455,7 @@ void write_text(const case_file::Calibration& k, const std::filesystem::path& fo
     return;  // written before the run was stopped
   std::string text = k.fits_muscle() ? read_file(muscle) : "";
   if (k.cycle)
-    text += (text.empty() ? "" : "\n") + read_file(folder / heartbeats_text);
+    text += (text.empty() ? "" : "\n") + read_file(folder / beating_wall::heartbeats_text);
   write_file(folder / "calibration.txt", text);
   std::filesystem::remove(muscle);
 }
@@ -473,7 +477,8 @@ void make_calibration(const Case& c, const anatomy::MeshResult& mesh, const Coar
     fit_muscle(c, mesh, coarse.of_muscle, folder);
   const Case fitted_muscle = with_muscle(c, folder);
   if (k.cycle && !is_there(folder / heartbeats_name))
-    static_cast<void>(fit_heartbeats(fitted_muscle, stress_free_wall(fitted_muscle, mesh, folder),
+    static_cast<void>(
+        beating_wall::fit_heartbeats(fitted_muscle, stress_free_wall(fitted_muscle, mesh, folder),
                                      coarse.of_beats ? &*coarse.of_beats : nullptr, folder));
   const Case fitted = with_beats(fitted_muscle, folder);
   parallel::on_root([&] { finish(c, fitted, folder); });
@@ -528,7 +533,7 @@ bool correct(const Case& c, const std::filesystem::path& calibration_folder,
     if (c.calibration.cycle) {
       const HeartbeatFit beats = read_heartbeats(calibration_folder / heartbeats_name);
       last = with_values(std::move(last), beats, calibration_folder / heartbeats_json);
-      for (const FittedValue& p : beats.parameters)
+      for (const beating_wall::FittedValue& p : beats.parameters)
         names.push_back(p.parameter);
     }
     write_file(folder / "calibrated.toml", fragment(last, names));

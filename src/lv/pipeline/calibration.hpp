@@ -16,17 +16,18 @@ namespace lv::pipeline {
 /// Walls on which fits are made first.
 struct CoarseWalls {
   std::optional<anatomy::MeshResult> of_muscle;  ///< on_coarse_wall
-  std::optional<anatomy::MeshResult> of_beats;   ///< with_coarse_wall
+  std::optional<anatomy::MeshResult> of_beats;   ///< beating_wall::with_coarse_wall
 };
 
 /// Fits what the case asks for: the muscle at given pressures, with the wall unloaded anew for all
-/// parameters where it was seen under load, and then heartbeats (fit_heartbeats). Writes into
-/// `folder` calibration.bin, calibration.json and calibration.csv of the muscle (every equilibrium
-/// of the search), the files of fit_heartbeats, calibration.txt of both and calibrated.toml (for a
-/// case file); collective. A fit that was stopped goes on from the answers that it left in
-/// `folder`. With a coarse wall a fit is made there first, so that the one on `mesh` starts near
-/// its end, and a volume that is out of reach there by more than calibrate::reach_margin is refused
-/// within seconds. Throws InputError for a volume out of reach, with the volumes within reach.
+/// parameters where it was seen under load, and then heartbeats (beating_wall::fit_heartbeats).
+/// Writes into `folder` calibration.bin, calibration.json and calibration.csv of the muscle (every
+/// equilibrium of the search), the files of beating_wall::fit_heartbeats, calibration.txt of both
+/// and calibrated.toml (for a case file); collective. A fit that was stopped goes on from the
+/// answers that it left in `folder`. With a coarse wall a fit is made there first, so that the one
+/// on `mesh` starts near its end, and a volume that is out of reach there by more than
+/// calibrate::reach_margin is refused within seconds. Throws InputError for a volume out of reach,
+/// with the volumes within reach.
 void make_calibration(const case_file::Case& c, const anatomy::MeshResult& mesh,
                       const CoarseWalls& coarse, const std::filesystem::path& folder);
 

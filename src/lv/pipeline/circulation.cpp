@@ -1,10 +1,10 @@
 #include "lv/pipeline/circulation.hpp"
 
 #include "lv/base/log.hpp"
+#include "lv/beating_wall/base_motion.hpp"
 #include "lv/circulation/cycle.hpp"
 #include "lv/heartbeat/cycle.hpp"
 #include "lv/heartbeat/immersed_cycle.hpp"
-#include "lv/pipeline/base_motion.hpp"
 #include "lv/report/cycle_tables.hpp"
 #include "lv/report/plausibility.hpp"
 
@@ -65,7 +65,8 @@ heartbeat::Beat make_cycle(const Case& c, const mesh::Mesh& mesh,
   return heartbeat::run_cycle(
       {mesh, case_file::static_model(c), c.quasi_static.solver, c.protocol.calcium, c.circulation,
        c.protocol.cycle, c.output.frame_interval, activation_times,
-       begin.empty() ? std::filesystem::path() : case_file::beside(c, begin), base_motion(c, mesh)},
+       begin.empty() ? std::filesystem::path() : case_file::beside(c, begin),
+       beating_wall::base_motion(c, mesh)},
       folder, observers);
 }
 

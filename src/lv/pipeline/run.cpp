@@ -7,15 +7,15 @@
 #include "lv/base/parallel.hpp"
 #include "lv/base/printable.hpp"
 #include "lv/base/table.hpp"
+#include "lv/beating_wall/base_motion.hpp"
+#include "lv/beating_wall/heartbeat_fit.hpp"
 #include "lv/bench/bench.hpp"
 #include "lv/case_file/parameters.hpp"
 #include "lv/cine/strain.hpp"
 #include "lv/page/page.hpp"
 #include "lv/page/place.hpp"
-#include "lv/pipeline/base_motion.hpp"
 #include "lv/pipeline/calibration.hpp"
 #include "lv/pipeline/circulation.hpp"
-#include "lv/pipeline/heartbeat_fit.hpp"
 #include "lv/pipeline/measured_volumes.hpp"
 #include "lv/pipeline/stages.hpp"
 #include "lv/pipeline/study.hpp"
@@ -66,7 +66,7 @@ class Pipeline {
       log::warn("{}", what);
     for (const std::string& odd :
          {fit_outside_heartbeats(case_), left_handed_fibres(case_), high_filling_pressure(case_),
-          unlike_end_diastole(case_), base_away_from_apex(case_)})
+          unlike_end_diastole(case_), beating_wall::base_away_from_apex(case_)})
       if (!odd.empty())
         log::warn("{}", odd);
     if (const int members = check_study(case_); members > 0)
@@ -194,7 +194,7 @@ class Pipeline {
     on_root([&] { static_cast<void>(stage.begin()); });
     Case seen = work::stage_view(case_, s);
     if (takes_base_of_cine(s))
-      seen = with_base_of_cine(std::move(seen), folder(Stage::strain));
+      seen = beating_wall::with_base_of_cine(std::move(seen), folder(Stage::strain));
     make(s, seen, stage.unfinished());
     on_root([&] { stage.finish(); });
     show(s);
@@ -266,10 +266,10 @@ class Pipeline {
   void calibrate(const Case& fitting, const std::filesystem::path& part) {
     on_root([&] { anatomy::write_mesh_result(make_mesh(fitting, shape()), part); });
     const auto of_muscle = part / coarse_name;
-    const auto of_beats = part / coarse_wall_name;
+    const auto of_beats = part / beating_wall::coarse_wall_name;
     make_calibration(fitting, anatomy::read_mesh_result(part, fitting.fibres),
                      {coarse_wall(on_coarse_wall(fitting), of_muscle),
-                      coarse_wall(with_coarse_wall(fitting), of_beats)},
+                      coarse_wall(beating_wall::with_coarse_wall(fitting), of_beats)},
                      part);
     on_root([&] {
       std::filesystem::remove_all(of_muscle);

@@ -9,6 +9,7 @@
 #include "lv/base/parallel.hpp"
 #include "lv/base/table.hpp"
 #include "lv/base/time_left.hpp"
+#include "lv/beating_wall/activation.hpp"
 #include "lv/case_file/beat_fit.hpp"
 #include "lv/case_file/parameters.hpp"
 #include "lv/cine/strain.hpp"
@@ -16,7 +17,6 @@
 #include "lv/mesh/infarct.hpp"
 #include "lv/mesh/quality.hpp"
 #include "lv/mesh/refine.hpp"
-#include "lv/pipeline/activation.hpp"
 #include "lv/pipeline/calibration.hpp"
 #include "lv/pipeline/circulation.hpp"
 #include "lv/report/fields_vtk.hpp"
@@ -202,13 +202,13 @@ report::RunFacts run_facts(const Case& c, const anatomy::MeshResult& mesh, const
 }
 
 /// What heartbeats were fitted to beside the last of them.
-std::vector<report::FittedOfBeat> beside_beat(const std::vector<FittedDatum>& fitted,
+std::vector<report::FittedOfBeat> beside_beat(const std::vector<beating_wall::FittedDatum>& fitted,
                                               const heartbeat::Beat& beat, double tolerance) {
   std::vector<report::FittedOfBeat> all;
   if (!beat.cycle)
     return all;
   const std::vector<case_file::BeatDatum> data = case_file::beat_fit({}).data;
-  for (const FittedDatum& d : fitted)
+  for (const beating_wall::FittedDatum& d : fitted)
     for (const case_file::BeatDatum& of_beat : data)
       if (of_beat.name == d.name) {
         const double value = of_beat.shown(beat.cycle->beats.back().*of_beat.of_beat);
@@ -410,7 +410,7 @@ heartbeat::Beat make_beat(const Case& c, const anatomy::MeshResult& mesh,
   if (c.engine == case_file::EngineChoice::quasi_static && !is_cycle && parallel::is_root())
     std::filesystem::remove_all(folder / "fields");  // of a beat that was stopped: it starts anew
   const std::vector<double> activated =
-      is_cycle ? activation_times(c, mesh) : std::vector<double>{};
+      is_cycle ? beating_wall::activation_times(c, mesh) : std::vector<double>{};
   BeatWriter writer(c, mesh, activated, folder);
   const heartbeat::Observers observers{[&](const heartbeat::Frame& f) { writer.frame(f); },
                                        [&](const heartbeat::RunState& run) { writer.curves(run); }};

@@ -3,9 +3,9 @@
 #include "lv/analysis/results.hpp"
 #include "lv/anatomy/anatomy.hpp"
 #include "lv/anatomy/mesh_result.hpp"
+#include "lv/beating_wall/heartbeat_record.hpp"
 #include "lv/heartbeat/immersed_beat.hpp"
 #include "lv/pipeline/beat_result.hpp"
-#include "lv/pipeline/heartbeat_record.hpp"
 #include "lv/report/summary.hpp"
 
 #include <filesystem>
@@ -31,7 +31,8 @@ void show_mesh(const anatomy::MeshResult& result, const case_file::Case& c,
 struct FitRecord {
   std::vector<report::FittedVolume> volumes;  ///< empty unless the case is calibrated
   std::vector<report::KlotzVolume> klotz;     ///< empty unless it is fitted to that curve
-  std::vector<FittedDatum> beats;  ///< what heartbeats were fitted to; empty unless they were
+  std::vector<beating_wall::FittedDatum>
+      beats;  ///< what heartbeats were fitted to; empty unless they were
   std::vector<geometry::Assumption> assumed;
 };
 

@@ -6,12 +6,12 @@
 #include "lv/base/printable.hpp"
 #include "lv/base/table.hpp"
 #include "lv/base/time_left.hpp"
+#include "lv/beating_wall/base_motion.hpp"
 #include "lv/case_file/family.hpp"
 #include "lv/case_file/parameters.hpp"
 #include "lv/circulation/circuit.hpp"
 #include "lv/circulation/cycle.hpp"
 #include "lv/heartbeat/cycle.hpp"
-#include "lv/pipeline/base_motion.hpp"
 #include "lv/pipeline/beat_result.hpp"
 #include "lv/pipeline/calibration.hpp"
 #include "lv/report/study_tables.hpp"
@@ -215,7 +215,7 @@ int check_study(const Case& c) {
   for (const Member& member : members) {
     const Case there = case_file::under(member.factors, c);
     if (!there.base_motion.file.empty())  // of one period, if it has times in seconds
-      static_cast<void>(measured_base_motion(there));
+      static_cast<void>(beating_wall::measured_base_motion(there));
   }
   return c.study.asked() ? static_cast<int>(members.size()) : 0;
 }

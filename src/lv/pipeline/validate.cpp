@@ -4,13 +4,13 @@
 #include "lv/base/log.hpp"
 #include "lv/base/mistakes.hpp"
 #include "lv/base/units.hpp"
+#include "lv/beating_wall/activation.hpp"
+#include "lv/beating_wall/base_motion.hpp"
 #include "lv/case_file/beat_fit.hpp"
 #include "lv/case_file/family.hpp"
 #include "lv/cine/strain.hpp"
 #include "lv/cine/strain_targets.hpp"
 #include "lv/mesh/quality.hpp"
-#include "lv/pipeline/activation.hpp"
-#include "lv/pipeline/base_motion.hpp"
 #include "lv/pipeline/calibration.hpp"
 #include "lv/pipeline/circulation.hpp"
 #include "lv/pipeline/cost.hpp"
@@ -84,7 +84,7 @@ std::vector<Warning> warnings_of(const Case& c, const anatomy::Shape& shape, dou
     warnings.push_back({"high filling pressure", std::move(high)});
   if (std::string unlike = unlike_end_diastole(c); !unlike.empty())
     warnings.push_back({"another end-diastole", std::move(unlike)});
-  if (std::string away = base_away_from_apex(c); !away.empty())
+  if (std::string away = beating_wall::base_away_from_apex(c); !away.empty())
     warnings.push_back({"base away from apex", std::move(away)});
   for (const geometry::Assumption& a : shape.warnings)
     warnings.push_back({name_of(a), a.text});
@@ -233,8 +233,9 @@ std::string validate(const Case& c) {
   log::info("mesh ...");
   const anatomy::MeshResult result = make_mesh(c, *shape);
   check_room(c, result.mesh);
-  static_cast<void>(activation_times(c, result));  // which may not fit to the wall
-  static_cast<void>(base_motion(c, result.mesh));  // whose table may not fit to the beat
+  static_cast<void>(beating_wall::activation_times(c, result));  // which may not fit to the wall
+  static_cast<void>(
+      beating_wall::base_motion(c, result.mesh));  // whose table may not fit to the beat
   const double cavity = solid::EndocardialSurface(result.mesh).volume(result.mesh.nodes);
   std::string text = describe_shape(c, *shape, cavity, result.mesh);
   if (const auto targets = cine::strain_targets(c, result.regions); !targets.empty())

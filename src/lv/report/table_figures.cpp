@@ -1,6 +1,7 @@
 #include "lv/report/table_figures.hpp"
 
 #include "lv/analysis/quantities.hpp"
+#include "lv/base/nearest.hpp"
 #include "lv/heartbeat/beat.hpp"
 #include "lv/material/stress_stretch.hpp"
 #include "lv/report/cycle_tables.hpp"
@@ -82,10 +83,7 @@ void mark(const Table& curves, const std::vector<std::pair<std::string, double>>
   const drawing::Series all = path.series.front();
   for (std::size_t k = 0; k < moments.size(); ++k) {
     const auto& [name, time] = moments[k];
-    const auto nearest = std::min_element(
-        times.begin(), times.end(),
-        [t = time](double a, double b) { return std::abs(a - t) < std::abs(b - t); });
-    const auto row = static_cast<std::size_t>(nearest - times.begin());
+    const std::size_t row = nearest_number(time, times);
     path.series.push_back({.label = heartbeat::title(name),
                            .x = {all.x[row]},
                            .y = {all.y[row]},

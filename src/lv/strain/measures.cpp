@@ -36,12 +36,6 @@ struct Axes {
   }
 };
 
-double distance_to_segment(const Vec3& x, const Vec3& a, const Vec3& b) {
-  const Vec3 ab = b - a;
-  const double t = std::clamp((x - a).dot(ab) / std::max(ab.squaredNorm(), 1e-12), 0.0, 1.0);
-  return (x - a - t * ab).norm();
-}
-
 /// Where a plane crosses a triangle.
 std::optional<std::array<Vec3, 2>> crossing(const std::array<Vec3, 3>& triangle, const Vec3& point,
                                             const Vec3& normal) {
@@ -102,8 +96,8 @@ Distance distance(const std::vector<Vec3>& points, const std::vector<std::vector
     double least = std::numeric_limits<double>::infinity();
     for (const Line& line : lines)
       for (std::size_t i = closed ? 0 : 1; i < line.size(); ++i)
-        least =
-            std::min(least, distance_to_segment(x, i == 0 ? line.back() : line[i - 1], line[i]));
+        least = std::min(
+            least, geometry::distance_to_segment(x, i == 0 ? line.back() : line[i - 1], line[i]));
     d.mean += least;
     d.rms += least * least;
     d.largest = std::max(d.largest, least);

@@ -22,16 +22,10 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Spline = itk::BSplineTransform<double, 2, 3>;
 
-double distance_to_segment(const Vec2& x, const Vec2& a, const Vec2& b) {
-  const Vec2 ab = b - a;
-  const double t = std::clamp((x - a).dot(ab) / std::max(ab.squaredNorm(), 1e-12), 0.0, 1.0);
-  return (x - a - t * ab).norm();
-}
-
 /// Whether a point lies in a polygon or not farther than `margin` from it.
 bool near(const geometry::Polygon& polygon, const Vec2& x, double margin) {
   for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++)
-    if (distance_to_segment(x, polygon[i], polygon[j]) <= margin)
+    if (geometry::distance_to_segment(x, polygon[i], polygon[j]) <= margin)
       return true;
   return geometry::encloses(polygon, x);
 }

@@ -237,7 +237,7 @@ TEST_CASE("a figure is written whole under its own name only", "[unit][drawing]"
   for (const char* name : {"a.png", "a.svg"}) {
     write(of({.content = chart_with_gap()}), folder / name);
     CHECK(std::filesystem::file_size(folder / name) > 1000);
-    CHECK_FALSE(std::filesystem::exists(folder / (std::string(name) + ".partial")));
+    CHECK_FALSE(std::filesystem::exists(folder / (std::string(name) + ".part")));
   }
   std::filesystem::remove_all(folder);
 }

@@ -193,7 +193,7 @@ TEST_CASE("damaged fits of an earlier run are read or refused",
   });
   try_damaged("confirmation.bin", confirmed, read_confirmation, {}, test::repair_checksum);
 
-  const pipeline::HeartbeatFit beats{
+  const beating_wall::HeartbeatFit beats{
       {{"EDV", "ml", 120.5, 120.0}},
       {{"circulation.windkessel.p_ven", "filling pressure", "mmHg", "EDV", 8.0, 9.5}},
       Eigen::MatrixXd::Constant(1, 1, 0.5),
@@ -202,10 +202,10 @@ TEST_CASE("damaged fits of an earlier run are read or refused",
       7,
       20};
   const auto read_beats = [](const std::filesystem::path& file) {
-    static_cast<void>(pipeline::with_values({}, pipeline::read_heartbeats(file), file));
+    static_cast<void>(beating_wall::with_values({}, beating_wall::read_heartbeats(file), file));
   };
   const std::string heartbeats = made("heartbeats.bin", [&](const auto& folder) {
-    pipeline::write_heartbeats(beats, folder / "heartbeats.bin");
+    beating_wall::write_heartbeats(beats, folder / "heartbeats.bin");
   });
   try_damaged("heartbeats.bin", heartbeats, read_beats, {}, test::repair_checksum);
 }

@@ -1,11 +1,11 @@
-#include "lv/pipeline/heartbeat_fit.hpp"
+#include "lv/beating_wall/heartbeat_fit.hpp"
 
 #include "lv/base/check.hpp"
 #include "lv/base/log.hpp"
 #include "lv/base/parallel.hpp"
 #include "lv/base/table.hpp"
+#include "lv/beating_wall/beating_wall.hpp"
 #include "lv/calibrate/root_search.hpp"
-#include "lv/pipeline/beating_wall.hpp"
 
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@
 #include <limits>
 #include <optional>
 
-namespace lv::pipeline {
+namespace lv::beating_wall {
 namespace {
 
 using case_file::BeatDatum;
@@ -300,4 +300,4 @@ std::optional<Case> with_coarse_wall(const Case& c) {
   return coarse;
 }
 
-}  // namespace lv::pipeline
+}  // namespace lv::beating_wall

@@ -1,15 +1,15 @@
-#include "lv/pipeline/beating_wall.hpp"
+#include "lv/beating_wall/beating_wall.hpp"
 
 #include "lv/base/check.hpp"
 #include "lv/base/log.hpp"
 #include "lv/base/parallel.hpp"
 #include "lv/base/time_left.hpp"
 #include "lv/base/units.hpp"
+#include "lv/beating_wall/activation.hpp"
+#include "lv/beating_wall/base_motion.hpp"
 #include "lv/calibrate/klotz.hpp"
 #include "lv/case_file/family.hpp"
 #include "lv/circulation/circuit.hpp"
-#include "lv/pipeline/activation.hpp"
-#include "lv/pipeline/base_motion.hpp"
 
 #include <fmt/format.h>
 
@@ -18,7 +18,7 @@
 #include <cmath>
 #include <optional>
 
-namespace lv::pipeline {
+namespace lv::beating_wall {
 namespace {
 
 using case_file::BeatDatum;
@@ -299,4 +299,4 @@ std::string BeatingWall::in_words(const HeartbeatsAt& e) const {
                             e.cycle.is_limit ? "" : ", which are no limit cycle");
 }
 
-}  // namespace lv::pipeline
+}  // namespace lv::beating_wall

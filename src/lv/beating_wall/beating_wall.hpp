@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace lv::pipeline {
+namespace lv::beating_wall {
 
 /// Heartbeats up to their limit cycle, with some values of the fitted parameters.
 struct HeartbeatsAt {
@@ -94,4 +94,4 @@ class BeatingWall {
   double arterial_pressure_ = 0.0;  ///< to begin with [kPa]; 0: the case's
 };
 
-}  // namespace lv::pipeline
+}  // namespace lv::beating_wall

@@ -1,4 +1,4 @@
-#include "lv/pipeline/activation.hpp"
+#include "lv/beating_wall/activation.hpp"
 
 #include "lv/activation/sites.hpp"
 #include "lv/activation/times_file.hpp"
@@ -9,7 +9,7 @@
 
 #include <algorithm>
 
-namespace lv::pipeline {
+namespace lv::beating_wall {
 namespace {
 
 using case_file::Case;
@@ -52,4 +52,4 @@ std::vector<double> activation_times(const Case& c, const anatomy::MeshResult& m
   return times;
 }
 
-}  // namespace lv::pipeline
+}  // namespace lv::beating_wall

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-namespace lv::pipeline {
+namespace lv::beating_wall {
 
 /// The case with the motion that its strain stage has left in the folder `strain` named as a table.
 [[nodiscard]] case_file::Case with_base_of_cine(case_file::Case c,
@@ -24,4 +24,4 @@ namespace lv::pipeline {
 /// it. Throws InputError as measured_base_motion.
 [[nodiscard]] std::string base_away_from_apex(const case_file::Case& c);
 
-}  // namespace lv::pipeline
+}  // namespace lv::beating_wall

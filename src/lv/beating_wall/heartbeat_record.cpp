@@ -1,4 +1,4 @@
-#include "lv/pipeline/heartbeat_record.hpp"
+#include "lv/beating_wall/heartbeat_record.hpp"
 
 #include "lv/base/check.hpp"
 #include "lv/base/dense.hpp"
@@ -10,7 +10,7 @@
 
 #include <cmath>
 
-namespace lv::pipeline {
+namespace lv::beating_wall {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -266,4 +266,4 @@ case_file::Case with_values(case_file::Case c, const HeartbeatFit& fit,
   return c;
 }
 
-}  // namespace lv::pipeline
+}  // namespace lv::beating_wall

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace lv::pipeline {
+namespace lv::beating_wall {
 
 /// When each node of the wall is activated, after the calcium of a beat begins [s]; empty: all at
 /// once. Throws InputError for sites that the wall does not have, a file that does not fit to it,
@@ -13,4 +13,4 @@ namespace lv::pipeline {
 [[nodiscard]] std::vector<double> activation_times(const case_file::Case& c,
                                                    const anatomy::MeshResult& mesh);
 
-}  // namespace lv::pipeline
+}  // namespace lv::beating_wall

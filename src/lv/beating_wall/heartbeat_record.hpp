@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace lv::pipeline {
+namespace lv::beating_wall {
 
 /// A datum of heartbeats that were fitted; in its own unit.
 struct FittedDatum {
@@ -57,4 +57,4 @@ void write_heartbeats(const HeartbeatFit& fit, const std::filesystem::path& file
 [[nodiscard]] case_file::Case with_values(case_file::Case c, const HeartbeatFit& fit,
                                           const std::filesystem::path& file);
 
-}  // namespace lv::pipeline
+}  // namespace lv::beating_wall

@@ -1,13 +1,13 @@
 #pragma once
 
 #include "lv/anatomy/mesh_result.hpp"
+#include "lv/beating_wall/heartbeat_record.hpp"
 #include "lv/case_file/beat_fit.hpp"
-#include "lv/pipeline/heartbeat_record.hpp"
 
 #include <filesystem>
 #include <optional>
 
-namespace lv::pipeline {
+namespace lv::beating_wall {
 
 /// Fits the heartbeats of a case's wall in its circulation to what was measured of them.
 /// case_file::beat_fit says by which parameters; calibrate::search_root looks for their logarithms.
@@ -29,4 +29,4 @@ HeartbeatFit fit_heartbeats(const case_file::Case& asked, const anatomy::MeshRes
 [[nodiscard]] std::optional<case_file::Case> with_coarse_wall(const case_file::Case& c);
 inline constexpr const char* coarse_wall_name = "coarse_beats";  ///< folder of that wall's mesh
 
-}  // namespace lv::pipeline
+}  // namespace lv::beating_wall

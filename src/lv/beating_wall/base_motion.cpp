@@ -1,4 +1,4 @@
-#include "lv/pipeline/base_motion.hpp"
+#include "lv/beating_wall/base_motion.hpp"
 
 #include "lv/cine/strain.hpp"
 
@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace lv::pipeline {
+namespace lv::beating_wall {
 
 using case_file::Case;
 
@@ -49,4 +49,4 @@ std::string base_away_from_apex(const Case& c) {
       c.base_motion.file, away, towards);
 }
 
-}  // namespace lv::pipeline
+}  // namespace lv::beating_wall
