@@ -58,7 +58,7 @@ heartbeat::Beat make_cycle(const Case& c, const mesh::Mesh& mesh,
   if (c.engine == case_file::EngineChoice::immersed) {
     heartbeat::BeatSetup setup = case_file::beat_setup(c, mesh);
     setup.activation_times = activation_times;
-    setup.base_motion = base_motion(c, mesh);
+    setup.base_motion = beating_wall::base_motion(c, mesh);
     return heartbeat::run_immersed_cycle(setup, c.circulation, folder, observers);
   }
   const std::string& begin = c.protocol.cycle.begin;
