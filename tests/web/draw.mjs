@@ -1,6 +1,7 @@
 // `ventricle draw` in a real browser, on a phantom's cine.
-// node draw.mjs VENTRICLE [--case CASE.toml] [--scar] [--long-axis] [--two-programs] [--screenshots FOLDER]   exit code 77: skipped
+// node draw.mjs VENTRICLE [--case CASE.toml] [--scar] [--long-axis] [--corrections] [--two-programs] [--screenshots FOLDER]   exit code 77: skipped
 // With --case only pictures are taken, of a case that is there; with --scar the scar alone is tried, with --long-axis the long axes,
+// with --corrections how many corrections bring the volumes within 3%,
 // with --two-programs what another program or hand does to the saved files, and the letters of the patient's directions.
 import { execFileSync, spawn } from "node:child_process";
 import { chmodSync, cpSync, existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
@@ -976,6 +977,11 @@ async function onScar() {
   await checkScar();
 }
 
+async function onCorrections() {
+  makeStudy();
+  await checkFiveCorrections();
+}
+
 async function checkAll() {
   await timed(makeStudy);
   const server = await timed(start, caseFile);
@@ -1003,6 +1009,7 @@ try {
   if (given) await takePictures(given);
   else if (process.argv.includes("--scar")) await onScar();
   else if (process.argv.includes("--long-axis")) await onLongAxis();
+  else if (process.argv.includes("--corrections")) await onCorrections();
   else if (process.argv.includes("--two-programs")) await onTwoPrograms();
   else await checkAll();
 } finally {

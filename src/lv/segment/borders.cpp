@@ -65,16 +65,18 @@ Polar darkness(const Polar& values, const Levels& levels) {
   return ((levels.blood - values) / (levels.blood - muscle)).max(0.0).min(1.0);
 }
 
-/// How unlike muscle a grey value is, 0 to 1: brighter by a third of the way to blood, or darker by
+/// How unlike muscle a grey value is, 0 to 1: brighter by a part of the way to blood, or darker by
 /// a part of the muscle's own.
-Polar unlikeness(const Polar& values, const Levels& levels, double darker = 0.6) {
-  constexpr double brighter = 0.35;
+Polar unlikeness(const Polar& values, const Levels& levels, double darker = 0.6,
+                 double brighter = 0.35) {
   const Polar muscle = levels.muscle.replicate(1, grid.radii);
   return (values > muscle)
       .select((values - muscle) / (levels.blood - muscle) / brighter,
               (muscle - values) / muscle / darker)
       .min(1.0);
 }
+
+constexpr double to_lung = 0.8;  // it is a fifth as bright: half unlike in the middle between
 
 using Fixes = std::vector<Fixed>;
 
@@ -103,21 +105,37 @@ Radii middle_of_wall(const Polar& values, const Radii& blood, const Levels& leve
                      const Fixes& epi = {}) {
   constexpr int half_band = 2;     // radii
   constexpr double nearer = 0.02;  // a millimetre farther costs so much
-  constexpr double darker = 0.8;   // lung is a fifth as bright: half unlike in the middle between
   const Polar away = distance_from(blood);
-  const Polar cost = mean_at(unlikeness(values, levels, darker), -half_band, half_band) +
+  const Polar cost = mean_at(unlikeness(values, levels, to_lung), -half_band, half_band) +
                      nearer * away.max(0.0) + forbid(away, 1.0, 16.0) + forbid_outside(epi, 1.5);
   return closed_path(cost, {.reach = 1, .stiffness = 0.1}, grid);
 }
 
-/// What the epicardium costs: unlike muscle between it and the wall's middle, and no edge.
+/// The values, but from a line outwards at least as much as what has been passed (the mean over
+/// three radii).
+Polar not_less_behind(Polar values, const Radii& line) {
+  const Polar passed = mean_at(values, -1, 1);
+  for (int i = 0; i < grid.rays; ++i) {
+    double most = 0.0;
+    for (int k = grid.index(line(i)); k < grid.radii; ++k) {
+      most = std::max(most, passed(i, k));
+      values(i, k) = std::max(values(i, k), most);
+    }
+  }
+  return values;
+}
+
+/// What the epicardium costs: unlike muscle between it and the wall's middle, and no edge. Muscle
+/// ends where it first does: liver and spleen, as bright as muscle behind the dark line between,
+/// are none. An edge leads from muscle to what is less like it, and is measured on either side by
+/// what there is: to lung by the muscle's grey value, of which blood may be five times as much.
 Polar epicardial_cost(const Polar& values, const Radii& middle, const Levels& levels) {
   constexpr double region = 0.5;
-  constexpr double strongest = 0.6;  // edge that counts, as a part of blood - muscle
-  const Polar sum = integral(unlikeness(values, levels) - 0.5);
-  const Polar contrast = (levels.blood - levels.muscle).replicate(1, grid.radii);
-  const Polar edge = (mean_at(values, 1, 3) - mean_at(values, -3, -1)).abs() / contrast;
-  return region * sum - edge.min(strongest) + forbid(distance_from(middle), 1.0, 14.0);
+  constexpr double strongest = 0.6;  // edge that counts
+  const Polar sum = integral(not_less_behind(unlikeness(values, levels, to_lung), middle) - 0.5);
+  const Polar away = unlikeness(values, levels, 1.0, 1.0);
+  const Polar edge = mean_at(away, 1, 3) - mean_at(away, -3, -1);
+  return region * sum - edge.max(0.0).min(strongest) + forbid(distance_from(middle), 1.0, 14.0);
 }
 
 constexpr PathRule epicardial_rule{.reach = 1, .stiffness = 0.15};
