@@ -358,7 +358,7 @@ constexpr Group of_mesh[]{
                 not_negative,
                 "volumetric stiffness at every quadrature point, which keeps elements from "
                 "buckling inside; zero at J = 1; of muscle stiffer than the paper's it is more, as "
-                "a exp(0.4 b) of holzapfel_ogden"),
+                "a exp(0.25 b) of holzapfel_ogden"),
          number("quasi_static.first_step", LV_AT(quasi_static.solver.first_step), "",
                 between(1e-3, 1.0), "first load step, as a share of the whole load"),
          choice("quasi_static.linear_solver", LV_AT(quasi_static.solver.newton.linear.method),

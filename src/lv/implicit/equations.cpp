@@ -16,9 +16,9 @@ namespace {
 
 using material::Tangent;
 
-/// a exp[b (I1-3)] of (2.18) at the endocardium at end-diastole [kPa].
+/// a exp[b (I1-3)] of (2.18) in the wall at end-diastole [kPa].
 double isotropic_load(const material::HolzapfelOgden& law) {
-  constexpr double filled = 0.4;  // I1 - 3
+  constexpr double filled = 0.25;  // I1 - 3
   return law.a * std::exp(filled * law.b);
 }
 

@@ -32,11 +32,13 @@ inline constexpr double rigid_base = 1e6;
 /// grows without bound as stiff muscle is filled. So what is `usual` for the paper's muscle (a_0,
 /// b_0) is grown by
 ///
-///   max(1, a exp(b x)/[a_0 exp(b_0 x)]),  x = 0.4,
+///   max(1, a exp(b x)/[a_0 exp(b_0 x)]),  x = 0.25,
 ///
-/// x being I1 - 3 of the endocardium at end-diastole, where muscle is stretched by some 1.2 along
-/// and across its fibres. As much for soft muscle would stiffen its elements (docs/method.md). Of
-/// quadratic elements only: linear ones would lock.
+/// x being I1 - 3 at end-diastole, of the endocardium of steep muscle and of the mean of other
+/// walls, where muscle is stretched by some 1.16 along and across its fibres. Much more than the
+/// muscle's own stiffness at rest (some 300 a) lets Newton's method take short steps only, for any
+/// change of shape changes volumes at points to second order (docs/method.md). Of quadratic
+/// elements only: linear ones would lock.
 [[nodiscard]] material::Volumetric held_against_buckling(const material::AnyPassiveLaw& passive,
                                                          const material::Volumetric& usual);
 

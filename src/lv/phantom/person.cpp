@@ -162,8 +162,7 @@ class Heart {
   Mat3 turn_;
 };
 
-/// The border on a slice: points at even angles about the axis; empty where the surface does not
-/// go all round below the base.
+/// The border on a slice: points at even angles about the axis; empty where the axis is outside.
 std::vector<Vec3> border(const Heart& heart, Side side, double height) {
   constexpr int points = 60;
   constexpr double farthest = 120.0;
@@ -179,17 +178,15 @@ std::vector<Vec3> border(const Heart& heart, Side side, double height) {
     while (out - in > 1e-3)
       (heart.inside(side, centre + 0.5 * (in + out) * ray) ? in : out) = 0.5 * (in + out);
     loop.push_back(centre + in * ray);
-    if (heart.place(loop.back()).Z > 0.0)
-      return {};
   }
   return loop;
 }
 
-/// Whether an observer draws a slice: as far as the muscle goes all round.
+/// Whether an observer draws a slice: where the axis passes it below the base, which cuts at most
+/// half of the muscle's ring off.
 bool is_drawn(const Heart& heart, double height) {
-  return !border(heart, Side::epi, height).empty() ||
-         (heart.place(heart.centre(height)).Z < 0.0 &&
-          heart.inside(Side::epi, heart.centre(height)));
+  const Vec3 centre = heart.centre(height);
+  return heart.place(centre).Z < 0.0 && heart.inside(Side::epi, centre);
 }
 
 bool in_right_ventricle(const Person& p, const Heart::Place& at) {
@@ -372,12 +369,12 @@ PersonStudy study_of(const Person& p) {
           p.slice_spacing * area_of_pixels(study.labels[t].back(), person_cavity);
       if (time == PersonTime::diastole && p.scar.transmurality > 0.0)
         study.scar.push_back(labels(p, heart, plane, frame, true));
-      if (border(heart, Side::endo, plane.height).empty() ||
-          border(heart, Side::epi, plane.height).empty())
+      const std::vector<Vec3> endo = border(heart, Side::endo, plane.height);
+      if (!is_drawn(heart, plane.height) || endo.empty())
         continue;
       for (const Side side : {Side::endo, Side::epi}) {
         geometry::Contour c{static_cast<int>(n) + 1, side, {}, {}, {}};
-        for (const Vec3& x : border(heart, side, plane.height))
+        for (const Vec3& x : side == Side::endo ? endo : border(heart, side, plane.height))
           c.points.push_back(frame.to_image(x) + plane.shift);
         study.contours[t].push_back(std::move(c));
       }

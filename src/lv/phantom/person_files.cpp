@@ -60,7 +60,8 @@ std::string case_of_contours(const Person& p, const PersonStudy& study) {
   return header(p) +
          "[anatomy]\nsource = \"contours\"\n\n[anatomy.contours]\n"
          "short_axis = \"contours/ed_short_axis.csv\"\n"
-         "es_short_axis = \"contours/es_short_axis.csv\"\nalign_slices = true\n" +
+         "es_short_axis = \"contours/es_short_axis.csv\"\nalign_slices = true\n"
+         "base_at = \"slab\"  # as esv is counted\n" +
          septum_line(p) + measurements(p, study);
 }
 
@@ -77,6 +78,7 @@ std::string truth_json(const Person& p, const PersonStudy& study, const PersonVo
                               {"endo_radius_mm", p.shape.endo_radius},
                               {"endo_length_mm", p.shape.endo_length},
                               {"thickness_mm", p.shape.epi_radius - p.shape.endo_radius},
+                              {"apical_thickness_mm", p.shape.epi_length - p.shape.endo_length},
                               {"septal_thickening", p.septal},
                               {"bend_mm", p.bend},
                               {"tilt_deg", p.tilt / degree},

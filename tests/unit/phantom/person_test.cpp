@@ -2,12 +2,34 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 using namespace lv;
 using namespace lv::phantom;
 using geometry::Side;
+
+namespace {
+
+/// Of the pixels of cavity, and of muscle and cavity [mm^2].
+double area(const LabelPicture& picture, Side side) {
+  const auto is_inside = [&](std::uint8_t label) {
+    return label == person_cavity || (side == Side::epi && label == person_muscle);
+  };
+  const auto pixels = std::count_if(picture.values.begin(), picture.values.end(), is_inside);
+  return static_cast<double>(pixels) * picture.plane.spacing_i * picture.plane.spacing_j;
+}
+
+double area(const geometry::Contour& loop) {
+  Vec3 twice = Vec3::Zero();
+  for (std::size_t k = 0; k < loop.points.size(); ++k)
+    twice += (loop.points[k] - loop.points[0])
+                 .cross(loop.points[(k + 1) % loop.points.size()] - loop.points[0]);
+  return 0.5 * twice.norm();
+}
+
+}  // namespace
 
 TEST_CASE("a person is the same for the same number, and kinds take turns", "[phantom]") {
   const Person a = person(3);
@@ -59,5 +81,24 @@ TEST_CASE("labels and contours of a person show its volumes", "[phantom]") {
     CHECK(study.scar.empty() == (v.scar == 0.0));
     for (const geometry::Contour& c : study.contours[0])
       CHECK(c.points.size() == 60);
+  }
+}
+
+TEST_CASE("loops of a person surround the labels of every slice that has a cavity", "[phantom]") {
+  for (const std::uint32_t seed : {22U, 23U, 26U}) {
+    const PersonStudy study = study_of(person(seed));
+    for (std::size_t t = 0; t < 2; ++t)
+      for (std::size_t n = 0; n < study.slices.size(); ++n) {
+        CAPTURE(seed, t, n);
+        for (const Side side : {Side::endo, Side::epi}) {
+          const geometry::Contour* loop =
+              geometry::find(study.contours[t], static_cast<int>(n) + 1, side);
+          const double pixels = area(study.labels[t][n], side);
+          if (area(study.labels[t][n], Side::endo) > 100.0)
+            REQUIRE(loop != nullptr);
+          if (loop != nullptr)  // pixels are what lies at their centres
+            CHECK(area(*loop) == Approx(pixels).epsilon(0.02).margin(20.0));
+        }
+      }
   }
 }
