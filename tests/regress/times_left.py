@@ -178,10 +178,11 @@ def stages(lines):
     return [(name, lines[first:end + 1]) for (first, name), end in zip(begun, ends) if name in ("calibrate", "unload", "beat")]
 
 
-def judge(lines):
-    """Of one stage: processor seconds, and for each mark what is said, what remained, where, and whether it holds."""
+def judge(name, lines):
+    """Of one stage, whose parts tell their own time (the unloadings of a fit): processor seconds, and for each mark what is said, what remained, where, and whether it holds."""
     first, last = lines[0][0], lines[-1][0]
-    told = [(at, said) for at, line in lines[1:-1] if (said := left_in(line)) is not None]
+    told = [(at, said) for at, line in lines[1:-1]
+            if (said := left_in(line)) is not None and (name == "unload" or not line.endswith("of unloading"))]
     found = []
     for mark in marks:
         at, said = min(told, key=lambda entry: abs(entry[0] - first - mark * (last - first)), default=(last, None))
@@ -213,7 +214,7 @@ def main():
                 pathlib.Path(kept).mkdir(exist_ok=True)
                 (pathlib.Path(kept) / f"{own.name}.json").write_text(json.dumps(lines))
             for stage, part in stages(lines):
-                seconds, found = judge(part)
+                seconds, found = judge(stage, part)
                 holds = all(h for *_, h in found) or seconds < shortest
                 failures += not holds
                 print(f"{'pass' if holds else 'FAIL'}  {name}{' (chosen on)' if is_chosen_on else ''} | {stage} | {seconds:.1f} s | "

@@ -3,6 +3,7 @@
 #include "lv/base/check.hpp"
 #include "lv/base/parallel.hpp"
 #include "lv/implicit/constitution.hpp"
+#include "lv/implicit/element_product.hpp"
 #include "lv/material/tangent_algebra.hpp"
 #include "lv/mesh/shapes.hpp"
 
@@ -47,12 +48,9 @@ class ElementTangent {
   ElementTangent(Eigen::Index nodes, Eigen::Index pressures, std::size_t points)
       : n_(nodes),
         m_(pressures),
-        gradients_(3 * static_cast<Eigen::Index>(points), nodes),
+        product_(nodes, points),
         K_(3 * nodes + pressures, 3 * nodes + pressures),
-        pressure_mass_(pressures, pressures) {
-    for (auto& Y : fluxes_)
-      Y.resize(gradients_.rows(), nodes);
-  }
+        pressure_mass_(pressures, pressures) {}
 
   const Eigen::MatrixXd& compute(const std::vector<Point>& points, const ElementState& s,
                                  Constitution law, const Eigen::MatrixXd& pressure_shapes,
@@ -62,7 +60,7 @@ class ElementTangent {
     for (law.point = 0; law.point < points.size(); ++law.point)
       add_point(points[law.point], static_cast<Eigen::Index>(law.point), s, law, pressure_shapes,
                 motion);
-    multiply();
+    product_.multiply(K_);
     if (motion && motion->inertia.size() > 0)
       add_inertia(motion->inertia);
     K_.bottomLeftCorner(m_, 3 * n_) = K_.topRightCorner(3 * n_, m_).transpose();
@@ -90,32 +88,10 @@ class ElementTangent {
       K_.bottomRightCorner(m_, m_) -= point.volume * compliance * N * N.transpose();
       pressure_mass_ += point.volume * compliance * N * N.transpose();
     }
-    gradients_.middleRows(3 * q, 3) = point.gradient;
-    for (int i = 0; i < 3; ++i) {
-      for (int k = 0; k < 3; ++k) {
-        Mat3 C_ik;
-        for (int j = 0; j < 3; ++j)
-          for (int l = 0; l < 3; ++l)
-            C_ik(j, l) = C(i + 3 * j, k + 3 * l);
-        for (Index b = 0; b < n_; ++b)
-          fluxes_[3 * i + k].block<3, 1>(3 * q, b).noalias() = C_ik * point.gradient.col(b);
-      }
-    }
+    product_.set(q, point.gradient, C);
     const Eigen::Matrix3Xd dJ = point.volume * cofactor(F) * point.gradient;
     K_.topRightCorner(3 * n_, m_) +=
         Eigen::Map<const Eigen::VectorXd>(dJ.data(), dJ.size()) * N.transpose();
-  }
-
-  /// K_ab(i,k) = sum_q G_a . C_ik G_b, one product of matrices for each i and k.
-  void multiply() {
-    for (int i = 0; i < 3; ++i) {
-      for (int k = 0; k < 3; ++k) {
-        product_.noalias() = gradients_.transpose() * fluxes_[3 * i + k];
-        for (Index b = 0; b < n_; ++b)
-          for (Index a = 0; a < n_; ++a)
-            K_(3 * a + i, 3 * b + k) = product_(a, b);
-      }
-    }
   }
 
   void add_inertia(const Eigen::MatrixXd& inertia) {
@@ -125,9 +101,8 @@ class ElementTangent {
   }
 
   Index n_, m_;
-  Eigen::MatrixXd gradients_;              ///< G, of all points
-  std::array<Eigen::MatrixXd, 9> fluxes_;  ///< C_ik G
-  Eigen::MatrixXd product_, K_, pressure_mass_;
+  ElementProduct product_;
+  Eigen::MatrixXd K_, pressure_mass_;
 };
 
 std::vector<int> unknowns(const ReferenceWall& wall, int e, int node_count) {

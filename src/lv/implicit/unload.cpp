@@ -5,6 +5,7 @@
 #include "lv/base/log.hpp"
 #include "lv/base/time_left.hpp"
 #include "lv/base/units.hpp"
+#include "lv/implicit/inverse.hpp"
 #include "lv/implicit/smooth_fields.hpp"
 #include "lv/implicit/unload_forecast.hpp"
 
@@ -44,22 +45,6 @@ Nodes as_nodes(const Eigen::VectorXd& numbers) {
   return shape;
 }
 
-/// Whether det dX/dxi > 0 at all quadrature points. Every rank looks at the whole wall, so that all
-/// agree.
-bool is_sound(const mesh::Mesh& mesh) {
-  const mesh::ElementNodes elements = mesh::elements(mesh);
-  const solid::ShapeTable shapes = solid::element_shapes(mesh.kind, mesh.order);
-  Eigen::Matrix3Xd X(3, elements.nodes_per_element);
-  for (int e = 0; e < elements.size(); ++e) {
-    for (int a = 0; a < elements.nodes_per_element; ++a)
-      X.col(a) = mesh.nodes[elements.element(e)[a]];
-    for (const Eigen::MatrixXd& gradient : shapes.gradient)
-      if (!(determinant(Mat3(X * gradient.transpose())) > 0.0))
-        return false;
-  }
-  return true;
-}
-
 /// A shape without load, and what becomes of it.
 struct Trial {
   Eigen::VectorXd X;  ///< nodes
@@ -92,6 +77,12 @@ class Unloader {
       forget();
       start = nullptr;
     }
+    if (inverse_finds(start))
+      return result();
+    const std::optional<Unloaded> inverse = near_inverse();
+    if (inverse)
+      start = &*inverse;
+    forget();
     if (start == nullptr || !(try_from(as_vector(start->nodes), loaded_of(*start)) || is_near()))
       approach();
     if (has_wall() && is_folded(now_.step.folds)) {
@@ -109,6 +100,38 @@ class Unloader {
  private:
   static const State* loaded_of(const Unloaded& start) {
     return start.loaded.positions.empty() ? nullptr : &start.loaded;
+  }
+
+  /// By the inverse problem, a wall without folds that loaded again is within the tolerance.
+  bool inverse_finds(const Unloaded* start) {
+    if (solver_.newton.linear.method != LinearMethod::direct)
+      return false;
+    std::optional<Reference> guess;
+    if (start != nullptr)
+      guess = Reference{start->nodes, start->loaded.pressures};
+    const auto found = find_reference(given_, model_, parameters_.pressure, solver_.newton,
+                                      guess ? &*guess : nullptr);
+    if (!found)
+      return false;
+    const mesh::Mesh wall = mesh::with_nodes(given_, found->nodes);
+    Engine engine(wall, model_, solver_);
+    pressure_ = parameters_.pressure;
+    if (!engine.find({given_.nodes, found->pressures}, {engine.equations().steady(0.0), pressure_})
+             .converged)
+      return false;
+    now_ = trial_of(as_vector(wall.nodes), engine.state());
+    steps_.push_back(now_.step);
+    log::info("unloaded: {:.2f} ml fill to {:.2f} ml at {:.2f} mmHg, off by {:.2g} mm",
+              1e-3 * now_.step.unloaded_volume, 1e-3 * now_.step.volume, pressure_ / units::mmHg,
+              now_.left);
+    return now_.left <= parameters_.tolerance && !is_folded(now_.step.folds);
+  }
+
+  /// What the inverse problem led near to: fixed points may lead nearer.
+  [[nodiscard]] std::optional<Unloaded> near_inverse() const {
+    if (!is_near() || is_folded(now_.step.folds))
+      return {};
+    return Unloaded{as_nodes(now_.X), now_.loaded, {}};
   }
 
   Unloaded result() {
@@ -329,13 +352,18 @@ class Unloader {
     std::optional<State> loaded = next_equilibrium(wall, near, from_rest);
     if (!loaded)
       return {};
-    Trial trial{X, {}, std::move(*loaded), {}};
+    return trial_of(X, std::move(*loaded));
+  }
+
+  [[nodiscard]] Trial trial_of(const Eigen::VectorXd& X, State loaded) const {
+    const Nodes nodes = as_nodes(X);
+    Trial trial{X, {}, std::move(loaded), {}};
     trial.step.volume = endocardium_.volume(trial.loaded.positions);
     trial.R = target_ - as_vector(trial.loaded.positions);
-    trial.step.unloaded_volume = endocardium_.volume(wall.nodes);
+    trial.step.unloaded_volume = endocardium_.volume(nodes);
     trial.step.largest = largest_of(trial.R);
     trial.step.rms = std::sqrt(3.0 * trial.R.squaredNorm() / static_cast<double>(trial.R.size()));
-    trial.step.folds = find_folds_(wall.nodes);
+    trial.step.folds = find_folds_(nodes);
     trial.step.smoothing = smoothing_;
     trial.left = trial.step.largest;
     trial.pressure = pressure_;

@@ -51,8 +51,11 @@ struct UnloadRecord {
 };
 
 /// The stress-free wall X whose equilibrium x(X) under the pressure on the muscle at rest is the
-/// given shape x*, by fixed-point iteration (backward displacement: M. Sellier, Struct. Multidisc.
-/// Optim. 44:683, 2011; J. Bols et al., J. Comput. Appl. Math. 246:10, 2013),
+/// given shape x*. With the direct solver it is sought by the inverse problem first
+/// (find_reference); where that finds no wall without folds within the tolerance, from what it
+/// leads near to, or else from the start, by fixed-point iteration (backward displacement: M.
+/// Sellier, Struct. Multidisc. Optim. 44:683, 2011; J. Bols et al., J. Comput. Appl. Math. 246:10,
+/// 2013),
 ///
 ///   X_{k+1} = X_k + beta D_k,   R_k = x* - x(X_k),
 ///   D_k = R_k - sum_j gamma_j (X_{j+1} - X_j + R_{j+1} - R_j),  gamma minimising

@@ -5,7 +5,30 @@
 
 namespace lv::implicit {
 
-/// How long a search for the wall without load will still take: the equilibria that are left at the
+/// How long a path of walls without load along the pressure (find_reference) will still take: a
+/// tangent for each step, and what the last step and the wall that is loaded again take besides, at
+/// the time per tangent so far.
+class PathForecast {
+ public:
+  /// So many seconds, for so many tangents.
+  void spent(double seconds, int tangents) {
+    seconds_ += seconds;
+    tangents_ += tangents;
+  }
+
+  /// Negative before the first tangent.
+  [[nodiscard]] double seconds_left(double steps) const {
+    return tangents_ > 0 ? (steps + at_the_end) * seconds_ / tangents_ : -1.0;
+  }
+
+ private:
+  static constexpr double at_the_end = 1.3;  // tangents
+
+  double seconds_ = 0.0;
+  int tangents_ = 0;
+};
+
+/// How long the search by fixed points will still take: the equilibria that are left at the
 /// rate at which the distance has fallen, each as long as the last ones took. The first, from no
 /// load, and the second, which begins far from it, take longer: what follows them takes a usual
 /// part of their time until it is seen.

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+using lv::implicit::PathForecast;
 using lv::implicit::UnloadForecast;
 
 TEST_CASE("the equilibria left of an unloading follow from how the distance falls",
@@ -48,4 +49,20 @@ TEST_CASE("equilibria of an unloading that was stopped tell nothing of its speed
   forecast.sought(1e-6);
   forecast.accepted(1.0);
   CHECK(forecast.seconds_left() < 0.0);
+}
+
+TEST_CASE("the time left of a path along the pressure is that of its tangents",
+          "[unit][implicit]") {
+  // the default mesh under 8 mmHg: six steps, then loaded again [s]
+  PathForecast forecast;
+  CHECK(forecast.seconds_left(6.0) < 0.0);
+  double left = 0.66 + 0.64 + 0.64 + 0.64 + 0.85 + 0.71;
+  forecast.spent(1.51, 2);
+  CHECK(forecast.seconds_left(5.0) == Approx(left).epsilon(0.3));
+  double steps = 5.0;
+  for (const double seconds : {0.66, 0.64, 0.64, 0.64}) {
+    forecast.spent(seconds, 1);
+    left -= seconds;
+    CHECK(forecast.seconds_left(--steps) == Approx(left).epsilon(0.3));
+  }
 }

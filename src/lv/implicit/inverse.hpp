@@ -1,0 +1,46 @@
+#pragma once
+
+#include "lv/implicit/inverse_equations.hpp"
+#include "lv/implicit/newton.hpp"
+
+#include <optional>
+
+namespace lv::implicit {
+
+/// Newton's method for the inverse problem, damped by the test of implicit::Newton and with the
+/// same rule for keeping a tangent.
+class InverseNewton {
+ public:
+  /// The equations must outlive this object.
+  InverseNewton(const InverseEquations& equations, const NewtonParameters& parameters);
+
+  /// Brings X and the pressures to R = 0 under a pressure in the cavity [kPa], or leaves them as
+  /// they were; `tolerance`: rms of the last correction of X [mm]. Begins with the last tangent, if
+  /// there is one. Collective.
+  NewtonReport solve(Reference& reference, double pressure, double tolerance);
+
+  void forget_tangent() { has_tangent_ = false; }
+
+ private:
+  class Attempt;
+
+  const InverseEquations& equations_;
+  NewtonParameters parameters_;
+  SparseMatrix tangent_;
+  bool has_tangent_ = false;
+};
+
+/// The wall without load that the seen shape under a pressure [kPa] comes from, from a guess near
+/// it, where there is one and it leads there, else along the pressure: steps of equal factors from
+/// a 32nd of it, for the stretch of muscle grows with the pressure's logarithm, each begun on the
+/// straight line through the last two. Where directions are held (InverseEquations::hold_frames)
+/// they are held anew, a few times, and the wall whose own directions move it least is taken.
+///
+/// Nothing where Newton's method finds no way. Says the time that is left. Throws Interrupted.
+/// Collective.
+[[nodiscard]] std::optional<Reference> find_reference(const mesh::Mesh& seen,
+                                                      const StaticModel& model, double pressure,
+                                                      const NewtonParameters& parameters,
+                                                      const Reference* guess = nullptr);
+
+}  // namespace lv::implicit
