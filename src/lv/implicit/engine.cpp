@@ -141,9 +141,10 @@ Outcome<double> Engine::set_model(const StaticModel& model) {
     relax();
     return cavity_volume();
   }
-  if (newton_.solve(state_, loads_).converged || hold_firmly())
+  if (newton_.solve(state_, loads_).converged)
     return cavity_volume();
-  if (contracting_gives_way(state_, loads_))
+  // passive muscle goes from rest instead: a long way to another stiffness is no sign of buckling
+  if (loads_.activation > 0.0 && (hold_firmly() || contracting_gives_way(state_, loads_)))
     return cavity_volume();
   const Loads loads = loads_;
   relax();

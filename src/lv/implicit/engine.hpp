@@ -49,11 +49,10 @@ class Engine {
   Outcome<double> go_to(const Loads& target, const std::function<void(const Step&)>& observe = {});
 
   /// Replaces the muscle and finds the equilibrium under the same loads, at once if Newton's method
-  /// manages, elements that are held harder do or contracting muscle gives way, else all the way
-  /// from rest; returns the cavity's
-  /// volume [mm^3]. Without loads the wall is undeformed, as at first: balanced by the tension of
-  /// resting muscle alone it would lie on the switches I4 = 1 of (2.16), where Newton's method
-  /// finds no way on.
+  /// manages, or contracting muscle does with elements that are held harder or gives way, else all
+  /// the way from rest; returns the cavity's volume [mm^3]. Without loads the wall is undeformed,
+  /// as at first: balanced by the tension of resting muscle alone it would lie on the switches I4 =
+  /// 1 of (2.16), where Newton's method finds no way on.
   Outcome<double> set_model(const StaticModel& model);
 
   /// The equilibrium near a guess, with any tension, or around a volume of the cavity; stays at the

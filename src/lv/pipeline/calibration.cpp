@@ -293,6 +293,8 @@ std::vector<geometry::Assumption> assumed_pressures(const Case& c) {
                                                            pressure / units::mmHg, parameter)});
   };
   left_out("protocol.ed_pressure", "end-diastolic", c.protocol.ed_pressure);
+  if (case_file::is_cycle(c) && !c.calibration.active && c.calibration.strains.empty())
+    return assumed;  // nothing is contracted at given pressures
   if (c.cuff_systolic > 0.0)
     assumed.push_back({"end-systolic pressure",
                        fmt::format("{:.1f} mmHg, {:g} of the cuff's {:g} mmHg (Kelly et al. 1992)",
