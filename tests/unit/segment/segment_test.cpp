@@ -3,6 +3,7 @@
 #include "lv/base/check.hpp"
 #include "lv/geometry/contour_measures.hpp"
 #include "lv/geometry/contour_table.hpp"
+#include "lv/segment/borders.hpp"
 #include "lv/segment/redraw.hpp"
 #include "lv/strain/measures.hpp"
 
@@ -74,6 +75,24 @@ void try_redrawing(const std::string& what, const image::Cine& cine,
   fmt::print(" points; slowest {:.0f} ms\n", 1e3 * slowest);
   CHECK(distance[1] < distance[0]);
   CHECK(distance[most_points] < 0.8 * distance[0]);
+}
+
+/// A ring of muscle round blood of 25 mm radius, 9 mm thick; outside it a dark line of 2 mm and
+/// then liver, as bright as muscle, on one side, and lung on the other.
+image::Picture ring_beside_liver() {
+  constexpr double blood = 1000.0;  // five times the muscle's, as in sharp images of today
+  constexpr double muscle = 200.0;
+  image::Picture picture;
+  image::Plane& plane = picture.plane;
+  plane.columns = plane.rows = 100;
+  plane.spacing_i = plane.spacing_j = 1.4;
+  for (int j = 0; j < plane.rows; ++j)
+    for (int i = 0; i < plane.columns; ++i) {
+      const double r = 1.4 * std::hypot(i - 50, j - 50);
+      const double outside = i < 50 ? 0.2 * muscle : r < 36.0 ? 0.5 * muscle : muscle;
+      picture.values.push_back(static_cast<float>(r < 25.0 ? blood : r < 34.0 ? muscle : outside));
+    }
+  return picture;
 }
 
 /// What a segmentation finds of the phantom at end-diastole and end-systole.
@@ -209,6 +228,20 @@ TEST_CASE("volumes that rest on doubtful borders say so", "[segment]") {
   found.borders[3].frames.front().endo_agrees = 0.5;
   found.shows[3][0] = 0;  // does not count
   CHECK(segment::doubtful_part(found, 0) == Approx(0.25));
+}
+
+TEST_CASE("the epicardium stays within lung and within liver behind a dark line", "[segment]") {
+  image::Cine cine;
+  cine.slices.assign(3, {"slice", {5, ring_beside_liver()}, {}, 0.0});
+  for (std::size_t s = 0; s < 3; ++s)
+    for (image::Picture& picture : cine.slices[s].frames)
+      picture.plane.origin.z() = 10.0 * static_cast<double>(s);
+  const segment::Centre middle{segment::Pixel(50.0, 50.0), 1.0, 25.0};
+  const segment::Drawn drawn = segment::draw_borders(cine, {{3, middle}, 1}, 0.5);
+  const segment::Radii& epi = drawn.slices[1].frames[0].epi;
+  CHECK(epi.maxCoeff() < 35.5);
+  CHECK(epi.minCoeff() > 32.5);
+  CHECK(epi.mean() == Approx(34.0).margin(0.7));
 }
 
 TEST_CASE("trabeculae of a phantom are taken into the cavity", "[segment]") {
