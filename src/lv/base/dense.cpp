@@ -14,7 +14,8 @@ namespace {
 
 /// What LAPACK has found, or no numbers where it has found nothing: a singular matrix, or numbers
 /// that were none.
-Eigen::MatrixXd found(lapack_int failed, Eigen::MatrixXd result) {
+template <class Result>
+Result found(lapack_int failed, Result result) {
   if (failed != 0)
     result.setConstant(std::numeric_limits<double>::quiet_NaN());
   return result;
@@ -42,7 +43,7 @@ Eigen::MatrixXd least_squares(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B
   const auto failed = LAPACKE_dgelsy(LAPACK_COL_MAJOR, size(A.rows()), size(A.cols()),
                                      size(B.cols()), factors.data(), size(A.rows()), X.data(),
                                      size(X.rows()), order.data(), negligible, &rank);
-  return found(failed, X.topRows(A.cols()));
+  return found(failed, Eigen::MatrixXd(X.topRows(A.cols())));
 }
 
 Eigen::MatrixXd inverse_of_normal_matrix(const Eigen::MatrixXd& J) {

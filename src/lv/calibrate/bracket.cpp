@@ -40,9 +40,16 @@ class Search {
 
   Outcome<double> run() {
     const Outcome<Point> start = first_point();
-    if (!start)
-      return start.why();
-    auto [a, f_a] = *start;
+    return start ? outwards_from(*start) : start.why();
+  }
+
+ private:
+  struct Point {
+    double log_x, f;
+  };
+
+  Outcome<double> outwards_from(const Point& start) {
+    auto [a, f_a] = start;
     if (f_a == 0.0)
       return std::exp(a);
     double away = f_a > 0.0 ? 1.0 : -1.0;  // a cavity too large asks for more of the unknown
@@ -76,11 +83,6 @@ class Search {
       step *= 2.0;
     }
   }
-
- private:
-  struct Point {
-    double log_x, f;
-  };
 
   /// The start, or another place that has an equilibrium if that has none.
   Outcome<Point> first_point() {
@@ -135,11 +137,27 @@ class Search {
       return *hole;
     if (x != y && std::abs(nearest_.f) <= scatter * accuracy_)
       return std::exp(nearest_.log_x);
+    if (x != y && !changed_branch_)
+      if (const auto root = on_other_branch(x, y))
+        return *root;
     if (x != y)
       return Unsolved{fmt::format("The volume jumps between {0} = {1:.9g} and {2:.9g}",
                                   unknown_.name, std::exp(x), std::exp(y)),
                       "Lower quasi_static.tolerance, or raise calibrate.tolerance"};
     return std::exp(x);
+  }
+
+  /// Where a wall has two equilibria, the one that it came to first need not be the one that it
+  /// keeps: of a jump an end whose volume is now on the other side of the target begins the search
+  /// anew, on the branch of the other end. Nothing where both ends keep their sides.
+  std::optional<Outcome<double>> on_other_branch(double x, double y) {
+    changed_branch_ = true;
+    for (const auto& [end, side] : {Point{x, 1.0}, Point{y, -1.0}}) {
+      const Outcome<double> f = misfit(end);
+      if (f && *f * side <= 0.0)
+        return outwards_from({end, *f});
+    }
+    return {};
   }
 
   /// The stiffer root when a maximum of the volume lies between two points that have less.
@@ -208,6 +226,7 @@ class Search {
   const Target& target_;
   double accuracy_;
   double low_, high_;
+  bool changed_branch_ = false;
   /// The last place tried that has no equilibrium.
   struct Nowhere {
     double log_x;

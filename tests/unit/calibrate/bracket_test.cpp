@@ -148,3 +148,17 @@ TEST_CASE("a target out of reach is told by how much it is missed at the end of 
   CHECK(missing(none_from(1.25), 3.0) == 0.0);   // the line meets the target
   CHECK(missing(none_from(1.001), 1.4) == 0.0);  // one volume makes no line
 }
+
+TEST_CASE("of a wall with two equilibria the root is found on the branch that it keeps",
+          "[calibrate]") {
+  bool gave_way = false;  // the second equilibrium has a larger cavity, until it is left for good
+  const auto kept = [&](double x) { return 0.98 * falling(x); };
+  const auto volume = [&](double x) {
+    const double found = gave_way ? kept(x) : falling(x);
+    gave_way = gave_way || x > 1.02 * 1.55;
+    return found;
+  };
+  const auto x = find_root(volume, from(1.55), target, accuracy);
+  REQUIRE(x);
+  CHECK(kept(*x) == Approx(target.volume).epsilon(accuracy));
+}
