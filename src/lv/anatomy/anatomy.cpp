@@ -242,6 +242,22 @@ void check_fibres(Shape& shape) {
                                mean)});
 }
 
+/// Warns of an infarct in the mesh's file that the case does not read.
+void warn_of_unread_infarct(const mesh_io::UnreadInfarct& unread, Shape& shape) {
+  const std::string name = printable(unread.name);
+  shape.warnings.push_back(
+      {"scar",
+       fmt::format(
+           "the mesh's \"{}\" ({}) is not read, so that the wall has no infarct: with {} it "
+           "is; infarct.source = \"none\" says that none is meant",
+           name, unread.at_points ? "numbers at points" : "a set or array of elements",
+           unread.at_points
+               ? fmt::format("the line infarct_array = \"{}\" under [anatomy.mesh]", name)
+               : fmt::format("the lines source = \"elements\" under [infarct] and set = "
+                             "\"{}\" under [infarct.elements]",
+                             name))});
+}
+
 /// Sides and directions of fibres may be files beside the mesh's.
 constexpr std::array perhaps_files{&mesh::ImportParameters::endo, &mesh::ImportParameters::epi,
                                    &mesh::ImportParameters::base, &mesh::ImportParameters::fibres,
@@ -273,6 +289,8 @@ Shape from_mesh(const Case& c) {
   if (!case_file::is_set(c, "regions.septum_angle"))
     shape.warnings.push_back({"septum", assumed_septum_of_mesh});
   check_fibres(shape);
+  if (imported.unread && c.scar.source == mesh::InfarctSource::mesh)
+    warn_of_unread_infarct(*imported.unread, shape);
   check_size(solid::EndocardialSurface(*shape.given).volume(shape.given->nodes),
              mesh::quality(*shape.given).wall_volume, {}, shape);
   assume_moment(c, {}, false, shape);

@@ -170,6 +170,7 @@ Drawn from_labels(const Case& c) {
   drawn.usual_base = geometry::BaseAt::slab;
   drawn.notes = std::move(traced.notes);
   warn("slices", traced.alike, drawn);
+  warn("scar", unsaid_scar(c, volume), drawn);
   note_unnamed(image::label_volumes(volume, frame), a, drawn.notes);
   drawn.moment_is_known = volume.frames > 1;
   const Moments moments = moments_of(volume, a.cavity);

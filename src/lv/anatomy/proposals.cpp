@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <set>
 
 namespace lv::anatomy {
@@ -15,12 +16,17 @@ namespace {
 using case_file::CaseLine;
 namespace fs = std::filesystem;
 
-/// What the file calls these labels, before a remark on them.
-std::string named(const image::Volume& map, const std::vector<int>& labels) {
+/// What the file calls these labels; and before a remark on them.
+std::string names_in(const image::Volume& map, const std::vector<int>& labels) {
   std::string text;
   for (const int label : labels)
     if (const auto name = map.names.find(label); name != map.names.end())
       text += fmt::format("{}\"{}\"", text.empty() ? "" : ", ", name->second);
+  return text;
+}
+
+std::string named(const image::Volume& map, const std::vector<int>& labels) {
+  const std::string text = names_in(map, labels);
   return text.empty() ? "" : text + ": ";
 }
 
@@ -41,7 +47,71 @@ std::vector<std::string> series_names(const image::DicomStudy& study) {
   return names;
 }
 
+bool is_in(const std::vector<int>& labels, int label) {
+  return std::find(labels.begin(), labels.end(), label) != labels.end();
+}
+
+/// Whether a name in the file says scar or its core.
+bool says_scar(const std::string& name) {
+  constexpr std::array says{"scar", "infarct", "fibros", "necro", "reflow", "mvo"};
+  const std::string small = lower_case(name);
+  return std::any_of(says.begin(), says.end(),
+                     [&](const char* part) { return small.find(part) != std::string::npos; });
+}
+
 }  // namespace
+
+LikelyScar likely_scar(const image::Volume& map, const std::vector<int>& muscle) {
+  LikelyScar likely;
+  for (const int label : muscle)
+    if (const auto name = map.names.find(label); name != map.names.end() && says_scar(name->second))
+      likely.labels.push_back(label);
+  likely.by_name = !likely.labels.empty();
+  if (likely.by_name || muscle.size() < 2)
+    return likely;
+  const std::vector<int> seen = image::propose_meaning(map).muscle;
+  for (std::size_t i = 1; i < seen.size(); ++i)
+    if (is_in(muscle, seen[i]))
+      likely.labels.push_back(seen[i]);
+  return likely;
+}
+
+std::vector<CaseLine> scar_lines(const image::Volume& map, const std::string& name,
+                                 const std::vector<int>& muscle, int frame) {
+  const LikelyScar likely = likely_scar(map, muscle);
+  if (likely.labels.empty())
+    return {};
+  const bool active = likely.by_name;
+  std::vector<CaseLine> lines{
+      {"infarct.source", case_file::quoted("labels"), "", active},
+      {"infarct.labels.file", case_file::quoted(name), "", active},
+      {"infarct.labels.scar", case_file::listed(likely.labels),
+       active ? named(map, likely.labels) + "check it"
+              : "may be scar: it lies within the wall. Without these lines it is healthy muscle",
+       active}};
+  const std::vector<int> frames = image::frames_with(map, likely.labels);
+  if (frames.size() > 1)
+    lines.push_back({"infarct.labels.frame",
+                     std::to_string(is_in(frames, frame) ? frame : frames.front()),
+                     "a person has one scar", active});
+  return lines;
+}
+
+std::string unsaid_scar(const case_file::Case& c, const image::Volume& map) {
+  if (c.scar.source != mesh::InfarctSource::mesh)
+    return "";
+  const LikelyScar likely = likely_scar(map, c.anatomy.labels.muscle);
+  if (likely.labels.empty())
+    return "";
+  return fmt::format(
+      "{} of anatomy.labels.muscle {}, and the case has no infarct: it is taken as healthy muscle. "
+      "If it is scar, say so with source = \"labels\" under [infarct], and file = {} and scar = {} "
+      "under [infarct.labels]; infarct.source = \"none\" says that none is meant",
+      case_file::listed(likely.labels),
+      likely.by_name ? "is called scar in the map (" + names_in(map, likely.labels) + ")"
+                     : "lies within the other muscle, as a scar does",
+      case_file::quoted(c.anatomy.labels.file), case_file::listed(likely.labels));
+}
 
 std::vector<CaseLine> label_lines(const image::Volume& map, const case_file::LabelAnatomy& said) {
   const bool unsaid = said.cavity.empty() || said.muscle.empty() || said.right_ventricle.empty();

@@ -20,6 +20,24 @@ namespace lv::anatomy {
 [[nodiscard]] std::vector<case_file::CaseLine> label_lines(const image::Volume& map,
                                                            const case_file::LabelAnatomy& said);
 
+/// Labels of the muscle that may be scar or its core: those that the file names so; where it names
+/// none, those that lie within the wall beside the label that has most of the cavity's border.
+struct LikelyScar {
+  std::vector<int> labels;
+  bool by_name = false;
+};
+[[nodiscard]] LikelyScar likely_scar(const image::Volume& map, const std::vector<int>& muscle);
+
+/// The lines by which a label map named `name` shows an infarct too, if it seems to; to be
+/// uncommented unless the map's own names say so. `frame` is that of the anatomy, from 1.
+[[nodiscard]] std::vector<case_file::CaseLine> scar_lines(const image::Volume& map,
+                                                          const std::string& name,
+                                                          const std::vector<int>& muscle,
+                                                          int frame);
+
+/// A warning of labels of the muscle that may be scar, of which the case says nothing; or empty.
+[[nodiscard]] std::string unsaid_scar(const case_file::Case& c, const image::Volume& map);
+
 /// Of a file of contours of another program: which structures are the borders, where its format
 /// does not fix that, and the images it needs.
 [[nodiscard]] std::vector<case_file::CaseLine> contour_file_lines(

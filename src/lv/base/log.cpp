@@ -2,6 +2,7 @@
 
 #include "lv/base/check.hpp"
 #include "lv/base/files.hpp"
+#include "lv/base/log_count.hpp"
 #include "lv/base/parallel.hpp"
 #include "lv/base/printable.hpp"
 #include "lv/base/table.hpp"
@@ -54,6 +55,11 @@ File& kept() {
   return file;
 }
 
+int& count_of_warnings() {
+  static int count = 0;
+  return count;
+}
+
 void write(spdlog::level::level_enum level, const std::string& text) {
   const std::string line = printable_lines(text);
   logger().log(level, line);
@@ -90,7 +96,12 @@ void info(const std::string& line) {
   write(spdlog::level::info, line);
 }
 void warn(const std::string& line) {
+  ++count_of_warnings();
   write(spdlog::level::warn, line);
+}
+
+int warnings() {
+  return count_of_warnings();
 }
 
 void keep(const std::string& line) {

@@ -434,10 +434,10 @@ constexpr Group of_infarct[]{
     {Stages(Stage::anatomy, Stage::mesh, Stage::calibrate, Stage::unload),
      {&infarct_of_elements},
      {
-         value(
-             "infarct.elements.set", LV_AT(scar.set),
-             "set of elements in anatomy.mesh.file: an ABAQUS *Elset, the name or number of a "
-             "Gmsh physical volume, or a VTK cell array that is 1 in the infarct and 0 elsewhere"),
+         value("infarct.elements.set", LV_AT(scar.set),
+               "set of elements in anatomy.mesh.file: an ABAQUS *Elset, the name or number of a "
+               "Gmsh physical volume, or a VTK cell array that is 1 in the infarct and less "
+               "elsewhere (border zone, made anew by infarct.border, and healthy muscle)"),
      }},
     {meshing,
      {&infarct_of_surface},

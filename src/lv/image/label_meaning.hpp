@@ -20,7 +20,8 @@ namespace lv::image {
 ///   (its core);
 /// - the right ventricle is the largest other label that lies on the muscle.
 ///
-/// A proposal for a user to confirm. Lists are empty where nothing fits.
+/// The first label of the muscle is the one round the cavity; what follows may be scar. A proposal
+/// for a user to confirm. Lists are empty where nothing fits.
 [[nodiscard]] LabelMeaning propose_meaning(const Volume& volume);
 
 }  // namespace lv::image

@@ -64,6 +64,33 @@ bool has_label(const Volume& volume, const Vec3& x, const std::vector<int>& labe
   return at && is_one_of(volume.at((*at)[0], (*at)[1], (*at)[2]), labels);
 }
 
+std::vector<bool> undrawn_slices(const Volume& volume, const std::vector<int>& labels) {
+  std::vector<bool> undrawn;
+  for (const Picture& slice : slices(volume, slice_axis(volume)))
+    undrawn.push_back(std::none_of(slice.values.begin(), slice.values.end(), [&](auto value) {
+      return is_one_of(static_cast<float>(value), labels);
+    }));
+  const auto first = std::find(undrawn.begin(), undrawn.end(), false);
+  std::fill(undrawn.begin(), first, false);
+  const auto last = std::find(undrawn.rbegin(), undrawn.rend(), false);
+  std::fill(undrawn.rbegin(), last, false);
+  return undrawn;
+}
+
+Vec3 in_drawn_slice(const Volume& volume, const std::vector<bool>& undrawn, const Vec3& x) {
+  const int axis = slice_axis(volume);
+  const double at = volume.index(x)[axis];
+  const auto count = static_cast<int>(undrawn.size());
+  const double here = std::round(at);
+  if (!(here >= 0.0 && here < count) || !undrawn[static_cast<std::size_t>(here)])
+    return x;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (int slice = 0; slice < count; ++slice)
+    if (!undrawn[static_cast<std::size_t>(slice)] && std::abs(slice - at) < std::abs(nearest - at))
+      nearest = slice;
+  return x + (nearest - at) * volume.spacing[axis] * volume.directions.col(axis);
+}
+
 double sample(const Picture& picture, const Vec3& x) {
   const Vec3 pixel = picture.plane.pixel(x);
   const double i = pixel.x();

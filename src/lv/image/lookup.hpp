@@ -18,6 +18,16 @@ namespace lv::image {
 [[nodiscard]] bool has_label(const Volume& volume, const Vec3& x, const std::vector<int>& labels,
                              std::span<const Vec3> moves = {});
 
+/// Of the slices across slice_axis those, true, in which no voxel has one of these labels while one
+/// on either side of them has: they were not drawn.
+[[nodiscard]] std::vector<bool> undrawn_slices(const Volume& volume,
+                                               const std::vector<int>& labels);
+
+/// x, or where it lies in one of these slices, x moved across the slices into the nearest one that
+/// is none of them.
+[[nodiscard]] Vec3 in_drawn_slice(const Volume& volume, const std::vector<bool>& undrawn,
+                                  const Vec3& x);
+
 /// The value of a picture at the foot of a point above or below it: linear between its pixels; NaN
 /// beyond them.
 [[nodiscard]] double sample(const Picture& picture, const Vec3& x);

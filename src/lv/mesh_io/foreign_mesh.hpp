@@ -4,10 +4,12 @@
 #include "lv/mesh/mesh.hpp"
 #include "lv/mesh/parameters.hpp"
 #include "lv/mesh/surface.hpp"
+#include "lv/mesh_io/unread_infarct.hpp"
 
 #include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +34,7 @@ struct ForeignMesh {
   Vec3 scale{1, 1, 1};             ///< by which the file's coordinates have been multiplied
   std::vector<ForeignSide> sides;  ///< endocardium, epicardium, base; none if found by geometry
   std::vector<bool> infarcted;     ///< per cell; empty if no set of infarcted cells was asked for
+  std::optional<UnreadInfarct> unread;  ///< what seems an infarct, where none was asked for
   std::vector<std::int64_t> node_numbers, cell_numbers;  ///< as the file counts
   std::vector<std::string> files;                        ///< the file and those it includes
   std::vector<FileLine> node_lines, cell_lines;          ///< empty where the reader knows none

@@ -362,6 +362,7 @@ ImportedMesh to_model(ForeignMesh&& foreign, const Sides& sides, const mesh::Pla
     imported.mesh.nodes[node].z() = 0.0;  // rounding off
   imported.mesh.transmural = mesh::transmural_by_distance(imported.mesh);
   imported.infarcted = std::move(foreign.infarcted);
+  imported.unread = std::move(foreign.unread);
   imported.node_numbers = std::move(foreign.node_numbers);
   imported.cell_numbers = std::move(foreign.cell_numbers);
   imported.notes = std::move(foreign.notes);

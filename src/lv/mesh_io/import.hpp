@@ -3,8 +3,10 @@
 #include "lv/geometry/frame.hpp"
 #include "lv/mesh/mesh.hpp"
 #include "lv/mesh/parameters.hpp"
+#include "lv/mesh_io/unread_infarct.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +22,7 @@ struct ImportedMesh {
   geometry::Frame frame;
 
   std::vector<bool> infarcted;             ///< per cell; empty unless the parameters name a set
+  std::optional<UnreadInfarct> unread;     ///< where no infarct was read and none asked for
   std::vector<std::int64_t> node_numbers;  ///< of the nodes in the file
   std::vector<std::int64_t> cell_numbers;  ///< of the cells in the file
   std::vector<std::string> notes;          ///< what was changed on the way, for the log

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <optional>
 #include <set>
 
 namespace lv::mesh_io {
@@ -139,6 +141,16 @@ ForeignSide find_side(const AbaqusModel& model, const std::string& tag) {
   fail_missing_tag(model.files.front(), "*Surface, *Elset or *Nset", tag, all_tags(model));
 }
 
+/// The volume elements among those numbers.
+std::vector<bool> volume_members(const AbaqusModel& model, const std::vector<Number>& numbers) {
+  const std::set<Number> members(numbers.begin(), numbers.end());
+  std::vector<bool> marked;
+  for (const AbaqusModel::Element& element : model.elements)
+    if (element.type.use == Use::volume)
+      marked.push_back(members.contains(element.number));
+  return marked;
+}
+
 /// Marks the volume elements of a set.
 std::vector<bool> find_infarcted(const AbaqusModel& model, const std::string& set) {
   const auto found = model.element_sets.find(upper_case(set));
@@ -148,12 +160,19 @@ std::vector<bool> find_infarcted(const AbaqusModel& model, const std::string& se
       names.push_back(name);
     fail_missing_tag(model.files.front(), "*Elset", set, names);
   }
-  const std::set<Number> members(found->second.begin(), found->second.end());
-  std::vector<bool> infarcted;
-  for (const AbaqusModel::Element& element : model.elements)
-    if (element.type.use == Use::volume)
-      infarcted.push_back(members.contains(element.number));
-  return infarcted;
+  return volume_members(model, found->second);
+}
+
+/// The first set that is called as an infarct is and holds elements of the wall.
+std::optional<UnreadInfarct> unread_infarct(const AbaqusModel& model) {
+  for (const auto& [name, numbers] : model.element_sets) {
+    if (!is_infarct_name(name))
+      continue;
+    const std::vector<bool> marked = volume_members(model, numbers);
+    if (std::find(marked.begin(), marked.end(), true) != marked.end())
+      return UnreadInfarct{name};
+  }
+  return {};
 }
 
 }  // namespace
@@ -166,6 +185,8 @@ ForeignMesh read_abaqus(const mesh::ImportParameters& parameters) {
         find_sides(parameters, [&](const std::string& tag) { return find_side(model, tag); });
   if (!parameters.infarct_set.empty())
     foreign.infarcted = find_infarcted(model, parameters.infarct_set);
+  else
+    foreign.unread = unread_infarct(model);
   return foreign;
 }
 

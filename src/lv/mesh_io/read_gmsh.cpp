@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <unordered_map>
 
 namespace lv::mesh_io {
@@ -54,6 +55,8 @@ class Reader {
           find_sides(parameters_, [this](const std::string& tag) { return find_side(tag); });
     if (!parameters_.infarct_set.empty())
       foreign_.infarcted = find_infarcted(parameters_.infarct_set);
+    else
+      foreign_.unread = unread_infarct();
     foreign_.note_fields(file_.has_fields);
     return std::move(foreign_);
   }
@@ -145,6 +148,17 @@ class Reader {
     for (const Element& cell : cells_)
       infarcted.push_back(is_in(cell, groups));
     return infarcted;
+  }
+
+  /// The first physical volume that is called as an infarct is and holds elements of the wall.
+  [[nodiscard]] std::optional<UnreadInfarct> unread_infarct() const {
+    for (const auto& [group, name] : file_.names)
+      if (group.first == 3 && is_infarct_name(name) &&
+          std::any_of(cells_.begin(), cells_.end(), [number = group.second](const Element& cell) {
+            return cell.groups.contains(number);
+          }))
+        return UnreadInfarct{name};
+    return {};
   }
 
   const mesh::ImportParameters& parameters_;

@@ -2,6 +2,7 @@
 
 #include "lv/base/check.hpp"
 #include "lv/base/log.hpp"
+#include "lv/base/log_count.hpp"
 #include "lv/base/mistakes.hpp"
 #include "lv/base/units.hpp"
 #include "lv/beating_wall/activation.hpp"
@@ -49,6 +50,7 @@ std::string name_of(const geometry::Assumption& warning) {
                                                         {"size", "size of no human heart"},
                                                         {"cut cavity", "cavity cut off"},
                                                         {"slices", "slices alike"},
+                                                        {"scar", "scar taken as healthy"},
                                                         {"early diastole", "end-diastolic shape"}};
   return names.at(warning.part);
 }
@@ -109,9 +111,11 @@ std::string next_command(const Case& c) {
   return fmt::format("ventricle run {}", c.file.string());
 }
 
-/// Names, without repeats.
-std::string names_of(const std::vector<Warning>& warnings) {
+/// Names, without repeats. Of the infarct the log has warned already.
+std::string names_of(const std::vector<Warning>& warnings, bool warned_of_infarct) {
   std::vector<std::string> names;
+  if (warned_of_infarct)
+    names.emplace_back("infarct");
   for (const Warning& w : warnings)
     if (std::find(names.begin(), names.end(), w.name) == names.end())
       names.push_back(w.name);
@@ -231,7 +235,9 @@ std::string validate(const Case& c) {
   check_measured_volumes(c, *shape);
   const int members = check_study(c);
   log::info("mesh ...");
+  const int said = log::warnings();
   const anatomy::MeshResult result = make_mesh(c, *shape);
+  const bool warned_of_infarct = log::warnings() > said;  // of the mesh itself there are none
   check_room(c, result.mesh);
   static_cast<void>(beating_wall::activation_times(c, result));  // which may not fit to the wall
   static_cast<void>(
@@ -252,8 +258,8 @@ std::string validate(const Case& c) {
     text += fmt::format("  warning: {}\n", w.text);
   const Cost cost = cost_of(c, *shape, result);
   return text + cost.details +
-         fmt::format("on one core: {}; {}; next: {}\n", cost.words, names_of(warnings),
-                     next_command(c));
+         fmt::format("on one core: {}; {}; next: {}\n", cost.words,
+                     names_of(warnings, warned_of_infarct), next_command(c));
 }
 
 }  // namespace lv::pipeline

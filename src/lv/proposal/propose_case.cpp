@@ -139,7 +139,10 @@ Proposal of_volume(const fs::path& source, const std::string& name) {
   const image::LabelMeaning seen = image::propose_meaning(map);
   if (seen.right_ventricle.empty())
     p.lines.push_back(septum_line());
-  append(p.lines, lines_of_moment(anatomy::moments_of(map, seen.cavity)));
+  const anatomy::Moments moments = anatomy::moments_of(map, seen.cavity);
+  const int frame = moments.early_diastole.value_or(std::max(moments.end_diastole, 1));
+  append(p.lines, anatomy::scar_lines(map, name, seen.muscle, frame));
+  append(p.lines, lines_of_moment(moments));
   return p;
 }
 
@@ -300,6 +303,15 @@ mesh_io::ImportedMesh read_mesh(mesh::ImportParameters& parameters) {
   }
 }
 
+/// What the file has of an infarct that is not read by itself.
+std::vector<CaseLine> infarct_lines(const mesh_io::UnreadInfarct& unread) {
+  constexpr const char* by_name = "seems the infarct by its name";
+  if (unread.at_points)
+    return {{"anatomy.mesh.infarct_array", case_file::quoted(unread.name), by_name}};
+  return {{"infarct.source", case_file::quoted("elements"), ""},
+          {"infarct.elements.set", case_file::quoted(unread.name), by_name}};
+}
+
 Proposal of_mesh_file(const fs::path& source, const std::string& name) {
   mesh::ImportParameters parameters;
   parameters.file = source.string();
@@ -316,6 +328,8 @@ Proposal of_mesh_file(const fs::path& source, const std::string& name) {
   if (parameters.sides == mesh::SideSource::geometry)
     p.lines.push_back({"anatomy.mesh.sides", case_file::quoted("geometry"),
                        "the file has no tags endo, epi and base"});
+  if (read.unread)
+    append(p.lines, infarct_lines(*read.unread));
   p.lines.push_back(
       {"regions.septum_angle", case_file::quoted("0 deg"),
        "direction of the middle of the septum: without it regions may bear wrong names", false});

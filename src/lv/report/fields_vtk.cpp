@@ -206,6 +206,7 @@ void write_mesh(const std::filesystem::path& file, const mesh::Mesh& mesh,
   const auto grid = grid_of(mesh, mesh.nodes);
   Arrays nodal(grid->GetPointData(), mesh.nodes.size());
   nodal.scalar("transmural", [&](auto a) { return mesh.transmural[a]; });
+  nodal.scalar("infarct", [&](auto a) { return mesh.infarct[a]; });
   Arrays cells(grid->GetCellData(), undeformed.size());
   add_frames(cells, undeformed);
   add_regions(cells, regions);

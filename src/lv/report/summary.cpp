@@ -94,7 +94,7 @@ std::string zones_text(const Results& results) {
   std::string text = fmt::format("  {:<24}{}", "at end-systole",
                                  in_zones([](const char* zone) { return std::string(zone); }));
   text +=
-      fmt::format("  {:<24}{}", "volume (ml)", in_zones([&](const char* zone) {
+      fmt::format("  {:<24}{}", "whole elements (ml)", in_zones([&](const char* zone) {
                     return fmt::format("{:.2f}", 1e-3 * at_end_systole(results, zone, "J").volume);
                   }));
   for (const char* quantity : {"active_tension", "fibre_stress", "fibre_strain",
@@ -465,7 +465,10 @@ std::string summary_text(const RunFacts& facts, const heartbeat::Beat& beat, con
         fmt::format("  {:<26}{:>9.2f}{:>9.2f}{:>13.0f}%{:>15.0f}%\n", scar.name, 1e-3 * scar.volume,
                     1e3 * scar.mass, 100.0 * scar.part, 100.0 * scar.transmurality);
   if (!facts.scar.empty())
-    text += "\n";
+    text +=
+        "  (the infarcted parts of elements; the zone \"infarct\" has the whole elements with M = "
+        "1)\n"
+        "\n";
   const std::vector<Judgement> judgements = judge(facts, beat, r);
   return text + plausibility_text(judgements) + remarks_text(facts, judgements);
 }

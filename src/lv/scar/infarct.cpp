@@ -18,6 +18,7 @@
 #include "lv/scar/slice_moves.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -192,6 +193,55 @@ void check_met(const image::Volume& map, const std::vector<int>& scar, const Mes
         1e-3 * met, 1e-3 * drawn, map.file);
 }
 
+/// Whether the scar's map is also that of the wall.
+bool is_map_of_wall(const Case& c) {
+  return c.anatomy.source == case_file::AnatomySource::labels &&
+         case_file::beside(c, c.anatomy.labels.file) == case_file::beside(c, c.scar.labels);
+}
+
+/// The labels by which a slice that was drawn is told from one that was not: those of the left
+/// ventricle as far as the case names them, else all of the map.
+std::vector<int> drawn_labels(const Case& c, const image::Volume& map,
+                              const std::vector<int>& scar) {
+  std::vector<int> labels = c.scar.muscle;
+  if (is_map_of_wall(c))
+    for (const std::vector<int>& more : {c.anatomy.labels.cavity, c.anatomy.labels.muscle})
+      labels.insert(labels.end(), more.begin(), more.end());
+  if (labels.empty())
+    for (const auto& [label, volume] : image::label_volumes(map))
+      if (label != 0)
+        labels.push_back(label);
+  labels.insert(labels.end(), scar.begin(), scar.end());
+  return labels;
+}
+
+/// The slices of a scar's map that were not drawn, between slices that were; none of a map that has
+/// scar alone, since it cannot tell them from healthy slices. Warns of both.
+std::vector<bool> slices_without_wall(const Case& c, const image::Volume& map,
+                                      const std::vector<int>& scar) {
+  const std::vector<int> labels = drawn_labels(c, map, scar);
+  std::vector<bool> undrawn = image::undrawn_slices(map, labels);
+  std::vector<int> numbers;
+  for (std::size_t s = 0; s < undrawn.size(); ++s)
+    if (undrawn[s])
+      numbers.push_back(static_cast<int>(s) + 1);
+  if (numbers.empty())
+    return undrawn;
+  const bool shows_muscle = std::any_of(labels.begin(), labels.end(), [&](int label) {
+    return std::find(scar.begin(), scar.end(), label) == scar.end();
+  });
+  const bool one = numbers.size() == 1;
+  log::warn("scar: slice{} {} of {} {} no {} between slices that do: {}", one ? "" : "s",
+            fmt::join(numbers, ", "), map.file, one ? "shows" : "show",
+            shows_muscle ? "ventricle" : "scar",
+            shows_muscle ? "the wall there has the scar of the nearest of them"
+                         : "the map has no healthy muscle by which to tell whether it was drawn "
+                           "there, and the wall is taken as healthy");
+  if (!shows_muscle)
+    undrawn.assign(undrawn.size(), false);
+  return undrawn;
+}
+
 Infarct within_image(const Case& c, const anatomy::Shape& shape, const Mesh& mesh,
                      const std::string& file) {
   const image::Volume volume = scar_map(c, file);
@@ -206,10 +256,12 @@ Infarct within_image(const Case& c, const anatomy::Shape& shape, const Mesh& mes
   const std::vector<int> wanted = infarcted_labels(c);
   const std::vector<Vec3> moves =
       c.scar.in_plane ? moves_onto_wall(c, shape, mesh, volume, wanted) : std::vector<Vec3>{};
+  const std::vector<bool> undrawn = slices_without_wall(c, volume, wanted);
   Infarct infarct = within(
       c, shape, mesh,
       [&](const Vec3& X, double) {
-        return image::has_label(volume, in_images(c, shape, X), wanted, moves);
+        const Vec3 x = image::in_drawn_slice(volume, undrawn, in_images(c, shape, X));
+        return image::has_label(volume, x, wanted, moves);
       },
       fmt::format("in {}", file));
   check_met(volume, wanted, mesh, infarct);
@@ -559,7 +611,8 @@ std::string describe_infarct(const Case& c, const anatomy::MeshResult& wall) {
     return fmt::format("{}: {:.2f} ml ({:.1f}% of the wall), {:.1f} g", name, 1e-3 * volume,
                        100.0 * volume / v.wall, 1e3 * c.muscle_density * volume);
   };
-  return part("infarct", v.infarct) + "; " + part("border zone", v.border);
+  return part("infarct", v.infarct) + "; " + part("border zone", v.border) +
+         " (by the infarcted parts of elements; zones are of whole elements)";
 }
 
 }  // namespace lv::scar

@@ -1,24 +1,30 @@
 #include "lv/mesh/infarct.hpp"
 
+#include "lv/analysis/wall_fields.hpp"
 #include "lv/base/check.hpp"
+#include "lv/base/ending.hpp"
 #include "lv/base/units.hpp"
 #include "lv/geometry/ellipsoid.hpp"
 #include "lv/mesh/cell.hpp"
 #include "lv/mesh/refine.hpp"
+#include "lv/mesh/regions.hpp"
 #include "lv/mesh/split.hpp"
 #include "lv/mesh/surface.hpp"
 #include "lv/mesh_io/closed_surface.hpp"
 #include "lv/mesh_io/import.hpp"
 #include "lv/mesh_io/label_volume.hpp"
+#include "lv/report/fields_vtk.hpp"
 
 #include "mesh_io/mesh_files.hpp"
 #include "support/block_mesh.hpp"
 #include "support/cell_kinds.hpp"
+#include "support/temporary_folder.hpp"
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -382,14 +388,59 @@ TEST_CASE("an imported mesh knows its set of infarcted elements", "[unit][mesh]"
       mesh::ImportParameters parameters;
       parameters.file = file.path();
       parameters.sides = mesh::SideSource::geometry;
-      CHECK(mesh_io::import_mesh(parameters).infarcted.empty());
+      const mesh_io::ImportedMesh unasked = mesh_io::import_mesh(parameters);
+      CHECK(unasked.infarcted.empty());
+      REQUIRE(unasked.unread);
+      CHECK(lower_case(unasked.unread->name) == "scar");
+      CHECK_FALSE(unasked.unread->at_points);
       parameters.infarct_set = "scar";
-      CHECK((mesh_io::import_mesh(parameters).infarcted == infarcted));
+      const mesh_io::ImportedMesh asked = mesh_io::import_mesh(parameters);
+      CHECK((asked.infarcted == infarcted));
+      CHECK_FALSE(asked.unread);
       parameters.infarct_set = "scarr";
       CHECK_THAT(message([&] { static_cast<void>(mesh_io::import_mesh(parameters)); }),
                  Catch::Contains("\"scarr\""));
     }
   }
+}
+
+TEST_CASE("the program's own mesh gives its infarct back, border zone and all", "[unit][mesh]") {
+  Mesh mesh = test::coarse_mesh(CellKind::hexahedron);
+  const auto infarcted = as_described(mesh, {}, {});
+  mesh.infarct = mesh::infarct_field(mesh, infarcted, 10.0);
+  const test::TemporaryFolder folder;
+  mesh::ImportParameters parameters = test::by_geometry();
+  parameters.file = (folder / "mesh.vtu").string();
+  report::write_mesh(folder / "mesh.vtu", mesh, mesh::divide(mesh, {}),
+                     analysis::FieldAnalysis(mesh, {}).at_rest());
+  const mesh_io::ImportedMesh imported = mesh_io::import_mesh(parameters);
+  CHECK_FALSE(imported.unread);
+  REQUIRE(imported.mesh.infarct.size() == mesh.infarct.size());
+  double largest = 0.0;
+  for (std::size_t a = 0; a < mesh.infarct.size(); ++a)
+    largest = std::max(largest, std::abs(imported.mesh.infarct[a] - mesh.infarct[a]));
+  CHECK(largest < 1e-6);  // single precision
+}
+
+TEST_CASE("a cell array of M means the elements with one, and its border zone is made anew",
+          "[unit][mesh]") {
+  const Mesh mesh = test::coarse_mesh(CellKind::hexahedron);
+  const auto infarcted = as_described(mesh, {}, {});
+  const auto with = [&](double beside) {
+    std::vector<double> M(infarcted.begin(), infarcted.end());
+    *std::find(M.begin(), M.end(), 0.0) = beside;
+    return test::vtk_text(mesh, test::VtkTags::none) +
+           fmt::format("CELL_DATA {}\nSCALARS M double 1\nLOOKUP_TABLE default\n{}\n",
+                       mesh.cell_count(), fmt::join(M, " "));
+  };
+  mesh::ImportParameters parameters = test::by_geometry();
+  parameters.infarct_set = "M";
+  const mesh_io::ImportedMesh imported = test::import_text(".vtk", with(0.4), parameters);
+  CHECK((imported.infarcted == infarcted));
+  REQUIRE(imported.notes.size() == 1);
+  CHECK_THAT(imported.notes[0], Catch::Contains("in 1 cells") && Catch::Contains("infarct.border"));
+  CHECK_THAT(message([&] { static_cast<void>(test::import_text(".vtk", with(1.5), parameters)); }),
+             Catch::Contains("is 1.5 at cell"));
 }
 
 TEST_CASE("a refined mesh keeps the infarcted region", "[unit][mesh]") {

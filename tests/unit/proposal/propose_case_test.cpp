@@ -1,8 +1,11 @@
 #include "lv/proposal/propose_case.hpp"
 
+#include "lv/anatomy/anatomy.hpp"
 #include "lv/anatomy/moments.hpp"
+#include "lv/anatomy/proposals.hpp"
 #include "lv/base/check.hpp"
 #include "lv/case_file/read_case.hpp"
+#include "lv/image/volume_file.hpp"
 #include "lv/proposal/list_images.hpp"
 
 #include "mesh_io/mesh_files.hpp"
@@ -10,6 +13,7 @@
 #include "support/temporary_folder.hpp"
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace {
@@ -18,8 +22,8 @@ using namespace lv;
 using Catch::Matchers::Contains;
 
 /// A short-axis stack of `frames` rings whose cavities have these radii [mm]; cavity 3, muscle 2,
-/// right ventricle 1.
-std::string label_stack(const std::vector<double>& radii) {
+/// right ventricle 1, scar 4 across the wall over an angle to either side of the lateral wall.
+std::string label_stack(const std::vector<double>& radii, double half_scar = 0.0) {
   test::NiftiSpec spec;
   spec.size = {70, 70, 6, static_cast<int>(radii.size())};
   spec.sform = {{{-1.5, 0.0, 0.0, 0.0}, {0.0, -1.5, 0.0, 0.0}, {0.0, 0.0, 8.0, 0.0}}};
@@ -29,7 +33,11 @@ std::string label_stack(const std::vector<double>& radii) {
         for (int i = 0; i < 70; ++i) {
           const double r = std::hypot(1.5 * (i - 40), 1.5 * (j - 35));
           const double right = std::hypot(1.5 * (i - 20), 1.5 * (j - 35));
-          spec.values.push_back(r < radius ? 3 : r < 34.0 ? 2 : right < 25.0 ? 1 : 0);
+          const bool scarred = std::abs(std::atan2(j - 35, i - 40)) < half_scar;
+          spec.values.push_back(r < radius     ? 3
+                                : r < 34.0     ? (scarred ? 4 : 2)
+                                : right < 25.0 ? 1
+                                               : 0);
         }
   return test::nifti_bytes(spec);
 }
@@ -64,6 +72,69 @@ TEST_CASE("a case from end-diastole and end-systole takes the loaded shape of en
   const std::string text = proposal::proposed_case(folder / "map.nii", folder / "case.toml");
   CHECK_THAT(text, Contains("# [calibrate]") && Contains("# esv = ") && !Contains("# edv = "));
   CHECK(text.find("engine = ") < text.find("[anatomy]"));
+}
+
+TEST_CASE(
+    "a label within the muscle is proposed as scar to be uncommented, and a case without is "
+    "warned of",
+    "[unit][proposal]") {
+  const test::TemporaryFolder folder;
+  test::write_bytes(folder / "map.nii", label_stack({22}, 0.5));
+  const std::string text = proposal::proposed_case(folder / "map.nii", folder / "case.toml");
+  CHECK_THAT(text, Contains("muscle = [2, 4]") && Contains("# [infarct]") &&
+                       Contains("# scar = [4]  # may be scar"));
+  CHECK_THAT(proposal::list_images({.where = folder / "map.nii"}), Contains("# scar = [4]"));
+  case_file::Case c = case_file::parse_case(text, folder / "case.toml");
+  const image::Volume map = image::read_labels(folder / "map.nii");
+  CHECK_THAT(anatomy::unsaid_scar(c, map),
+             Contains("[4] of anatomy.labels.muscle lies within the other muscle") &&
+                 Contains("infarct.source = \"none\""));
+  c.scar.source = mesh::InfarctSource::labels;
+  CHECK(anatomy::unsaid_scar(c, map).empty());
+  c.scar.source = mesh::InfarctSource::mesh;
+  c.anatomy.labels.muscle = {2};
+  CHECK(anatomy::unsaid_scar(c, map).empty());
+}
+
+TEST_CASE("a label that the file itself calls scar is proposed as infarct", "[unit][proposal]") {
+  const test::TemporaryFolder folder;
+  test::write_bytes(folder / "map.nii", label_stack({22, 18}, 0.5));
+  image::Volume map = image::read_labels(folder / "map.nii");
+  map.names = {{2, "myocardium"}, {4, "Scar tissue"}};
+  const auto lines = anatomy::scar_lines(map, "map.nii", {2, 4}, 2);
+  REQUIRE(lines.size() == 4);
+  CHECK(std::all_of(lines.begin(), lines.end(), [](const auto& line) { return line.active; }));
+  CHECK(lines[2].parameter == "infarct.labels.scar");
+  CHECK(lines[2].value == "[4]");
+  CHECK(lines[3].parameter == "infarct.labels.frame");
+  CHECK(lines[3].value == "2");
+  CHECK(anatomy::scar_lines(map, "map.nii", {2}, 2).empty());
+}
+
+TEST_CASE("a case from a mesh reads the infarct that lies in its cells", "[unit][proposal]") {
+  const test::TemporaryFolder folder;
+  const mesh::Mesh wall = test::coarse_mesh(mesh::CellKind::hexahedron);
+  std::string values;
+  for (int c = 0; c < wall.cell_count(); ++c)
+    values += c < 7 ? "1 " : "0 ";
+  test::write_bytes(folder / "wall.vtk", test::vtk_text(wall, test::VtkTags::none) + "CELL_DATA " +
+                                             std::to_string(wall.cell_count()) +
+                                             "\nSCALARS infarct double 1\nLOOKUP_TABLE default\n" +
+                                             values + "\n");
+  case_file::Case c = parsed(folder / "wall.vtk", folder / "case.toml");
+  CHECK(c.scar.source == mesh::InfarctSource::elements);
+  CHECK(c.scar.set == "infarct");
+  const auto warned = [&] {
+    const anatomy::Shape shape = anatomy::make_anatomy(c);
+    return std::any_of(shape.warnings.begin(), shape.warnings.end(), [](const auto& warning) {
+      return warning.part == "scar" && warning.text.find("set = \"infarct\"") != std::string::npos;
+    });
+  };
+  CHECK_FALSE(warned());
+  c.scar.source = mesh::InfarctSource::mesh;
+  CHECK(warned());
+  c.scar.source = mesh::InfarctSource::none;
+  CHECK_FALSE(warned());
 }
 
 TEST_CASE("a case from contours names those that lie beside them", "[unit][proposal]") {

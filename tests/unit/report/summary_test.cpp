@@ -43,6 +43,7 @@ TEST_CASE("the summary of an infarcted ventricle gives its zones at end-systole"
   CHECK(summary["zones"]["border"]["volume_ml"] == 50.0);
   // 4 regions of 7 quantities before those of end-systole, the wall's 7 before the zones'
   const std::string text = report::summary_text({}, {}, r);
+  CHECK_THAT(text, Catch::Contains("  whole elements (ml) "));
   CHECK_THAT(text, Catch::Contains(fmt::format("  {:<24}{:>18}{:>18}{:>18}\n", "fibre_strain",
                                                "137.000 +- 0.500", "144.000 +- 0.500",
                                                "151.000 +- 0.500")));

@@ -195,6 +195,47 @@ TEST_CASE("of a scar map of several frames one is meant: the chosen, or the only
   CHECK_THROWS_WITH(scar_volume(), Catch::Matchers::Contains("there is scar in the frames 2, 3"));
 }
 
+TEST_CASE(
+    "where a slice was not drawn the wall has the scar of the nearest, and a healthy one stays",
+    "[unit][scar]") {
+  const mesh::Mesh wall = test::ellipsoid_mesh({}, 6.0);
+  const test::TemporaryFolder folder;
+  case_file::Case c;
+  c.file = folder / "case.toml";
+  anatomy::Shape shape;
+  c.scar.source = InfarctSource::labels;
+  c.scar.labels = "map.nii";
+  c.scar.scar = {4};
+  constexpr double gap = -40.0;  // the middle of a slice of 8 mm
+  const auto volume = [&](int in_gap, int muscle) {
+    test::write_bytes(folder / "map.nii",
+                      test::nifti_bytes(test::label_map(
+                          {60, 60, 14}, Mat3::Identity(), Vec3(2.0, 2.0, 8.0),
+                          Vec3(-59.0, -59.0, -104.0), [&](const Vec3& x) {
+                            if (x.head<2>().norm() > 45.0 || x.z() < -96.0 || x.z() > -8.0)
+                              return 0;
+                            if (in_gap >= 0 && std::abs(x.z() - gap) < 1.0)
+                              return in_gap;
+                            return x.y() > 5.0 ? 4 : muscle;
+                          })));
+    const auto log = folder / fmt::format("log{}_{}.txt", in_gap, muscle);
+    log::to_file(log, {});
+    const auto part = scar::infarct_extent(c, shape, wall).part;
+    return std::pair(mesh::infarct_volumes(wall, part).infarct, read_file(log));
+  };
+  const auto [whole, silent] = volume(-1, 2);
+  CHECK_THAT(silent, !Contains("no ventricle"));
+  const auto [filled, said] = volume(0, 2);
+  CHECK(filled == Approx(whole).epsilon(1e-9));
+  CHECK_THAT(said, Contains("slice 9 of ") && Contains("shows no ventricle"));
+  const auto [healthy, drawn] = volume(2, 2);
+  CHECK(healthy < 0.95 * whole);
+  CHECK_THAT(drawn, !Contains("no ventricle"));
+  const auto [alone, doubted] = volume(0, 0);  // a map of scar alone tells no gap from health
+  CHECK(alone == Approx(healthy).epsilon(1e-9));
+  CHECK_THAT(doubted, Contains("slice 9 of ") && Contains("the wall is taken as healthy"));
+}
+
 TEST_CASE("half of the brightest is taken from the grey value of no signal", "[unit][scar]") {
   const mesh::Mesh wall = test::ellipsoid_mesh({}, 5.0);
   const test::TemporaryFolder folder;
