@@ -190,12 +190,13 @@ namespace {
 class ReferenceSearch {
  public:
   ReferenceSearch(const mesh::Mesh& seen, const StaticModel& model, double pressure,
-                  const NewtonParameters& parameters)
+                  const NewtonParameters& parameters, double afterwards)
       : equations_(seen, model),
         newton_(equations_, parameters),
         endocardium_(seen),
         pressure_(pressure),
         tolerance_(parameters.tolerance),
+        afterwards_(afterwards),
         now_(equations_.seen()) {}
 
   std::optional<Reference> run(const Reference* guess) {
@@ -260,13 +261,12 @@ class ReferenceSearch {
     return report.converged;
   }
 
-  /// Nothing of the last step, after which the wall is loaded again.
   void say(double reached, double factor) const {
     const double steps = std::ceil(std::log(pressure_ / reached) / std::log(factor) - 0.01);
     log::info("unloading from {:.3g} mmHg: {:.2f} of {:.2f} ml are left{} of unloading",
               reached / units::mmHg, 1e-3 * endocardium_.volume(now_.nodes),
               1e-3 * endocardium_.volume(equations_.seen().nodes),
-              time_left(forecast_.seconds_left(steps)));
+              time_left(forecast_.seconds_left(steps) + afterwards_));
   }
 
   Reference settled() {
@@ -290,7 +290,7 @@ class ReferenceSearch {
   InverseEquations equations_;
   InverseNewton newton_;
   solid::EndocardialSurface endocardium_;
-  double pressure_, tolerance_;
+  double pressure_, tolerance_, afterwards_;
   PathForecast forecast_;
   Reference now_;
 };
@@ -299,8 +299,8 @@ class ReferenceSearch {
 
 std::optional<Reference> find_reference(const mesh::Mesh& seen, const StaticModel& model,
                                         double pressure, const NewtonParameters& parameters,
-                                        const Reference* guess) {
-  return ReferenceSearch(seen, model, pressure, parameters).run(guess);
+                                        const Reference* guess, double afterwards) {
+  return ReferenceSearch(seen, model, pressure, parameters, afterwards).run(guess);
 }
 
 }  // namespace lv::implicit

@@ -36,11 +36,12 @@ class InverseNewton {
 /// straight line through the last two. Where directions are held (InverseEquations::hold_frames)
 /// they are held anew, a few times, and the wall whose own directions move it least is taken.
 ///
-/// Nothing where Newton's method finds no way. Says the time that is left. Throws Interrupted.
-/// Collective.
+/// Nothing where Newton's method finds no way. Says the time that is left, with what the caller
+/// does after the search [s]. Throws Interrupted. Collective.
 [[nodiscard]] std::optional<Reference> find_reference(const mesh::Mesh& seen,
                                                       const StaticModel& model, double pressure,
                                                       const NewtonParameters& parameters,
-                                                      const Reference* guess = nullptr);
+                                                      const Reference* guess = nullptr,
+                                                      double afterwards = 0.0);
 
 }  // namespace lv::implicit

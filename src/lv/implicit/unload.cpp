@@ -58,12 +58,13 @@ struct Trial {
 class Unloader {
  public:
   Unloader(const mesh::Mesh& given, const StaticModel& model, const UnloadParameters& parameters,
-           const SolverParameters& solver, UnloadRecord record)
+           const SolverParameters& solver, UnloadRecord record, double afterwards)
       : given_(given),
         model_(model),
         parameters_(parameters),
         solver_(solver),
         record_(std::move(record)),
+        afterwards_(afterwards),
         endocardium_(given),
         find_folds_(given),
         target_(as_vector(given.nodes)),
@@ -110,7 +111,7 @@ class Unloader {
     if (start != nullptr)
       guess = Reference{start->nodes, start->loaded.pressures};
     const auto found = find_reference(given_, model_, parameters_.pressure, solver_.newton,
-                                      guess ? &*guess : nullptr);
+                                      guess ? &*guess : nullptr, afterwards_);
     if (!found)
       return false;
     const mesh::Mesh wall = mesh::with_nodes(given_, found->nodes);
@@ -121,10 +122,12 @@ class Unloader {
       return false;
     now_ = trial_of(as_vector(wall.nodes), engine.state());
     steps_.push_back(now_.step);
-    log::info("unloaded: {:.2f} ml fill to {:.2f} ml at {:.2f} mmHg, off by {:.2g} mm",
+    const bool is_found = now_.left <= parameters_.tolerance && !is_folded(now_.step.folds);
+    const bool says_left = is_found && afterwards_ > 0.0;
+    log::info("unloaded: {:.2f} ml fill to {:.2f} ml at {:.2f} mmHg, off by {:.2g} mm{}",
               1e-3 * now_.step.unloaded_volume, 1e-3 * now_.step.volume, pressure_ / units::mmHg,
-              now_.left);
-    return now_.left <= parameters_.tolerance && !is_folded(now_.step.folds);
+              now_.left, says_left ? time_left(afterwards_) + " of unloading" : "");
+    return is_found;
   }
 
   /// What the inverse problem led near to: fixed points may lead nearer.
@@ -285,7 +288,7 @@ class Unloader {
     if (!smooth_)
       steps_.clear();
     history_.clear();
-    forecast_.begin();
+    forecast_.begin(loaded != nullptr);
     auto trial = load(X, loaded, true);
     if (!trial)
       return false;
@@ -430,11 +433,11 @@ class Unloader {
   void accept(Trial&& trial) {
     now_ = std::move(trial);
     steps_.push_back(now_.step);
-    forecast_.accepted(now_.left);
     if (history_.empty() || now_.left <= 0.5 * half_of_) {
       half_of_ = now_.left;
       halved_ = equilibria_;
     }
+    forecast_.accepted(now_.left, equilibria_ - halved_);
     // on the way to the whole pressure it is not known how many steps of it there will be
     const double left = pressure_ < parameters_.pressure ? -1.0 : forecast_.seconds_left();
     log::info(
@@ -442,7 +445,7 @@ class Unloader {
         "mmHg, dent {:.0f} degrees{}",
         equilibria_, now_.step.largest, now_.step.rms, 1e-3 * now_.step.unloaded_volume,
         1e-3 * now_.step.volume, pressure_ / units::mmHg, now_.step.folds.dent / units::degree,
-        left < 0.0 ? "" : time_left(left) + " of unloading");
+        left < 0.0 ? "" : time_left(left + afterwards_) + " of unloading");
   }
 
   struct Difference {
@@ -454,6 +457,7 @@ class Unloader {
   const UnloadParameters& parameters_;
   const SolverParameters& solver_;
   UnloadRecord record_;
+  double afterwards_;  ///< what the caller does then [s]
   solid::EndocardialSurface endocardium_;
   mesh::FoldFinder find_folds_;
   Eigen::VectorXd target_;
@@ -475,7 +479,14 @@ class Unloader {
 Outcome<Unloaded> unload(const mesh::Mesh& given, const StaticModel& model,
                          const UnloadParameters& parameters, const SolverParameters& solver,
                          const Unloaded* start, UnloadRecord record) {
-  return Unloader(given, model, parameters, solver, std::move(record)).run(start);
+  return unload(given, model, parameters, solver, UnloadTask{start, std::move(record)});
+}
+
+Outcome<Unloaded> unload(const mesh::Mesh& given, const StaticModel& model,
+                         const UnloadParameters& parameters, const SolverParameters& solver,
+                         UnloadTask task) {
+  return Unloader(given, model, parameters, solver, std::move(task.record), task.afterwards)
+      .run(task.start);
 }
 
 }  // namespace lv::implicit

@@ -90,4 +90,16 @@ Outcome<Unloaded> unload(const mesh::Mesh& given, const StaticModel& model,
                          const UnloadParameters& parameters, const SolverParameters& solver,
                          const Unloaded* start = nullptr, UnloadRecord record = {});
 
+/// A search that a stage begins with.
+struct UnloadTask {
+  const Unloaded* start = nullptr;
+  UnloadRecord record = {};
+  double afterwards = 0.0;  ///< what the stage does then, for the time that is left [s]
+};
+
+/// The same.
+Outcome<Unloaded> unload(const mesh::Mesh& given, const StaticModel& model,
+                         const UnloadParameters& parameters, const SolverParameters& solver,
+                         UnloadTask task);
+
 }  // namespace lv::implicit

@@ -17,7 +17,18 @@ constexpr double slow = 0.5;           // a fall after which the search may end 
 constexpr double of_second = 0.6;
 constexpr double of_others = 0.17;
 
+// in tangents of the inverse problem
+constexpr double of_last_corrections = 0.5;
+constexpr double of_loading = 1.3;  // an engine and an equilibrium near by
+
 }  // namespace
+
+double PathForecast::seconds_left(double steps) const {
+  if (tangents_ == 0)
+    return -1.0;
+  const double corrections = steps > 0.0 ? of_last_corrections : 0.0;
+  return (steps + corrections + of_loading) * seconds_ / tangents_;
+}
 
 void UnloadForecast::sought(double seconds) {
   if (seconds < recorded)
@@ -30,7 +41,7 @@ double UnloadForecast::equilibria_left() const {
   if (distances_.empty() || distances_.back() <= goal_)
     return 0.0;
   if (distances_.size() > 1 && distances_.back() > slow * distances_[distances_.size() - 2])
-    return patience;
+    return std::max(1, patience - since_halved_);
   const std::size_t n = std::min(remembered, distances_.size() - 1);
   const double falls = distances_.back() / distances_[distances_.size() - 1 - n];
   const double fall = std::pow(falls * usual_fall, 1.0 / static_cast<double>(n + 1));

@@ -5,9 +5,9 @@
 
 namespace lv::implicit {
 
-/// How long a path of walls without load along the pressure (find_reference) will still take: a
-/// tangent for each step, and what the last step and the wall that is loaded again take besides, at
-/// the time per tangent so far.
+/// How long a path of walls without load along the pressure (find_reference) will still take, in
+/// tangents at the time per tangent so far: one for each step, the corrections of the last step and
+/// the wall that is loaded again. Nobody knows before whether fixed points follow.
 class PathForecast {
  public:
   /// So many seconds, for so many tangents.
@@ -16,14 +16,10 @@ class PathForecast {
     tangents_ += tangents;
   }
 
-  /// Negative before the first tangent.
-  [[nodiscard]] double seconds_left(double steps) const {
-    return tangents_ > 0 ? (steps + at_the_end) * seconds_ / tangents_ : -1.0;
-  }
+  /// Of so many steps; negative before the first tangent.
+  [[nodiscard]] double seconds_left(double steps) const;
 
  private:
-  static constexpr double at_the_end = 1.3;  // tangents
-
   double seconds_ = 0.0;
   int tangents_ = 0;
 };
@@ -40,20 +36,23 @@ class UnloadForecast {
   /// The distance at which the search ends [mm].
   explicit UnloadForecast(double goal) : goal_(goal) {}
 
-  /// The search begins anew.
-  void begin() {
+  /// The search begins anew, from no load or from an equilibrium that is near its first.
+  void begin(bool is_near = false) {
     distances_.clear();
     seconds_.clear();
-    goes_on_ = false;
+    goes_on_ = is_near;
   }
 
   /// An equilibrium was sought for so many seconds.
   void sought(double seconds);
 
-  /// It came nearer, to a largest distance [mm].
-  void accepted(double distance) { distances_.push_back(distance); }
+  /// It came nearer, to a largest distance [mm], so many equilibria after one that halved it.
+  void accepted(double distance, int since_halved = 0) {
+    distances_.push_back(distance);
+    since_halved_ = since_halved;
+  }
 
-  /// Where the distance hardly falls, those after which the search gives up.
+  /// Where the distance hardly falls, those until the search gives up.
   [[nodiscard]] double equilibria_left() const;
 
   /// Negative before the first equilibrium that is not of a search that was stopped.
@@ -63,7 +62,8 @@ class UnloadForecast {
   double goal_;
   std::vector<double> distances_;
   std::vector<double> seconds_;  ///< of the equilibria since the search began anew
-  bool goes_on_ = false;         ///< after equilibria that had been kept
+  int since_halved_ = 0;         ///< equilibria
+  bool goes_on_ = false;         ///< after equilibria that had been kept, or from one nearby
 };
 
 }  // namespace lv::implicit

@@ -15,11 +15,12 @@ namespace {
 
 using case_file::Case;
 
-/// Of the quasi-static engine, in times of a first load step: a beat, an unloading, and a fit of
-/// one parameter. Rough (docs/progress.md).
+/// Of the quasi-static engine, in times of a first load step: a beat, an unloading by the inverse
+/// problem, and a fit of one parameter with the walls of its trials. Rough (docs/progress.md).
 constexpr double steps_of_beat = 45.0;
-constexpr double steps_of_unloading = 25.0;
+constexpr double steps_of_unloading = 4.0;
 constexpr double steps_of_fit = 45.0;
+constexpr double steps_of_walls_of_fit = 25.0;
 constexpr double steps_of_time_step = 0.04;  // in a heartbeat, which keeps its tangents
 constexpr double beats_of_fit = 30.0;        // with sensitivities
 constexpr int many_unknowns = 100'000;       // whose load step takes longer than some seconds
@@ -118,11 +119,13 @@ std::string preparation(const Case& c, double step) {
                           ? 1
                           : 0) +
                      (k.active ? 1 : 0);
-  const double unloading = case_file::is_loaded(c) ? steps_of_unloading * step : 0.0;
+  const bool is_loaded = case_file::is_loaded(c);
+  const double unloading = is_loaded ? steps_of_unloading * step : 0.0;
+  const double walls = is_loaded ? steps_of_walls_of_fit * step : 0.0;
   const double beats = k.cycle ? beats_of_fit * c.circulation.period / c.protocol.cycle.step *
                                      steps_of_time_step * step
                                : 0.0;
-  const double fit = fitted * (steps_of_fit * step + unloading) + beats;
+  const double fit = fitted * (steps_of_fit * step + walls) + beats;
   if (unloading + fit == 0.0)
     return "";
   return fmt::format(", {}{}{} before it about {}", unloading > 0.0 ? "unloading" : "",

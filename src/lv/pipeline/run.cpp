@@ -34,6 +34,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 
 namespace lv::pipeline {
 namespace {
@@ -225,7 +226,7 @@ class Pipeline {
                                                 c.engine == case_file::EngineChoice::immersed},
                               part);
         });
-        show_mesh(anatomy::read_mesh_result(part, c.fibres), c, part);
+        draw_seen(anatomy::read_mesh_result(part, c.fibres), c, part);
         break;
       case Stage::calibrate:
         calibrate(for_calibration(c), part);
@@ -261,6 +262,14 @@ class Pipeline {
         });
         break;
     }
+  }
+
+  void draw_seen(const anatomy::MeshResult& mesh, const Case& c,
+                 const std::filesystem::path& part) {
+    const auto began = std::chrono::steady_clock::now();
+    show_mesh(mesh, c, part);
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - began;
+    seconds_of_pictures_ = elapsed.count();
   }
 
   void calibrate(const Case& fitting, const std::filesystem::path& part) {
@@ -336,7 +345,8 @@ class Pipeline {
     make_unloading(
         c, anatomy::read_mesh_result(folder(Stage::mesh), c.fibres),
         anatomy::read_mesh_result(elements, c.fibres).mesh, part,
-        case_.calibration.asked() ? calibration() / unloaded_shape_name : std::filesystem::path());
+        case_.calibration.asked() ? calibration() / unloaded_shape_name : std::filesystem::path(),
+        seconds_of_pictures_);
   }
 
   /// Where the stress-free wall of a beat is.
@@ -384,6 +394,7 @@ class Pipeline {
   work::FileContents files_;
   std::string text_;
   std::optional<anatomy::Shape> shape_;
+  double seconds_of_pictures_ = 0.0;  ///< of the seen mesh; 0 where another run made it
   static constexpr const char* coarse_name = "coarse";  ///< folder of the mesh for a first fit
   static constexpr const char* elements_name = "quasi_static";  ///< folder of the mesh for fits
 };

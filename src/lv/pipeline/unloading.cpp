@@ -165,22 +165,23 @@ void check_elements(const mesh::Mesh& wall) {
 
 implicit::Unloaded find_unloaded(const case_file::Case& c, const mesh::Mesh& elements,
                                  const std::filesystem::path& folder,
-                                 const std::filesystem::path& start) {
+                                 const std::filesystem::path& start, double afterwards) {
   const std::filesystem::path record = folder / search_record;
   const std::optional<Unloaded> near = read_start(start, elements.nodes.size());
+  implicit::UnloadTask task{near ? &*near : nullptr, {}, afterwards};
+  task.record = {read_record(record, elements.nodes.size()),
+                 [&](const implicit::Equilibria& known) {
+                   parallel::on_root([&] { write_record(known, record); });
+                 }};
   return implicit::unload(elements, case_file::static_model(c), c.unloaded, c.quasi_static.solver,
-                          near ? &*near : nullptr,
-                          {read_record(record, elements.nodes.size()),
-                           [&](const implicit::Equilibria& known) {
-                             parallel::on_root([&] { write_record(known, record); });
-                           }})
+                          std::move(task))
       .value();
 }
 
 void make_unloading(const case_file::Case& c, const anatomy::MeshResult& seen,
                     const mesh::Mesh& elements, const std::filesystem::path& folder,
-                    const std::filesystem::path& start) {
-  const Unloaded unloaded = find_unloaded(c, elements, folder, start);
+                    const std::filesystem::path& start, double seconds_of_pictures) {
+  const Unloaded unloaded = find_unloaded(c, elements, folder, start, seconds_of_pictures);
   anatomy::MeshResult result = seen;
   result.mesh = mesh::with_nodes(seen.mesh, c.engine == case_file::EngineChoice::quasi_static
                                                 ? unloaded.nodes

@@ -15,20 +15,23 @@ namespace lv::pipeline {
 /// (for the immersed engine the displacement is carried over to its mesh), with unloading.csv (the
 /// search) and unloaded.json (what is left); collective. Depth, regions and infarct are carried
 /// with the wall. The search begins at the shape in the file `start` if it is there; one that was
-/// stopped goes on from what it left in `folder`.
+/// stopped goes on from what it left in `folder`. The pictures at the end take about as long as
+/// those of `seen` took, which is part of the time left; 0 if that is not known [s].
 void make_unloading(const case_file::Case& c, const anatomy::MeshResult& seen,
                     const mesh::Mesh& elements, const std::filesystem::path& folder,
-                    const std::filesystem::path& start);
+                    const std::filesystem::path& start, double seconds_of_pictures = 0.0);
 
 /// The nodes of another mesh of the same wall, moved as those of `elements` were moved to
 /// `unloaded`.
 [[nodiscard]] std::vector<Vec3> carried(const mesh::Mesh& elements, std::span<const Vec3> unloaded,
                                         const mesh::Mesh& other);
 
-/// The search alone, whose record in `folder` is for whoever called to remove.
+/// The search alone, whose record in `folder` is for whoever called to remove; what it says is left
+/// contains what comes `afterwards` [s].
 [[nodiscard]] implicit::Unloaded find_unloaded(const case_file::Case& c, const mesh::Mesh& elements,
                                                const std::filesystem::path& folder,
-                                               const std::filesystem::path& start);
+                                               const std::filesystem::path& start,
+                                               double afterwards = 0.0);
 
 /// A wall without load as the start of a search, in a file and back.
 inline constexpr const char* unloaded_shape_name = "unloaded.bin";

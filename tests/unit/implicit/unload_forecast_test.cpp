@@ -66,3 +66,16 @@ TEST_CASE("the time left of a path along the pressure is that of its tangents",
     CHECK(forecast.seconds_left(--steps) == Approx(left).epsilon(0.3));
   }
 }
+
+TEST_CASE("a search by fixed points that begins near its end has no long equilibria before it",
+          "[unit][implicit]") {
+  UnloadForecast forecast(2e-4);
+  forecast.begin(true);
+  forecast.sought(0.12);
+  forecast.accepted(0.0807);
+  CHECK(forecast.seconds_left() == Approx(4 * 0.12).epsilon(0.3));
+  forecast.sought(0.12);
+  forecast.sought(0.13);
+  forecast.accepted(0.0616, 2);  // hardly falls, and two such equilibria are enough
+  CHECK(forecast.seconds_left() == Approx(2 * 0.12).epsilon(0.1));
+}
