@@ -115,7 +115,7 @@ class Pipeline {
       if (stage == Stage::results || takes_base_of_cine(stage))
         all.insert(strain.begin(), strain.end());
       work::Ingredients result;
-      result["result of " + name_of(stage)] = work::fingerprint(all);
+      result["result of " + name_of(stage)] = work::fingerprint_of_result(all);
       if (stage == Stage::strain)
         strain = std::move(result);
       else if (stage != Stage::circulation)
