@@ -270,6 +270,8 @@ Shape from_mesh(const Case& c) {
   shape.given = std::move(imported.mesh);
   shape.frame = imported.frame;
   shape.notes = imported.notes;
+  for (const std::string& warning : imported.warnings)
+    shape.warnings.push_back({"wall", warning});
   if (!case_file::is_set(c, "regions.septum_angle", case_file::Stage::anatomy))
     shape.warnings.push_back({"septum", assumed_septum_of_mesh});
   check_fibres(shape);
