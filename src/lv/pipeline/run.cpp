@@ -253,7 +253,7 @@ class Pipeline {
       }
       case Stage::report:
         on_root([&] {
-          write_page({work_}, part / "report.html");
+          write_page({work_}, part / "report.html", Replaces::any_page);
           report::write_figures(work_, part / "figures");
           write_file(part / "paraview.py",
                      report::paraview_script("../" + folder(Stage::beat).filename().string(),
@@ -411,9 +411,11 @@ void run(const Case& c, const RunOptions& options) {
   }
 }
 
-void write_page(const std::vector<std::filesystem::path>& works,
-                const std::filesystem::path& file) {
+void write_page(const std::vector<std::filesystem::path>& works, const std::filesystem::path& file,
+                Replaces replaces) {
   page::require_place(file);
+  if (replaces == Replaces::page_of_same_runs)
+    page::require_same_runs(file, works);
   std::vector<page::PageCase> cases;
   for (const std::filesystem::path& work : works) {
     const std::vector<std::string> state = work::state_of(work);
