@@ -212,13 +212,17 @@ void add_page(CLI::App& app, Command& command, const char* name, const char* hel
       ->required()
       ->expected(works);
   page->add_option("--output", command.page,
-                   fmt::format("the page to write (default: {}.html)", name));
+                   fmt::format("the page to write (default: {}.html, unless that is the page of "
+                               "another run)",
+                               name));
 }
 
 int write_page(const Command& command, const std::string& name, int argc, char** argv) {
   const lv::parallel::Session session(&argc, &argv);
   const std::string file = command.page.empty() ? name + ".html" : command.page;
-  lv::pipeline::write_page(command.works, file);
+  lv::pipeline::write_page(command.works, file,
+                           command.page.empty() ? lv::pipeline::Replaces::page_of_same_runs
+                                                : lv::pipeline::Replaces::any_page);
   lv::print(fmt::format("wrote {}\n", file));
   return 0;
 }

@@ -77,7 +77,7 @@ void assume_moment(const Case& c, const std::vector<geometry::Assumption>& warni
 geometry::Lie lie_of(const Case& c, const geometry::Frame& frame, bool septum_is_shown) {
   geometry::Lie lie{-frame.axes.col(2), {}};
   const double angle = c.regions.septum_angle;
-  if (septum_is_shown || case_file::is_set(c, "regions.septum_angle"))
+  if (septum_is_shown || case_file::is_set(c, "regions.septum_angle", case_file::Stage::anatomy))
     lie.septum = std::cos(angle) * frame.axes.col(0) + std::sin(angle) * frame.axes.col(1);
   return lie;
 }
@@ -183,7 +183,7 @@ Shape from_drawn(const Case& c) {
     fit.frame.septum = drawn.septum;
   const geometry::MayMove may_move{
       .base = c.anatomy.contours.base_at == case_file::BaseChoice::automatic,
-      .slices = !case_file::is_set(c, "anatomy.contours.align_slices")};
+      .slices = !case_file::is_set(c, "anatomy.contours.align_slices", case_file::Stage::anatomy)};
   geometry::DrawnWall found = geometry::fit_drawn_wall(drawn.contours, fit, may_move);
   const auto wall = std::make_shared<const geometry::SplineWall>(std::move(found.wall));
   Shape shape;
@@ -195,7 +195,7 @@ Shape from_drawn(const Case& c) {
   for (const auto& notes : {wall->report().notes, found.notes})
     shape.notes.insert(shape.notes.end(), notes.begin(), notes.end());
   shape.segmentation = std::move(drawn.segmentation);
-  if (!fit.frame.septum && !case_file::is_set(c, "regions.septum_angle"))
+  if (!fit.frame.septum && !case_file::is_set(c, "regions.septum_angle", case_file::Stage::anatomy))
     shape.warnings.push_back({"septum", assumed_septum});
   check_septum_point(c, shape);
   check_contours_met(wall->report(), shape);
@@ -286,7 +286,9 @@ Shape from_mesh(const Case& c) {
   shape.given = std::move(imported.mesh);
   shape.frame = imported.frame;
   shape.notes = imported.notes;
-  if (!case_file::is_set(c, "regions.septum_angle"))
+  for (const std::string& warning : imported.warnings)
+    shape.warnings.push_back({"wall", warning});
+  if (!case_file::is_set(c, "regions.septum_angle", case_file::Stage::anatomy))
     shape.warnings.push_back({"septum", assumed_septum_of_mesh});
   check_fibres(shape);
   if (imported.unread && c.scar.source == mesh::InfarctSource::mesh)

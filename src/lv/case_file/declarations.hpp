@@ -90,9 +90,15 @@ constexpr Parameter when(const Condition& condition, Parameter p) {
   return p;
 }
 
-/// That a case sets the parameter says something, even if it sets it to its default.
+/// What comes of the parameter depends on whether a case sets it, even if to its default.
 constexpr Parameter whether_set(Parameter p) {
   p.whether_set_counts = true;
+  return p;
+}
+
+/// Whether a case sets the parameter is a remark of these stages: no number depends on it.
+constexpr Parameter remark_whether_set(Stages stages, Parameter p) {
+  p.remark_whether_set = stages;
   return p;
 }
 

@@ -338,11 +338,12 @@ constexpr Group of_mesh[]{
     {Stages(Stage::anatomy, Stage::mesh, Stage::calibrate, Stage::unload, Stage::beat),
      {},
      {
-         whether_set(number("regions.septum_angle", LV_AT(regions.septum_angle), "deg",
-                            between(-360.0, 360.0),
-                            "direction of the middle of the septum about the long axis, from "
-                            "the model's x axis towards y",
-                            "Fig. 3")),
+         remark_whether_set(Stages(Stage::anatomy, Stage::mesh),
+                            number("regions.septum_angle", LV_AT(regions.septum_angle), "deg",
+                                   between(-360.0, 360.0),
+                                   "direction of the middle of the septum about the long axis, "
+                                   "from the model's x axis towards y",
+                                   "Fig. 3")),
      }},
     {meshing,
      {},
@@ -1269,10 +1270,10 @@ constexpr Group of_protocol[]{
     {Stages(Stage::calibrate, Stage::beat),
      {&paper_protocol},
      {
-         whether_set(number("protocol.ed_pressure", LV_AT(protocol.ed_pressure), "mmHg",
-                            between(0.0, 500.0), "end-diastolic pressure", "2.4")),
-         whether_set(number("protocol.es_pressure", LV_AT(protocol.es_pressure), "mmHg",
-                            between(0.0, 500.0), "end-systolic pressure", "2.4")),
+         number("protocol.ed_pressure", LV_AT(protocol.ed_pressure), "mmHg", between(0.0, 500.0),
+                "end-diastolic pressure", "2.4"),
+         number("protocol.es_pressure", LV_AT(protocol.es_pressure), "mmHg", between(0.0, 500.0),
+                "end-systolic pressure", "2.4"),
          number("protocol.cuff_systolic", LV_AT(cuff_systolic), "mmHg", between(0.0, 400.0),
                 "systolic pressure of a cuff on the arm, in place of es_pressure, which is then "
                 "taken to be 0.9 of it (Kelly et al., Circulation 86:513, 1992); 0: none"),
@@ -1401,8 +1402,8 @@ constexpr Group of_circulation[]{
     {joined,
      {&circuit},
      {
-         whether_set(number("circulation.period", LV_AT(circulation.period), "s", between(0.2, 3.0),
-                            "length of a beat, RR")),
+         number("circulation.period", LV_AT(circulation.period), "s", between(0.2, 3.0),
+                "length of a beat, RR"),
      }},
     {Stages(Stage::circulation),
      {&circuit},
@@ -1591,8 +1592,10 @@ const Parameter* find_parameter(const std::string& name) {
   return found == all.end() ? nullptr : &*found;
 }
 
-bool is_set(const Case& c, const std::string& parameter) {
-  LV_CHECK(find_parameter(parameter)->whether_set_counts);
+bool is_set(const Case& c, const std::string& parameter, Stage asking) {
+  const Parameter& p = *find_parameter(parameter);
+  LV_CHECK(asking == Stage::results || p.remark_whether_set.contains(asking) ||
+           (p.whether_set_counts && p.read_by.contains(asking)));
   return c.origin.contains(parameter);
 }
 

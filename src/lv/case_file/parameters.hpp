@@ -86,9 +86,10 @@ struct Parameter {
   const char* help;      ///< what it means
   const char* equation;  ///< where the paper has it
   Text text = Text::words;
-  bool may_be_empty = true;         ///< a list
-  bool whether_set_counts = false;  ///< setting it to its default says something too
-  bool changes_results = true;      ///< false: only how a stage goes about its work
+  bool may_be_empty = true;              ///< a list
+  bool whether_set_counts = false;       ///< what comes of it depends on whether it is set at all
+  Stages remark_whether_set = Stages();  ///< stages that say in words, alone, whether it is set
+  bool changes_results = true;           ///< false: only how a stage goes about its work
   Stages read_by = Stages();
   std::array<const Condition*, 4> conditions = {};  ///< all must hold; null: none
 
@@ -130,9 +131,9 @@ struct Section {
 /// Takes the folders of a case, of its files and of its work out of texts that are kept.
 [[nodiscard]] NamesAlone names_alone(const Case& c, const std::filesystem::path& work = {});
 
-/// Whether the case sets a parameter whose being set says something (whether_set_counts; of others
-/// no stage may ask, for its record would not hold the answer).
-[[nodiscard]] bool is_set(const Case& c, const std::string& parameter);
+/// Whether the case sets a parameter. A stage may ask what its record says: the results of every
+/// parameter, stages that read it where whether_set_counts, those of remark_whether_set.
+[[nodiscard]] bool is_set(const Case& c, const std::string& parameter, Stage asking);
 
 /// Gives one case's value of a parameter to another.
 void copy(const Parameter& p, const Case& from, Case& to);

@@ -91,9 +91,12 @@ double ColourScale::place(double value) const {
 std::optional<Colour> ColourScale::operator()(double value) const {
   if (std::isnan(value))
     return std::nullopt;
+  return is_nothing(value) ? uncoloured : map(place(value));
+}
+
+bool ColourScale::is_nothing(double value) const {
   const double above = value - middle;
-  const bool is_nothing = floor > 0.0 && (min < middle ? std::abs(above) : above) < floor;
-  return is_nothing ? uncoloured : map(place(value));
+  return floor > 0.0 && (min < middle ? std::abs(above) : above) < floor;
 }
 
 }  // namespace lv::drawing

@@ -66,6 +66,9 @@ struct ColourScale {
   /// Nothing when the value is missing (NaN).
   [[nodiscard]] std::optional<Colour> operator()(double value) const;
 
+  /// Whether a value is as good as none, and has no colour of the map.
+  [[nodiscard]] bool is_nothing(double value) const;
+
   /// How far along the map a value is: 0 at `min`, 1 at `max`, not beyond.
   [[nodiscard]] double place(double value) const;
 };

@@ -135,8 +135,7 @@ std::vector<int> face_parts(const Surface& surface) {
   return parts.numbers();
 }
 
-std::vector<std::vector<std::array<int, 2>>> boundary_loops(const Surface& surface) {
-  const auto edges = boundary_edges(surface);
+std::vector<int> edge_parts(std::span<const std::array<int, 2>> edges) {
   std::map<int, int> edge_at_node;
   Parts parts(static_cast<int>(edges.size()));
   for (int e = 0; e < static_cast<int>(edges.size()); ++e) {
@@ -146,7 +145,12 @@ std::vector<std::vector<std::array<int, 2>>> boundary_loops(const Surface& surfa
         parts.join(entry->second, e);
     }
   }
-  const std::vector<int> number = parts.numbers();
+  return parts.numbers();
+}
+
+std::vector<std::vector<std::array<int, 2>>> boundary_loops(const Surface& surface) {
+  const auto edges = boundary_edges(surface);
+  const std::vector<int> number = edge_parts(edges);
   std::vector<std::vector<std::array<int, 2>>> loops(count_parts(number));
   for (std::size_t e = 0; e < edges.size(); ++e)
     loops[number[e]].push_back(edges[e]);

@@ -26,6 +26,9 @@ using FaceKey = std::array<int, 4>;
 /// For each face the number, from 0, of its part: faces that hang together by edges.
 [[nodiscard]] std::vector<int> face_parts(const Surface& surface);
 
+/// For each edge the number, from 0, of its part: edges that hang together by nodes.
+[[nodiscard]] std::vector<int> edge_parts(std::span<const std::array<int, 2>> edges);
+
 /// The edges of one face alone, by the closed lines that they make.
 [[nodiscard]] std::vector<std::vector<std::array<int, 2>>> boundary_loops(const Surface& surface);
 

@@ -8,6 +8,7 @@
 #include "lv/mesh/transmural.hpp"
 #include "lv/mesh_io/foreign_fibres.hpp"
 #include "lv/mesh_io/foreign_mesh.hpp"
+#include "lv/mesh_io/notches.hpp"
 #include "lv/mesh_io/read_abaqus.hpp"
 #include "lv/mesh_io/read_gmsh.hpp"
 #include "lv/mesh_io/read_vtk.hpp"
@@ -308,7 +309,8 @@ void flatten_base(ForeignMesh& foreign, const mesh::Surface& base, const mesh::P
         foreign.where_node(worst),
         fmt::format("the base is not plane: {} lies {:.3g} mm from its best-fit plane",
                     foreign.name_node(worst), furthest),
-        fmt::format("Cut the wall along a plane, or raise the tolerance of {:.3g} mm", tolerance));
+        fmt::format("Cut the wall along a plane, or raise anatomy.mesh.base_tolerance, {:.3g} mm",
+                    tolerance));
   for (const int node : mesh::surface_nodes(base)) {
     Vec3& X = foreign.mesh.nodes[node];
     X -= plane.height(X) * plane.normal;
@@ -316,6 +318,28 @@ void flatten_base(ForeignMesh& foreign, const mesh::Surface& base, const mesh::P
   if (furthest > 1e-3)
     foreign.notes.push_back(
         fmt::format("the base was made plane, which moved its nodes by up to {:.3g} mm", furthest));
+}
+
+/// A sentence for each side of the wall from which elements seem to be missing.
+std::vector<std::string> notch_warnings(const ForeignMesh& foreign, const Sides& sides) {
+  std::vector<std::string> warnings;
+  const auto check = [&](const mesh::Surface& side, Bulge bulge, const char* name) {
+    const std::vector<Vec3> places = notches(foreign.mesh.nodes, side, bulge);
+    if (places.empty())
+      return;
+    const std::string where = foreign.format_place(places.front());
+    warnings.push_back(fmt::format(
+        "the {} has {} as a missing element leaves it: no wall turns so sharply both ways from one "
+        "face to the next. Look at the mesh there: volumes and stresses are those of the wall with "
+        "it",
+        name,
+        places.size() == 1
+            ? fmt::format("a notch near {},", where)
+            : fmt::format("{} notches, the first near {}, each", places.size(), where)));
+  };
+  check(sides[0], Bulge::inwards, "endocardium");
+  check(sides[1], Bulge::outwards, "epicardium");
+  return warnings;
 }
 
 /// The centre of the endocardium's edge, every piece of which counts by its length.
@@ -387,7 +411,10 @@ ImportedMesh import_mesh(const mesh::ImportParameters& parameters) {
   const mesh::Plane base = outward_plane(foreign, sides[2]);
   flatten_base(foreign, sides[2], base, parameters.base_tolerance);
   check_inverted(foreign);
-  return to_model(std::move(foreign), sides, base);
+  std::vector<std::string> warnings = notch_warnings(foreign, sides);
+  ImportedMesh imported = to_model(std::move(foreign), sides, base);
+  imported.warnings = std::move(warnings);
+  return imported;
 }
 
 }  // namespace lv::mesh_io

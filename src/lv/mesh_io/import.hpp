@@ -26,6 +26,7 @@ struct ImportedMesh {
   std::vector<std::int64_t> node_numbers;  ///< of the nodes in the file
   std::vector<std::int64_t> cell_numbers;  ///< of the cells in the file
   std::vector<std::string> notes;          ///< what was changed on the way, for the log
+  std::vector<std::string> warnings;       ///< where elements seem to be missing (notches.hpp)
 };
 
 /// Reads a mesh of the wall made elsewhere. Quadratic elements are read by their corners, a file

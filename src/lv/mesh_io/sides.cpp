@@ -7,7 +7,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <map>
+#include <optional>
+#include <queue>
+#include <set>
 
 namespace lv::mesh_io {
 namespace {
@@ -15,6 +20,7 @@ namespace {
 constexpr std::array<const char*, 3> side_names{"endocardium", "epicardium", "base"};
 constexpr int base_side = 2;
 constexpr int nowhere = -1;
+constexpr const char* tag_sides = "Tag the sides in the file and set anatomy.mesh.sides = \"tags\"";
 
 [[noreturn]] void fail(const ForeignMesh& foreign, const std::string& what,
                        const std::string& remedy) {
@@ -220,8 +226,29 @@ void check_rim(const ForeignMesh& foreign, const mesh::Surface& all,
            fmt::format("the base is not plane: the face at {} does not lie in the plane of those "
                        "beside it",
                        foreign.format_place(mesh::face_centre(nodes, all.face(f)))),
-           "Tag the sides in the file, or raise the tolerance");
+           fmt::format("{}, or raise anatomy.mesh.base_tolerance", tag_sides));
   }
+}
+
+using Loops = std::vector<std::vector<std::array<int, 2>>>;
+
+Vec3 middle_of_shortest(std::span<const Vec3> nodes, const Loops& loops) {
+  Vec3 middle = Vec3::Zero();
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const auto& loop : loops) {
+    Vec3 moment = Vec3::Zero();
+    double length = 0.0;
+    for (const auto& [a, b] : loop) {
+      const double piece = (nodes[b] - nodes[a]).norm();
+      moment += 0.5 * piece * (nodes[a] + nodes[b]);
+      length += piece;
+    }
+    if (length < shortest) {
+      shortest = length;
+      middle = moment / length;
+    }
+  }
+  return middle;
 }
 
 void check_shape(const ForeignMesh& foreign, const mesh::Surface& side, const std::string& name,
@@ -233,10 +260,117 @@ void check_shape(const ForeignMesh& foreign, const mesh::Surface& side, const st
   if (parts > 1)
     fail(foreign, fmt::format("the {} consists of {} unconnected parts", name, parts),
          "It must be one surface; check its tag, and the mesh for holes");
-  const int found = mesh::edge_loops(side);
-  if (found != loops)
-    fail(foreign, fmt::format("the {} has {} closed edges instead of {}", name, found, loops),
+  const auto found = mesh::boundary_loops(side);
+  const int count = static_cast<int>(found.size());
+  if (count != loops)
+    fail(foreign,
+         fmt::format("the {} has {} closed edges instead of {}{}", name, count, loops,
+                     count > loops ? fmt::format(", the shortest around {}",
+                                                 foreign.format_place(
+                                                     middle_of_shortest(foreign.mesh.nodes, found)))
+                                   : ""),
          "The wall must be closed at the apex and have one opening, the base");
+}
+
+/// Holes through a wall whose boundary hangs together: the handles of that surface, by Euler's
+/// formula for the vertices, edges and faces of a closed surface, V - E + F = 2 - 2 holes.
+int count_holes(const mesh::Surface& boundary) {
+  std::set<std::pair<int, int>> edges;
+  for (int f = 0; f < boundary.size(); ++f) {
+    const auto face = boundary.face(f);
+    for (std::size_t i = 0; i < face.size(); ++i)
+      edges.insert(std::minmax(face[i], face[(i + 1) % face.size()]));
+  }
+  const int vertices = static_cast<int>(mesh::surface_nodes(boundary).size());
+  return (2 - (vertices - static_cast<int>(edges.size()) + boundary.size())) / 2;
+}
+
+/// For every face which of two edges of the surface is nearer along it, by the faces' centres.
+std::vector<int> nearer_edges(std::span<const Vec3> nodes, const mesh::Surface& surface,
+                              const std::array<std::vector<bool>, 2>& is_on_edge) {
+  struct Reached {
+    double distance;
+    int face, edge;
+    bool operator>(const Reached& other) const { return distance > other.distance; }
+  };
+  std::priority_queue<Reached, std::vector<Reached>, std::greater<>> front;
+  for (int f = 0; f < surface.size(); ++f)
+    for (int e = 0; e < 2; ++e)
+      for (const int node : surface.face(f))
+        if (is_on_edge[e][node])
+          front.push({0.0, f, e});
+  const auto neighbours = face_neighbours(surface);
+  std::vector<int> edge(surface.size(), nowhere);
+  while (!front.empty()) {
+    const Reached now = front.top();
+    front.pop();
+    if (edge[now.face] != nowhere)
+      continue;
+    edge[now.face] = now.edge;
+    const Vec3 centre = mesh::face_centre(nodes, surface.face(now.face));
+    for (const int f : neighbours[now.face])
+      front.push({now.distance + (mesh::face_centre(nodes, surface.face(f)) - centre).norm(), f,
+                  now.edge});
+  }
+  return edge;
+}
+
+/// Where, away from the base, the two sides of a wall hang together: what is nearer to the inner
+/// edge of the base meets there what is nearer to the outer. Nothing where the base is no ring.
+std::optional<Vec3> place_of_hole(std::span<const Vec3> nodes, const mesh::Surface& rest) {
+  const auto edges = mesh::boundary_loops(rest);
+  if (edges.size() != 2)
+    return {};
+  std::array<std::vector<bool>, 2> is_on_edge;
+  for (std::size_t e = 0; e < 2; ++e) {
+    is_on_edge[e].assign(nodes.size(), false);
+    for (const auto& piece : edges[e])
+      for (const int node : piece)
+        is_on_edge[e][node] = true;
+  }
+  const mesh::Surface one = mesh::take_part(rest, nearer_edges(nodes, rest, is_on_edge), 0);
+  Loops fronts = mesh::boundary_loops(one);
+  std::erase_if(fronts, [&](const auto& loop) { return is_on_edge[0][loop.front()[0]]; });
+  if (fronts.empty())
+    return {};
+  return middle_of_shortest(nodes, fronts);
+}
+
+/// Why what is left of the boundary beside the base is not endocardium and epicardium.
+[[noreturn]] void fail_division(const ForeignMesh& foreign, const mesh::Surface& all,
+                                const mesh::Surface& base, const mesh::Surface& rest,
+                                const std::vector<int>& parts) {
+  const auto& nodes = foreign.mesh.nodes;
+  const int count = mesh::count_parts(parts);
+  for (int p = 0; p < count; ++p)
+    if (const mesh::Surface part = mesh::take_part(rest, parts, p); mesh::edge_loops(part) == 0)
+      fail(foreign,
+           fmt::format("the wall has a void near {}: a part of the boundary is closed in itself",
+                       foreign.format_place(mesh::face_centre(nodes, part.face(0)))),
+           "Put in the elements that are missing there");
+  const std::string flat = fmt::format(
+      "the flat part of the boundary (centre {}, area {:.3g} mm^2)",
+      foreign.format_place(outward_plane(foreign, base).point), mesh::area(nodes, base));
+  const int holes = count == 1 ? count_holes(all) : 0;
+  if (holes > 0) {
+    const std::optional<Vec3> place = place_of_hole(nodes, rest);
+    fail(foreign,
+         fmt::format("the wall has {}{}: endocardium and epicardium hang together there, and not "
+                     "across the base alone, for which {} is taken",
+                     holes == 1 ? "a hole" : fmt::format("{} holes", holes),
+                     place ? fmt::format("{} near {}", holes == 1 ? "" : ", one",
+                                         foreign.format_place(*place))
+                           : "",
+                     flat),
+         fmt::format("Put in the elements that are missing. If the base is another part: {}",
+                     tag_sides));
+  }
+  fail(
+      foreign,
+      fmt::format("{} does not divide the rest into endocardium and epicardium, but into {} part{}",
+                  flat, count, count == 1 ? "" : "s"),
+      fmt::format("{}, or raise anatomy.mesh.base_tolerance if the base is not quite flat",
+                  tag_sides));
 }
 
 }  // namespace
@@ -257,12 +391,7 @@ Sides sides_by_geometry(const ForeignMesh& foreign, double tolerance) {
   const mesh::Surface rest = mesh::take_part(all, is_base, 0);
   const std::vector<int> parts = mesh::face_parts(rest);
   if (mesh::count_parts(parts) != 2)
-    fail(foreign,
-         fmt::format("the flat part of the boundary (centre {}, area {:.3g} mm^2) does not divide "
-                     "the rest into endocardium and epicardium, but into {} parts",
-                     foreign.format_place(outward_plane(foreign, base).point),
-                     mesh::area(nodes, base), mesh::count_parts(parts)),
-         "Tag the sides in the file, or raise the tolerance if the base is not quite flat");
+    fail_division(foreign, all, base, rest, parts);
   const mesh::Plane plane = outward_plane(foreign, base);
   check_rim(foreign, all, flat, plane.normal);
   mesh::Surface first = mesh::take_part(rest, parts, 0);

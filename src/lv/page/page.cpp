@@ -14,6 +14,7 @@
 #include "lv/page/opening.hpp"
 #include "lv/page/packing.hpp"
 #include "lv/page/page_pictures.hpp"
+#include "lv/page/place.hpp"
 #include "lv/page/wall_series.hpp"
 #include "lv/report/cycle_tables.hpp"
 #include "lv/report/stage_facts.hpp"
@@ -432,6 +433,7 @@ std::string unlike_moments(const std::vector<PageCase>& cases) {
 }
 
 std::string page(const std::vector<PageCase>& cases, const std::string& version) {
+  const std::string title = "<title>ventricle</title>";
   std::string html(page_bundle());
   const auto put = [&](std::string_view mark, const std::string& data) {
     const std::size_t at = html.find(mark);
@@ -455,6 +457,10 @@ std::string page(const std::vector<PageCase>& cases, const std::string& version)
     data.wall += one.wall;
     data.more += one.more;
   }
+  std::vector<std::filesystem::path> works;
+  for (const PageCase& one : cases)
+    works.push_back(one.work);
+  put(title, title + ("\n" + runs_element(works)));
   put("<!-- more data -->", data.more);
   put("<!-- wall data -->", data.wall);
   put("<!-- data -->", data.summary);

@@ -3,6 +3,7 @@
 #include "lv/base/check.hpp"
 #include "lv/base/files.hpp"
 
+#include <boost/crc.hpp>
 #include <fmt/format.h>
 
 #include <string>
@@ -18,10 +19,11 @@ bool begins_as_page(const std::string& text) {
   return text.starts_with("<!doctype html>") && text.find("<title>ventricle") != std::string::npos;
 }
 
+constexpr std::size_t head = 4096;  // bytes
+
 }  // namespace
 
 void require_place(const fs::path& file) {
-  constexpr std::size_t head = 4096;  // bytes
   std::error_code none;
   const fs::path folder = file.parent_path();
   if (!folder.empty() && !fs::is_directory(folder, none))
@@ -37,6 +39,24 @@ void require_place(const fs::path& file) {
   if (!is_empty && !begins_as_page(first_bytes(file, head)))
     throw InputError(file.string(), "exists already and is no page that this program wrote",
                      "Choose another name, or remove it");
+}
+
+std::string runs_element(const std::vector<fs::path>& works) {
+  boost::crc_optimal<64, 0x42F0E1EBA9EA3693ULL, ~0ULL, ~0ULL, true, true> checksum;  // ECMA-182
+  for (const fs::path& work : works) {
+    const std::string name = (fs::weakly_canonical(fs::absolute(work)) / "").lexically_normal();
+    checksum.process_bytes(name.c_str(), name.size() + 1);  // with the end of each
+  }
+  return fmt::format("<meta name=\"ventricle-runs\" content=\"{:016x}\">", checksum.checksum());
+}
+
+void require_same_runs(const fs::path& file, const std::vector<fs::path>& works) {
+  std::error_code none;
+  if (!fs::exists(file, none) || fs::file_size(file, none) == 0)
+    return;
+  if (first_bytes(file, head).find(runs_element(works)) == std::string::npos)
+    throw InputError(file.string(), "exists already and is the page of another run",
+                     "Choose a name with --output, which may also be this one to replace it");
 }
 
 }  // namespace lv::page

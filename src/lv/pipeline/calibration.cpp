@@ -287,7 +287,7 @@ std::vector<geometry::Assumption> assumed_pressures(const Case& c) {
     return {};
   std::vector<geometry::Assumption> assumed;
   const auto left_out = [&](const char* parameter, const char* moment, double pressure) {
-    if (!case_file::is_set(c, parameter))
+    if (!case_file::is_set(c, parameter, case_file::Stage::results))
       assumed.push_back(
           {fmt::format("{} pressure", moment), fmt::format("the default, {:g} mmHg; {} is not set",
                                                            pressure / units::mmHg, parameter)});
@@ -312,7 +312,7 @@ void add_beats(const HeartbeatFit& fit, const Case& c, FitRecord& record) {
       record.beats.push_back({d.name, d.unit, d.measured, d.model});
   for (const std::string& sentence : fit.left_alone)
     record.assumed.push_back({"heartbeats", sentence});
-  if (!case_file::is_set(c, "circulation.period"))
+  if (!case_file::is_set(c, "circulation.period", case_file::Stage::results))
     record.assumed.push_back(
         {"heart rate", fmt::format("the default, {:.0f} beats a minute; circulation.period is not "
                                    "set",

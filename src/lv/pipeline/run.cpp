@@ -116,7 +116,7 @@ class Pipeline {
       if (stage == Stage::results || takes_base_of_cine(stage))
         all.insert(strain.begin(), strain.end());
       work::Ingredients result;
-      result["result of " + name_of(stage)] = work::fingerprint(all);
+      result["result of " + name_of(stage)] = work::fingerprint_of_result(all);
       if (stage == Stage::strain)
         strain = std::move(result);
       else if (stage != Stage::circulation)
@@ -254,7 +254,7 @@ class Pipeline {
       }
       case Stage::report:
         on_root([&] {
-          write_page({work_}, part / "report.html");
+          write_page({work_}, part / "report.html", Replaces::any_page);
           report::write_figures(work_, part / "figures");
           write_file(part / "paraview.py",
                      report::paraview_script("../" + folder(Stage::beat).filename().string(),
@@ -422,9 +422,11 @@ void run(const Case& c, const RunOptions& options) {
   }
 }
 
-void write_page(const std::vector<std::filesystem::path>& works,
-                const std::filesystem::path& file) {
+void write_page(const std::vector<std::filesystem::path>& works, const std::filesystem::path& file,
+                Replaces replaces) {
   page::require_place(file);
+  if (replaces == Replaces::page_of_same_runs)
+    page::require_same_runs(file, works);
   std::vector<page::PageCase> cases;
   for (const std::filesystem::path& work : works) {
     const std::vector<std::string> state = work::state_of(work);

@@ -37,9 +37,13 @@ struct RunOptions {
 /// Collective: every rank calls it.
 void run(const case_file::Case& c, const RunOptions& options);
 
+/// What a page may take the place of: where nobody chose its name, of that of the same runs alone.
+enum class Replaces { any_page, page_of_same_runs };
+
 /// Writes one self-contained page about what one work folder holds, or two side by side; a run that
 /// is unfinished may be among them. Throws InputError when a folder holds no results of a run.
-void write_page(const std::vector<std::filesystem::path>& works, const std::filesystem::path& file);
+void write_page(const std::vector<std::filesystem::path>& works, const std::filesystem::path& file,
+                Replaces replaces);
 
 /// The most ranks that a box of these cells can be shared by.
 [[nodiscard]] int most_ranks(const std::array<int, 3>& cells);

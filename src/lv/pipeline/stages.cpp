@@ -26,6 +26,7 @@
 #include "lv/report/table_figures.hpp"
 #include "lv/report/tables_csv.hpp"
 #include "lv/scar/infarct.hpp"
+#include "lv/work/ingredients.hpp"
 #include "lv/work/version.hpp"
 #include "lv/work/workspace.hpp"
 
@@ -187,7 +188,7 @@ report::RunFacts run_facts(const Case& c, const anatomy::MeshResult& mesh, const
   for (const case_file::Parameter& p : case_file::parameters())
     facts.parameters.emplace_back(p.name, p.shown(c));
   for (const auto& [name, place] : c.origin)
-    facts.origins.emplace_back(name, std::filesystem::path(place).filename().string());
+    facts.origins.emplace_back(name, work::place_alone(c, place));
   add_marks(c, facts);
   facts.base_is_held = c.base.kind != solid::BasalSupport::Kind::elastic &&
                        c.base_motion.source == heartbeat::BaseMotionSource::none;

@@ -198,7 +198,7 @@ std::string left_handed_fibres(const Case& c) {
 std::string high_filling_pressure(const Case& c) {
   constexpr double most = 40.0 * mmHg;
   const double p = c.protocol.ed_pressure;
-  if (!case_file::is_set(c, "protocol.ed_pressure") || p <= most)
+  if (!case_file::is_set(c, "protocol.ed_pressure", case_file::Stage::results) || p <= most)
     return "";
   return fmt::format(
       "protocol.ed_pressure is {:g} mmHg, more than the left ventricle of a patient is filled with "

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 namespace lv::report {
 namespace {
@@ -353,6 +354,17 @@ drawing::Figure states_figure(const Mesh& mesh, const heartbeat::Beat& beat,
               scale}};
 }
 
+/// What has no colour of its scale though the wall is there; empty where nothing is so.
+std::string pale_note(std::span<const PaintedWall> walls, const analysis::Quantity& quantity) {
+  const bool any = std::any_of(walls.begin(), walls.end(), [](const PaintedWall& w) {
+    return std::any_of(w.nodal.begin(), w.nodal.end(),
+                       [&](double value) { return w.scale.is_nothing(value); });
+  });
+  return any ? fmt::format("Pale: less than {:g} {}, as good as none. ", quantity.floor,
+                           quantity.unit)
+             : "";
+}
+
 drawing::Figure stress_figure(const Mesh& mesh, const heartbeat::Beat& beat,
                               const analysis::BeatFields& fields, const drawing::Orientation& o) {
   const analysis::Quantity& fibre_stress = analysis::quantity("fibre_stress");
@@ -376,7 +388,7 @@ drawing::Figure stress_figure(const Mesh& mesh, const heartbeat::Beat& beat,
                                               heartbeat::title(heartbeat::end_systole)},
                                              walls, o),
                          .columns = 3,
-                         .footnote = notes(o)};
+                         .footnote = pale_note(walls, fibre_stress) + notes(o)};
   for (std::size_t i = 0; i < figure.panels.size(); ++i)
     figure.panels[i].colour_bar = drawing::ColourBar{
         analysis::label(i % 3 == 2 ? active_tension : fibre_stress), walls[i % 3].scale};

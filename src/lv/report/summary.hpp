@@ -75,7 +75,7 @@ struct RunFacts {
   double wall_clock = 0.0;                                       ///< of the beat [s]
   std::vector<std::pair<std::string, std::string>> parameters;   ///< name and value, all of them
   std::vector<std::pair<std::string, std::string>>
-      origins;  ///< of those that a case file sets: file:line
+      origins;  ///< of those that are set: line of the case file, or file
   std::vector<std::string> warnings;
   std::vector<geometry::Assumption> assumed;  ///< about the anatomy
   double muscle_density = 1.05e-6;            ///< [kg/mm^3]

@@ -106,7 +106,7 @@ double quantile(const image::Cine& image, bool edge_alone, double part) {
 /// The grey value of no signal.
 double zero_level(const Case& c, const image::Cine& image, double brightest) {
   constexpr double largest_offset = 0.2;  // of the brightest: the threshold is a tenth of it off
-  if (case_file::is_set(c, "infarct.lge.zero"))
+  if (case_file::is_set(c, "infarct.lge.zero", case_file::Stage::mesh))
     return c.scar.lge.zero;
   const double darkest = quantile(image, false, 0.01);
   if (brightest > 0.0 && darkest <= largest_offset * brightest)

@@ -112,7 +112,7 @@ void add_all(const Case& c, Ingredients& ingredients) {
   for (const Parameter& p : case_file::parameters())
     ingredients[p.name] = p.shown(c);
   for (const auto& [name, place] : c.origin)
-    places[name] = fs::path(place).filename().string();
+    places[name] = place_alone(c, place);
   ingredients["lines of the case file"] = fingerprint(places);
 }
 
@@ -141,6 +141,12 @@ Case stage_view(const Case& c, Stage stage) {
   return view;
 }
 
+std::string place_alone(const Case& c, const std::string& origin) {
+  const std::string case_file = c.file.string() + ":";
+  return origin.starts_with(case_file) ? "line " + origin.substr(case_file.size())
+                                       : fs::path(origin).filename().string();
+}
+
 Ingredients ingredients(const Case& c, Stage stage, FileContents& files) {
   Ingredients all{{"program", source_hash()}};
   if (stage == Stage::results)
@@ -152,8 +158,12 @@ Ingredients ingredients(const Case& c, Stage stage, FileContents& files) {
       add_files(p, c, files, all);
     else
       all[p.name] = p.get(c);
+    const std::string whether_set = fmt::format("whether {} is set", p.name);
+    const char* is_set = c.origin.contains(p.name) ? "yes" : "no";
     if (p.whether_set_counts)
-      all[fmt::format("whether {} is set", p.name)] = case_file::is_set(c, p.name) ? "yes" : "no";
+      all[whether_set] = is_set;
+    if (p.remark_whether_set.contains(stage))
+      all[remark_start + whether_set] = is_set;
   }
   return all;
 }

@@ -32,6 +32,10 @@ class FileContents {
 /// declaration that is missing cannot go unnoticed. The results name all parameters and see them.
 [[nodiscard]] case_file::Case stage_view(const case_file::Case& c, case_file::Stage stage);
 
+/// Where a case sets something ("case.toml:12", as its origins are), without what does not count:
+/// "line 12" of the case file, whatever its name, or another file's name and line.
+[[nodiscard]] std::string place_alone(const case_file::Case& c, const std::string& origin);
+
 /// What the result of a stage depends on besides the stages before it: the program, every parameter
 /// of its view, and the contents of the files that those name.
 [[nodiscard]] Ingredients ingredients(const case_file::Case& c, case_file::Stage stage,

@@ -129,7 +129,7 @@ std::optional<std::size_t> outdated_source(const fs::path& work, std::size_t sta
   for (std::size_t s = 0; s < stage; ++s) {
     const auto entry = record.find("result of " + stage_names[s]);
     if (entry != record.end() &&
-        entry->second != fingerprint(recorded(work / stage_folder(s)).ingredients))
+        entry->second != fingerprint_of_result(recorded(work / stage_folder(s)).ingredients))
       return s;
   }
   return {};
@@ -176,6 +176,11 @@ std::string fingerprint(const Ingredients& ingredients) {
   Checksum crc;
   crc.process_bytes(text.data(), text.size());
   return text_of(crc);
+}
+
+std::string fingerprint_of_result(Ingredients ingredients) {
+  std::erase_if(ingredients, [](const auto& i) { return i.first.starts_with(remark_start); });
+  return fingerprint(ingredients);
 }
 
 std::string fingerprint_of_file(const fs::path& file) {

@@ -15,6 +15,12 @@ using Ingredients = std::map<std::string, std::string>;
 /// A short text that stands for all ingredients.
 [[nodiscard]] std::string fingerprint(const Ingredients& ingredients);
 
+/// How ingredients begin that change what a stage says in words, and none of its numbers.
+inline const std::string remark_start = "the remark ";
+
+/// The same of a stage's result, for the stages after it: remarks do not count.
+[[nodiscard]] std::string fingerprint_of_result(Ingredients ingredients);
+
 /// A short text that stands for the contents of a file; "absent" when it is no file that can be
 /// read.
 [[nodiscard]] std::string fingerprint_of_file(const std::filesystem::path& file);

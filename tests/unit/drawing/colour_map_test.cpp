@@ -101,4 +101,7 @@ TEST_CASE("where the map begins at the middle, what is below it has no colour ei
   for (const double value : {-0.03, 0.0, 0.004})
     CHECK(distance(*scale(value), lv::drawing::uncoloured) == 0.0);
   CHECK(distance(*scale(0.006), scale.map(0.006)) == 0.0);
+  CHECK(scale.is_nothing(-0.03));
+  CHECK_FALSE(scale.is_nothing(0.006));
+  CHECK_FALSE(scale.is_nothing(std::nan("")));
 }

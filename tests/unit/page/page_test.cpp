@@ -128,6 +128,25 @@ TEST_CASE("a page of frames without named moments says so", "[page]") {
   CHECK(page().find("no moments.csv") == std::string::npos);
 }
 
+TEST_CASE("a page of a name that nobody chose replaces that of the same run alone", "[page]") {
+  using Catch::Matchers::Contains;
+  const test::TemporaryFolder folder;
+  for (const char* name : {"one", "two"})
+    std::filesystem::create_directories(folder / name);
+  const std::filesystem::path page = folder / "report.html";
+  const auto one = folder / "one";
+  CHECK_NOTHROW(page::require_same_runs(page, {one}));
+  write_file(page, page::page({{one, true, {}}}, "1"));
+  CHECK_NOTHROW(page::require_place(page));
+  for (const std::filesystem::path& same : {one, one / "", folder / "two" / ".." / "one"})
+    CHECK_NOTHROW(page::require_same_runs(page, {same}));
+  const std::filesystem::path two = folder / "two";
+  for (const auto& others : {std::vector{two}, std::vector{one, two}})
+    CHECK_THROWS_WITH(page::require_same_runs(page, others),
+                      Contains("report.html: exists already and is the page of another run") &&
+                          Contains("--output"));
+}
+
 TEST_CASE("a page takes the place of a page alone", "[page]") {
   using Catch::Matchers::Contains;
   const test::TemporaryFolder folder;

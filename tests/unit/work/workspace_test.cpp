@@ -94,6 +94,32 @@ TEST_CASE("an unfinished stage without any file but its record leaves nothing be
   CHECK(work.file_count() == 1);
 }
 
+TEST_CASE("another remark makes a stage run again, and outdates none after it", "[unit][work]") {
+  const test::TemporaryFolder work;
+  const auto finish = [&](const char* name, const work::Ingredients& ingredients) {
+    const work::StageFolder folder(work / "", name, ingredients);
+    write_file(folder.begin() / "made.bin", "made");
+    folder.finish();
+  };
+  const auto anatomy = [](const char* remark, const char* value) {
+    return work::Ingredients{{work::remark_start + "whether x is set", remark}, {"x", value}};
+  };
+  const auto is_outdated = [&] {
+    for (const std::string& sentence : work::state_of(work / ""))
+      if (sentence.find("02_mesh was made from another 01_anatomy") != std::string::npos)
+        return true;
+    return false;
+  };
+  finish("02_mesh", {{"result of anatomy", work::fingerprint_of_result(anatomy("no", "1"))}});
+  finish("01_anatomy", anatomy("no", "1"));
+  CHECK_FALSE(is_outdated());
+  CHECK_FALSE(work::StageFolder(work / "", "01_anatomy", anatomy("yes", "1")).up_to_date());
+  finish("01_anatomy", anatomy("yes", "1"));
+  CHECK_FALSE(is_outdated());
+  finish("01_anatomy", anatomy("yes", "2"));
+  CHECK(is_outdated());
+}
+
 TEST_CASE("contents do not depend on where a study lies", "[unit][work]") {
   const test::TemporaryFolder folder;
   for (const char* place : {"here", "there"}) {
