@@ -611,8 +611,10 @@ std::string describe_infarct(const Case& c, const anatomy::MeshResult& wall) {
     return fmt::format("{}: {:.2f} ml ({:.1f}% of the wall), {:.1f} g", name, 1e-3 * volume,
                        100.0 * volume / v.wall, 1e3 * c.muscle_density * volume);
   };
+  const bool whole =
+      c.scar.source == InfarctSource::mesh || c.scar.source == InfarctSource::elements;
   return part("infarct", v.infarct) + "; " + part("border zone", v.border) +
-         " (by the infarcted parts of elements; zones are of whole elements)";
+         (whole ? "" : " (by the infarcted parts of elements; zones are of whole elements)");
 }
 
 }  // namespace lv::scar
