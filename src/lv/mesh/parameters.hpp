@@ -44,7 +44,7 @@ struct ImportParameters {
   std::string side_array;     ///< VTK: cell-data array with the sides' numbers
   std::string infarct_array;  ///< VTK: point array of M(X); empty: "infarct", if the file has it
   std::string infarct_set;    ///< infarcted elements: an ABAQUS *Elset, the name or number of a
-                              ///< Gmsh physical volume, a VTK cell array that is 1 on them and 0
+                              ///< Gmsh physical volume, a VTK cell array that is 1 on them and less
                               ///< elsewhere; empty: none are asked for
   /// VTK: the array, at cells or points, of the fibres' directions (empty: they follow a rule) and
   /// of the sheets'; or a .vtk or .vtu file with the same cells and such an array, as SimVascular's
