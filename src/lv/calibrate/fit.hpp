@@ -118,8 +118,8 @@ struct Fit {
 ///
 ///   sum_k [(V_k/V_k,measured - 1)/sigma_V]^2 + sum_i [(E_i - E_i,measured)/sigma_E]^2,
 ///
-/// by Gauss-Newton steps in their logarithms (least_squares.hpp) (the points of the Klotz curve count as volumes). It
-/// need not meet the volumes within the tolerance.
+/// by Gauss-Newton steps in their logarithms (least_squares.hpp; the points of the Klotz curve
+/// count as volumes). It need not meet the volumes within the tolerance.
 ///
 /// Throws OutOfReach for a volume out of reach and NoSolution when a fitted model misses the
 /// measured volumes, to which alone it was fitted, by more than the tolerance.
