@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace lv::geometry {
 namespace {
@@ -202,7 +203,7 @@ Vec3 basal_slab(const Contours& contours) {
   return std::copysign(0.5 * slice_spacing(contours), normal.dot(away)) * normal;
 }
 
-double extrapolated_depth(const Contours& contours, Side side) {
+double vanishing_depth(const Contours& contours, Side side) {
   const auto loops = loops_from_base(contours, side);
   if (loops.size() < 2)
     return slice_spacing(contours);
@@ -212,8 +213,17 @@ double extrapolated_depth(const Contours& contours, Side side) {
   const double r = mean_radius(last);
   const double r_above = mean_radius(above);
   if (r_above <= r)
-    return spacing;
-  return std::min(spacing, spacing * r * r / (r_above * r_above - r * r));
+    return std::numeric_limits<double>::infinity();
+  return spacing * r * r / (r_above * r_above - r * r);
+}
+
+double extrapolated_depth(const Contours& contours, Side side) {
+  const auto loops = loops_from_base(contours, side);
+  if (loops.size() < 2)
+    return slice_spacing(contours);
+  const Vec3 above = mean_of(loops[loops.size() - 2]->points);
+  const double spacing = std::abs(plane_of(loops.back()->points).to_model(above).z());
+  return std::min(spacing, vanishing_depth(contours, side));
 }
 
 LongAxis long_axis(const Contours& contours) {

@@ -32,9 +32,13 @@ struct LongAxis {
 /// Whether apex points or long-axis curves show the apex of a surface.
 [[nodiscard]] bool shows_apex(const Contours& contours, Side side);
 
-/// How far the apex of a surface lies beyond its last loop if nothing shows it [mm]: where the
-/// squared mean radius r^2 of its last two loops would vanish linearly, but not farther than one
-/// slice spacing, for the next slice showed nothing of it.
+/// How far beyond the last loop of a surface the squared mean radius r^2 of its last two loops
+/// would vanish linearly [mm]; infinity where it does not fall.
+[[nodiscard]] double vanishing_depth(const Contours& contours, Side side);
+
+/// How far the apex of a surface lies beyond its last loop if nothing shows it [mm]:
+/// vanishing_depth, but not farther than one slice spacing, for the next slice showed nothing of
+/// it.
 [[nodiscard]] double extrapolated_depth(const Contours& contours, Side side);
 
 /// The loops of a surface from the base to the apex.

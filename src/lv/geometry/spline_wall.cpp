@@ -21,6 +21,7 @@ namespace {
 
 using std::numbers::pi;
 constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double thinnest_apex = 0.5;  // of the wall as the last slice shows it
 
 /// "z = -12.3 mm, angle 45 degrees" of a point in the model frame.
 std::string place_on_wall(const Vec3& x) {
@@ -111,13 +112,18 @@ class Sampler {
       }
   }
 
+  /// Where the epicardium's last loops lead. In its plane a slice cuts the wall near the tip
+  /// askew: what is seen there is the most that the wall is thick, unless muscle without a cavity
+  /// shows more.
   void add_assumed_epi_apex(const Vec3& endo, FitReport& notes) {
-    const double thickness = apical_thickness();
+    const double seen = apical_thickness();
     const Contour& last = *loops_from_base(contours_, Side::epi).back();
-    const double depth = extrapolated_depth(contours_, Side::epi);
-    const double height = frame_.to_model(mean_of(last.points)).z() - depth;
     const bool lone = find(contours_.short_axis, last.slice, Side::endo) == nullptr;
-    if (lone && height < endo.z() - thickness) {
+    // who draws no muscle alone may leave slices out that show it
+    const double depth =
+        lone ? extrapolated_depth(contours_, Side::epi) : vanishing_depth(contours_, Side::epi);
+    const double height = frame_.to_model(mean_of(last.points)).z() - depth;
+    if (lone && height < endo.z() - seen) {
       add_apex(Side::epi, Vec3(endo.x(), endo.y(), height));
       assume("apex",
              fmt::format("no contour shows the epicardial apex: assumed {:.1f} mm beyond slice {}, "
@@ -126,11 +132,16 @@ class Sampler {
              notes);
       return;
     }
+    const double thickness = std::clamp(endo.z() - height, thinnest_apex * seen, seen);
     add_apex(Side::epi, endo - Vec3(0.0, 0.0, thickness));
+    const char* reason = thickness == seen ? "as thick as the wall of the last slice"
+                         : thickness == thinnest_apex * seen
+                             ? "half as thick as the wall of the last slice"
+                             : "where its last loops lead";
     assume("apex",
-           fmt::format("no contour shows the epicardial apex: assumed {:.1f} mm below "
-                       "the endocardial one, as thick as the wall of the last slice",
-                       thickness),
+           fmt::format("no contour shows the epicardial apex: assumed {:.1f} mm below the "
+                       "endocardial one, {}",
+                       thickness, reason),
            notes);
   }
 
@@ -143,7 +154,7 @@ class Sampler {
     samples(side).push_back({x, n > 0.0 ? sum / n : 1.0, Source::apex});
   }
 
-  /// Mean thickness of the most apical slice that shows both borders.
+  /// Mean thickness of the most apical slice that shows both borders, in its plane.
   [[nodiscard]] double apical_thickness() const {
     // NOLINTNEXTLINE(modernize-loop-convert): clang 14 cannot read std::views::reverse
     for (auto slice = slices_.rbegin(); slice != slices_.rend(); ++slice)

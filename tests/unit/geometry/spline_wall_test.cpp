@@ -316,6 +316,20 @@ TEST_CASE("short-axis contours alone close at an assumed apex", "[unit][geometry
   check_volumes(wall, drawing.shape, 0.02);
 }
 
+TEST_CASE("an apex that no contour shows is not as thick as slices cut the wall askew",
+          "[unit][geometry]") {
+  Drawing drawing = in_scanner();
+  drawing.long_axis = false;
+  drawing.apex = false;
+  const int intervals = GENERATE(9, 11);  // down to half a millimetre before the cavity's tip
+  drawing.spacing = 79.5 / intervals;
+  drawing.slices = intervals + 1;
+  const SplineWall wall = fit_spline_wall(draw(drawing), {});
+  const double thickness = wall.point(0.0, 0.0, 0.0).z() - wall.point(0.0, 0.0, 1.0).z();
+  const double drawn = drawing.shape.epi_length - drawing.shape.endo_length;
+  CHECK(thickness == Approx(drawn).margin(2.5));  // in the last slice: 3.5 mm more
+}
+
 TEST_CASE("x points to the septum, else to the first point of the basal loop", "[unit][geometry]") {
   const Drawing drawing = in_scanner();
   const Contours contours = draw(drawing);
