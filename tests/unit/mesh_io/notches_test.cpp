@@ -155,7 +155,7 @@ TEST_CASE("a hole through the wall is told with its place", "[unit][mesh_io]") {
     const std::string text = refusal(without(wall, cells[i]));
     CHECK_THAT(text, Contains("the wall has a hole near (") &&
                          Contains("anatomy.mesh.sides = \"tags\"") && !Contains("tolerance"));
-    CHECK((place_in(text) - centre(wall, cells[i])).norm() < 10.0);
+    CHECK((place_in(text) - centre(wall, cells[i])).norm() < 16.0);  // two elements
   }
   Mesh twice = without(wall, cells.back());
   twice = without(twice, cells.front());
