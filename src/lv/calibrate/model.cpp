@@ -37,7 +37,7 @@ Outcome<double> Ventricle::unloaded_volume(const FitParameters& parameters) {
   if (unloading_.pressure == 0.0 || (unloaded_ && unloaded_with_ == parameters))
     return endocardium_.volume(wall_.nodes);
   const auto unloaded = implicit::unload(given_, model_of_(parameters), unloading_, solver_,
-                                         unloaded_ ? &*unloaded_ : nullptr);
+                                         {unloaded_ ? &*unloaded_ : nullptr});
   if (!unloaded)
     return unloaded.why();
   unloaded_ = *unloaded;

@@ -478,12 +478,6 @@ class Unloader {
 
 Outcome<Unloaded> unload(const mesh::Mesh& given, const StaticModel& model,
                          const UnloadParameters& parameters, const SolverParameters& solver,
-                         const Unloaded* start, UnloadRecord record) {
-  return unload(given, model, parameters, solver, UnloadTask{start, std::move(record)});
-}
-
-Outcome<Unloaded> unload(const mesh::Mesh& given, const StaticModel& model,
-                         const UnloadParameters& parameters, const SolverParameters& solver,
                          UnloadTask task) {
   return Unloader(given, model, parameters, solver, std::move(task.record), task.afterwards)
       .run(task.start);

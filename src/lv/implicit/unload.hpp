@@ -50,6 +50,14 @@ struct UnloadRecord {
   std::function<void(const Equilibria&)> keep;  ///< told all of them after each new one; or empty
 };
 
+/// What a search begins with, and what is known of it.
+struct UnloadTask {
+  /// The result for other muscle, from where few steps are needed, or a guess of the nodes alone.
+  const Unloaded* start = nullptr;
+  UnloadRecord record = {};
+  double afterwards = 0.0;  ///< what the stage does then, for the time that is left [s]
+};
+
 /// The stress-free wall X whose equilibrium x(X) under the pressure on the muscle at rest is the
 /// given shape x*. With the direct solver it is sought by the inverse problem first
 /// (find_reference); where that finds no wall without folds within the tolerance, from what it
@@ -83,23 +91,10 @@ struct UnloadRecord {
 /// which no step leads nearer. If it is near enough there, it is the result, and the last of
 /// `steps` says how near.
 ///
-/// `start` may be the result for other muscle, from where few steps are needed, or a guess of the
-/// nodes alone. Unsolved, with the distance that is left, when the wall does not come near enough,
-/// or with the figures of the fold where no smooth wall does. Throws Interrupted. Collective.
+/// Unsolved, with the distance that is left, when the wall does not come near enough, or with the
+/// figures of the fold where no smooth wall does. Throws Interrupted. Collective.
 Outcome<Unloaded> unload(const mesh::Mesh& given, const StaticModel& model,
                          const UnloadParameters& parameters, const SolverParameters& solver,
-                         const Unloaded* start = nullptr, UnloadRecord record = {});
-
-/// A search that a stage begins with.
-struct UnloadTask {
-  const Unloaded* start = nullptr;
-  UnloadRecord record = {};
-  double afterwards = 0.0;  ///< what the stage does then, for the time that is left [s]
-};
-
-/// The same.
-Outcome<Unloaded> unload(const mesh::Mesh& given, const StaticModel& model,
-                         const UnloadParameters& parameters, const SolverParameters& solver,
-                         UnloadTask task);
+                         UnloadTask task = {});
 
 }  // namespace lv::implicit

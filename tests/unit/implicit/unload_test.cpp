@@ -130,7 +130,7 @@ TEST_CASE("unloading from the result for other muscle finds the same wall", "[im
   const implicit::UnloadParameters parameters{.pressure = 3.0 * mmHg, .tolerance = 1e-3};
   const auto soft = implicit::unload(seen, model(1.0), parameters, {}).value();
   const auto stiff = implicit::unload(seen, model(2.0), parameters, {}).value();
-  const auto again = implicit::unload(seen, model(2.0), parameters, {}, &soft).value();
+  const auto again = implicit::unload(seen, model(2.0), parameters, {}, {&soft}).value();
   CHECK(soft.steps.back().unloaded_volume < stiff.steps.back().unloaded_volume);
   CHECK(stiff.steps.back().unloaded_volume < solid::EndocardialSurface(seen).volume(seen.nodes));
   CHECK(stiff.steps.back().largest <= 1e-3);
@@ -170,7 +170,7 @@ TEST_CASE("a guess of the nodes alone is a start", "[implicit]") {
   const auto found = implicit::unload(seen, model(1.0), parameters, by_fixed_points).value();
   const implicit::Unloaded guess{found.nodes, {}, {}};
   const auto again =
-      implicit::unload(seen, model(1.0), parameters, by_fixed_points, &guess).value();
+      implicit::unload(seen, model(1.0), parameters, by_fixed_points, {&guess}).value();
   CHECK(again.steps.size() < found.steps.size());
   CHECK(again.steps.back().unloaded_volume ==
         Approx(found.steps.back().unloaded_volume).epsilon(1e-4));
@@ -191,7 +191,8 @@ TEST_CASE("a search that was stopped goes on to the same wall, bit for bit", "[i
   const mesh::Mesh seen = coarse_ventricle();
   const implicit::UnloadParameters parameters{.pressure = 3.0 * mmHg, .tolerance = 1e-3};
   const auto unload = [&](const implicit::UnloadRecord& record) {
-    return implicit::unload(seen, model(1.0), parameters, by_fixed_points, nullptr, record).value();
+    return implicit::unload(seen, model(1.0), parameters, by_fixed_points, {nullptr, record})
+        .value();
   };
   const auto undisturbed = unload({});
   implicit::Equilibria left;
@@ -222,7 +223,7 @@ TEST_CASE("a wall that would be folded is replaced by a smooth one, or refused",
   implicit::UnloadParameters parameters{.pressure = 8.0 * mmHg, .tolerance = 0.05};
   implicit::Equilibria found;
   const auto keep = [&](const implicit::Equilibria& known) { found = known; };
-  const auto smooth = implicit::unload(seen, model(1.0), parameters, {}, nullptr, {{}, keep});
+  const auto smooth = implicit::unload(seen, model(1.0), parameters, {}, {nullptr, {{}, keep}});
   REQUIRE(smooth);
   CHECK(smooth->smoothing > 0.0);
   CHECK_FALSE(mesh::is_folded(mesh::FoldFinder(seen)(smooth->nodes)));
@@ -233,7 +234,7 @@ TEST_CASE("a wall that would be folded is replaced by a smooth one, or refused",
                   [](const auto& s) { return s.smoothing == 0.0 && mesh::is_folded(s.folds); });
   CHECK(met_a_fold);
   parameters.smooth_within = 0.01;
-  const auto refused = implicit::unload(seen, model(1.0), parameters, {}, nullptr, {found, {}});
+  const auto refused = implicit::unload(seen, model(1.0), parameters, {}, {nullptr, {found, {}}});
   REQUIRE_FALSE(refused);
   CHECK_THAT(refused.why().what, Contains("is folded: it turns inwards by"));
   CHECK_THAT(refused.why().what_to_do, Contains("unloaded.smooth_within"));
