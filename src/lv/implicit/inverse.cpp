@@ -1,6 +1,5 @@
 #include "lv/implicit/inverse.hpp"
 
-#include "lv/base/interrupt.hpp"
 #include "lv/base/log.hpp"
 #include "lv/base/time_left.hpp"
 #include "lv/base/units.hpp"
@@ -14,8 +13,6 @@
 namespace lv::implicit {
 namespace {
 
-constexpr double ratio_to_keep = 0.3;  // ratio of successive corrections
-
 constexpr double first_share = 1.0 / 32;  // of the pressure
 constexpr double usual_factor = 2.0;      // from one pressure to the next
 constexpr double smallest_factor = 1.1;   // before it gives up
@@ -24,28 +21,11 @@ constexpr double on_the_way = 0.05;  // tolerance before the whole pressure [mm]
 
 constexpr int most_holds = 4;  // of directions near the axis
 
-double rms_of(const std::vector<double>& correction, std::size_t nodes) {
-  double sum = 0.0;
-  for (std::size_t k = 0; k < 3 * nodes; ++k)
-    sum += correction[k] * correction[k];
-  return std::sqrt(sum / static_cast<double>(nodes));
-}
-
 double largest_between(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
   double largest = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i)
     largest = std::max(largest, (a[i] - b[i]).norm());
   return largest;
-}
-
-Reference moved(Reference z, const std::vector<double>& correction, double by) {
-  const double* next = correction.data();
-  for (Vec3& X : z.nodes)
-    for (int i = 0; i < 3; ++i)
-      X[i] += by * *next++;
-  for (double& p : z.pressures)
-    p += by * *next++;
-  return z;
 }
 
 /// The straight line through two walls, `by` times their distance beyond the second.
@@ -59,115 +39,48 @@ Reference extended(const Reference& before, Reference now, double by) {
 
 }  // namespace
 
-/// One search under one pressure.
-class InverseNewton::Attempt {
+/// The wall under one pressure, for DampedNewton.
+class InverseNewton::Problem {
  public:
-  Attempt(InverseNewton& newton, Reference start, double pressure)
-      : newton_(newton),
-        pressure_(pressure),
-        z_(std::move(start)),
-        R_(newton.equations_.residual(z_, pressure)) {}
+  using Place = Reference;
 
-  NewtonReport run(double tolerance) {
-    if (R_.empty())
-      give_up("an element is turned inside out at the start");
-    else if (newton_.has_tangent_)
-      set_correction(solve(R_));
-    else
-      renew_tangent();
-    while (!gave_up() && size_ > tolerance)
-      iterate();
-    report_.converged = !gave_up();
-    if (report_.converged)
-      z_ = moved(std::move(z_), correction_, 1.0);
-    return report_;
+  Problem(InverseNewton& newton, double pressure) : newton_(newton), pressure_(pressure) {}
+
+  [[nodiscard]] std::vector<double> residual(const Reference& z) const {
+    return newton_.equations_.residual(z, pressure_);
   }
 
-  [[nodiscard]] Reference&& found() { return std::move(z_); }
+  [[nodiscard]] bool has_tangent() const { return newton_.has_tangent_; }
+
+  bool renew_tangent(const Reference& z, NewtonReport& /*report*/) {
+    newton_.equations_.tangent(z, newton_.tangent_);
+    newton_.has_tangent_ = true;
+    return true;
+  }
+
+  std::optional<std::vector<double>> solve(const std::vector<double>& R, const Reference& /*of*/,
+                                           NewtonReport& report) {
+    return implicit::solve(newton_.tangent_, R, report);
+  }
+
+  [[nodiscard]] static Reference moved(Reference z, const std::vector<double>& correction,
+                                       double by) {
+    const double* next = correction.data();
+    for (Vec3& X : z.nodes)
+      for (int i = 0; i < 3; ++i)
+        X[i] += by * *next++;
+    for (double& p : z.pressures)
+      p += by * *next++;
+    return z;
+  }
+
+  [[nodiscard]] std::size_t node_count() const {
+    return static_cast<std::size_t>(newton_.equations_.node_count());
+  }
 
  private:
-  void give_up(const char* why) { report_.why = why; }
-  [[nodiscard]] bool gave_up() const { return !report_.why.empty(); }
-
-  /// -K^-1 R; empty where there is none, which ends the attempt.
-  std::vector<double> solve(const std::vector<double>& R) {
-    const auto against = newton_.tangent_.solve(R);
-    ++report_.linear_solves;
-    if (!against) {
-      give_up("the linear equations are singular");
-      return {};
-    }
-    std::vector<double> correction = *against;
-    for (double& c : correction)
-      c = -c;
-    return correction;
-  }
-
-  void set_correction(std::vector<double> correction) {
-    if (gave_up())
-      return;
-    correction_ = std::move(correction);
-    size_ = rms_of(correction_, z_.nodes.size());
-    fresh_ = false;
-  }
-
-  void renew_tangent() {
-    newton_.equations_.tangent(z_, newton_.tangent_);
-    newton_.has_tangent_ = true;
-    ++report_.factorisations;
-    set_correction(solve(R_));
-    fresh_ = true;
-  }
-
-  void iterate() {
-    interrupt::check_together();
-    if (++report_.iterations > newton_.parameters_.iterations) {
-      give_up("too many corrections");
-      return;
-    }
-    Reference trial = moved(z_, correction_, damping_);
-    std::vector<double> R = newton_.equations_.residual(trial, pressure_);
-    if (R.empty()) {
-      reject("elements turn inside out");
-      return;
-    }
-    std::vector<double> next = solve(R);
-    if (gave_up())
-      return;
-    const double ratio = rms_of(next, z_.nodes.size()) / size_;
-    if (!(ratio <= 1.0 - 0.25 * damping_)) {
-      reject("corrections do not become smaller");
-      return;
-    }
-    z_ = std::move(trial);
-    R_ = std::move(R);
-    if (damping_ == 1.0 && ratio < ratio_to_keep) {
-      set_correction(std::move(next));
-      return;
-    }
-    damping_ = std::min(1.0, 2.0 * damping_);
-    renew_tangent();
-  }
-
-  /// A step that failed is tried again with the right tangent, then shorter.
-  void reject(const char* why) {
-    if (!fresh_) {
-      renew_tangent();
-      return;
-    }
-    damping_ *= 0.5;
-    if (damping_ < newton_.parameters_.smallest_damping)
-      give_up(why);
-  }
-
   InverseNewton& newton_;
   double pressure_;
-  Reference z_;
-  std::vector<double> R_, correction_;
-  double size_ = 0.0;  ///< rms of the correction [mm]
-  double damping_ = 1.0;
-  bool fresh_ = false;  ///< the tangent is that of z_
-  NewtonReport report_;
 };
 
 InverseNewton::InverseNewton(const InverseEquations& equations, const NewtonParameters& parameters)
@@ -176,10 +89,11 @@ InverseNewton::InverseNewton(const InverseEquations& equations, const NewtonPara
       tangent_(equations.pattern(), {}, equations.seen().nodes) {}
 
 NewtonReport InverseNewton::solve(Reference& reference, double pressure, double tolerance) {
-  Attempt attempt(*this, reference, pressure);
-  NewtonReport report = attempt.run(tolerance);
+  Problem problem(*this, pressure);
+  DampedNewton<Problem> search(problem, parameters_, reference);
+  NewtonReport report = search.run(tolerance);
   if (report.converged)
-    reference = attempt.found();
+    reference = search.place();
   else
     has_tangent_ = false;  // it may belong to a place far off
   return report;

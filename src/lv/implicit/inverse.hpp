@@ -1,14 +1,13 @@
 #pragma once
 
+#include "lv/implicit/damped_newton.hpp"
 #include "lv/implicit/inverse_equations.hpp"
-#include "lv/implicit/newton.hpp"
 
 #include <optional>
 
 namespace lv::implicit {
 
-/// Newton's method for the inverse problem, damped by the test of implicit::Newton and with the
-/// same rule for keeping a tangent.
+/// Newton's method (DampedNewton) for the inverse problem.
 class InverseNewton {
  public:
   /// The equations must outlive this object.
@@ -22,7 +21,7 @@ class InverseNewton {
   void forget_tangent() { has_tangent_ = false; }
 
  private:
-  class Attempt;
+  class Problem;
 
   const InverseEquations& equations_;
   NewtonParameters parameters_;

@@ -67,20 +67,6 @@ material::Tangent<double> flux_tangent(const Stresses& at, const Mat3& Q, const 
 
 }  // namespace
 
-bool is_sound(const mesh::Mesh& mesh) {
-  const mesh::ElementNodes elements = mesh::elements(mesh);
-  const solid::ShapeTable shapes = solid::element_shapes(mesh.kind, mesh.order);
-  Eigen::Matrix3Xd X(3, elements.nodes_per_element);
-  for (int e = 0; e < elements.size(); ++e) {
-    for (int a = 0; a < elements.nodes_per_element; ++a)
-      X.col(a) = mesh.nodes[elements.element(e)[a]];
-    for (const Eigen::MatrixXd& gradient : shapes.gradient)
-      if (!(determinant(Mat3(X * gradient.transpose())) > 0.0))
-        return false;
-  }
-  return true;
-}
-
 InverseEquations::InverseEquations(const mesh::Mesh& seen, const StaticModel& model)
     : seen_(seen),
       model_(model),
@@ -142,17 +128,12 @@ std::vector<double> InverseEquations::residual(const Reference& reference, doubl
   std::vector<double> R(static_cast<std::size_t>(size()), 0.0);
   const State state{seen_.nodes, reference.pressures};
   for_points(wall, [&](const Place& place, const Geometry& at) {
-    const int e = elements_.own[place.element];
-    const ElementState s = element_state(elements_, e, state);
-    const Eigen::Matrix3Xd G = at.frame.transpose() * at.gradient;
-    const Mat3 F = s.x * G.transpose();
+    const auto [G, F, N, p] = strained_at(place, at, state);
     const double J = determinant(F);
-    const Eigen::VectorXd N = elements_.pressure_shapes.value.row(place.point);
-    const double p = N.dot(s.p);
     const Mat3 P = law_at(place).stress(F, J, at.M, {}) + p * cofactor(F);
     const Eigen::Matrix3Xd force = at.dV * P * G;
     const Eigen::VectorXd swelling = at.dV * (J - model_.compressibility.J(p)) * N;
-    const std::vector<int>& to = pattern_.groups[static_cast<std::size_t>(e)];
+    const std::vector<int>& to = group_of(place);
     for (Eigen::Index k = 0; k < force.size(); ++k)
       R[to[k]] += force.data()[k];
     for (Eigen::Index m = 0; m < swelling.size(); ++m)
@@ -167,6 +148,20 @@ std::vector<double> InverseEquations::residual(const Reference& reference, doubl
       R[3 * a + i] -= forces[a][i];
   parallel::sum(R);
   return R;
+}
+
+InverseEquations::Strained InverseEquations::strained_at(const Place& place, const Geometry& at,
+                                                         const State& state) const {
+  const ElementState s = element_state(elements_, elements_.own[place.element], state);
+  Eigen::Matrix3Xd G = at.frame.transpose() * at.gradient;
+  const Mat3 F = s.x * G.transpose();
+  Eigen::VectorXd N = elements_.pressure_shapes.value.row(place.point);
+  const double p = N.dot(s.p);
+  return {std::move(G), F, std::move(N), p};
+}
+
+const std::vector<int>& InverseEquations::group_of(const Place& place) const {
+  return pattern_.groups[static_cast<std::size_t>(elements_.own[place.element])];
 }
 
 Constitution InverseEquations::law_at(const Place& place) const {
@@ -190,12 +185,7 @@ void InverseEquations::add_elements(const mesh::Mesh& wall, const Reference& ref
   Eigen::MatrixXd block = Eigen::MatrixXd::Zero(3 * n + m, 3 * n + m);
   const State state{seen_.nodes, reference.pressures};
   for_points(wall, [&](const Place& place, const Geometry& at) {
-    const int e = elements_.own[place.element];
-    const ElementState s = element_state(elements_, e, state);
-    const Eigen::Matrix3Xd G = at.frame.transpose() * at.gradient;
-    const Mat3 F = s.x * G.transpose();
-    const Eigen::VectorXd N = elements_.pressure_shapes.value.row(place.point);
-    const double p = N.dot(s.p);
+    const auto [G, F, N, p] = strained_at(place, at, state);
     const Constitution law = law_at(place);
     const Stresses stresses{F, law.stress(F, determinant(F), at.M, {}) + p * cofactor(F),
                             law.tangent(F, at.M, {}) + p * material::cofactor_tangent(F)};
@@ -214,7 +204,7 @@ void InverseEquations::add_elements(const mesh::Mesh& wall, const Reference& ref
     if (place.point + 1 < shapes_.points())
       return;
     product.multiply(block);
-    K.add(pattern_.groups[static_cast<std::size_t>(e)], block);
+    K.add(group_of(place), block);
     block.setZero();
   });
 }

@@ -72,8 +72,19 @@ class InverseEquations {
     Vec3 radial;
     Mat3 frame;
   };
+  /// Of the seen shape over a wall without load, in the fibre frame.
+  struct Strained {
+    Eigen::Matrix3Xd G;  ///< d phi_a/dX
+    Mat3 F;
+    Eigen::VectorXd N;  ///< of the pressures
+    double p;           ///< [kPa]
+  };
   template <class Visit>
   void for_points(const mesh::Mesh& wall, const Visit& visit) const;
+  [[nodiscard]] Strained strained_at(const Place& place, const Geometry& at,
+                                     const State& state) const;
+  /// Numbers of an element's unknowns.
+  [[nodiscard]] const std::vector<int>& group_of(const Place& place) const;
   [[nodiscard]] Constitution law_at(const Place& place) const;
   void add_elements(const mesh::Mesh& wall, const Reference& reference, SparseMatrix& K) const;
   void add_supports(const mesh::Mesh& wall, SparseMatrix& K) const;
@@ -88,9 +99,5 @@ class InverseEquations {
   Pattern pattern_;
   std::vector<std::optional<Mat3>> held_;  ///< frames, per point
 };
-
-/// Whether det dX/dxi > 0 at all quadrature points. Every rank looks at the whole wall, so that all
-/// agree.
-[[nodiscard]] bool is_sound(const mesh::Mesh& mesh);
 
 }  // namespace lv::implicit

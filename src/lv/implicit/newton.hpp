@@ -1,28 +1,11 @@
 #pragma once
 
+#include "lv/implicit/damped_newton.hpp"
 #include "lv/implicit/equations.hpp"
 
 #include <functional>
-#include <string>
 
 namespace lv::implicit {
-
-struct NewtonParameters {
-  double tolerance = 1e-6;         ///< rms of the last correction of the positions [mm]
-  int iterations = 40;             ///< corrections after which it gives up
-  double smallest_damping = 0.01;  ///< of a correction, before it gives up
-  LinearParameters linear = {};
-};
-
-/// How one equilibrium was found, or why it was not.
-struct [[nodiscard]] NewtonReport {
-  bool converged = false;
-  std::string why;  ///< it did not
-  int iterations = 0;
-  int factorisations = 0;
-  int linear_solves = 0;
-  int linear_iterations = 0;  ///< of all linear solves; 0 of the direct method
-};
 
 /// A cavity whose volume is given as a function of its pressure, and how it changes with it.
 struct GivenVolume {
@@ -41,10 +24,7 @@ struct Equilibrium {
   solid::BasePlace base = {};      ///< where the base is held
 };
 
-/// Damped Newton with the error-oriented monotonicity test (P. Deuflhard, Newton Methods for
-/// Nonlinear Problems, 2004, algorithm NLEQ-ERR): a step is taken as far as it makes the next
-/// simplified correction, by the same tangent, smaller. A tangent that contracts well enough is
-/// kept from step to step, since a factorisation costs far more than a correction.
+/// Equilibria by Newton's method (DampedNewton), with a tangent that is kept from one to the next.
 ///
 /// Where the cavity's volume is given, its pressure p is an unknown, the multiplier of V(u) =
 /// V_0D(p). With the residuals r_u and r_V = V - V_0D, the force g of a unit pressure, h = dV/du
@@ -76,7 +56,7 @@ class Newton {
   }
 
  private:
-  class Attempt;
+  class Problem;
 
   const Equations& equations_;
   NewtonParameters parameters_;

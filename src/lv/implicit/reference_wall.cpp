@@ -56,4 +56,18 @@ ReferenceWall reference_wall(const mesh::Mesh& mesh) {
   return wall;
 }
 
+bool is_sound(const mesh::Mesh& mesh) {
+  const mesh::ElementNodes elements = mesh::elements(mesh);
+  const solid::ShapeTable shapes = solid::element_shapes(mesh.kind, mesh.order);
+  Eigen::Matrix3Xd X(3, elements.nodes_per_element);
+  for (int e = 0; e < elements.size(); ++e) {
+    for (int a = 0; a < elements.nodes_per_element; ++a)
+      X.col(a) = mesh.nodes[elements.element(e)[a]];
+    for (const Eigen::MatrixXd& gradient : shapes.gradient)
+      if (!(determinant(Mat3(X * gradient.transpose())) > 0.0))
+        return false;
+  }
+  return true;
+}
+
 }  // namespace lv::implicit

@@ -27,4 +27,8 @@ struct ReferenceWall {
 /// which lock.
 [[nodiscard]] ReferenceWall reference_wall(const mesh::Mesh& mesh);
 
+/// Whether det dX/dxi > 0 at all quadrature points. Every rank looks at the whole wall, so that all
+/// agree.
+[[nodiscard]] bool is_sound(const mesh::Mesh& mesh);
+
 }  // namespace lv::implicit
