@@ -48,8 +48,8 @@ def refuse(name, lines, folder):
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     said = None
     words = []
-    with subprocess.Popen([program, "calibrate", case, "--ranks", "1"], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as process:
-        for line in process.stderr:
+    with subprocess.Popen([program, "calibrate", case, "--ranks", "1"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as process:
+        for line in process.stdout:
             if said is None and " warning " in line and "cannot be reached" in line:
                 said = seconds_of(process)
             if line.strip() and " info " not in line and " warning " not in line:
