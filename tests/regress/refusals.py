@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 """Fits whose target is out of reach: each must say so within 30 s of processor time, mesh included. Usage: refusals.py VENTRICLE [coarse|default]
-[WORDS]: on coarse elements or the default mesh, the cases whose name has these words."""
+[WORDS]: on coarse elements or the default mesh, the cases whose name has these words. On the default mesh the coarse wall that is tried first may say
+so with a warning, where the finer one could still reach the target: both times are shown."""
+import os
 import pathlib
 import resource
 import subprocess
@@ -15,6 +17,7 @@ patience = 30.0  # [s]
 # The default ventricle: 70.8 ml, or the same seen under load.
 cases = {
     "ESV too small for T_scale": 'calibrate.active = true\ncalibrate.esv = "19 ml"\n',
+    "ESV hardly too small for T_scale": 'calibrate.active = true\ncalibrate.esv = "30.6 ml"\n',
     "ESV too large for T_scale": 'calibrate.active = true\ncalibrate.esv = "300 ml"\n',
     "EDV too large for C_a": 'calibrate.passive = "C_a"\ncalibrate.edv = "320 ml"\n',
     "EDV too large for scale": 'calibrate.passive = "scale"\ncalibrate.edv = "320 ml"\n',
@@ -32,15 +35,28 @@ cases = {
 }
 
 
+def seconds_of(process):
+    """Processor time of a process that runs, and of its children that ended."""
+    fields = pathlib.Path(f"/proc/{process.pid}/stat").read_text().rsplit(")", 1)[1].split()
+    return sum(int(ticks) for ticks in fields[11:15]) / os.sysconf("SC_CLK_TCK")
+
+
 def refuse(name, lines, folder):
+    """Exit code, processor seconds until it first says that the target is out of reach and until its end, and its last words."""
     case = folder / "case.toml"
     case.write_text(f'name = "{name}"\nengine = "quasi_static"\n{elements}{lines}')
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    done = subprocess.run([program, "calibrate", case, "--ranks", "1"], capture_output=True, text=True, check=False)
+    said = None
+    words = []
+    with subprocess.Popen([program, "calibrate", case, "--ranks", "1"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as process:
+        for line in process.stdout:
+            if said is None and " warning " in line and "cannot be reached" in line:
+                said = seconds_of(process)
+            if line.strip() and " info " not in line and " warning " not in line:
+                words.append(line.strip())
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-    words = " ".join(line.strip() for line in done.stderr.splitlines() if line.strip() and " info " not in line and " warning " not in line)
-    return done.returncode, seconds, words
+    return process.returncode, seconds if said is None else said, seconds, " ".join(words)
 
 
 failures = 0
@@ -48,8 +64,8 @@ for name, lines in cases.items():
     if sys.argv[3:] and sys.argv[3] not in name:
         continue
     with tempfile.TemporaryDirectory(prefix="ventricle_refusals_") as temporary:
-        code, seconds, words = refuse(name, lines, pathlib.Path(temporary))
-    holds = code == 1 and seconds < patience
+        code, said, seconds, words = refuse(name, lines, pathlib.Path(temporary))
+    holds = code == 1 and said < patience
     failures += not holds
-    print(f"{'pass' if holds else 'FAIL'}  {seconds:6.1f} s  {name}: {words[-330:]}", flush=True)
+    print(f"{'pass' if holds else 'FAIL'}  {said:6.1f} s, end {seconds:6.1f} s  {name}: {words[-330:]}", flush=True)
 sys.exit(1 if failures else 0)

@@ -107,21 +107,22 @@ class UnloadedSearch {
         "Check unloaded.pressure and the shape, or give calibrate.passive another value; a wall "
         "that folds or turns inside out when it is unloaded is often drawn too thin somewhere";
     if (!now_)
-      throw InputError(target_.origin,
+      throw OutOfReach(target_.origin,
                        fmt::format("{}: no stiffness up to {} = {:g}, the end of its range, gives "
                                    "it a shape without load: {}",
                                    what, unknown_.name, unknown_.range.high, reason_),
-                       remedy);
+                       remedy, 0.0);
     const Tried& end = soft_ ? *soft_ : *stiff_;
+    const bool at_end_of_range = soft_ || !nowhere_;
     const double V = seen_ - (seen_ - target_.volume) * std::exp(end.f);
-    throw InputError(
+    throw OutOfReach(
         target_.origin,
         fmt::format("{}: at {} = {:.3g}, {}, it holds {:.2f} ml{}", what, unknown_.name,
                     std::exp(end.log_x),
-                    soft_ || !nowhere_ ? "the end of its range"
-                                       : "the softest for which there is a shape without load",
-                    1e-3 * V, soft_ || !nowhere_ ? "" : " (softer: " + reason_ + ")"),
-        remedy);
+                    at_end_of_range ? "the end of its range"
+                                    : "the softest for which there is a shape without load",
+                    1e-3 * V, at_end_of_range ? "" : " (softer: " + reason_ + ")"),
+        remedy, at_end_of_range ? std::abs(std::log(V / target_.volume)) : 0.0);
   }
 
   const std::function<Outcome<double>(double)>& volume_;

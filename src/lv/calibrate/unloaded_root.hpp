@@ -10,8 +10,9 @@ namespace lv::calibrate {
 /// up under the pressure, seen - V, which are nearly proportional, kept within the bracket.
 ///
 /// Stiff walls have a shape without load, soft ones need not: from where there is none the search
-/// goes to stiffer ones, and to softer ones again in steps that it shortens. Throws InputError with
-/// the volumes at the end of what can be reached when the target is beyond.
+/// goes to stiffer ones, and to softer ones again in steps that it shortens. Throws OutOfReach with
+/// the volumes at the end of what can be reached when the target is beyond; its `missing` is zero
+/// where walls without load, not the range, end there, since another mesh may have them.
 [[nodiscard]] double find_unloaded_root(const std::function<Outcome<double>(double)>& volume,
                                         const Unknown& stiffness, const Target& target, double seen,
                                         double accuracy);

@@ -253,12 +253,15 @@ void set_seen_volume(const Case& c, const anatomy::MeshResult& mesh, calibrate::
 /// Where the fit on a mesh begins: at the end of the one on a coarse wall, or where that misses a
 /// volume by no more than walls differ, so that the other finds out at once whether it does.
 /// Nothing where that wall has no fit, which says nothing of the other. Throws OutOfReach where it
-/// misses a volume by more.
+/// misses a volume by more. What it misses is said at once: the other wall may take minutes for it.
 std::optional<FitStart> fit_coarse(const Case& c, const anatomy::MeshResult& coarse,
                                    const anatomy::MeshResult& mesh, calibrate::Plan task,
                                    const FitParameters& start, const FitLog& kept) {
   const int elements = coarse.mesh.cell_count() / 8;
   log::info("the fit is made on a coarse wall first, of {} elements", elements);
+  const auto warn = [&](const std::exception& failure) {
+    log::warn("on a coarse wall of {} elements: {}", elements, failure.what());
+  };
   set_seen_volume(c, coarse, task);
   try {
     FitStart first = start_at(fit_wall(c, coarse, {}, alone(task), {start}, kept));
@@ -268,15 +271,17 @@ std::optional<FitStart> fit_coarse(const Case& c, const anatomy::MeshResult& coa
   } catch (const calibrate::FitOutOfReach& failure) {
     if (failure.missing() > calibrate::reach_margin)
       throw failure.found(fmt::format(" (on a coarse wall of {} elements)", elements));
-    log::info("{}", failure.what());
-    if (failure.missing() > 0.0)
+    warn(failure);
+    if (failure.missing() > 0.0) {
+      log::info("a finer wall may reach it: the fit goes on there from what came nearest");
       return FitStart{failure.parameters()};
+    }
   } catch (const InputError& failure) {
-    log::info("{}", failure.what());
+    warn(failure);
   } catch (const NoSolution& failure) {
-    log::info("{}", failure.what());
+    warn(failure);
   }
-  log::info("the coarse wall says nothing of this fit");
+  log::info("a finer wall may have a fit all the same: it begins anew there");
   return {};
 }
 

@@ -371,3 +371,22 @@ TEST_CASE("a V0 below what any wall without load holds is refused with what ther
   stiff.stiffness = {5.0, 50.0};
   CHECK_THROWS_WITH(fit(seen_wall(0.01), {}, stiff), Contains("the end of its range"));
 }
+
+TEST_CASE("by how much a V0 is missed is known where the range of the stiffness ends it",
+          "[calibrate]") {
+  const auto missing = [](const Model& wall, const Plan& p) {
+    try {
+      static_cast<void>(fit(wall, {}, p));
+    } catch (const OutOfReach& failure) {
+      return failure.missing();
+    }
+    return -1.0;
+  };
+  Plan stiff = klotz_plan();
+  stiff.stiffness = {5.0, 50.0};
+  const Model wall = seen_wall(0.01);
+  const double V0 = klotz(V_seen, stiff.ed_pressure).V0;
+  CHECK(missing(wall, stiff) == Approx(std::log(*wall.unloaded_volume({.scale = 5.0}) / V0)));
+  CHECK(missing(seen_wall(4.0), klotz_plan()) == 0.0);  // another mesh may have softer walls
+  CHECK(missing(seen_wall(100.0), klotz_plan()) == 0.0);
+}
