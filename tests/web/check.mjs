@@ -6,7 +6,7 @@ import { checkDocumented, checkElsewhere, checkFigures, checkImages, checkMixed,
 import { checkPage } from "./page_checks.mjs";
 import { makeRuns } from "./runs.mjs";
 import { browser, failed, folder, secondsTaken, timed } from "./setting.mjs";
-import { checkBeats, checkCompare, checkFitted, checkFlowPlane, checkHalf, checkOrientation } from "./view_checks.mjs";
+import { checkBeats, checkCompare, checkFitted, checkFlowPlane, checkHalf, checkOpeningView, checkOrientation } from "./view_checks.mjs";
 
 const made = makeRuns();
 
@@ -18,7 +18,7 @@ async function of(run, ...checks) {
 
 try {
   await of("page", checkPage);
-  await of("turned", checkOrientation);
+  await of("turned", checkOrientation, checkOpeningView);
   await of("thick", checkFlowPlane);
   await of("compare", checkCompare);
   await of("fitted", checkFitted);

@@ -1,8 +1,9 @@
 // `ventricle draw` in a real browser, on a phantom's cine.
-// node draw.mjs VENTRICLE [--case CASE.toml] [--scar] [--long-axis] [--corrections] [--two-programs] [--screenshots FOLDER]   exit code 77: skipped
+// node draw.mjs VENTRICLE [--case CASE.toml] [--scar] [--long-axis] [--corrections] [--two-programs] [--figures] [--screenshots FOLDER]   exit code 77: skipped
 // With --case only pictures are taken, of a case that is there; with --scar the scar alone is tried, with --long-axis the long axes,
 // with --corrections how many corrections bring the volumes within 3%,
-// with --two-programs what another program or hand does to the saved files, and the letters of the patient's directions.
+// with --two-programs what another program or hand does to the saved files, and the letters of the patient's directions;
+// with --figures those of docs/draw.md are put into FOLDER.
 import { execFileSync, spawn } from "node:child_process";
 import { chmodSync, cpSync, existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
 import http from "node:http";
@@ -603,12 +604,15 @@ function curveEnds(file) {
   return curves.flatMap(([, { points }]) => [points[0], points.at(-1)]);
 }
 
+const makeLongCase = () => writeFileSync(longCase, 'name = "heart"\n[anatomy]\nsource = "cine"\n[segment]\ncine = "nifti/cine_short_axis.nii.gz"\n' +
+  'long_axis_cine = ["nifti/cine_long_axis_1.nii.gz", "nifti/cine_long_axis_2.nii.gz"]\n');
+const slicesOf = async (page) => parseInt(/of (\d+)/.exec(await text(page, "#where"))[1], 10);
+
 async function checkLongAxis() {
-  writeFileSync(longCase, 'name = "heart"\n[anatomy]\nsource = "cine"\n[segment]\ncine = "nifti/cine_short_axis.nii.gz"\n' +
-    'long_axis_cine = ["nifti/cine_long_axis_1.nii.gz", "nifti/cine_long_axis_2.nii.gz"]\n');
+  makeLongCase();
   const server = await start(longCase);
   const { page, said, context } = await open(server.url);
-  const slices = parseInt(/of (\d+)/.exec(await text(page, "#where"))[1], 10);
+  const slices = await slicesOf(page);
   await go(page, 6, 1);
   await go(page, slices + 1, 1);
   await checkLetters(page, join(study, "nifti/cine_long_axis_1.nii.gz"));
@@ -846,7 +850,7 @@ async function checkBrush(page, proposed) {
 }
 
 /** Opposite of the scar, mirrored in the middle of the picture: the wall is round there. */
-async function checkRemote(page) {
+async function paintRemote(page) {
   const box = await page.locator("canvas.enhanced").boundingBox();
   const at = await patch(page, red);
   await page.getByLabel("remote muscle", { exact: true }).check();
@@ -856,6 +860,10 @@ async function checkRemote(page) {
   await waitFor(page, "#said", "no remote muscle is shown");
   await drag(page, [opposite[0] - 40, opposite[1] - 40], [80, 80]);
   await drag(page, [opposite[0] - 40, opposite[1] + 40], [80, -80]);
+}
+
+async function checkRemote(page) {
+  await paintRemote(page);
   check("remote muscle is painted", (await patch(page, green)) !== undefined);
   await waitFor(page, "#said", "Scar is brighter than");
   check("the threshold follows it", (await text(page, "#scar-where")).includes("5 deviations above remote muscle"), await text(page, "#scar-where"));
@@ -927,9 +935,13 @@ async function checkScarExport() {
   await context.close();
 }
 
-async function checkScar() {
+function makeScarCase() {
   writeFileSync(scarStudy, readFileSync(caseFile, "utf8") + '[infarct]\nsource = "lge"\n[infarct.lge]\nimage = "nifti/late_enhancement.nii.gz"\nthreshold = "fwhm"\n');
   cpSync(join(study, "heart.segment"), join(study, "scar.segment"), { recursive: true });
+}
+
+async function checkScar() {
+  makeScarCase();
   const own = join(folder, "scar");
   const server = await start(scarStudy, { more: ["--no-browser", "--to", own] });
   const { page, said, context } = await open(server.url);
@@ -961,6 +973,42 @@ async function takePictures(file) {
     await shot(page, `slice-${slice}`);
   }
   await server.stop();
+}
+
+/** A picture of the page of a case. */
+async function figure(file, name, goThere) {
+  const server = await start(file, { more: ["--no-browser", "--to", join(folder, name)] });
+  const { page, context } = await open(server.url);
+  await page.setViewportSize({ width: 1280, height: 800 });
+  await goThere(page);
+  await page.evaluate(() => scrollTo(0, 0));
+  await page.screenshot({ path: join(screenshots, `${name}.png`) });
+  console.log(`${name}.png`);
+  await context.close();
+  await server.stop();
+}
+
+/** The pictures of docs/draw.md. */
+async function takeFigures() {
+  makeStudy();
+  await figure(caseFile, "draw", async (page) => {
+    await go(page, 4, 5);
+    await page.getByRole("button", { name: "Fit" }).click();
+  });
+  makeLongCase();
+  await figure(longCase, "draw_long_axis", async (page) => {
+    const { landmark_phase: phase } = await page.evaluate(async () => (await fetch("study")).json());
+    const slices = await slicesOf(page);
+    await go(page, 6, phase);
+    await go(page, slices + 1, phase);
+  });
+  makeScarCase();
+  await figure(scarStudy, "draw_scar", async (page) => {
+    await page.getByLabel("drawn by (initials)").fill("KL");
+    await showScar(page);
+    await paintRemote(page);
+    await waitFor(page, "#said", "Scar is brighter than");
+  });
 }
 
 const seconds = [];
@@ -1007,6 +1055,7 @@ async function checkAll() {
 try {
   const given = option("--case");
   if (given) await takePictures(given);
+  else if (process.argv.includes("--figures")) await takeFigures();
   else if (process.argv.includes("--scar")) await onScar();
   else if (process.argv.includes("--long-axis")) await onLongAxis();
   else if (process.argv.includes("--corrections")) await onCorrections();

@@ -3,7 +3,7 @@ import { spawnSync } from "node:child_process";
 import { existsSync, readFileSync, readdirSync } from "node:fs";
 import { join } from "node:path";
 import { root } from "./browser.mjs";
-import { checkAccessible, checkDownloads } from "./page_checks.mjs";
+import { checkAccessible, checkDownloads, checkOpening } from "./page_checks.mjs";
 import { check, close, csv, dot, folder, images, nothingAsked, number, open, setSlider, work } from "./setting.mjs";
 
 const vector = (row, name, end) => ["x", "y", "z"].map((axis) => Number(row[`${name}_${axis}${end}`]));
@@ -135,6 +135,7 @@ export async function checkImages() {
   await checkDownloads(page, images);
   check("a page with images: no error, no network", said.length === 0 && nothingAsked(asked), said.join("\n"));
   await done();
+  await checkOpening("images.html", 1);  // in the view that shows the phantom's infarct
 }
 
 /** A wall that lies in none of the images beside it. */
@@ -185,7 +186,11 @@ export async function checkReal() {
   check("HV01: measured changes of length stand beside the model's strain as strain", close(number(beside[2]), green, 0.006), `${beside} ${green}`);
   const dots = await page.locator("#strain svg.chart").first().locator("circle:not(.live, .key)").count();
   check("HV01: strains of 30 sectors stand beside the measured ones", pairs.length === 30 && dots === 30, dots);
-  check("HV01: its quality sheet is shown, images are said to be missing, no error", /cavity_fitted/.test(await page.locator("#input").innerText()) &&
+  const heads = await page.locator("#details thead th").allTextContents();
+  const captions = await page.locator("#regions figcaption").allTextContents();
+  check("HV01: early diastole, which nothing shows, is starred in table, bull's-eyes of strain since then and rotation", heads.includes("early diastole*") &&
+    captions.filter((words) => words.includes("strain from early diastole*, assumed")).length === 2 && /\* assumed: early diastole/.test(await page.locator("#rotation").textContent()), `${heads} ${captions}`);
+  check("HV01: its quality sheet is shown, images are said to be missing, no error", /cavity fitted/.test(await page.locator("#input").innerText()) &&
     (await page.locator("#outlines .missing").count()) === 1 && said.length === 0, said.join("\n"));
   await done();
 }

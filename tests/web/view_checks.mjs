@@ -1,14 +1,28 @@
 // Pages of other runs: where the walls are seen, what was assumed, unfinished runs, two cases, heartbeats, flow.
+import { join } from "node:path";
 import { settled } from "./browser.mjs";
 import { checkOpening } from "./page_checks.mjs";
 import { ofBeats } from "./runs.mjs";
-import { check, close, coloursIn, nothingAsked, number, open, pixels, saved, setSlider } from "./setting.mjs";
+import { check, close, coloursIn, csv, folder, nothingAsked, number, open, pixels, saved, setSlider } from "./setting.mjs";
 
 /** The first SVG that a section saves: its words, its colour bars, and whether a colour of the page is left open. */
 async function savedSvg(page, section) {
   const text = (await saved(page, page.locator(`${section} button.save[aria-label$=".svg"]`).first())).bytes.toString();
   const words = [...text.matchAll(/<text[^>]*>([^<]*)</g)].map((match) => match[1]).join(" ");
   return { text: words, gradients: text.split("<linearGradient").length - 1, anchors: text.split("var(--").length - 1 };
+}
+
+/** Pressure and volume that the picture's caption tells of the second frame, and those on the straight line between two rows of the curves. */
+async function captionBetweenRows(page) {
+  await setSlider(page, "#time", 1);
+  await settled(page);
+  const caption = (await page.locator("#wall svg.overlay text").allTextContents())[1];
+  const [t, ...told] = ["s", "mmHg", "ml"].map((unit) => Number(new RegExp(`([\\d.]+) ${unit}\\b`).exec(caption)?.[1]));
+  const rows = csv(join(folder, "fitted.work/03_beat/curves.csv")).map((r) => [r.time_s, r.pressure_mmHg, r.cavity_volume_ml].map(Number));
+  const after = rows.findIndex((r) => r[0] > t);
+  const [a, b] = [rows[after - 1], rows[after]];
+  const share = (t - a[0]) / (b[0] - a[0]);
+  return { told, expected: [1, 2].map((k) => a[k] + share * (b[k] - a[k])) };
 }
 
 export async function checkFitted() {
@@ -40,6 +54,8 @@ export async function checkFitted() {
   const sentence = await page.locator(".sentence").innerText();
   const heads = await page.locator("#details thead th").allTextContents();
   check("a wall that was unloaded is not called early diastole", heads.includes("without load") && !heads.includes("early diastole"), heads);
+  const { told, expected } = await captionBetweenRows(page);
+  check("what stands over the picture is read between the rows of curves.csv", told.length === 2 && told.every((x, i) => Math.abs(x - expected[i]) < 6e-3 * Math.abs(expected[i])), `${told} ${expected}`);
   check("an impossible figure is flagged, in the first sentence too", /IMPOSSIBLE/.test(cells("ejection fraction\t")) && /IMPOSSIBLE: ejection fraction; outside.*rotation/.test(sentence), sentence);
   check("and no error is reported", said.length === 0, said.join("\n"));
   await done();
@@ -92,6 +108,34 @@ export async function checkOrientation() {
   check("the cut follows the camera: from the other side the near half is gone, and letters changed sides", behind[1].L[0] < behind[1].S[0] && behind[0].count > 50, JSON.stringify(behind));
   check("an infarct's page: no error", said.length === 0, said.join("\n"));
   await done();
+}
+
+/** How much infarct the named views of a page show, and in which of them it opens. */
+async function infarctsShown(page) {
+  const opened = { look: await page.locator(".look[aria-pressed=true]").allInnerTexts(), count: (await infarctPlace(page)).count,
+    caption: (await page.locator("#wall svg.overlay text").allTextContents())[2], words: await page.locator("#wall .opened").innerText() };
+  const counts = {};
+  for (const look of ["4-chamber", "3-chamber", "2-chamber", "anterior", "septal", "inferior", "lateral"]) {
+    await page.getByRole("button", { name: look, exact: true }).first().click();
+    counts[look] = (await infarctPlace(page)).count;
+  }
+  return { opened, counts };
+}
+
+/** Pages of an anterior and of an inferior infarct open where it is seen. */
+export async function checkOpeningView() {
+  const expected = { "turned.html": ["anterior", "whole wall, from the anterior side", /on the anterior side: no long axis shows half as much/],
+    "inferior.html": ["4-chamber", "4-chamber long axis", /in the 4-chamber view: of the long axes it shows the most/] };
+  for (const [file, [look, caption, words]] of Object.entries(expected)) {
+    const { page, said, close: done } = await open(file);
+    const { opened, counts } = await infarctsShown(page);
+    const most = Math.max(...Object.values(counts));
+    check(`${file} opens where its infarct is seen`, opened.look.join() === look && Math.abs(opened.count - counts[look]) < 0.03 * opened.count && opened.count >= 0.5 * most && opened.count > 500, JSON.stringify({ opened, counts }));
+    check("and says so, and what is seen", words.test(opened.words) && opened.caption.endsWith(caption), JSON.stringify(opened));
+    if (look === "anterior") check("where the four-chamber view hides it", counts["4-chamber"] < 0.1 * opened.count, JSON.stringify(counts));
+    check(`${file}: no error`, said.length === 0, said.join("\n"));
+    await done();
+  }
 }
 
 /** Flow in a wall whose septum, at 70 degrees, is twice as thick as its lateral wall. */

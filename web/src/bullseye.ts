@@ -1,5 +1,6 @@
 // The wall seen from the apex, flattened: the base outside. The first sector of every ring is anterior (top), the others
 // follow anticlockwise (septum on the left).
+import { about } from "./about.ts";
 import { colourOf, inkOn, type Scale } from "./colours.ts";
 import { sectorsPerRing, type Scheme } from "./data.ts";
 import { ink, svg, uniqueId } from "./dom.ts";
@@ -22,10 +23,6 @@ export interface DrawnBullsEye { figure: SVGSVGElement; highlight: (index: numbe
 const size = 300;
 const centre = size / 2;
 const radius = 122;
-
-/** Which artery usually feeds each AHA segment (Cerqueira et al., Circulation 105:539, 2002), from 0. */
-const territories: Record<string, number[]> = { LAD: [0, 1, 6, 7, 12, 13, 16], RCA: [2, 3, 8, 9, 14], LCX: [4, 5, 10, 11, 15] };
-const territoryPlaces: [string, number][] = [["LAD", 60], ["RCA", 225], ["LCX", 330]];
 
 function ringShape(inner: number, outer: number, from: number, to: number): string {
   const at = (r: number, a: number) => `${(centre + r * Math.cos(a)).toFixed(2)} ${(centre - r * Math.sin(a)).toFixed(2)}`;
@@ -70,7 +67,7 @@ const [parting, rimmed] = ["#fff", "#1a1a1a"];
 /** The segments of one artery after the other, each group in front of a dark rim: what is left of it parts the territories. */
 function territoryGroups(all: Place[], shapes: SVGPathElement[]): SVGElement[] {
   const rim = (index: number) => svg("path", { d: all[index].d, fill: "none", stroke: rimmed, "stroke-width": 5, "pointer-events": "none" });
-  return Object.values(territories).flatMap((members) => [...members.map(rim), ...members.map((i) => shapes[i])]);
+  return about.territories.flatMap(({ segments }) => [...segments.map(rim), ...segments.map((i) => shapes[i])]);
 }
 
 function words(assumed: boolean): SVGElement[] {
@@ -80,7 +77,7 @@ function words(assumed: boolean): SVGElement[] {
 }
 
 function territoryNames(): SVGElement[] {
-  return territoryPlaces.map(([name, angle]) => svg("text", { x: centre + 137 * Math.cos((angle * Math.PI) / 180),
+  return about.territories.map(({ name, angle }) => svg("text", { x: centre + 137 * Math.cos((angle * Math.PI) / 180),
     y: centre - 137 * Math.sin((angle * Math.PI) / 180) + 4, "text-anchor": "middle", "font-size": 10, "font-weight": 600, fill: ink.soft }, name));
 }
 

@@ -1,7 +1,7 @@
 // Measured volumes beside the model's, fitted parameters, and what errors of the measurements do to them.
 import type { Case } from "./data.ts";
 import { el, fileName, missing, table } from "./dom.ts";
-import { shown } from "./quantities.ts";
+import { shown, typeset } from "./quantities.ts";
 
 /** What heartbeats were fitted to, as summary.json has it. */
 const ofBeats = (c: Case): any[] => Array.isArray(c.summary?.heartbeats_fitted) ? c.summary.heartbeats_fitted : [];
@@ -68,7 +68,7 @@ function heartbeats(c: Case): (Node | undefined)[] {
       : missing("heartbeats.json is missing: how sure the fitted parameters are is not known."),
     parameters.length ? table(fileName(c.name, "heartbeats-sensitivity"), ["relative change per relative change of", ...parameters.map((p) => p.words)],
       fit.data.map((d: any) => [d.name, ...parameters.map((p) => shown(d.d_ln_datum_by_d_ln[p.parameter]))])) : undefined,
-    ...(fit?.left_alone ?? []).map((line: string) => el("p", { class: "help" }, `${line}.`))];
+    ...(fit?.left_alone ?? []).map((line: string) => el("p", { class: "help" }, typeset(`${line}.`)))];
 }
 
 /** The fit of the muscle at given pressures. */
@@ -84,5 +84,5 @@ function muscle(c: Case): (Node | undefined)[] {
     volumesFitted ? volumes(c) : undefined,
     ...klotz(c, fit),
     fit?.uncertainty?.length ? sensitivity(c, fit) : missing("calibration.json is missing: how sure the fitted parameters are is not known."),
-    ...(fit?.ambiguities ?? []).map((line: string) => el("p", { class: "help" }, line))];
+    ...(fit?.ambiguities ?? []).map((line: string) => el("p", { class: "help" }, typeset(line)))];
 }

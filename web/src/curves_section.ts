@@ -76,7 +76,8 @@ export function rotationSection(cases: Case[]): HTMLElement {
     "3° (Young & Cowan, J. Cardiovasc. Magn. Reson. 14:49, 2012); a base that is held (base.support) cannot turn.";
   const found = cases.map((c) => ({ c, rows: c.table("rotation.csv") })).filter(({ rows }) => rows.length);
   if (!found.length) return folded("rotation", "Rotation per slice", "rotation.csv is missing: there are no results yet.");
-  const columns = [["end_diastole_to_end_systole_deg", "end-diastole to end-systole"], ["early_to_end_diastole_deg", "early to end-diastole"]];
+  const isAssumed = found.some(({ c }) => c.assumes("early diastole"));
+  const columns = [["end_diastole_to_end_systole_deg", "end-diastole to end-systole"], ["early_to_end_diastole_deg", isAssumed ? "early* to end-diastole" : "early to end-diastole"]];
   const lines = found.flatMap(({ c, rows }, i) => columns.map(([name, title], k): Line => ({
     label: cases.length > 1 ? `${c.name}: ${title}` : title, colour: lineColours[i], dashed: k === 1, dots: true,
     x: column(rows, "slice"), y: column(rows, name) })));
@@ -84,7 +85,7 @@ export function rotationSection(cases: Case[]): HTMLElement {
   const note = [...new Set(found.map(({ c }) => starNote({ ...heartOf(c), assumed: false })))].join("");  // heights hang on apex and base alone
   const chart = drawChart({ x: `slice, from the ${starred("base")} (1) to the ${starred("apex")} (7)`, y: "rotation (°)", lines, zero: true, width: 560 });
   return section("rotation", "Rotation per slice", help, el("div", { class: "figures" },
-    figure([`${found.map(({ c }) => c.name).join(", ")}: rotation of the slices`, note].filter(Boolean).join("; "), fileName(joined(cases), "rotation"), chart.figure),
+    figure([`${found.map(({ c }) => c.name).join(", ")}: rotation of the slices`, note, isAssumed && "* assumed: early diastole"].filter(Boolean).join("; "), fileName(joined(cases), "rotation"), chart.figure),
     el("p", { class: "help of-paper" }, "In the paper the healthy apex turns by 16°, the patient's by about 3°."),
     ...found.map(({ c, rows }) => table(fileName(c.name, "rotation"), ["slice", ...columns.map(([, title]) => `${title} (°)`)],
       rows.map((row) => [row.slice, ...columns.map(([name]) => shown(value(row[name])))]))), ...turnDifference(found)));

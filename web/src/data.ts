@@ -268,7 +268,16 @@ export class Case {
   get isFitted(): boolean { return Array.isArray(this.summary?.calibration) || Array.isArray(this.summary?.heartbeats_fitted); }
 
   /** A moment's name for readers. */
-  momentTitle(name: string): string { return name === "early_diastole" && this.isUnloaded ? "without load" : stateTitle(name); }
+  momentTitle(name: string): string {
+    if (name !== "early_diastole") return stateTitle(name);
+    return this.isUnloaded ? "without load" : this.assumes("early diastole") ? `${stateTitle(name)}*` : stateTitle(name);
+  }
+
+  /** Of a strain at a time up to end-diastole, from a moment that was assumed: "strain from early diastole*, assumed"; else empty. */
+  sinceAssumed(quantity: string, time: number): string {
+    const isSince = quantity.endsWith("_strain") && this.assumes("early diastole") && time <= (this.timeOf("end_diastole") ?? Infinity) + 1e-5;
+    return isSince ? "strain from early diastole*, assumed" : "";
+  }
 
   /** The axes of the model in image space; undefined when it is not there, or nobody knows. */
   get axes(): { x: number[]; y: number[] } | undefined {
@@ -335,12 +344,21 @@ export function nearest(times: number[], time: number): number {
 
 const timesOf = new WeakMap<Row[], number[]>();  // tables are asked at every moment
 
-/** The row of curves.csv that is nearest to a moment. */
-export function rowAt(rows: Row[], time: number): Row | undefined {
-  if (!timesOf.has(rows)) timesOf.set(rows, rows.map((row) => value(row.time_s)));
-  return rows[nearest(timesOf.get(rows)!, time)];
+/** On the straight line from a to b; a where one of them is no number. */
+function between(a: string, b: string, share: number): string {
+  const mixed = (1 - share) * value(a) + share * value(b);
+  return Number.isNaN(mixed) ? a : String(mixed);
 }
 
-export interface About { version: string; cases: number; unlike_moments: string }
-export function about(): About { return JSON.parse(text("about")); }
+/** The row of curves.csv at a moment: moments of heartbeats lie between two rows, and then so do its numbers. */
+export function rowAt(rows: Row[], time: number): Row | undefined {
+  if (!timesOf.has(rows)) timesOf.set(rows, rows.map((row) => value(row.time_s)));
+  const times = timesOf.get(rows)!;
+  const near = nearest(times, time);
+  const next = time > times[near] ? near + 1 : near - 1;
+  const share = (time - times[near]) / (times[next] - times[near]);
+  if (!(share > 1e-4 && share < 1)) return rows[near];  // it is that row's, or lies beyond all rows
+  return Object.fromEntries(Object.entries(rows[near]).map(([name, text]) => [name, between(text, rows[next][name], share)]));
+}
+
 export type { FlowJson };

@@ -108,7 +108,7 @@ export function firstSection(cases: Case[]): HTMLElement {
   const name = fileName(...cases.map((c) => c.name), "figures");
   const none = found && !cases.some(anyMeasured);
   const content = !found ? missing("summary.json is missing: the results have not been computed.")
-    : several ? table(name, ["", ...cases.flatMap((c) => [c.name, ...(anyMeasured(c) ? ["measured"] : [])]), "difference"], ofTwo(cases))
+    : several ? table(name, ["", ...cases.flatMap((c) => [c.name, ...(anyMeasured(c) ? [`${c.name}, measured`] : [])]), "difference"], ofTwo(cases))
     : table(name, ["", "model", ...(none ? [] : ["measured"]), "usual", "answer", "origin"], ofOne(cases[0], !none));
   return titled("summary", "Summary", {}, content,
     none ? el("p", { class: "help" }, `No measured volumes: ${several ? "neither case" : "the case"} is ${several ? "" : "not "}fitted to any.`) : undefined,

@@ -1,7 +1,8 @@
 // The page: header, what is unfinished, and one section per subject.
 import "./style.css";
 import { curvesSection, muscleSection, rotationSection } from "./curves_section.ts";
-import { about, Case } from "./data.ts";
+import { about } from "./about.ts";
+import { Case } from "./data.ts";
 import { el } from "./dom.ts";
 import { flowSection } from "./flow_section.ts";
 import { heartbeatSection } from "./heartbeat_section.ts";
@@ -9,6 +10,7 @@ import { outlinesSection } from "./outlines_section.ts";
 import { Shared, timeline } from "./shared.ts";
 import { strainSection } from "./strain_section.ts";
 import { assumedSentence, firstSection, remarks, sentence } from "./first_section.ts";
+import { openingLook } from "./orientation.ts";
 import { bullsEyeSection } from "./regions_section.ts";
 import { detailsSection, inputSection, normalSection, parameterSection, zoneSection } from "./tables_section.ts";
 import { wallSection } from "./wall_section.ts";
@@ -48,14 +50,14 @@ const painted = () => new Promise((done) => {
 });
 
 async function main(): Promise<void> {
-  const { version, cases: count, unlike_moments: unlikeMoments } = about();
+  const { version, cases: count, unlike_moments: unlikeMoments } = about;
   const cases = Array.from({ length: count }, (_, i) => Case.read(i));
   if (new Set(cases.map((c) => c.name)).size < cases.length) for (const c of cases) c.name += ` (${c.json.folder})`;
   const page = document.getElementById("page")!;
   page.className = cases.length > 1 ? "two" : "one";
   const time = timeline(cases);
   const quantity = ["circumferential_strain", "fibre_stress"].find((name) => cases.some((c) => c.wall?.quantities.includes(name))) ?? "infarct";
-  const shared = new Shared({ quantity, step: time.start, cut: { kind: "long", angle: 0, height: -40 }, fibres: false, fixed: false });
+  const shared = new Shared({ quantity, step: time.start, cut: { kind: "long", angle: 0, height: -40, ...openingLook.cut }, fibres: false, fixed: false });
   const wall = wallSection(cases, shared, time);
   const nav = el("nav", { "aria-label": "sections" });
   page.append(header(cases, unlikeMoments), el("div", { class: "first" }, firstSection(cases), remarks(cases), wall.element), nav);

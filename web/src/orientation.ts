@@ -1,5 +1,6 @@
 // Where the walls of the heart are, and the views that have names. Model frame: z along the long axis towards the base; the
 // middle of the septum lies at an angle about z from x, the anterior wall a quarter turn further, anticlockwise seen from the base.
+import { about, type Look } from "./about.ts";
 import type { Case } from "./data.ts";
 import { shown } from "./quantities.ts";
 import type { Cut } from "./shared.ts";
@@ -31,33 +32,16 @@ export const walls: [string, number][] = [["S", 0], ["A", 90], ["L", 180], ["I",
 
 export const marked = (name: string, assumed: boolean) => (assumed ? `${name}*` : name);
 
-export interface Look {
-  name: string;
-  azimuth: number;    // of the camera from the septum [degrees]
-  elevation: number;  // [degrees]; from the apex, nearly -90, the azimuth's wall is up
-  cut?: Partial<Cut>; // angle from the septum
-}
+/** The views that have names, and the one in which the page opens: see src/lv/page/views.hpp. */
+export const looks = about.views;
+export const openingLook = looks[about.opening_view];
 
-const below = -89.9;
-const level = 8;
-
-/** The clinical views: long axes through the middle of the septum (four chambers), the anteroseptal wall (three) and the
- * anterior wall (two), with the septum, or the inferior wall, on the left; the short axis from the apex. */
-export const looks: Look[] = [
-  { name: "4-chamber", azimuth: 90, elevation: level, cut: { kind: "long", angle: 0 } },
-  { name: "3-chamber", azimuth: 120, elevation: level, cut: { kind: "long", angle: 30 } },
-  { name: "2-chamber", azimuth: 0, elevation: level, cut: { kind: "long", angle: 90 } },
-  { name: "short axis", azimuth: 90, elevation: below, cut: { kind: "short" } },
-  { name: "anterior", azimuth: 90, elevation: level, cut: { kind: "none" } },
-  { name: "septal", azimuth: 0, elevation: level, cut: { kind: "none" } },
-  { name: "inferior", azimuth: 270, elevation: level, cut: { kind: "none" } },
-  { name: "lateral", azimuth: 180, elevation: level, cut: { kind: "none" } },
-  { name: "apex", azimuth: 90, elevation: below, cut: { kind: "none" } },
-];
+/** Where a camera stands [degrees]: from the septum about the long axis, and above the plane of the base. */
+export interface Direction { azimuth: number; elevation: number }
 
 /** A plane through the long axis at an angle from the septum [degrees]: its clinical name, or where it is. */
 export function axisName(angle: number): string {
-  const named = looks.find((look) => look.cut?.kind === "long" && Math.abs(Math.sin(((look.cut.angle! - angle) * Math.PI) / 180)) < 1e-4);
+  const named = looks.find((look) => look.cut.kind === "long" && Math.abs(Math.sin(((look.cut.angle! - angle) * Math.PI) / 180)) < 1e-4);
   return named ? `${named.name} long axis` : `long axis, ${shown(angle)}° from the septum`;
 }
 
@@ -70,8 +54,30 @@ export function cutName(cut: Cut): string {
 export const unit = (degrees: number): [number, number] =>
   [Math.cos((degrees * Math.PI) / 180), Math.sin((degrees * Math.PI) / 180)];
 
-/** The letter of the wall that is nearest to a direction about the long axis [degrees from x]. */
-export function letterAt(heart: Heart, degrees: number): string {
-  const away = (angle: number) => Math.cos(((degrees - heart.septum - angle) * Math.PI) / 180);
-  return marked(walls.reduce((best, wall) => (away(wall[1]) > away(best[1]) ? wall : best))[0], heart.assumed);
+/** The letter of the wall that is nearest to a direction about the long axis [degrees from the septum]. */
+function nearestWall(azimuth: number): string {
+  const near = (angle: number) => Math.cos(((azimuth - angle) * Math.PI) / 180);
+  return walls.reduce((best, wall) => (near(wall[1]) > near(best[1]) ? wall : best))[0];
 }
+
+/** The same of a direction from x, as it is marked. */
+export const letterAt = (heart: Heart, degrees: number) => marked(nearestWall(degrees - heart.septum), heart.assumed);
+
+/** Where a camera stands: "from the anterior side". */
+export function sideName(heart: Heart, { azimuth, elevation }: Direction): string {
+  if (Math.abs(elevation) > 60) return elevation < 0 ? "from the apex" : "from the base";
+  const words: Record<string, string> = { S: "septal", A: "anterior", L: "lateral", I: "inferior" };
+  return `from the ${marked(words[nearestWall(azimuth)], heart.assumed)} side`;
+}
+
+/** Whether a camera and a cut are those of a view. */
+export function isAt(look: Look, { azimuth, elevation }: Direction, cut: Cut): boolean {
+  const near = 0.5;  // [degrees]
+  const turned = Math.abs(((((azimuth - look.azimuth + 180) % 360) + 360) % 360) - 180);
+  return turned < near && Math.abs(elevation - look.elevation) < near && cut.kind === look.cut.kind && (cut.kind !== "long" || cut.angle === look.cut.angle);
+}
+
+/** Why the page opens in the view it does, where there is an infarct. */
+export const openingReason = (look: Look) => look.cut.kind === "long"
+  ? `The page opens in the ${look.name} view: of the long axes it shows the most of the infarct.`
+  : `The page opens on the ${look.name} side: no long axis shows half as much of the infarct.`;

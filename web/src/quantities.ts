@@ -1,4 +1,5 @@
 // The quantities that are shown, and their words.
+import { about } from "./about.ts";
 
 export interface Quantity {
   name: string;     // as in regions.csv
@@ -10,16 +11,15 @@ export interface Quantity {
   help: string;
 }
 
-const about = JSON.parse(document.getElementById("about")!.textContent!);
 
 /** The program's list: see src/lv/analysis/quantities.cpp. */
-export const quantities: Quantity[] = about.quantities;
+export const quantities = about.quantities;
 
 /** What a clinic says of a heartbeat, by columns of beats.csv: see src/lv/report/cycle_tables.cpp. */
-export const beatMeasures: { name: string; title: string; unit: string; help: string }[] = about.beat_measures;
+export const beatMeasures = about.beat_measures;
 
 /** An infarct's extent, which does not change with time. */
-export const infarct: Quantity = about.infarct;
+export const infarct = about.infarct;
 
 export function quantity(name: string): Quantity {
   return [...quantities, infarct].find((q) => q.name === name)!;
@@ -28,8 +28,7 @@ export function quantity(name: string): Quantity {
 export const label = (q: { title: string; unit: string }) => (q.unit === "1" ? q.title : `${q.title} (${q.unit})`);
 
 /** The program's list of moments: see src/lv/heartbeat/beat.hpp. */
-const moments: { name: string; title: string; mark: string; volume: string }[] = about.moments;
-const moment = (name: string) => moments.find((m) => m.name === name);
+const moment = (name: string) => about.moments.find((m) => m.name === name);
 
 /** A moment's name for readers: "end-diastole". */
 export const stateTitle = (name: string) => moment(name)?.title ?? name.replaceAll("_", " ");
@@ -51,3 +50,6 @@ export function shown(x: number | null | undefined, digits = 3): string {
     : x.toFixed(Math.max(0, digits - 1 - Math.floor(Math.log10(Math.abs(x) || 1))));
   return text.replaceAll("-", "−");
 }
+
+/** A sentence of a file as a printer sets it: "±" for "+-", "²" for "^2", minus signs before numbers. */
+export const typeset = (text: string) => text.replaceAll("+-", "±").replaceAll("^2", "²").replace(/(^|[\s(])-(?=\d)/g, "$1−");

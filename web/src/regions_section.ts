@@ -86,7 +86,7 @@ export function bullsEyeSection(cases: Case[], shared: Shared, scaleNow: () => S
   const pair = (c: Case, q: Quantity, state: string, scale: Scale) => c.regions.length
     ? el("div", { class: "pair" }, ...(["aha17", "sector"] as const).map((scheme) => {
       const { values, details } = means(c, q, state, scheme);
-      return marks.draw(c, scheme, values, details, scale, `${c.name}: ${q.title} at ${stateTitle(state)}, ${schemeTitle[scheme]}`,
+      return marks.draw(c, scheme, values, details, scale, [`${c.name}: ${q.title} at ${stateTitle(state)}`, schemeTitle[scheme], c.sinceAssumed(q.name, c.timeOf(state) ?? NaN)].filter(Boolean).join(", "),
         fileName(c.name, q.name, state, scheme), `${label(q)}, mean of the region`);
     }))
     : missing(`${c.name}: regions.csv is missing, so there are no regional means.`);

@@ -7,7 +7,7 @@ import { transmurality } from "./regions_section.ts";
 import { heartOf, starredTitle } from "./orientation.ts";
 import type { Shared } from "./shared.ts";
 import { healthyAdults, healthySubject, type MeanSd, paper, patient, volunteers } from "./published.ts";
-import { label, quantities, quantity, shown, stateTitle, volumeAt } from "./quantities.ts";
+import { label, quantities, quantity, shown, stateTitle, typeset, volumeAt } from "./quantities.ts";
 
 const pm = (x: MeanSd | undefined) => (x ? `${shown(x.mean)} ± ${shown(x.sd, 2)}` : "–");
 /** As it is printed. */
@@ -52,7 +52,7 @@ function stateTable(c: Case): HTMLElement {
 function plausibilityTable(c: Case): HTMLElement | undefined {
   const all = judgements(c);
   return all.length === 0 ? undefined : table(fileName(c.name, "plausibility"), ["figure", "value", "usual", "answer", "why, source"], all.map((j) =>
-    [j.label, `${shown(j.value)}${j.unit === "1" ? "" : j.unit === "deg" ? "°" : ` ${j.unit}`}`, rangeOf(j), answerOf(j), [j.reason, j.source].filter(Boolean).join("; ")]));
+    [j.label, `${shown(j.value)}${j.unit === "1" ? "" : j.unit === "deg" ? "°" : ` ${j.unit}`}`, rangeOf(j), answerOf(j), typeset([j.reason, j.source].filter(Boolean).join("; "))]));
 }
 
 function runTable(c: Case): HTMLElement {
@@ -147,13 +147,23 @@ export function zoneSection(cases: Case[], shared: Shared): HTMLElement {
     }));
 }
 
+/** Units as they are set: "mm²" for "mm2" and "mm^2". */
+const unitShown = (unit: string) => (unit === "" || unit === "1" || unit === "-" ? "–" : unit.replace(/\^?2$/, "²"));
+
+/** A field of a table for reading: whole numbers as they are, others to four digits, words without underscores. */
+function wordOrNumber(field: string): string {
+  const x = value(field);
+  if (!Number.isNaN(x)) return Number.isInteger(x) ? field.replace("-", "−") : shown(x, 4);
+  return field === "" ? "–" : field.replaceAll("_", " ");
+}
+
 export function inputSection(cases: Case[]): HTMLElement {
   const rows = (c: Case, file: string, absent: string) => {
     const found = c.table(file);
     if (!found.length) return missing(absent);
     const head = Object.keys(found[0]);
     return table(fileName(c.name, file.replace(".csv", "")), head.map((name) => name.replaceAll("_", " ")),
-      found.map((row) => head.map((name) => row[name] === "" ? "–" : row[name].replace("-", "−"))));
+      found.map((row) => head.map((name) => name === "unit" ? unitShown(row[name]) : wordOrNumber(row[name]))));
   };
   return section("input", "Input and mesh",
     "How far the fitted surfaces are from the contours (mm, per image and surface, with the shift that corrected the slice), the volumes " +

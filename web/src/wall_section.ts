@@ -3,7 +3,7 @@ import type { Scale } from "./colours.ts";
 import { type Case, rowAt, type Scheme, type Series, value } from "./data.ts";
 import { el, fileName, missing, overlaidPng, savePng, titled } from "./dom.ts";
 import { Fibres } from "./fibres.ts";
-import { cutName, heartOf, looks } from "./orientation.ts";
+import { cutName, heartOf, isAt, looks, openingLook, openingReason, sideName } from "./orientation.ts";
 import { Overlay } from "./overlay.ts";
 import { infarct, label, quantities, quantity, shown } from "./quantities.ts";
 import { type Cut, scaleOf, Shared, type Timeline } from "./shared.ts";
@@ -31,6 +31,7 @@ class Panel {
   private series = new Map<string, Series | Float32Array | undefined>();
   readonly element: HTMLElement;
   private fibres?: Fibres;
+  private side = "";  // that is seen
   private opening?: HTMLImageElement;  // what the program has drawn, until the wall is
   private read = el("p", { class: "read", "aria-live": "polite" });
   constructor(private c: Case, private number: number, private shared: Shared, private time: Timeline, private scale: () => Scale, room: Room) {
@@ -56,9 +57,10 @@ class Panel {
 
   get camera() { return this.view; }
 
-  /** Letters and scale bar follow the camera. */
+  /** Letters, scale bar and the name of the side that is seen follow the camera. */
   follow(): void {
     this.overlay?.place();
+    if (this.view && this.side !== this.sideNow) this.write();
     if (this.opening) this.placeOpening(this.opening);
   }
 
@@ -116,13 +118,20 @@ class Panel {
       row && `${shown(value(row.cavity_volume_ml))} ml`].filter(Boolean).join(", ");
   }
 
+  /** From where the whole wall is seen; empty of one that is cut. */
+  private get sideNow(): string {
+    return this.shared.state.cut.kind === "none" ? `, ${sideName(this.view!.heart, this.view!.direction)}` : "";
+  }
+
   /** What stands over the picture. */
   write(): void {
     if (!this.view) return;
     const { state } = this.shared;
+    this.side = this.sideNow;
     const [q, scale] = [quantity(state.quantity), this.scale()];
     const has = q === infarct || this.c.wall!.quantities.includes(q.name);
-    const lines = [this.c.name, this.moment(state.step), cutName(state.cut), ...(has ? [] : [`${q.title} is not in this case's frames`])];
+    const lines = [this.c.name, this.moment(state.step), cutName(state.cut) + this.side, ...(has ? [] : [`${q.title} is not in this case's frames`]),
+      this.c.sinceAssumed(q.name, this.time.time(this.number, state.step))].filter(Boolean);
     this.overlay!.write(lines, scale, q === infarct && this.c.assumesInfarct ? `${label(q)}* (* assumed)` : label(q));
     this.view.canvas.setAttribute("aria-label", `The wall in 3-D, ${label(q)}: ${lines.join("; ")}. Arrow keys turn it.`);
   }
@@ -228,6 +237,7 @@ export function wallSection(cases: Case[], shared: Shared, time: Timeline): Wall
     if (view) view.onRender = () => {
       panel.follow();
       for (const other of views) if (other !== view) other.copy(view);  // one camera for all
+      press();
     };
   });
   const has = (name: string) => cases.some((c) => c.wall?.quantities.includes(name));
@@ -241,9 +251,13 @@ export function wallSection(cases: Case[], shared: Shared, time: Timeline): Wall
     ...([["long", "long axis"], ["short", "short axis"], ["none", "none"]] as const).map(([value, text]) => el("option", { value }, text)));
   const range = rangeFields(shared);
   const named = looks.map((look) => el("button", { type: "button", class: "look", click: () => {
-    if (look.cut) cut(look.cut);
-    views.forEach((view) => view.look(look.azimuth, look.elevation));
+    cut(look.cut);
+    views.forEach((view) => view.look(look));
   } }, look.name));
+  const press = () => named.forEach((button, i) => {
+    const isHere = views.length > 0 && isAt(looks[i], views[0].direction, shared.state.cut);
+    if (button.getAttribute("aria-pressed") !== String(isHere)) button.setAttribute("aria-pressed", String(isHere));
+  });
   const more = el("details", { class: "more" }, el("summary", {}, "cut, fibres, colours, help"),
     el("div", { class: "controls" }, el("label", {}, "cut", kinds), angle.element, height.element,
       el("label", { class: "check" }, el("input", { type: "checkbox", id: "fibres", change: (event: Event) =>
@@ -275,8 +289,10 @@ export function wallSection(cases: Case[], shared: Shared, time: Timeline): Wall
     el("div", { class: "controls" }, select("quantity", offered.map((q) => [q.name, label(q)]), shared.state.quantity,
       (name) => shared.set({ quantity: name, range: undefined })),
     el("div", { class: "looks", role: "group", "aria-label": "views" }, ...named)),
+    cases.some((c) => c.json.wall?.infarct) && el("p", { class: "help opened" }, openingReason(openingLook)),
     el("div", { class: "cases" }, ...panels.map((panel) => panel.element)), bar.element, more);
-  views.forEach((view) => view.look(looks[0].azimuth, looks[0].elevation));
+  views.forEach((view) => view.look(openingLook));
+  press();
   colour();
   panels.forEach((panel) => panel.write());
   return { opened: Promise.all(panels.map((panel) => panel.opened)), draw: refresh, element, scale };

@@ -6,7 +6,7 @@ import { colourTable, type Rgb, type Scale } from "./colours.ts";
 import type { Scheme, Selection, Series, Wall } from "./data.ts";
 import type { Fibres } from "./fibres.ts";
 import type { Plane } from "./section.ts";
-import { type Heart, marked, unit, walls } from "./orientation.ts";
+import { type Direction, type Heart, marked, unit, walls } from "./orientation.ts";
 import type { Cut } from "./shared.ts";
 import { type Shape, textureOf, WallBody } from "./wall_body.ts";
 
@@ -100,8 +100,8 @@ export class WallView {
     return this.rough;
   }
 
-  /** The camera at an azimuth from the septum, anticlockwise seen from the base, and an elevation [degrees]. */
-  look(azimuth: number, elevation: number): void {
+  /** Puts the camera there. */
+  look({ azimuth, elevation }: Direction): void {
     const [x, y] = unit(this.heart.septum + azimuth);
     const [across, up] = unit(elevation);
     const distance = 500;
@@ -111,22 +111,20 @@ export class WallView {
     this.render();
   }
 
-  private get azimuth(): number {
-    return (Math.atan2(this.camera.position.y, this.camera.position.x) * 180) / Math.PI - this.heart.septum;
-  }
-
-  private get elevation(): number {
+  /** Where the camera stands. */
+  get direction(): Direction {
     const arm = this.camera.position.clone().sub(this.controls.target);
-    return (Math.asin(arm.z / arm.length()) * 180) / Math.PI;
+    return { azimuth: (Math.atan2(arm.y, arm.x) * 180) / Math.PI - this.heart.septum, elevation: (Math.asin(arm.z / arm.length()) * 180) / Math.PI };
   }
 
   /** Takes the place of another view's camera about its own heart. */
   copy(other: WallView): void {
-    const off = Math.abs(Math.sin(((other.azimuth - this.azimuth) * Math.PI) / 360)) + Math.abs(other.elevation - this.elevation);
+    const [here, there] = [this.direction, other.direction];
+    const off = Math.abs(Math.sin(((there.azimuth - here.azimuth) * Math.PI) / 360)) + Math.abs(there.elevation - here.elevation);
     if (off < 1e-4 && this.camera.zoom === other.camera.zoom) return;
     this.camera.zoom = other.camera.zoom;
     this.camera.updateProjectionMatrix();
-    this.look(other.azimuth, other.elevation);
+    this.look(there);
   }
 
   private turnByKey(event: KeyboardEvent): void {
@@ -134,7 +132,8 @@ export class WallView {
     if (!turn[event.key]) return;
     event.preventDefault();
     const [across, up] = turn[event.key];
-    this.look(this.azimuth + across, Math.min(89.9, Math.max(-89.9, this.elevation + up)));
+    const { azimuth, elevation } = this.direction;
+    this.look({ azimuth: azimuth + across, elevation: Math.min(89.9, Math.max(-89.9, elevation + up)) });
   }
 
   private resize(): void {

@@ -6,12 +6,17 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace lv::drawing {
 namespace {
 
 using std::numbers::pi;
 const TextStyle wall_style{.size = 9.5, .align = Align::centre, .colour = hex(0x555555)};
+const TextStyle territory_style{
+    .size = 9.0, .align = Align::centre, .bold = true, .colour = hex(0x555555)};
+const Pen parting{white, 1.2};  // between sectors
+const Pen rim{ink, 4.5};        // of what is left of it parts territories
 
 /// Part of a ring between two radii [points] and two angles, anticlockwise from the right.
 struct Sector {
@@ -94,8 +99,64 @@ void draw_walls(Canvas& canvas, const Point& centre, double radius, const BullsE
   }
 }
 
+void draw_territory_names(Canvas& canvas, const Point& centre, double radius,
+                          const BullsEye& plot) {
+  for (const Territory& territory : plot.territories)
+    canvas.text(territory.name, polar(centre, radius + 15.0, territory.angle), territory_style);
+}
+
 std::optional<Colour> colour_of(const BullsEye& plot, std::size_t i) {
   return plot.colours.empty() ? plot.scale(plot.values[i]) : plot.colours[i];
+}
+
+/// The sectors of each territory; all in one where there are no territories.
+std::vector<std::vector<int>> groups(const BullsEye& plot) {
+  std::vector<std::vector<int>> all;
+  for (const Territory& territory : plot.territories)
+    all.push_back(territory.sectors);
+  if (all.empty()) {
+    all.emplace_back(plot.values.size());
+    std::iota(all.front().begin(), all.front().end(), 0);
+  }
+  return all;
+}
+
+void draw_sector(Canvas& canvas, const std::vector<Point>& shape,
+                 const std::optional<Colour>& colour) {
+  if (colour)
+    canvas.fill(shape, *colour);
+  else
+    canvas.fill_missing(shape);
+  canvas.outline(shape, parting);
+}
+
+/// Each territory lies in front of its own dark rim: what is left of it parts it from the others.
+void draw_sectors(Canvas& canvas, const Point& centre, const std::vector<Sector>& parts,
+                  const BullsEye& plot) {
+  for (const std::vector<int>& group : groups(plot)) {
+    if (!plot.territories.empty())
+      for (const int i : group)
+        canvas.outline(polygon(parts[i], centre), rim);
+    for (const int i : group)
+      draw_sector(canvas, polygon(parts[i], centre), colour_of(plot, i));
+  }
+}
+
+/// The value of a sector, with its number above it where the plot has numbers.
+void write_in(Canvas& canvas, const Point& centre, const Sector& sector, int number,
+              const std::string& value, TextStyle style) {
+  const Point at =
+      polar(centre, sector.is_disc() ? 0.0 : sector.middle_radius(), sector.middle_angle());
+  const auto above = [&](double distance) {
+    return Point{at.x - distance * std::sin(style.turn), at.y - distance * std::cos(style.turn)};
+  };
+  const bool has_both = number > 0 && !value.empty();
+  canvas.text(value, has_both ? above(-0.45 * style.size) : at, style);
+  if (number == 0)
+    return;
+  const Point place = has_both ? above(0.75 * style.size) : at;
+  style.size = std::min(style.size, 7.5);
+  canvas.text(std::to_string(number), place, style);
 }
 
 }  // namespace
@@ -106,6 +167,12 @@ std::vector<int> seven_slices() {
 
 std::vector<int> aha_17() {
   return {6, 6, 4, 1};
+}
+
+std::vector<Territory> coronary_territories() {
+  return {{"LAD", {0, 1, 6, 7, 12, 13, 16}, pi / 3.0},
+          {"RCA", {2, 3, 8, 9, 14}, 1.25 * pi},
+          {"LCX", {4, 5, 10, 11, 15}, -pi / 6.0}};
 }
 
 bool has_missing(const BullsEye& plot) {
@@ -119,24 +186,19 @@ void draw(Canvas& canvas, const Box& box, const BullsEye& plot) {
   const auto parts = sectors(plot.sectors, radius);
   LV_CHECK(plot.values.size() == parts.size());
   LV_CHECK(plot.colours.empty() || plot.colours.size() == parts.size());
+  draw_sectors(canvas, centre, parts, plot);
   const Numbers numbers(canvas, plot, parts);
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    const auto shape = polygon(parts[i], centre);
-    const auto colour = colour_of(plot, i);
-    if (colour)
-      canvas.fill(shape, *colour);
-    else
-      canvas.fill_missing(shape);
-    canvas.outline(shape, {white, 1.2});
-    const TextStyle style{
-        .size = numbers.size,
-        .align = Align::centre,
-        .turn = numbers.along_ring ? turn_along_ring(parts[i]) : 0.0,
-        .colour = lightness(colour.value_or(missing_ground)) > 55.0 ? ink : white};
-    const double r = parts[i].is_disc() ? 0.0 : parts[i].middle_radius();
-    canvas.text(numbers.texts[i], polar(centre, r, parts[i].middle_angle()), style);
+    const Colour ground = colour_of(plot, i).value_or(missing_ground);
+    write_in(canvas, centre, parts[i], plot.is_numbered ? static_cast<int>(i) + 1 : 0,
+             numbers.texts[i],
+             {.size = numbers.size,
+              .align = Align::centre,
+              .turn = numbers.along_ring ? turn_along_ring(parts[i]) : 0.0,
+              .colour = lightness(ground) > 55.0 ? ink : white});
   }
   draw_walls(canvas, centre, radius, plot);
+  draw_territory_names(canvas, centre, radius, plot);
 }
 
 }  // namespace lv::drawing

@@ -2,7 +2,6 @@
 
 #include "lv/analysis/quantities.hpp"
 #include "lv/base/nearest.hpp"
-#include "lv/base/units.hpp"
 #include "lv/drawing/canvas.hpp"
 #include "lv/drawing/wall_surface.hpp"
 #include "lv/mesh/curved.hpp"
@@ -14,30 +13,12 @@
 namespace lv::page {
 namespace {
 
-/// The mesh of a series, with all its surface as one side.
-mesh::Mesh mesh_of(const WallSeries& wall, bool is_quadratic) {
-  mesh::Mesh mesh;
-  mesh.kind = wall.kind;
-  mesh.nodes = wall.undeformed;
-  mesh.cells = wall.cells;
-  mesh.epi.nodes_per_face = wall.kind == mesh::CellKind::hexahedron ? 4 : 3;
-  mesh.epi.nodes.assign(wall.skin.nodes.begin(), wall.skin.nodes.end());
-  mesh.endo.nodes_per_face = mesh.base.nodes_per_face = mesh.epi.nodes_per_face;
-  mesh.order = is_quadratic ? 2 : 1;
-  mesh.transmural.assign(mesh.nodes.size(), 0.0);
-  mesh.infarct = mesh.transmural;
-  return mesh;
-}
-
-/// That of the page's four-chamber view (web/src/orientation.ts).
-drawing::Camera camera_of(const Reach& reach, const drawing::Orientation& orientation) {
-  constexpr double elevation = 8.0 * units::degree;
-  const Vec3 view =
-      -std::cos(elevation) * orientation.anterior() - std::sin(elevation) * Vec3::UnitZ();
+/// The page's camera (web/src/wall_view.ts).
+drawing::Camera camera_of(const Reach& reach, const Vec3& view) {
   constexpr double margin = 2.0;  // [mm]
   const double width = 2.0 * (reach.radius + margin);
   // a base seen from above is an ellipse
-  const double height = reach.top - reach.bottom + width * std::sin(elevation);
+  const double height = reach.top - reach.bottom + width * std::abs(view.z());
   return {.view = view,
           .centre = {0.0, 0.0, 0.5 * (reach.bottom + reach.top)},
           .width = width,
@@ -112,25 +93,26 @@ std::vector<std::optional<std::size_t>> opening_frames(const std::vector<Course>
   return frames;
 }
 
-Opening opening(const WallSeries& wall, bool is_quadratic, std::size_t frame,
+Opening opening(const WallSeries& wall, int order, std::size_t frame, const NamedView& view,
                 const drawing::Orientation& orientation, const drawing::ColourScale& scale) {
   constexpr double pixels_per_mm = 5.0;
-  const mesh::CurvedMesh curved = mesh::curved(mesh_of(wall, is_quadratic));
+  const mesh::CurvedMesh curved = mesh::curved(wall.mesh(order));
   const std::vector<Vec3> x = curved.at_nodes(wall.positions(frame));
   const std::vector<float>& field = wall.quantities.at(opening_quantity)[frame];
   const std::vector<double> values =
       curved.at_nodes(std::vector<double>(field.begin(), field.end()));
-  const drawing::Plane plane = drawing::four_chamber_plane(orientation);
   const auto item = [&](const drawing::WallPatch& patch, bool is_shaded) {
     return drawing::Item{.patch = patch.patch,
                          .paint = drawing::PointValues{patch.at_points(values), scale},
                          .shaded = is_shaded};
   };
-  const drawing::Scene scene{
-      .items = {item(drawing::wall_surface(curved.mesh, x, curved.mesh.epi), true),
-                item(drawing::wall_section(curved.mesh, x, plane), false)},
-      .cut = plane};
-  const drawing::Camera camera = camera_of(wall.reach, orientation);
+  drawing::Scene scene{
+      .items = {item(drawing::wall_surface(curved.mesh, x, curved.mesh.epi), true)}};
+  if (view.opened == Opened::long_axis) {
+    scene.cut = view.cut(orientation);
+    scene.items.push_back(item(drawing::wall_section(curved.mesh, x, *scene.cut), false));
+  }
+  const drawing::Camera camera = camera_of(wall.reach, view.view(orientation));
   const auto pixels = [&](double mm) { return static_cast<int>(std::lround(mm * pixels_per_mm)); };
   const drawing::Image image = drawing::render(
       scene, camera, {.width = pixels(camera.width), .height = pixels(camera.height)});

@@ -2,6 +2,7 @@
 
 #include "lv/drawing/colour_map.hpp"
 #include "lv/drawing/orientation.hpp"
+#include "lv/page/views.hpp"
 #include "lv/page/wall_series.hpp"
 
 #include <filesystem>
@@ -11,8 +12,8 @@
 
 namespace lv::page {
 
-/// The wall as the page opens with it: circumferential strain at end-systole, in the four-chamber
-/// view, cut open. The browser has it before it can draw by itself.
+/// The wall as the page opens with it: circumferential strain at end-systole, in one of its views.
+/// The browser has it before it can draw by itself.
 struct Opening {
   std::string png;        ///< transparent beside the wall; its middle half-way between bottom and
                           ///< top of the reach
@@ -42,9 +43,9 @@ struct Course {
 [[nodiscard]] std::vector<std::optional<std::size_t>> opening_frames(
     const std::vector<Course>& cases);
 
-/// `is_quadratic`: eight consecutive cells are the parts of one element.
-[[nodiscard]] Opening opening(const WallSeries& wall, bool is_quadratic, std::size_t frame,
-                              const drawing::Orientation& orientation,
+/// `order` is that of the wall's elements. The view looks from the side.
+[[nodiscard]] Opening opening(const WallSeries& wall, int order, std::size_t frame,
+                              const NamedView& view, const drawing::Orientation& orientation,
                               const drawing::ColourScale& scale);
 
 }  // namespace lv::page

@@ -6,6 +6,7 @@
 #include "lv/base/nearest.hpp"
 #include "lv/base/table.hpp"
 #include "lv/base/units.hpp"
+#include "lv/drawing/bulls_eye.hpp"
 #include "lv/heartbeat/beat.hpp"
 #include "lv/mesh/cell.hpp"
 #include "lv/page/bundle.hpp"
@@ -15,6 +16,7 @@
 #include "lv/page/packing.hpp"
 #include "lv/page/page_pictures.hpp"
 #include "lv/page/place.hpp"
+#include "lv/page/views.hpp"
 #include "lv/page/wall_series.hpp"
 #include "lv/report/cycle_tables.hpp"
 #include "lv/report/stage_facts.hpp"
@@ -314,11 +316,29 @@ Course course_of(const fs::path& work) {
   return course;
 }
 
-/// What the page opens with: one scale for all cases, and a frame of each.
+/// What the page opens with: one scale and one view for all cases, and a frame of each.
 struct OpeningPlan {
   std::optional<drawing::ColourScale> scale;
   std::vector<std::optional<std::size_t>> frames;
+  std::size_t view = 0;  ///< of `views`
 };
+
+constexpr double never = std::numeric_limits<double>::infinity();
+
+/// The view that a page of these cases opens in, at a frame of each.
+std::size_t view_of(const std::vector<fs::path>& works,
+                    const std::vector<std::optional<std::size_t>>& frames) {
+  std::vector<double> shown(views.size(), 0.0);
+  for (std::size_t i = 0; i < works.size(); ++i) {
+    if (!frames[i])
+      continue;
+    const WallSeries wall = read_wall_series({wall_frames(works[i]).at(*frames[i])}, never);
+    const auto mesh = report::mesh_facts(works[i]).value_or(report::MeshFacts{});
+    const std::vector<double> one = infarct_shown(wall, 0, {.septum_angle = mesh.septum_angle});
+    std::transform(one.begin(), one.end(), shown.begin(), shown.begin(), std::plus<>());
+  }
+  return opening_view(shown);
+}
 
 OpeningPlan opening_plan(const std::vector<PageCase>& cases) {
   std::vector<fs::path> works;
@@ -327,17 +347,18 @@ OpeningPlan opening_plan(const std::vector<PageCase>& cases) {
     works.push_back(shown.work);
     courses.push_back(course_of(shown.work));
   }
-  return {opening_scale(works), opening_frames(courses)};
+  const auto frames = opening_frames(courses);
+  return {opening_scale(works), frames, view_of(works, frames)};
 }
 
 /// Nothing where results or the quantity are missing.
-Json opening_json(const WallSeries& wall, const report::MeshFacts& mesh,
-                  const std::optional<drawing::ColourScale>& scale, std::size_t frame) {
+Json opening_json(const WallSeries& wall, const report::MeshFacts& mesh, const OpeningPlan& plan,
+                  std::size_t frame) {
   const auto found = wall.quantities.find(opening_quantity);
-  if (!scale || found == wall.quantities.end() || found->second.size() != wall.times.size())
+  if (!plan.scale || found == wall.quantities.end() || found->second.size() != wall.times.size())
     return {};
-  const Opening drawn =
-      opening(wall, mesh.order == 2, frame, {.septum_angle = mesh.septum_angle}, *scale);
+  const Opening drawn = opening(wall, mesh.order, frame, views.at(plan.view),
+                                {.septum_angle = mesh.septum_angle}, *plan.scale);
   return {{"png", base64(drawn.png)}, {"width_mm", rounded(drawn.width_mm)}, {"frame", frame}};
 }
 
@@ -358,14 +379,12 @@ Data case_html(const PageCase& shown, int number, const OpeningPlan& plan) {
   const auto blood = frames_of(report::file_of(shown.work, "beat", "blood.pvd"));
   json["has_blood"] = !blood.empty();
   if (const auto frames = wall_frames(shown.work); !frames.empty()) {
-    constexpr double never = std::numeric_limits<double>::infinity();
     const WallSeries wall = read_wall_series(
         frames, report::time_of(shown.work, heartbeat::end_diastole).value_or(never));
     json["wall"] = wall_json(wall, arrays);
     const auto mesh = known_mesh.value_or(report::MeshFacts{});
     json["wall"]["order"] = mesh.order;
-    if (Json first = opening_json(wall, mesh, plan.scale, plan.frames[number].value());
-        !first.is_null())
+    if (Json first = opening_json(wall, mesh, plan, plan.frames[number].value()); !first.is_null())
       json["wall"]["opening"] = std::move(first);
     const LongAxis plane{mesh.septum_angle};  // the four-chamber view's
     const auto [lower, upper] = surroundings(wall, plane);
@@ -405,6 +424,31 @@ Json moments_json() {
   return list;
 }
 
+/// The views of the wall.
+Json views_json() {
+  Json list = Json::array();
+  for (const NamedView& view : views) {
+    Json json{{"name", view.name}, {"azimuth", view.azimuth}, {"elevation", view.elevation}};
+    if (view.opened == Opened::nothing)
+      json["cut"] = {{"kind", "none"}};
+    else if (view.opened == Opened::short_axis)
+      json["cut"] = {{"kind", "short"}};
+    else
+      json["cut"] = {{"kind", "long"}, {"angle", view.plane}};
+    list.push_back(std::move(json));
+  }
+  return list;
+}
+
+/// What the arteries of the 17 segments are called, feed, and where their names stand [deg].
+Json territories_json() {
+  Json list = Json::array();
+  for (const drawing::Territory& t : drawing::coronary_territories())
+    list.push_back(
+        {{"name", t.name}, {"segments", t.sectors}, {"angle", rounded(t.angle / units::degree)}});
+  return list;
+}
+
 /// What beats.csv holds, in its words.
 Json beat_measures_json() {
   Json list = Json::array();
@@ -440,17 +484,20 @@ std::string page(const std::vector<PageCase>& cases, const std::string& version)
     LV_CHECK(at != std::string::npos);
     html.replace(at, mark.size(), data);
   };
+  const OpeningPlan plan = opening_plan(cases);
   Data data{element("about", "application/json",
                     Json{{"version", version},
                          {"cases", cases.size()},
                          {"unlike_moments", unlike_moments(cases)},
                          {"quantities", quantities_json()},
                          {"moments", moments_json()},
+                         {"territories", territories_json()},
+                         {"views", views_json()},
+                         {"opening_view", plan.view},
                          {"infarct", quantity_json(analysis::infarct_extent())},
                          {"beat_measures", beat_measures_json()}}
                         .dump()),
             "", ""};
-  const OpeningPlan plan = opening_plan(cases);
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const Data one = case_html(cases[i], static_cast<int>(i), plan);
     data.summary += one.summary;

@@ -222,6 +222,20 @@ std::vector<Vec3> WallSeries::positions(std::size_t frame) const {
   return x;
 }
 
+mesh::Mesh WallSeries::mesh(int order) const {
+  mesh::Mesh mesh;
+  mesh.kind = kind;
+  mesh.nodes = undeformed;
+  mesh.cells = cells;
+  mesh.epi.nodes_per_face = kind == mesh::CellKind::hexahedron ? 4 : 3;
+  mesh.epi.nodes.assign(skin.nodes.begin(), skin.nodes.end());
+  mesh.endo.nodes_per_face = mesh.base.nodes_per_face = mesh.epi.nodes_per_face;
+  mesh.order = order;
+  mesh.transmural.assign(undeformed.size(), 0.0);
+  mesh.infarct = mesh.transmural;
+  return mesh;
+}
+
 std::vector<TimedFrame> frames_of(const std::filesystem::path& pvd) {
   if (!std::filesystem::exists(pvd))
     return {};

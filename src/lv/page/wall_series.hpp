@@ -44,6 +44,9 @@ struct WallSeries {
 
   /// The nodes at a frame [mm].
   [[nodiscard]] std::vector<Vec3> positions(std::size_t frame) const;
+  /// The undeformed mesh, with all its surface as the epicardium. Of order 2, eight consecutive
+  /// cells are the parts of one quadratic element.
+  [[nodiscard]] mesh::Mesh mesh(int order = 1) const;
 };
 
 /// One file of a ParaView series.

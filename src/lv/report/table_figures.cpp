@@ -4,6 +4,7 @@
 #include "lv/base/nearest.hpp"
 #include "lv/heartbeat/beat.hpp"
 #include "lv/material/stress_stretch.hpp"
+#include "lv/mesh/regions.hpp"
 #include "lv/report/cycle_tables.hpp"
 #include "lv/report/stage_facts.hpp"
 #include "lv/report/work_folder.hpp"
@@ -127,6 +128,21 @@ std::string with_stars(const std::string& footnote, const drawing::Orientation& 
   return footnote + (footnote.empty() || note.empty() ? "" : ". ") + note;
 }
 
+/// What the numbers of the 17 segments mean, and the names of their territories. A segment's number
+/// and name stay in one line.
+std::string segment_note() {
+  std::string names;
+  for (int segment = 1; segment <= 17; ++segment) {
+    std::string name = fmt::format("{} {}", segment, mesh::aha_name(segment));
+    for (std::size_t at = name.find(' '); at != std::string::npos; at = name.find(' '))
+      name.replace(at, 1, "\u00a0");
+    names += (segment == 1 ? "" : ", ") + name;
+  }
+  return names +
+         ". Dark lines part what the left anterior descending (LAD), the right (RCA) and the "
+         "circumflex artery (LCX) usually feed";
+}
+
 /// From the least to the greatest value, rounded outwards to a step that ticks can name, with the
 /// quantity's own floor.
 drawing::ColourScale scale_of(std::vector<double> values, const std::string& quantity) {
@@ -159,8 +175,12 @@ drawing::Panel bulls_eye_panel(const std::string& title, const std::vector<doubl
   drawing::BullsEye plot{.values = values, .scale = scale, .decimals = digits};
   for (std::string& wall : plot.walls)
     wall = orientation.starred(wall, "septum");
-  if (values.size() != 17)
+  if (values.size() == 17) {
+    plot.is_numbered = true;
+    plot.territories = drawing::coronary_territories();
+  } else {
     plot.sectors = drawing::seven_slices();
+  }
   // rings are parts of the way from the base to the apex
   return {.title = orientation.starred(title, {"apex", "base"}), .content = plot};
 }
@@ -321,7 +341,8 @@ drawing::Figure segments_figure(const Table& regions, const drawing::Orientation
                      segment_panel(regions, "active_tension", 1, orientation),
                      segment_panel(regions, "radial_strain", 2, orientation)},
           .title = "end-systole, 17 segments",
-          .footnote = with_stars("Green-Lagrange strain from end-diastole", orientation)};
+          .footnote = with_stars("Green-Lagrange strain from end-diastole. " + segment_note(),
+                                 orientation)};
 }
 
 drawing::Figure bulls_eyes_figure(const Table& regions, const std::string& quantity,
@@ -333,9 +354,9 @@ drawing::Figure bulls_eyes_figure(const Table& regions, const std::string& quant
   const int digits = decimals(scale);
   const std::string label = analysis::label(analysis::quantity(quantity));
   const std::string strain =
-      fmt::format("Green-Lagrange strain from {}", state == heartbeat::end_diastole
-                                                       ? orientation.at_rest()
-                                                       : heartbeat::title(heartbeat::end_diastole));
+      fmt::format("Green-Lagrange strain from {}. ",
+                  state == heartbeat::end_diastole ? orientation.at_rest()
+                                                   : heartbeat::title(heartbeat::end_diastole));
   std::vector<std::string> parts{"septum", "apex", "base"};
   if (state == heartbeat::end_diastole && analysis::quantity(quantity).is_strain)
     parts.emplace_back("early diastole");
@@ -343,7 +364,8 @@ drawing::Figure bulls_eyes_figure(const Table& regions, const std::string& quant
                      bulls_eye_panel("17 segments (AHA)", segments, scale, digits, orientation)},
           .title = fmt::format("{}, mean at {}", label, heartbeat::title(state)),
           .footnote =
-              with_stars(analysis::quantity(quantity).is_strain ? strain : "", orientation, parts),
+              with_stars((analysis::quantity(quantity).is_strain ? strain : "") + segment_note(),
+                         orientation, parts),
           .colour_bar = drawing::ColourBar{label, scale}};
 }
 

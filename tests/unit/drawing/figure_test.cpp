@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <sstream>
 
 namespace {
 
@@ -125,6 +126,39 @@ TEST_CASE("a bull's-eye counts anticlockwise from the top", "[unit][drawing]") {
   CHECK(y[0] / count[0] < 0.25 * p.height);
   CHECK(x[1] / count[1] < 0.4 * p.width);  // anteroseptal: upper left
   CHECK(y[1] / count[1] < 0.5 * p.height);
+}
+
+TEST_CASE("a bull's-eye has its sectors' numbers in them and the arteries' names beside them",
+          "[unit][drawing]") {
+  BullsEye plot = bulls_eye(5.0);
+  plot.decimals = 1;
+  plot.is_numbered = true;
+  plot.territories = coronary_territories();
+  const std::string text = svg(of({.content = plot}));
+  const auto place = [&](const std::string& words) {
+    const std::size_t end = text.find(">" + words + "</text>");
+    REQUIRE(end != std::string::npos);
+    const std::string translate = "translate(";
+    std::istringstream numbers(text.substr(text.rfind(translate, end) + translate.size()));
+    Point at;
+    numbers >> at.x >> at.y;
+    return at;
+  };
+  const Point apex = place("17");
+  const auto away = [&](const std::string& words) {
+    const Point p = place(words);
+    return std::hypot(p.x - apex.x, p.y - apex.y);
+  };
+  CHECK(place("1").y < place("7").y);  // anterior, from the base to the apex
+  CHECK(place("7").y < place("13").y);
+  CHECK(place("13").y < apex.y);
+  CHECK(place("14").x < apex.x);  // septal
+  CHECK(place("16").x > apex.x);  // lateral
+  for (const char* artery : {"LAD", "RCA", "LCX"})
+    CHECK(away(artery) > away("1") + 5.0);
+  CHECK(place("LAD").y < apex.y);
+  CHECK(place("RCA").x < apex.x);
+  CHECK(place("LCX").x > apex.x);
 }
 
 TEST_CASE("a missing point interrupts its curve", "[unit][drawing]") {

@@ -119,7 +119,30 @@ TEST_CASE("both states of a quantity have one scale, and an assumed septum has s
   const Figure ed = report::bulls_eyes_figure(table, "active_tension", "end_diastole", assumed);
   CHECK(ed.colour_bar->scale.max >= 60.0);
   CHECK(std::get<BullsEye>(ed.panels.at(1).content).walls[1] == "septal*");
-  CHECK(ed.footnote == "* assumed: nothing shows it");
+  CHECK_THAT(ed.footnote, Catch::EndsWith(". * assumed: nothing shows it"));
+}
+
+TEST_CASE("17 segments bear their numbers, names and coronary territories", "[report]") {
+  Table table = segments("fibre_strain", -0.2, 0.05);
+  for (const char* quantity : {"fibre_stress", "active_tension", "radial_strain"})
+    for (int i = 0; i < 17; ++i)
+      table.add_row({"end_systole", "aha17", std::to_string(i), quantity, "1", "0.5"});
+  const Figure figure = report::segments_figure(table, {});
+  for (const drawing::Panel& panel : figure.panels) {
+    const auto& plot = std::get<BullsEye>(panel.content);
+    CHECK(plot.is_numbered);
+    std::set<int> fed;
+    for (const drawing::Territory& territory : plot.territories)
+      for (const int i : territory.sectors)
+        CHECK(fed.insert(i).second);
+    CHECK(fed.size() == 17);
+  }
+  CHECK_THAT(figure.footnote,
+             Catch::Contains("1\u00a0basal\u00a0anterior, 2\u00a0basal\u00a0anteroseptal") &&
+                 Catch::Contains("lateral, 17\u00a0apex") && Catch::Contains("right (RCA)"));
+  const Figure both = report::bulls_eyes_figure(segments("J", 0.9, 1.1), "J", "end_systole", {});
+  CHECK_FALSE(std::get<BullsEye>(both.panels.at(0).content).is_numbered);  // seven slices
+  CHECK(std::get<BullsEye>(both.panels.at(1).content).is_numbered);
 }
 
 TEST_CASE("a tension of nearly nothing has no colour, as on the page", "[report]") {
@@ -169,7 +192,7 @@ TEST_CASE("slices hang on apex and base: a figure says which of them was assumed
   const Figure segments_of =
       report::bulls_eyes_figure(segments("J", 0.9, 1.1), "J", "end_systole", assumed);
   CHECK(segments_of.panels.at(1).title == "17 segments (AHA)*");
-  CHECK(segments_of.footnote == "* assumed: not drawn; nothing shows it");
+  CHECK_THAT(segments_of.footnote, Catch::EndsWith(". * assumed: not drawn; nothing shows it"));
   CHECK(chart(report::rotation_figure(table, {})).x.label ==
         "slice, from the base (1) to the apex (7)");
 }
