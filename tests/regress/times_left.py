@@ -110,6 +110,10 @@ def fit(passive, edv="", esv=""):
 
 seen = 'unloaded.pressure = "{} mmHg"\n'.format
 
+def klotz(ed, esv):
+    return seen(ed) + f'protocol.ed_pressure = "{ed} mmHg"\n' + fit("klotz", "", esv)
+
+
 # Lines of each case, the last stage, and whether rules were chosen on it.
 cases = {
     "beat, 14 mm": (quasi_static + elements(14), "beat", True),
@@ -126,8 +130,10 @@ cases = {
     "fit of scale and T_scale, default mesh": (quasi_static + fit("scale", 143, 61), "calibrate", True),
     "fit of C_a and T_scale, thick, 9 mm": (quasi_static + elements(9) + wall(20, 32) + fit("C_a", 130, 60), "calibrate", False),
     "fit of T_scale, 9 mm": (quasi_static + elements(9) + fit("", "", 66), "calibrate", False),
-    "fit to Klotz, 14 mm": (quasi_static + elements(14) + seen(8) + fit("klotz", "", 35), "calibrate", True),
-    "fit to Klotz, default mesh": (quasi_static + seen(8) + fit("klotz", "", 35), "calibrate", False),
+    "fit to Klotz, 14 mm": (quasi_static + elements(14) + klotz(8, 35), "calibrate", True),
+    "fit to Klotz, default mesh": (quasi_static + klotz(8, 35), "calibrate", False),
+    "fit to Klotz, thick, 14 mm": (quasi_static + elements(14) + wall(18, 32) + klotz(12, 26), "calibrate", True),
+    "fit to Klotz, thin, 13 mm": (quasi_static + elements(13) + wall(24, 31) + klotz(10, 62), "calibrate", False),
     "fit of scale and exponent, 12 mm": (quasi_static + elements(12) + fit("scale_and_exponent", 144, 61), "calibrate", True),
     "fit of T_scale, unloaded, 14 mm": (quasi_static + elements(14) + seen(4) + 'protocol.ed_pressure = "4 mmHg"\n' + fit("", "", 40), "calibrate", True),
     "fit of T_scale, unloaded, 9 mm": (quasi_static + elements(9) + seen(6) + 'protocol.ed_pressure = "6 mmHg"\n' + fit("", "", 38), "calibrate", False),

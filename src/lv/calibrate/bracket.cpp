@@ -17,6 +17,7 @@ namespace lv::calibrate {
 namespace {
 
 constexpr double shortest = 1e-2;   // step, of the unknown's logarithm
+constexpr double overshoot = 1.5;   // of a step to where the last two trials let expect the root
 constexpr double narrowest = 1e-7;  // bracket, of the unknown's logarithm
 // volumes of walls that are unloaded anew scatter: a bracket that closes this much farther off, in
 // units of the accuracy, counts as a root
@@ -80,8 +81,16 @@ class Search {
       f_a = *f_b;
       if (f_a == 0.0)
         return std::exp(a);
-      step *= 2.0;
+      step = next_step({a, f_a}, *before);
     }
+  }
+
+  /// Twice the last one, or shorter where the straight line through the last two meets the target:
+  /// the equilibrium of another muscle is dear where it lies far from the last.
+  [[nodiscard]] static double next_step(const Point& now, const Point& before) {
+    const double last = std::abs(now.log_x - before.log_x);
+    const double to_root = last * now.f / (before.f - now.f);
+    return to_root > 0.0 ? std::clamp(overshoot * to_root, 2.0 * shortest, 2.0 * last) : 2.0 * last;
   }
 
   /// The start, or another place that has an equilibrium if that has none.

@@ -59,9 +59,10 @@ class OutOfReach : public InputError {
 /// wall which is unloaded anew for every stiffness: very soft muscle is stretched to where it is
 /// stiff already in the shape that was seen); the root on the side of large values is found, and
 /// the largest volume is named when it is too small. The root is bracketed by growing steps from
-/// the start, then found by TOMS 748 (Alefeld, Potra & Shi, ACM Trans. Math. Softw. 21:327, 1995),
-/// both in the unknown's logarithm. Where that ends at a jump since the wall has two equilibria and
-/// was first in another one than it keeps, the search begins once more on the branch that it keeps.
+/// the start, none longer than half as far again as the last two trials let expect it, then found
+/// by TOMS 748 (Alefeld, Potra & Shi, ACM Trans. Math. Softw. 21:327, 1995), both in the unknown's
+/// logarithm. Where that ends at a jump since the wall has two equilibria and was first in another
+/// one than it keeps, the search begins once more on the branch that it keeps.
 ///
 /// There may be values without an equilibrium, which it keeps clear of; if the start is one, it
 /// starts from half, twice, a quarter or four times of it. Throws OutOfReach with the

@@ -18,7 +18,8 @@ void add_passive(const Plan& plan, bool first, std::vector<FitPart>& parts) {
   if (plan.fits_exponent() && plan.active && far)
     parts.push_back({of_first_tension, {0, 0, 1, 0}, 4.0});
   if (klotz)
-    parts.push_back({of_curve, {1, 2, 0, 0}, !first ? 1.0 : far ? 8.0 : 3.0});
+    parts.push_back(first ? FitPart{of_curve, {1, 2, 0, 0}, far ? 8.0 : 3.0}
+                          : FitPart{of_curve, {0, 3, 0, 0}});
   else if (plan.fits_exponent())
     parts.push_back({of_curve, {5, 7, 0, 0}, first ? 3.0 : 1.0});
 }
@@ -55,7 +56,11 @@ std::vector<FitPart> parts_of(const Plan& plan) {
     const bool has_tension = plan.starts_near || plan.fits_exponent();
     parts.push_back({bracket_of("T_scale"), {0, 0, 1, 0}, has_tension ? 3.0 : 5.0});
     add_passive(plan, false, parts);
-    parts.push_back({bracket_of("T_scale"), {0, 0, 1, 0}});
+    // where the passive muscle is usually left as it was, no wall is unloaded for it again
+    const bool is_kept =
+        plan.passive == FittedPassive::none || plan.passive == FittedPassive::klotz;
+    parts.push_back(
+        {bracket_of("T_scale"), is_kept ? Equilibria{0, 0, 0, 1} : Equilibria{0, 0, 1, 0}});
   }
   const double passive = plan.passive == FittedPassive::none ? 0.0 : 1.0;
   const double exponent = plan.fits_exponent() ? 1.0 : 0.0;

@@ -13,13 +13,13 @@ namespace {
 
 constexpr std::size_t remembered = 5;       // equilibria of each kind
 constexpr double remembered_answer = 1e-3;  // of a fit that was stopped and goes on [s]
-constexpr double trials_before_root = 2.0;  // until it lies between two
+constexpr double curvature = 0.15;          // of ln V in ln x: misfit over the two before it
 constexpr double power_of_nodes = 1.3;      // with which the time of an equilibrium grows
 
 /// What equilibria usually take, in firsts of muscle at rest, in the order of Sought and then the
 /// firsts; of walls that are free of stress, and of those that are unloaded.
 constexpr std::array<std::array<double, 6>, 2> usual{
-    {{0.10, 0.07, 0.09, 0.075, 1.0, 1.6}, {0.50, 0.10, 0.50, 0.06, 1.0, 1.3}}};
+    {{0.10, 0.07, 0.09, 0.075, 1.0, 1.6}, {0.70, 0.13, 0.80, 0.085, 1.0, 2.0}}};
 
 /// Of an even number the lower of the two: what is seldom and long must not tell the rest.
 double lower_median(std::vector<double> values) {
@@ -35,9 +35,11 @@ std::size_t first_of(std::size_t muscle) {
 }  // namespace
 
 void FitForecast::begin_mesh(std::vector<FitPart> parts) {
-  LV_CHECK(seen_.size() < meshes_.size());
-  meshes_[seen_.size()].parts = std::move(parts);
-  seen_.emplace_back();
+  const std::size_t mesh = seen_.size();
+  LV_CHECK(mesh < meshes_.size());
+  meshes_[mesh].parts = std::move(parts);
+  const bool is_same = mesh > 0 && meshes_[mesh].nodes == meshes_[mesh - 1].nodes;
+  seen_.push_back(is_same ? Seen{seen_.back().seconds, {}} : Seen{});
   parts_begun_ = 0;
   each_ = left_ = {};
 }
@@ -70,9 +72,11 @@ void FitForecast::bracket(double misfit, double accuracy) {
     return expect(0.0);
   const auto [low, high] = std::minmax_element(misfits_.begin(), misfits_.end());
   const bool is_between = *low * *high < 0.0;
-  const double digits = std::log(accuracy) / std::log(std::min(smallest, 0.5));
+  const double digits =
+      std::log(curvature * accuracy) / std::log(curvature * std::min(smallest, 1.0));
   const double trials = std::ceil(std::log(digits) / std::log(std::numbers::phi));
-  expect(std::max(1.0, trials) + (is_between ? 0.0 : trials_before_root));
+  const double until_between = is_between ? 0.0 : misfits_.size() > 1 ? 1.0 : 2.0;
+  expect(std::max(1.0, trials) + until_between);
 }
 
 void FitForecast::record(Sought which, double seconds) {

@@ -32,8 +32,9 @@ struct FittedMesh {
 /// How long a fit will still take, on all its walls: the equilibria that are left, each as long as
 /// the last ones of its kind took in the middle on this wall. What was not seen there yet takes
 /// what it took on the wall before, or usually takes, times what was slower or faster here so far;
-/// before anything was, times a power of the number of nodes. The first equilibrium of each muscle
-/// on a wall comes from afar and is a kind of its own.
+/// before anything was, times a power of the number of nodes. The same mesh under another pressure
+/// goes on with what was seen. The first equilibrium of each muscle on a wall comes from afar and
+/// is a kind of its own.
 class FitForecast {
  public:
   explicit FitForecast(std::vector<FittedMesh> meshes) : meshes_(std::move(meshes)) {}
@@ -44,8 +45,10 @@ class FitForecast {
   void begin(const std::string& name);
   /// So many trials of this part are still to come, as it now looks.
   void expect(double trials);
-  /// The same in a bracket, of which these are ln(V/V_target) so far, and the one that ends it:
-  /// once the root lies between two trials, its digits grow by the golden ratio with each.
+  /// The same in a bracket, of which this is the last ln(V/V_target), and the one that ends it:
+  /// once the root lies between two trials, which usually takes two more, each misfit is a usual
+  /// curvature times the product of the two before, so that the digits of curvature times misfit
+  /// grow by the golden ratio with each.
   void bracket(double misfit, double accuracy);
 
   /// An equilibrium was found in so many seconds.

@@ -53,6 +53,14 @@ TEST_CASE("the search asks for few volumes, and none beyond the range", "[calibr
   CHECK(asked < 15);
 }
 
+TEST_CASE("no trial lies far beyond where the last two let expect the root", "[calibrate]") {
+  const auto near = [](double x) {
+    CHECK(x < 1.5 * root);
+    return falling(x);
+  };
+  check_root(find_root(near, from(0.3), target, accuracy));
+}
+
 TEST_CASE("steps to where there is no equilibrium are shortened", "[calibrate]") {
   const auto none_below_root = [](double x) -> Outcome<double> {
     if (x < 0.99 * root)

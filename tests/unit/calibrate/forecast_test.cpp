@@ -123,6 +123,42 @@ TEST_CASE("a fit on a coarse wall says what the finer one will take besides", "[
   CHECK(forecast.seconds_left() == Approx(3.0 * others).epsilon(1e-6));
 }
 
+TEST_CASE("on the same mesh again a fit knows what equilibria take", "[unit][calibrate]") {
+  const std::vector<FitPart> trials{{"trials", {1, 1, 0, 0}, 6.0}};
+  FitForecast forecast({{1000, true, trials}, {1000, true, trials}});
+  const auto begin = [&] {
+    forecast.begin_mesh(trials);
+    forecast.begin("trials");
+  };
+  begin();
+  for (int i = 0; i < 6; ++i) {
+    forecast.record(rests, 1.0);
+    forecast.record(rests_again, 0.1);
+  }
+  CHECK(forecast.seconds_left() == Approx(6.6));
+  begin();
+  forecast.record(rests, 2.0);  // from afar
+  CHECK(forecast.seconds_left() == Approx(5.6));
+  forecast.record(rests_again, 0.4);
+  CHECK(forecast.seconds_left() == Approx(5.5));
+}
+
+TEST_CASE("a fit to Klotz's curve unloads no wall again once it has a tension",
+          "[unit][calibrate]") {
+  Plan plan;
+  plan.passive = FittedPassive::klotz;
+  plan.active = plan.parameters_alone = true;
+  const std::vector<FitPart> parts = parts_of(plan);
+  REQUIRE(parts.back().name == of_result);
+  std::size_t tensions = 0;
+  for (const FitPart& part : parts) {
+    if (tensions > 0)
+      CHECK(part.trials * (part.each[0] + part.each[2]) == 0.0);
+    tensions += part.name == bracket_of("T_scale") ? 1 : 0;
+  }
+  CHECK(tensions == 2);
+}
+
 TEST_CASE("what is seldom and long does not tell the rest of a fit", "[unit][calibrate]") {
   FitForecast forecast({{1000, false, {}}});
   forecast.begin_mesh({{"trials", {1, 0, 0, 0}, 20.0}});
