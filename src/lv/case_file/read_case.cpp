@@ -436,6 +436,8 @@ class CaseReader {
          "prescribes a tension, which knows no time: a cycle takes \"land2017\" (or \"niederer\")");
     together(p.cycle.step <= 0.05 * case_.circulation.period, {"cycle.step", "circulation.period"},
              "must be at most a twentieth of circulation.period");
+    if (p.calcium.Ca_max <= p.calcium.Ca_0 || p.calcium.t_2 <= p.calcium.t_1)
+      return;  // no transient, which is told already
     material::Calcium calcium = p.calcium;
     calcium.mode = material::Calcium::Mode::transient;
     constexpr double most = 0.25;  // of its rise, when the next beat begins it anew

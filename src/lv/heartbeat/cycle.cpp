@@ -234,19 +234,10 @@ void CycleRun::start_from(const BeatBegin& from) {
 }
 
 BeatBegin CycleRun::other_end() const {
-  Archive archive = Archive::read(setup_.begin);
-  const std::size_t nodes = archive.get("wall.now.positions").size() / 3;
-  if (nodes != engine_.state().positions.size())
-    throw InputError(setup_.begin.string(),
-                     fmt::format("is where heartbeats of a wall with {} nodes have ended, and this "
-                                 "one has {}",
-                                 nodes, engine_.state().positions.size()),
-                     "Take that of a run with the same anatomy and elements (cycle.begin)");
-  const std::vector<double> circuit = archive.get_rows("circuit", 1);
-  if (circuit.size() != record_.circuit_states().size())
-    throw InputError(setup_.begin.string(), "is where heartbeats in another circulation have ended",
-                     "Take that of a run with the same circulation.kind (cycle.begin)");
+  Archive archive =
+      read_end_of_beats(setup_.begin, engine_.state().positions.size(), setup_.circuit);
   log::info("beats begin where those of {} have ended", setup_.begin.string());
+  const std::vector<double> circuit = archive.get_rows("circuit", 1);
   return {load_engine(archive.take("wall")), circuit};
 }
 
@@ -500,6 +491,32 @@ Beat run_cycle(const CycleSetup& setup, const std::filesystem::path& folder,
 Outcome<MeasuredBeats> measure_beats(const CycleSetup& setup, const BeatBegin* begin,
                                      const std::filesystem::path& folder) {
   return CycleRun(setup, folder, {}).measure(begin);
+}
+
+Archive read_end_of_beats(const std::filesystem::path& file, std::size_t nodes,
+                          const circulation::CircuitParameters& circuit) {
+  const auto require = [&](bool holds, const std::string& why) {
+    if (!holds)
+      throw InputError(file.string(), why,
+                       "Name the 03_beat/end_of_beats.bin of a run with the same anatomy, elements "
+                       "and circulation.kind (cycle.begin)");
+  };
+  Archive archive;
+  std::size_t nodes_there = 0;
+  std::size_t states_there = 0;
+  try {
+    archive = Archive::read(file);
+    nodes_there = archive.get("wall.now.positions").size() / 3;
+    states_there = archive.get("circuit").size();
+  } catch (const RunError&) {  // whose advice is for a run's own files
+    require(false, "is not where heartbeats have ended, or is damaged");
+  }
+  require(nodes_there == nodes,
+          fmt::format("is where heartbeats of a wall with {} nodes have ended, and this one has {}",
+                      nodes_there, nodes));
+  require(states_there == circulation::Circuit(circuit).states().size(),
+          "is where heartbeats in another circulation have ended");
+  return archive;
 }
 
 void store(const BeatBegin& begin, Archive& archive) {

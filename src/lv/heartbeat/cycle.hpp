@@ -33,6 +33,11 @@ struct CycleSetup {
 /// Where the next beat of a run would begin, beside its checkpoints.
 inline constexpr const char* end_of_beats = "end_of_beats.bin";
 
+/// What another run left there, for a wall with so many nodes in such a circuit. Throws InputError
+/// where it is of others, or no such file.
+[[nodiscard]] Archive read_end_of_beats(const std::filesystem::path& file, std::size_t nodes,
+                                        const circulation::CircuitParameters& circuit);
+
 /// Heartbeats of the wall joined to a circulation: the pressure in the cavity is the multiplier of
 /// V_wall = V_circuit in every step. The wall starts filled to the pressure
 /// before the mitral valve. Beats end when the last has changed no state of the circuit, nor

@@ -172,10 +172,13 @@ void CycleRecord::end_beat() {
   whole_.energy = run_.beat.energy;
   whole_.curves = run_.beat.curves;
   whole_.moments = run_.beat.moments;
+  const auto in_ml = [](double volume) {
+    return std::isnan(volume) ? "none" : fmt::format("{:.1f} ml", 1e-3 * volume);
+  };
   log::info(
-      "beat {}: EDV {:.1f} ml, ESV {:.1f} ml, peak {:.1f} mmHg; it changed the states by {:.2g} of "
-      "themselves at most",
-      beat_, 1e-3 * now.end_diastolic_volume, 1e-3 * now.end_systolic_volume,
+      "beat {}: EDV {}, ESV {}, peak {:.1f} mmHg; it changed the states by {:.2g} of themselves at "
+      "most",
+      beat_, in_ml(now.end_diastolic_volume), in_ml(now.end_systolic_volume),
       now.peak_pressure / mmHg, cycle_.change);
   if (course_.cycle.leap && !done() && of_states > course_.cycle.tolerance)
     leap();
@@ -253,15 +256,13 @@ Beat CycleRecord::result(const Observers& observers) {
   whole_.retries = run_.beat.retries;
   whole_.wall_clock = run_.beat.wall_clock;
   if (whole_.find(end_systole) == nullptr || whole_.find(end_diastole) == nullptr)
-    throw NoSolution(
-        "The aortic valve did not open and close in the last beat, which has no "
-        "end-systole",
-        "Look at cycle.csv: the ventricle does not reach the aorta's pressure, or does "
-        "not relax within a beat");
+    throw NoSolution("the last beat has no end-diastole or no end-systole: " +
+                         circulation::why_incomplete(circulation::samples_of(cycle_, beat_ - 1)),
+                     "Look at cycle.csv");
   if (!cycle_.is_limit)
     log::warn(
-        "no limit cycle after {} beats: the last changed the states by {:.2g} of themselves{}",
-        beat_, cycle_.change,
+        "no limit cycle after {} beat{}: the last changed the states by {:.2g} of themselves{}",
+        beat_, beat_ == 1 ? "" : "s", cycle_.change,
         cycle_.to_come > 0.0 ? fmt::format(", and beats to come would add {:.2g}", cycle_.to_come)
                              : "");
   whole_.cycle = std::move(cycle_);

@@ -70,6 +70,12 @@ heartbeat::Beat make_cycle(const Case& c, const mesh::Mesh& mesh,
       folder, observers);
 }
 
+void check_begin(const Case& c, const mesh::Mesh& mesh) {
+  if (const std::string& begin = c.protocol.cycle.begin; !begin.empty())
+    static_cast<void>(heartbeat::read_end_of_beats(case_file::beside(c, begin), mesh.nodes.size(),
+                                                   c.circulation));
+}
+
 void write_cycle_tables(const circulation::Cycle& cycle, const std::filesystem::path& folder) {
   report::cycle_table(cycle.samples, cycle.columns, cycle.period).write_csv(folder / "cycle.csv");
   report::beats_table(cycle.beats).write_csv(folder / "beats.csv");

@@ -26,6 +26,9 @@ void make_circulation(const case_file::Case& c, const std::filesystem::path& fol
                                          const std::filesystem::path& folder,
                                          const heartbeat::Observers& observers);
 
+/// Throws InputError unless heartbeats of this mesh can begin where those of cycle.begin have ended.
+void check_begin(const case_file::Case& c, const mesh::Mesh& mesh);
+
 /// cycle.csv and beats.csv of heartbeats, and their figures pressure_volume.svg and wiggers.svg,
 /// with calcium and tension from curves.csv where there is a wall.
 void write_cycle_tables(const circulation::Cycle& cycle, const std::filesystem::path& folder);

@@ -67,7 +67,8 @@ class Pipeline {
       log::warn("{}", what);
     for (const std::string& odd :
          {fit_outside_heartbeats(case_), left_handed_fibres(case_), high_filling_pressure(case_),
-          unlike_end_diastole(case_), beating_wall::base_away_from_apex(case_)})
+          high_calcium(case_), unlike_end_diastole(case_),
+          beating_wall::base_away_from_apex(case_)})
       if (!odd.empty())
         log::warn("{}", odd);
     if (const int members = check_study(case_); members > 0)

@@ -29,6 +29,7 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 namespace lv::pipeline {
 namespace {
@@ -84,6 +85,8 @@ std::vector<Warning> warnings_of(const Case& c, const anatomy::Shape& shape, dou
     warnings.push_back({"left-handed fibres", std::move(turned)});
   if (std::string high = high_filling_pressure(c); !high.empty())
     warnings.push_back({"high filling pressure", std::move(high)});
+  if (std::string high = high_calcium(c); !high.empty())
+    warnings.push_back({"high calcium", std::move(high)});
   if (std::string unlike = unlike_end_diastole(c); !unlike.empty())
     warnings.push_back({"another end-diastole", std::move(unlike)});
   if (std::string away = beating_wall::base_away_from_apex(c); !away.empty())
@@ -197,13 +200,26 @@ std::string left_handed_fibres(const Case& c) {
 
 std::string high_filling_pressure(const Case& c) {
   constexpr double most = 40.0 * mmHg;
-  const double p = c.protocol.ed_pressure;
-  if (!case_file::is_set(c, "protocol.ed_pressure", case_file::Stage::results) || p <= most)
+  for (const auto& [name, p] :
+       {std::pair("protocol.ed_pressure", c.protocol.ed_pressure),
+        std::pair("circulation.windkessel.p_ven", c.circulation.windkessel.p_ven)})
+    if (case_file::is_set(c, name, case_file::Stage::results) && p > most)
+      return fmt::format(
+          "{} is {:g} mmHg, more than the left ventricle of a patient is filled with ({:g} mmHg, "
+          "in the worst failure): is its unit right? 1 kPa is 7.5 mmHg",
+          name, p / mmHg, most / mmHg);
+  return "";
+}
+
+std::string high_calcium(const Case& c) {
+  constexpr double most = 10.0;  // [uM]
+  const double peak = c.protocol.calcium.Ca_max;
+  if (!case_file::is_set(c, "calcium.Ca_max", case_file::Stage::results) || peak <= most)
     return "";
   return fmt::format(
-      "protocol.ed_pressure is {:g} mmHg, more than the left ventricle of a patient is filled with "
-      "({:g} mmHg, in the worst failure): is its unit right? 1 kPa is 7.5 mmHg",
-      p / mmHg, most / mmHg);
+      "calcium.Ca_max is {:g} uM, and free calcium in a cell of the heart's muscle rises to about "
+      "1 uM: is its unit right? 1 mM is 1000 uM",
+      peak);
 }
 
 std::string unlike_end_diastole(const Case& c) {
@@ -242,6 +258,7 @@ std::string validate(const Case& c) {
   static_cast<void>(beating_wall::activation_times(c, result));  // which may not fit to the wall
   static_cast<void>(
       beating_wall::base_motion(c, result.mesh));  // whose table may not fit to the beat
+  check_begin(c, result.mesh);
   const double cavity = solid::EndocardialSurface(result.mesh).volume(result.mesh.nodes);
   std::string text = describe_shape(c, *shape, cavity, result.mesh);
   if (const auto targets = cine::strain_targets(c, result.regions); !targets.empty())

@@ -24,9 +24,12 @@ inline constexpr const char* no_parameters =
 /// negative angle here and a positive one in most other programs.
 [[nodiscard]] std::string left_handed_fibres(const case_file::Case& c);
 
-/// What is odd about an end-diastolic pressure that no patient has; empty for others. Experiments
-/// may go there, so it is no mistake.
+/// What is odd about an end-diastolic or venous pressure that no patient has; empty for others.
+/// Experiments may go there, so it is no mistake.
 [[nodiscard]] std::string high_filling_pressure(const case_file::Case& c);
+
+/// The same of a peak of calcium that no heart's muscle has.
+[[nodiscard]] std::string high_calcium(const case_file::Case& c);
 
 /// What is odd about a shape that bears another pressure than the model has at end-diastole, where
 /// it is that of end-diastole or bears more; empty for others. One that bears less may be that of

@@ -8,7 +8,9 @@
 #include "lv/verify/run.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <stdexcept>
@@ -16,56 +18,73 @@
 namespace lv::verify {
 namespace {
 
+/// Which values of a constant make sense.
+struct Rule {
+  bool (*holds)(double);
+  const char* words;
+};
+constexpr Rule any{[](double) { return true; }, ""};
+constexpr Rule positive{[](double x) { return x > 0.0; }, "must be above 0"};
+constexpr Rule not_negative{[](double x) { return x >= 0.0; }, "must be at least 0"};
+constexpr Rule share{[](double x) { return x >= 0.0 && x <= 1.0; }, "must be from 0 to 1"};
+constexpr Rule part{[](double x) { return x >= 0.0 && x < 1.0; }, "must be from 0 to less than 1"};
+constexpr Rule count{[](double x) { return x >= 1.0 && x == std::trunc(x); },
+                     "must be a whole number from 1 on"};
+
 struct Constant {
   double* value;
   const char* unit;
+  Rule rule;
 };
 
 std::map<std::string, Constant> constants_of(ArosticaConstants& c) {
-  return {{"a", {&c.muscle.a, "kPa"}},
-          {"b", {&c.muscle.b, ""}},
-          {"a_f", {&c.muscle.a_f, "kPa"}},
-          {"b_f", {&c.muscle.b_f, ""}},
-          {"a_s", {&c.muscle.a_s, "kPa"}},
-          {"b_s", {&c.muscle.b_s, ""}},
-          {"a_fs", {&c.muscle.a_fs, "kPa"}},
-          {"b_fs", {&c.muscle.b_fs, ""}},
-          {"k", {&c.muscle.k, ""}},
-          {"kappa", {&c.kappa, "kPa"}},
-          {"share_at_points", {&c.share_at_points, ""}},
-          {"eta", {&c.eta, "kPa s"}},
-          {"rho", {&c.rho, "kg/mm^3"}},
-          {"k_epi", {&c.k_epi, "kPa/mm"}},
-          {"c_epi", {&c.c_epi, "kPa s/mm"}},
-          {"facet_edge", {&c.facet_edge, "mm"}},
-          {"k_base", {&c.k_base, "kPa/mm"}},
-          {"c_base", {&c.c_base, "kPa s/mm"}},
-          {"helix_endo", {&c.helix_endo, "rad"}},
-          {"helix_epi", {&c.helix_epi, "rad"}},
-          {"sigma_0", {&c.drive.sigma_0, "kPa"}},
-          {"a_max", {&c.drive.a_max, "1/s"}},
-          {"a_min", {&c.drive.a_min, "1/s"}},
-          {"t_sys", {&c.drive.t_sys, "s"}},
-          {"t_dias", {&c.drive.t_dias, "s"}},
-          {"gamma", {&c.drive.gamma, "s"}},
-          {"sigma_pre", {&c.drive.sigma_pre, "kPa"}},
-          {"sigma_mid", {&c.drive.sigma_mid, "kPa"}},
-          {"alpha_pre", {&c.drive.alpha_pre, "1/s"}},
-          {"alpha_mid", {&c.drive.alpha_mid, "1/s"}},
-          {"t_sys_pre", {&c.drive.t_sys_pre, "s"}},
-          {"t_dias_pre", {&c.drive.t_dias_pre, "s"}},
-          {"edge_length", {&c.edge_length, "mm"}},
-          {"layers", {&c.layers, ""}},
-          {"time_step", {&c.time_step, "s"}},
-          {"end", {&c.end, "s"}},
-          {"spectral_radius", {&c.spectral_radius, ""}}};
+  return {{"a", {&c.muscle.a, "kPa", not_negative}},
+          {"b", {&c.muscle.b, "", positive}},
+          {"a_f", {&c.muscle.a_f, "kPa", not_negative}},
+          {"b_f", {&c.muscle.b_f, "", positive}},
+          {"a_s", {&c.muscle.a_s, "kPa", not_negative}},
+          {"b_s", {&c.muscle.b_s, "", positive}},
+          {"a_fs", {&c.muscle.a_fs, "kPa", not_negative}},
+          {"b_fs", {&c.muscle.b_fs, "", positive}},
+          {"k", {&c.muscle.k, "", positive}},
+          {"kappa", {&c.kappa, "kPa", positive}},
+          {"share_at_points", {&c.share_at_points, "", part}},
+          {"eta", {&c.eta, "kPa s", not_negative}},
+          {"rho", {&c.rho, "kg/mm^3", not_negative}},
+          {"k_epi", {&c.k_epi, "kPa/mm", not_negative}},
+          {"c_epi", {&c.c_epi, "kPa s/mm", not_negative}},
+          {"facet_edge", {&c.facet_edge, "mm", not_negative}},
+          {"k_base", {&c.k_base, "kPa/mm", not_negative}},
+          {"c_base", {&c.c_base, "kPa s/mm", not_negative}},
+          {"helix_endo", {&c.helix_endo, "rad", any}},
+          {"helix_epi", {&c.helix_epi, "rad", any}},
+          {"sigma_0", {&c.drive.sigma_0, "kPa", not_negative}},
+          {"a_max", {&c.drive.a_max, "1/s", any}},
+          {"a_min", {&c.drive.a_min, "1/s", any}},
+          {"t_sys", {&c.drive.t_sys, "s", any}},
+          {"t_dias", {&c.drive.t_dias, "s", any}},
+          {"gamma", {&c.drive.gamma, "s", positive}},
+          {"sigma_pre", {&c.drive.sigma_pre, "kPa", not_negative}},
+          {"sigma_mid", {&c.drive.sigma_mid, "kPa", not_negative}},
+          {"alpha_pre", {&c.drive.alpha_pre, "1/s", any}},
+          {"alpha_mid", {&c.drive.alpha_mid, "1/s", any}},
+          {"t_sys_pre", {&c.drive.t_sys_pre, "s", any}},
+          {"t_dias_pre", {&c.drive.t_dias_pre, "s", any}},
+          {"edge_length", {&c.edge_length, "mm", positive}},
+          {"layers", {&c.layers, "", count}},
+          {"time_step", {&c.time_step, "s", positive}},
+          {"end", {&c.end, "s", positive}},
+          {"spectral_radius", {&c.spectral_radius, "", share}}};
 }
 
 double quantity_of(const std::string& text, const Constant& constant, const std::string& where) {
   try {
     const units::Quantity quantity = units::parse_quantity(text);
-    if (quantity.unit.dimension == units::parse_unit(constant.unit).dimension)
+    if (quantity.unit.dimension == units::parse_unit(constant.unit).dimension) {
+      if (!constant.rule.holds(quantity.value))
+        throw InputError(where, fmt::format("is {}; it {}", text, constant.rule.words), "");
       return quantity.value;
+    }
   } catch (const std::invalid_argument& error) {
     throw InputError(where, error.what(), "Write a number and its unit");
   }
@@ -79,6 +98,15 @@ struct Teams {
   std::vector<ArosticaSample> mean, deviation;
 };
 
+void require_columns(const Table& table, const std::filesystem::path& file,
+                     const std::vector<std::string>& names) {
+  const auto& there = table.columns();
+  for (const std::string& name : names)
+    if (std::find(there.begin(), there.end(), name) == there.end())
+      throw InputError(file.string(), fmt::format("has no column \"{}\"", name),
+                       fmt::format("Its first line names {}", fmt::join(names, ",")));
+}
+
 /// Of one point: every row of a file of the benchmark's.
 std::vector<Vec3> displacements(const Table& table, const std::string& what) {
   const auto x = table.numbers(what + "_x_mm");
@@ -91,8 +119,16 @@ std::vector<Vec3> displacements(const Table& table, const std::string& what) {
 }
 
 Teams read_teams(const std::filesystem::path& folder, const std::string& name) {
-  const Table p0 = Table::read_csv(folder / fmt::format("case_{}_p0.csv", name));
-  const Table p1 = Table::read_csv(folder / fmt::format("case_{}_p1.csv", name));
+  const auto read = [&](const char* point) {
+    const std::filesystem::path file = folder / fmt::format("case_{}_{}.csv", name, point);
+    Table table = Table::read_csv(file);
+    require_columns(
+        table, file,
+        {"t_s", "mean_x_mm", "mean_y_mm", "mean_z_mm", "sd_x_mm", "sd_y_mm", "sd_z_mm"});
+    return table;
+  };
+  const Table p0 = read("p0");
+  const Table p1 = read("p1");
   const std::vector<double> times = p0.numbers("t_s");
   Teams teams;
   for (const auto& [what, to] :
@@ -161,12 +197,12 @@ void solve_case(const ArosticaCase& which, Findings& found) {
   const std::filesystem::path file = found.scratch() / constants_file;
   const bool other = std::filesystem::exists(file);
   const ArosticaConstants constants = other ? ArosticaConstants::read(file) : ArosticaConstants{};
-  const std::vector<ArosticaSample> mine = run_arostica(constants, which.loads);
-  Teams teams;
+  Teams teams;  // before the run, which takes long
   if (!constants.teams.empty())
     teams = read_teams(constants.teams, which.name);
   else if (!other)
     teams.mean = {which.means.begin(), which.means.end()};
+  const std::vector<ArosticaSample> mine = run_arostica(constants, which.loads);
   if (parallel::is_root()) {
     write_histories(found.scratch() / fmt::format("arostica_{}_p0.csv", which.name), mine, teams,
                     &ArosticaSample::p0);
@@ -193,6 +229,7 @@ void solve_case(const ArosticaCase& which, Findings& found) {
 
 ArosticaConstants ArosticaConstants::read(const std::filesystem::path& file) {
   const Table table = Table::read_csv(file);
+  require_columns(table, file, {"constant", "value"});
   const auto names = table.words("constant");
   const auto values = table.words("value");
   ArosticaConstants result;

@@ -342,6 +342,20 @@ TEST_CASE("mistakes are told in the order of their lines, and twenty at most",
   }
 }
 
+TEST_CASE("of calcium without a transient nothing more is told", "[unit][case_file]") {
+  try {
+    (void)case_file::parse_case(
+        "engine = \"quasi_static\"\nprotocol.kind = \"cycle\"\nactive.law = \"land2017\"\n"
+        "circulation.kind = \"windkessel\"\ncalcium.Ca_max = \"0.1 uM\"\n"
+        "calcium.Ca_0 = \"0.1 uM\"\n",
+        "case.toml");
+    FAIL("nothing was refused");
+  } catch (const InputError& error) {
+    CHECK_THAT(error.what(), Catch::Contains("case.toml:5: calcium.Ca_max must be larger") &&
+                                 !Catch::Contains("nan"));
+  }
+}
+
 TEST_CASE("a mesh that is asked for and not made is warned of", "[unit][case_file]") {
   const auto warned = [](const Lines& base, const std::string& name, const std::string& value) {
     return parsed(with(base, name, value)).without_effect;

@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 
 namespace {
 
@@ -282,6 +283,11 @@ TEST_CASE("a run begins where another has ended, if both have the same wall and 
   other.begin = first / heartbeat::end_of_beats;
   CHECK_THROWS_WITH(heartbeat::run_cycle(other, empty_folder("lv_cycle_other"), {}),
                     Catch::Contains("of a wall with"));
+  other.begin = std::filesystem::temp_directory_path() / "lv_cycle_no_end.bin";
+  std::ofstream(other.begin) << "0.1\n";
+  CHECK_THROWS_WITH(heartbeat::run_cycle(other, empty_folder("lv_cycle_other"), {}),
+                    Catch::Contains("is not where heartbeats have ended") &&
+                        !Catch::Contains("Delete"));  // a folder that is the user's
 }
 
 TEST_CASE("a wall in a closed loop leaps to its limit cycle and keeps the loop's blood",

@@ -29,6 +29,20 @@ TEST_CASE("an end-diastole that is not that of the images is warned of", "[unit]
   CHECK(pipeline::unlike_end_diastole(c).empty());
 }
 
+TEST_CASE("pressures and calcium that no heart has are warned of", "[unit][pipeline]") {
+  case_file::Case c;
+  c.circulation.windkessel.p_ven = 12.0 * mmHg;
+  c.origin["circulation.windkessel.p_ven"] = "case.toml:2";
+  CHECK(pipeline::high_filling_pressure(c).empty());
+  c.circulation.windkessel.p_ven = 12.0;  // kPa
+  CHECK_THAT(pipeline::high_filling_pressure(c), Catch::Contains("p_ven is 90.0074 mmHg"));
+  c.protocol.calcium.Ca_max = 0.7;
+  c.origin["calcium.Ca_max"] = "case.toml:3";
+  CHECK(pipeline::high_calcium(c).empty());
+  c.protocol.calcium.Ca_max = 700.0;
+  CHECK_THAT(pipeline::high_calcium(c), Catch::Contains("calcium.Ca_max is 700 uM"));
+}
+
 TEST_CASE("a chamber that contracts after the beat's end is warned of", "[unit][pipeline]") {
   case_file::Case c;
   CHECK(pipeline::chamber_beyond_beat(c).empty());

@@ -1,11 +1,16 @@
 #include "lv/verify/arostica.hpp"
 
+#include "lv/base/check.hpp"
+
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
 #include <array>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <numbers>
+#include <string>
 
 namespace {
 
@@ -65,4 +70,26 @@ TEST_CASE("facets are half as long at the apex as at the base", "[unit][verify]"
   CHECK(wall.facet_edge(on_epicardium(wall, std::numbers::pi, 0.0), 5.0) == Approx(2.5));
   CHECK(wall.facet_edge(on_epicardium(wall, std::acos(wall.epi_cosine), 0.0), 5.0) == Approx(5.0));
   CHECK(wall.facet_edge(on_epicardium(wall, 2.0, 0.0), 5.0) > 2.5);
+}
+
+TEST_CASE("a table of constants takes units, and refuses what makes no sense", "[unit][verify]") {
+  const auto read = [](const std::string& rows, const std::string& head = "constant,value\n") {
+    const auto file = std::filesystem::temp_directory_path() / "lv_arostica_constants.csv";
+    std::ofstream(file) << head << rows;
+    return verify::ArosticaConstants::read(file);
+  };
+  const auto c = read("a_f,20000 Pa\nhelix_endo,-45 deg\nlayers,3\n");
+  CHECK(c.muscle.a_f == Approx(20.0));
+  CHECK(c.helix_endo == Approx(-0.25 * std::numbers::pi));
+  CHECK(c.layers == 3.0);
+  CHECK(c.eta == verify::ArosticaConstants{}.eta);
+  CHECK_THROWS_WITH(read("a_f,20\n"),
+                    Catch::Contains("is no quantity of its kind. Give it in kPa"));
+  CHECK_THROWS_WITH(read("af,20 kPa\n"), Catch::Contains("af: is not one of the benchmark's"));
+  CHECK_THROWS_WITH(read("a_f,-20 kPa\n"),
+                    Catch::Contains("a_f: is -20 kPa; it must be at least 0"));
+  CHECK_THROWS_WITH(read("time_step,0 s\n"), Catch::Contains("must be above 0"));
+  CHECK_THROWS_WITH(read("layers,1.5\n"), Catch::Contains("a whole number"));
+  CHECK_THROWS_WITH(read("share_at_points,1\n"), Catch::Contains("less than 1"));
+  CHECK_THROWS_WITH(read("a,1 kPa\n", "name,value\n"), Catch::Contains("no column \"constant\""));
 }
