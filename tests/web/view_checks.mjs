@@ -32,7 +32,7 @@ export async function checkFitted() {
     ["131.5", "61.25", "1.234", "1.11 / 1.36", "One volume determines"].every((part) => text.includes(part)) && !text.includes("No measured volumes"), text.match(/fitted[^]{0,300}/)?.[0]);
   const letters = await page.locator("#wall text.letter").allTextContents();
   const words = await page.locator("svg.bullseye").first().textContent();
-  check("an assumed septum and apex are starred in the 3-D view and in bull's-eyes, and said first", letters.join() === "S*,A*,L*,I*,apex*" && /septal\*/.test(words) &&
+  check("an assumed septum and apex are starred in the 3-D view and in bull's-eyes, and said first", letters.join() === "S*,A*,L*,I*,apex*" && /septal\*/.test(words) && /LAD\*/.test(words) &&
     /assumed, septum/.test(text), `${letters} ${words}`);
   check("and named in the first sentence", / Assumed: septum, apex\.$/.test(await page.locator(".sentence").innerText()), await page.locator(".sentence").innerText());
   await page.setViewportSize({ width: 390, height: 844 });

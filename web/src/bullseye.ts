@@ -76,9 +76,9 @@ function words(assumed: boolean): SVGElement[] {
       marked(name, assumed)));
 }
 
-function territoryNames(): SVGElement[] {
+function territoryNames(assumed: boolean): SVGElement[] {
   return about.territories.map(({ name, angle }) => svg("text", { x: centre + 137 * Math.cos((angle * Math.PI) / 180),
-    y: centre - 137 * Math.sin((angle * Math.PI) / 180) + 4, "text-anchor": "middle", "font-size": 10, "font-weight": 600, fill: ink.soft }, name));
+    y: centre - 137 * Math.sin((angle * Math.PI) / 180) + 4, "text-anchor": "middle", "font-size": 10, "font-weight": 600, fill: ink.soft }, marked(name, assumed)));
 }
 
 /** Value, and with it the number of an AHA segment. */
@@ -126,7 +126,7 @@ export function drawBullsEye(plot: BullsEye): DrawnBullsEye {
   });
   root.append(...(plot.scheme === "aha17" ? territoryGroups(all, shapes) : shapes));
   root.append(...all.map((place, i) => texts(plot, place, i, shownValues[i], longest)), ...words(plot.assumed),
-    ...(plot.scheme === "aha17" ? territoryNames() : []));
+    ...(plot.scheme === "aha17" ? territoryNames(plot.assumed) : []));
   const ring = svg("path", { class: "live", fill: "none", stroke: "#000", "stroke-width": 3, "pointer-events": "none" });
   const halo = svg("path", { class: "live", fill: "none", stroke: "#fff", "stroke-width": 6, "pointer-events": "none" });
   root.append(halo, ring);

@@ -350,15 +350,19 @@ function between(a: string, b: string, share: number): string {
   return Number.isNaN(mixed) ? a : String(mixed);
 }
 
-/** The row of curves.csv at a moment: moments of heartbeats lie between two rows, and then so do its numbers. */
-export function rowAt(rows: Row[], time: number): Row | undefined {
-  if (!timesOf.has(rows)) timesOf.set(rows, rows.map((row) => value(row.time_s)));
-  const times = timesOf.get(rows)!;
+/** The row at a time: moments of heartbeats lie between two rows, and then so do its numbers. */
+export function rowBetween(rows: Row[], times: number[], time: number): Row | undefined {
   const near = nearest(times, time);
   const next = time > times[near] ? near + 1 : near - 1;
   const share = (time - times[near]) / (times[next] - times[near]);
   if (!(share > 1e-4 && share < 1)) return rows[near];  // it is that row's, or lies beyond all rows
   return Object.fromEntries(Object.entries(rows[near]).map(([name, text]) => [name, between(text, rows[next][name], share)]));
+}
+
+/** The same of curves.csv. */
+export function rowAt(rows: Row[], time: number): Row | undefined {
+  if (!timesOf.has(rows)) timesOf.set(rows, rows.map((row) => value(row.time_s)));
+  return rowBetween(rows, timesOf.get(rows)!, time);
 }
 
 export type { FlowJson };

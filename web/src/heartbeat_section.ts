@@ -1,7 +1,7 @@
 // Heartbeats on a circulation: pressure-volume loops, the Wiggers diagram of the last beat, and the beats' measures.
 import { type Chart, drawChart, type DrawnChart, drawStack, type Line } from "./chart.ts";
 import { lineColours } from "./colours.ts";
-import { type Case, nearest, type Row, value } from "./data.ts";
+import { type Case, type Row, rowBetween, value } from "./data.ts";
 import { el, figure, fileName, folded, section, table } from "./dom.ts";
 import { beatMeasures, label, shown } from "./quantities.ts";
 import type { Shared, Timeline } from "./shared.ts";
@@ -116,8 +116,8 @@ function follow(all: Heartbeats[], loop: DrawnChart, diagrams: DrawnChart[], sha
   const times = all.map((h) => timesIn(h, h.last));
   const mark = () => all.forEach((h, i) => {
     const t = time.time(h.number, shared.state.step) - h.begin;
-    const row = h.last[nearest(times[i], t)];
-    loop.dot(i, Number.isFinite(t) ? value(row.volume_ml) : NaN, value(row.pressure_mmHg));
+    const row = rowBetween(h.last, times[i], t);
+    loop.dot(i, Number.isFinite(t) ? value(row?.volume_ml) : NaN, value(row?.pressure_mmHg));
     diagrams[i].cursor(t);
   });
   shared.onChange((_, changed) => changed.has("step") && mark());

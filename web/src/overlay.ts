@@ -21,7 +21,7 @@ export class Overlay {
   private letters = new Map<string, SVGTextElement>();
   private bar = svg("path", { stroke: ink.text, "stroke-width": 2, fill: "none" });
   private length = svg("text", { "text-anchor": "middle", fill: ink.text, "font-size": 12 }, "20 mm");
-  private star = svg("text", { "text-anchor": "end", fill: ink.text, "font-size": 11 });
+  private star = svg("text", { "text-anchor": "end", fill: ink.text, "font-size": 11, stroke: ink.paper, "stroke-width": 3, "paint-order": "stroke" });
   private legendParts: (width: number) => SVGElement[] = () => [];
   private explained = "";  // by the legend
   private legendWidth = 0;
