@@ -1,6 +1,8 @@
+#include "lv/base/check.hpp"
 #include "lv/segment/segment.hpp"
 
 #include "segment/agreement.hpp"
+#include "segment/variations.hpp"
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
@@ -60,8 +62,7 @@ void blur(image::Cine& cine, double deviation) {
 }
 
 /// A line of the table per moment; what is absent is "-".
-void tell_row(const test::KnownCine& known) {
-  const segment::Segmentation found = segment::segment(known.cine, {}, known.name);
+void tell_found(const test::KnownCine& known, const segment::Segmentation& found) {
   for (const int frame : {known.end_diastole, known.end_systole}) {
     const geometry::Contours drawn =
         segment::contours_at(known.cine, found, static_cast<std::size_t>(frame));
@@ -80,15 +81,39 @@ void tell_row(const test::KnownCine& known) {
   }
 }
 
+void tell_row(const test::KnownCine& known) {
+  try {
+    tell_found(known, segment::segment(known.cine, {}, known.name));
+  } catch (const InputError& error) {
+    fmt::print("{:42} refused: {}\n", known.name, error.what());
+  }
+}
+
+/// A study as it is, and as another scanner would show it.
+void tell_variations(const test::KnownCine& known) {
+  tell_row(known);
+  for (const auto& variations : {test::other_storage(), test::other_images()})
+    for (const test::Variation& variation : variations) {
+      test::KnownCine changed = known;
+      variation.apply(changed);
+      changed.name = variation.name;
+      tell_row(changed);
+    }
+}
+
 int seeds() {
   const char* set = std::getenv("VENTRICLE_SEEDS");
   return set != nullptr ? std::atoi(set) : 3;
 }
 
+void tell_header() {
+  fmt::print("{:42} at fall   volume   Dice pooled  [mm] missed   epi  [mm] muscle\n", "");
+}
+
 }  // namespace
 
 TEST_CASE("a table of what segmentation makes of phantoms and patients", "[.][segment_table]") {
-  fmt::print("{:42} at fall   volume   Dice pooled  [mm] missed   epi  [mm] muscle\n", "");
+  tell_header();
   for (int seed = 1; seed <= seeds(); ++seed)
     for (const double trabeculae : {0.0, 4.0})
       for (const double pixel : {1.0, 1.4, 1.8}) {
@@ -111,4 +136,14 @@ TEST_CASE("a table of what segmentation makes of phantoms and patients", "[.][se
                             test::patient("sunnybrook_SC-HF-I-4", "dicom", 20, 7)})
     if (known)
       tell_row(*known);
+}
+
+TEST_CASE("a table of what segmentation makes of other scanners' images",
+          "[.][segment_variations]") {
+  tell_header();
+  tell_variations(test::phantom_study("phantom 1", test::noisy_scan(1), 0.0));
+  for (const auto& known : {test::patient("sunnybrook_SC-HF-I-1", "cine", 19, 8),
+                            test::patient("sunnybrook_SC-HF-I-4", "dicom", 20, 7)})
+    if (known)
+      tell_variations(*known);
 }
