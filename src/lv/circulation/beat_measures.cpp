@@ -1,9 +1,5 @@
 #include "lv/circulation/beat_measures.hpp"
 
-#include "lv/base/units.hpp"
-
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -154,22 +150,6 @@ BeatMeasures measure_beat(Beat beat) {
                               ? relaxation(beat, fastest_fall, mitral_opens.before)
                               : none;
   return m;
-}
-
-std::string why_incomplete(Beat beat) {
-  if (least(beat, &Signals::aortic_gradient) > 0.0)
-    return "the aortic valve is open all the time: the arteries' pressure is less than that which "
-           "fills the heart, so their resistance or compliance is too small";
-  const double nearest = largest(beat, &Signals::aortic_gradient);
-  if (nearest < 0.0)
-    return fmt::format(
-        "the aortic valve stays closed: the ventricle's pressure is less than the aorta's, by "
-        "{:.3g} mmHg at least",
-        -nearest / units::mmHg);
-  if (least(beat, &Signals::mitral_gradient) > 0.0)
-    return "the mitral valve is open all the time: the pressure that fills the heart is more than "
-           "the ventricle's";
-  return "the ventricle does not relax within a beat";
 }
 
 }  // namespace lv::circulation

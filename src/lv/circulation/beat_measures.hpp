@@ -3,7 +3,6 @@
 #include "lv/circulation/signals.hpp"
 
 #include <span>
-#include <string>
 
 namespace lv::circulation {
 
@@ -33,8 +32,5 @@ struct BeatMeasures {
 
 /// The measures of one beat from samples that begin and end with it.
 [[nodiscard]] BeatMeasures measure_beat(std::span<const Sample> beat);
-
-/// Why such a beat has no end-diastole or no end-systole, by the pressures across its valves.
-[[nodiscard]] std::string why_incomplete(std::span<const Sample> beat);
 
 }  // namespace lv::circulation

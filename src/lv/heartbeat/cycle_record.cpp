@@ -32,6 +32,30 @@ void load_part(const Archive& archive, std::size_t nodes, Beat& beat) {
   beat.energy = load_energy(archive);
 }
 
+/// Why a beat has no end-diastole or no end-systole, by the pressures across its valves.
+std::string why_incomplete(std::span<const Sample> beat) {
+  const auto range = [&](double Signals::*gradient) {
+    const auto [low, high] = std::minmax_element(beat.begin(), beat.end(), [&](auto& a, auto& b) {
+      return a.signals.*gradient < b.signals.*gradient;
+    });
+    return std::pair(low->signals.*gradient, high->signals.*gradient);
+  };
+  const auto [lowest, highest] = range(&Signals::aortic_gradient);
+  const Signals& end = beat.back().signals;
+  if (lowest > 0.0 || (end.aortic_gradient > 0.0 && end.mitral_gradient > 0.0))
+    return "the aortic valve is open while the heart fills: the arteries' pressure is less than "
+           "that which fills it, so their resistance or compliance is too small";
+  if (highest < 0.0)
+    return fmt::format(
+        "the aortic valve stays closed: the ventricle's pressure is less than the aorta's, by "
+        "{:.3g} mmHg at least",
+        -highest / mmHg);
+  if (range(&Signals::mitral_gradient).first > 0.0)
+    return "the mitral valve is open all the time: the pressure that fills the heart is more than "
+           "the ventricle's";
+  return "the ventricle does not relax within a beat";
+}
+
 }  // namespace
 
 CycleRecord::CycleRecord(const CycleCourse& course) : course_(course), circuit_(course.circuit) {
@@ -257,7 +281,7 @@ Beat CycleRecord::result(const Observers& observers) {
   whole_.wall_clock = run_.beat.wall_clock;
   if (whole_.find(end_systole) == nullptr || whole_.find(end_diastole) == nullptr)
     throw NoSolution("the last beat has no end-diastole or no end-systole: " +
-                         circulation::why_incomplete(circulation::samples_of(cycle_, beat_ - 1)),
+                         why_incomplete(circulation::samples_of(cycle_, beat_ - 1)),
                      "Look at cycle.csv");
   if (!cycle_.is_limit)
     log::warn(

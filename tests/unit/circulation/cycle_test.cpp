@@ -229,21 +229,3 @@ TEST_CASE("a ventricle too weak to open the aortic valve has no end-systole",
   CHECK(std::isnan(m.end_systolic_volume));
   CHECK(std::isnan(m.ejection_fraction));
 }
-
-TEST_CASE("why a beat has no end-systole is told by its valves", "[unit][circulation]") {
-  const auto why = [](const CircuitParameters& p) {
-    const Cycle cycle = run_alone(p);
-    const auto beat = samples_of(cycle, static_cast<int>(cycle.beats.size()) - 1);
-    CHECK(std::isnan(measure_beat(beat).end_systolic_volume));
-    return why_incomplete(beat);
-  };
-  CircuitParameters weak = quick(Kind::windkessel);
-  weak.beats = 1;
-  weak.left_ventricle.E_A = 0.1 * elastance;
-  CHECK_THAT(why(weak), Catch::Contains("stays closed"));
-  CircuitParameters run_off = quick(Kind::windkessel);
-  run_off.beats = 3;
-  run_off.windkessel.R_p = 1e-6 * resistance;
-  run_off.start.p_ar_sys = 0.0;
-  CHECK_THAT(why(run_off), Catch::Contains("the aortic valve is open all the time"));
-}

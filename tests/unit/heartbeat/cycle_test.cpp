@@ -290,6 +290,21 @@ TEST_CASE("a run begins where another has ended, if both have the same wall and 
                         !Catch::Contains("Delete"));  // a folder that is the user's
 }
 
+TEST_CASE("why a beat has no end-systole is told by its valves", "[unit][heartbeat]") {
+  const mesh::Mesh mesh = coarsest_wall();
+  CycleSetup setup = quick(mesh);
+  setup.cycle = {.beats = 1, .step = 1e-2};
+  const auto refused = [&](const std::string& why) {
+    CHECK_THROWS_WITH(heartbeat::run_cycle(setup, empty_folder("lv_cycle_incomplete"), {}),
+                      Catch::Contains("no end-systole: the aortic valve " + why));
+  };
+  setup.circuit.start.p_ar_sys = 400.0 * units::mmHg;
+  refused("stays closed");
+  setup.circuit.start.p_ar_sys = 0.0;
+  setup.circuit.windkessel.R_p = 1e-6 * circulation::resistance;
+  refused("is open while the heart fills");
+}
+
 TEST_CASE("a wall in a closed loop leaps to its limit cycle and keeps the loop's blood",
           "[unit][heartbeat]") {
   const mesh::Mesh mesh = coarsest_wall();
