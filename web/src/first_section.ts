@@ -56,6 +56,9 @@ interface Judgement { quantity: string; label: string; value: number; unit: stri
 
 export const judgements = (c: Case): Judgement[] => c.summary?.plausibility ?? [];
 
+/** What is judged of the model's numbers, not of the heart. */
+const ofNumbers = ["base_axial_shift_mm", "wall_volume_mean_percent", "wall_volume_tails_percent"];
+
 export const answerOf = (j: Judgement) => (j.impossible ? "IMPOSSIBLE" : j.answer);
 
 export function rangeOf(j: Judgement, factor = 1): string {
@@ -93,13 +96,16 @@ export function sentence(c: Case): string {
   const s = c.summary;
   if (!s) return `${c.name}: the run has no results yet.`;
   const names = (all: Judgement[]) => all.map((j) => j.label.split(",")[0]).join(", ");
-  const outside = judgements(c).filter((j) => j.answer === "outside" && !j.impossible);
+  const [unsound, outside] = [true, false].map((numbers) => judgements(c).filter((j) => j.answer === "outside" && !j.impossible &&
+    ofNumbers.includes(j.quantity) === numbers));
   const impossible = judgements(c).filter((j) => j.impossible);
   const flags = [impossible.length ? `IMPOSSIBLE: ${names(impossible)}` : "",
-    outside.length ? `outside the usual range: ${names(outside)}` : ""].filter(Boolean);
+    outside.length ? `outside the usual range: ${names(outside)}` : "",
+    unsound.length ? `the computation is less exact than it should be: ${names(unsound)}` : ""].filter(Boolean);
   const ejects = s.esv_ml <= s.edv_ml ? `ejects ${shown(s.edv_ml - s.esv_ml)} of ${shown(s.edv_ml)} ml: an ejection fraction of ${shown(s.ejection_fraction_percent, 2)}%`
     : `does not eject: it holds ${shown(s.edv_ml)} ml at end-diastole and ${shown(s.esv_ml)} ml at end-systole`;
-  return `${c.name} ${ejects}${flags.length ? `; ${flags.join("; ")}` : judgements(c).length ? "; all that is judged is within usual ranges" : ""}.`;
+  const scar = s.infarct?.percent_of_wall;
+  return `${c.name}${scar ? `, with an infarct${c.assumesInfarct ? "*" : ""} of ${shown(scar, 2)}% of the wall,` : ""} ${ejects}${flags.length ? `; ${flags.join("; ")}` : judgements(c).length ? "; all that is judged is within usual ranges" : ""}.`;
 }
 
 export function firstSection(cases: Case[]): HTMLElement {
@@ -112,7 +118,7 @@ export function firstSection(cases: Case[]): HTMLElement {
     : table(name, ["", "model", ...(none ? [] : ["measured"]), "usual", "answer", "origin"], ofOne(cases[0], !none));
   return titled("summary", "Summary", {}, content,
     none ? el("p", { class: "help" }, `No measured volumes: ${several ? "neither case" : "the case"} is ${several ? "" : "not "}fitted to any.`) : undefined,
-    found && el("p", { class: "help" }, "Strain at end-systole is Green-Lagrange, the mean over the wall; measured, the mean over the regions of the images. " +
+    found && el("p", { class: "help" }, `Strain at end-systole is Green-Lagrange, the mean over the wall${none ? "" : "; measured, the mean over the regions of the images"}. ` +
       "Sources of the usual ranges are below."));
 }
 

@@ -15,15 +15,15 @@ export function heartOf(c: Case): Heart {
   return { septum: c.json.septum_deg ?? 0, assumed: c.assumes("septum"), ends: ["apex", "base"].filter((part) => c.assumes(part)) };
 }
 
-/** "* assumed: septum, apex": what the stars of a picture of the wall mean; empty without any. */
-export function starNote(heart: Heart): string {
-  const parts = [...(heart.assumed ? ["septum"] : []), ...heart.ends];
+/** "* assumed: septum, apex": what the stars of a picture of the wall mean, and of more that was assumed; empty without any. */
+export function starNote(heart: Heart, more: string[] = []): string {
+  const parts = [...(heart.assumed ? ["septum"] : []), ...heart.ends, ...more];
   return parts.length ? `* assumed: ${parts.join(", ")}` : "";
 }
 
 /** A column's title, with what was assumed of the anatomy that its regions hang on. */
-export function starredTitle(title: string, heart: Heart): string {
-  const note = starNote(heart);
+export function starredTitle(title: string, heart: Heart, more: string[] = []): string {
+  const note = starNote(heart, more);
   return note ? `${title}* (${note})` : title;
 }
 

@@ -4,7 +4,7 @@ import { barParts, colourBar } from "./bar.ts";
 import type { Scale } from "./colours.ts";
 import { Case, type Scheme, value } from "./data.ts";
 import { el, figure, fileName, folded, missing, section } from "./dom.ts";
-import { heartOf, starNote } from "./orientation.ts";
+import { heartOf, starredTitle } from "./orientation.ts";
 import { label, type Quantity, quantity, shown, stateTitle } from "./quantities.ts";
 import { Shared, statesOf } from "./shared.ts";
 import { regionName } from "./wall_section.ts";
@@ -19,15 +19,13 @@ class Marked {
   clear(): void { this.plots = []; }
 
   draw(c: Case, scheme: Scheme, values: number[], details: string[], scale: Scale, title: string, file: string,
-    barTitle: string): HTMLElement {
+    barTitle: string, assumed: string[] = []): HTMLElement {
     const heart = heartOf(c);
     const names = c.regionNames(scheme);
     const drawn = drawBullsEye({ scheme, names, values, details, scale, title, assumed: heart.assumed,
       pick: (index, fixed) => this.shared.pick(index === undefined ? undefined : { scheme, index }, fixed) });
     this.plots.push({ drawn, scheme });
-    const note = starNote(heart);
-    return figure(note ? `${title}* (${note})` : title, file, drawn.figure,
-      (width) => barParts(scale, barTitle, width));
+    return figure(starredTitle(title, heart, assumed), file, drawn.figure, (width) => barParts(scale, barTitle, width));
   }
 
   mark(): void {
@@ -122,13 +120,15 @@ export function transmurality(c: Case, shared: Shared): HTMLElement | undefined 
   const of = c.regionNames("aha17").map((name) => rows.find((row) => row.segment === name.replace(/^\d+ /, "")));
   const scale: Scale = { min: 0, max: 100, diverging: false, middle: 0, floor: 0.5 };
   const marks = new Marked(shared);
-  const star = c.assumesInfarct ? ["*", "; * assumed: infarct"] : ["", ""];
+  const assumed = c.assumesInfarct ? ["infarct"] : [];
+  const star = c.assumesInfarct ? "*" : "";
   const details = of.map((row) => row
     ? `infarct in ${shown(row.percent_of_segment)}% of the segment, there through ${shown(row.transmurality_percent)}% of the wall` : "no infarct");
   const one = (key: string, title: string, file: string) =>
-    marks.draw(c, "aha17", of.map((row) => row?.[key] ?? 0), details, scale, `${c.name}: ${title}`, fileName(c.name, file), title);
-  const drawn = [one("percent_of_segment", `part of the segment that is infarcted${star[0]} (%${star[1]})`, "infarcted-part"),
-    one("transmurality_percent", `transmurality where it is infarcted${star[0]} (%${star[1]})`, "transmurality")];
+    marks.draw(c, "aha17", of.map((row) => row?.[key] ?? 0), details, scale, `${c.name}: ${title} (%)`, fileName(c.name, file), `${title}${star} (%)`,
+      assumed);
+  const drawn = [one("percent_of_segment", "part of the segment that is infarcted", "infarcted-part"),
+    one("transmurality_percent", "transmurality where it is infarcted", "transmurality")];
   shared.onChange((_, changed) => changed.has("selection") && marks.mark());
-  return el("div", {}, colourBar(scale, `infarct${star[0]} (%${star[1]})`), el("div", { class: "pair" }, ...drawn));
+  return el("div", {}, colourBar(scale, `infarct${star} (%)`), el("div", { class: "pair" }, ...drawn));
 }

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <numeric>
 
 namespace lv::mesh {
 namespace {
@@ -178,38 +179,83 @@ std::vector<double> part_by_extent(const Mesh& mesh) {
   return part;
 }
 
+namespace {
+
+/// A column of the wall, of some layers from endocardium to epicardium.
+struct Column {
+  static constexpr std::size_t layers = 4;
+  std::array<double, layers> wall{}, infarct{};  // [mm^3]
+
+  [[nodiscard]] double total(const std::array<double, layers>& volumes) const {
+    return std::accumulate(volumes.begin(), volumes.end(), 0.0);
+  }
+
+  /// How much of its cross-section is infarcted at any depth. Infarct in several layers fills all
+  /// of it in one of them, for it ends within another; of infarct in one layer nobody knows whether
+  /// it ends across the wall or along it, and it is taken to be all along.
+  [[nodiscard]] double covered() const {
+    double most = 0.0;
+    int touched = 0;
+    for (std::size_t k = 0; k < layers; ++k) {
+      if (!(infarct.at(k) > 0.0))
+        continue;
+      ++touched;
+      most = std::max(most, infarct.at(k) / wall.at(k));
+    }
+    return touched == 1 ? 1.0 : most;
+  }
+};
+
+/// Columns of this size hold elements of all depths [mm].
+double column_size(const Mesh& mesh) {
+  double volume = 0.0;
+  for (int c = 0; c < mesh.cell_count(); ++c)
+    volume += cell_volume(mesh, c);
+  return std::max(5.0, 2.0 * std::cbrt(volume / mesh.cell_count()));
+}
+
+std::size_t layer_of(const Mesh& mesh, int cell) {
+  double t = 0.0;
+  for (const int a : mesh.cell(cell))
+    t += mesh.transmural[a];
+  t /= static_cast<double>(mesh.cell(cell).size());
+  return std::min(Column::layers - 1, static_cast<std::size_t>(Column::layers * std::max(t, 0.0)));
+}
+
+}  // namespace
+
 std::vector<SegmentInfarct> infarct_by_segment(const Mesh& mesh, const std::vector<double>& part,
                                                const Regions& regions,
                                                const RegionParameters& parameters) {
-  constexpr double height = 5.0;                     // of a column [mm]
-  constexpr double width = std::numbers::pi / 18.0;  // [rad]
+  const double size = column_size(mesh);
+  constexpr double usual_radius = 30.0;  // of the wall [mm]
+  const double width = size / usual_radius;
   const auto axis = cavity_axis(mesh, parameters);
-  struct Column {
-    double wall = 0.0, infarct = 0.0;
-  };
   std::map<std::array<int, 3>, Column> columns;
   for (int c = 0; c < mesh.cell_count(); ++c) {
     const Vec3 X = cell_centre(mesh, c);
     const Vec3 r = X - axis(X.z());
-    Column& column = columns[{regions.aha[c], static_cast<int>(std::floor(X.z() / height)),
+    Column& column = columns[{regions.aha[c], static_cast<int>(std::floor(X.z() / size)),
                               static_cast<int>(std::floor(std::atan2(r.y(), r.x()) / width))}];
     const double V = cell_volume(mesh, c);
-    column.wall += V;
-    column.infarct += part[c] * V;
+    const std::size_t layer = layer_of(mesh, c);
+    column.wall.at(layer) += V;
+    column.infarct.at(layer) += part[c] * V;
   }
   std::vector<SegmentInfarct> segments(17);
-  std::vector<double> touched(17, 0.0);
+  std::vector<double> covered(17, 0.0);
   for (int s = 0; s < 17; ++s)
     segments[s].segment = s + 1;
   for (const auto& [key, column] : columns) {
     SegmentInfarct& segment = segments.at(key[0] - 1);
-    segment.wall += column.wall;
-    segment.infarct += column.infarct;
-    if (column.infarct > 0.0)
-      touched[key[0] - 1] += column.wall;
+    const double wall = column.total(column.wall);
+    segment.wall += wall;
+    segment.infarct += column.total(column.infarct);
+    covered[key[0] - 1] += column.covered() * wall;
   }
   for (int s = 0; s < 17; ++s)
-    segments[s].transmurality = touched[s] > 0.0 ? segments[s].infarct / touched[s] : 0.0;
+    segments[s].transmurality =
+        covered[s] > 0.0 ? std::min(1.0, segments[s].infarct / covered[s]) : 0.0;
   return segments;
 }
 

@@ -267,12 +267,21 @@ constexpr std::array<PageFile, 22> page_files{{
     {"strain", "rotation.csv", "strain_rotation.csv"},
 }};
 
+/// A file's text. Throws RunError for JSON that is none: the page could not be drawn.
+std::string text_of(const fs::path& file) {
+  std::string text = read_file(file);
+  if (file.extension() == ".json" && !Json::accept(text))
+    throw RunError(fmt::format("{} is damaged: it is no JSON", file.string()),
+                   "Remove the stage's folder and run the case again");
+  return text;
+}
+
 /// The tables and the summary, as they are on disk.
 Json files_json(const fs::path& work) {
   Json json = Json::object();
   for (const auto& [stage, file, name] : page_files)
     if (const fs::path path = report::file_of(work, stage, file); !path.empty())
-      json[name] = read_file(path);
+      json[name] = text_of(path);
   return json;
 }
 

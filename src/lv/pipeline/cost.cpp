@@ -20,7 +20,7 @@ using case_file::Case;
 constexpr double steps_of_beat = 45.0;
 constexpr double steps_of_unloading = 4.0;
 constexpr double steps_of_fit = 45.0;
-constexpr double steps_of_walls_of_fit = 25.0;
+constexpr double steps_of_walls_of_fit = 10.0;
 constexpr double steps_of_time_step = 0.04;  // in a heartbeat, which keeps its tangents
 constexpr double beats_of_fit = 30.0;        // with sensitivities
 constexpr int many_unknowns = 100'000;       // whose load step takes longer than some seconds

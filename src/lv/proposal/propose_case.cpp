@@ -53,12 +53,12 @@ CaseLine source_line(const char* source, const std::string& comment = "") {
   return {"anatomy.source", case_file::quoted(source), comment};
 }
 
-/// The pressures, which no image shows.
+/// The pressures, which no image shows; left out, so that a run names its defaults as assumed.
 std::vector<CaseLine> pressure_lines() {
   const heartbeat::Protocol p;
   const auto line = [](const char* parameter, double pressure) {
     return CaseLine{parameter, case_file::quoted(fmt::format("{:g} mmHg", pressure / units::mmHg)),
-                    "the default; better the person's own"};
+                    "assumed unless the person's own stands here", false};
   };
   return {line("protocol.ed_pressure", p.ed_pressure),
           line("protocol.es_pressure", p.es_pressure),

@@ -178,6 +178,8 @@ drawing::Panel bulls_eye_panel(const std::string& title, const std::vector<doubl
   if (values.size() == 17) {
     plot.is_numbered = true;
     plot.territories = drawing::coronary_territories();
+    for (drawing::Territory& territory : plot.territories)
+      territory.name = orientation.starred(territory.name, "septum");
   } else {
     plot.sectors = drawing::seven_slices();
   }

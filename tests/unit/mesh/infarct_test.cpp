@@ -498,3 +498,21 @@ TEST_CASE("the infarct of the segments adds up, and its transmurality is that de
   CHECK(sum == Approx(volumes.infarct));
   CHECK(all == Approx(volumes.wall));
 }
+
+TEST_CASE("an infarct through the wall is transmural up to its edges, on any mesh", "[mesh]") {
+  const DescribedInfarct scar{
+      .angle = 30.0 * degree, .width = 100.0 * degree, .top = 0.8, .apex = 0.3};
+  for (const double edge : {7.0, 3.5}) {
+    INFO(edge);
+    Mesh wall =
+        mesh::wall_mesh([e = geometry::Ellipsoid{}](double u, double theta,
+                                                    double t) { return e.point(u, theta, t); },
+                        {.edge_length = edge, .layers = edge > 5.0 ? 2 : 4});
+    const auto part = mark(wall, mesh::described_region(wall, scar, {}), 10.0);
+    for (const auto& s : mesh::infarct_by_segment(wall, part, mesh::divide(wall, {}), {})) {
+      INFO(s.segment);
+      if (s.infarct > 0.1 * s.wall)
+        CHECK(s.transmurality == Approx(1.0).margin(0.1));
+    }
+  }
+}

@@ -87,6 +87,15 @@ TEST_CASE("a page of an empty work folder has its state and no wall", "[page]") 
   CHECK(page.find("\"wall\":") == std::string::npos);
 }
 
+TEST_CASE("a page is not made of a summary that is damaged", "[page]") {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path results = folder / "work" / "04_results";
+  std::filesystem::create_directories(results);
+  write_file(results / "summary.json", "{\n");
+  CHECK_THROWS_WITH(page::page({{folder / "work", true, {}}}, "1"),
+                    Catch::Contains("summary.json is damaged"));
+}
+
 TEST_CASE("a page of a run without results knows its case's name", "[page]") {
   const test::TemporaryFolder folder;
   const std::filesystem::path work = folder / "work";

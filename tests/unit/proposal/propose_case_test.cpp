@@ -72,6 +72,9 @@ TEST_CASE("a case from end-diastole and end-systole takes the loaded shape of en
   const std::string text = proposal::proposed_case(folder / "map.nii", folder / "case.toml");
   CHECK_THAT(text, Contains("# [calibrate]") && Contains("# esv = ") && !Contains("# edv = "));
   CHECK(text.find("engine = ") < text.find("[anatomy]"));
+  // a default that is written out would count as known
+  CHECK_THAT(text,
+             Contains("# ed_pressure = \"8 mmHg\"") && Contains("# es_pressure = \"150 mmHg\""));
 }
 
 TEST_CASE(

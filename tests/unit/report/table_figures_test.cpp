@@ -119,6 +119,7 @@ TEST_CASE("both states of a quantity have one scale, and an assumed septum has s
   const Figure ed = report::bulls_eyes_figure(table, "active_tension", "end_diastole", assumed);
   CHECK(ed.colour_bar->scale.max >= 60.0);
   CHECK(std::get<BullsEye>(ed.panels.at(1).content).walls[1] == "septal*");
+  CHECK(std::get<BullsEye>(ed.panels.at(1).content).territories.at(0).name == "LAD*");
   CHECK_THAT(ed.footnote, Catch::EndsWith(". * assumed: nothing shows it"));
 }
 
