@@ -12,6 +12,7 @@
 #include <map>
 #include <numbers>
 #include <numeric>
+#include <optional>
 
 namespace lv::mesh {
 namespace {
@@ -186,27 +187,42 @@ struct Column {
   static constexpr std::size_t layers = 4;
   std::array<double, layers> wall{}, infarct{};  // [mm^3]
 
-  [[nodiscard]] double total(const std::array<double, layers>& volumes) const {
-    return std::accumulate(volumes.begin(), volumes.end(), 0.0);
+  [[nodiscard]] static double sum(const std::array<double, layers>& volumes, std::size_t first = 0,
+                                  std::size_t last = layers - 1) {
+    return std::accumulate(volumes.begin() + static_cast<std::ptrdiff_t>(first),
+                           volumes.begin() + static_cast<std::ptrdiff_t>(last + 1), 0.0);
   }
 
-  /// How much of its cross-section is infarcted at any depth. Infarct in several layers fills all
-  /// of it in one of them, for it ends within another; of infarct in one layer nobody knows whether
-  /// it ends across the wall or along it, and it is taken to be all along.
-  [[nodiscard]] double covered() const {
-    double most = 0.0;
-    int touched = 0;
-    for (std::size_t k = 0; k < layers; ++k) {
-      if (!(infarct.at(k) > 0.0))
-        continue;
-      ++touched;
-      most = std::max(most, infarct.at(k) / wall.at(k));
-    }
-    return touched == 1 ? 1.0 : most;
+  /// How much of its cross-section is infarcted. Infarct in several layers ends in the depth within
+  /// the first or the last of them, so that the others tell; of infarct in one layer nobody knows
+  /// whether it ends in the depth or along the wall.
+  [[nodiscard]] std::optional<double> covered() const {
+    std::size_t first = layers, last = 0;
+    for (std::size_t k = 0; k < layers; ++k)
+      if (infarct.at(k) > 0.0) {
+        first = std::min(first, k);
+        last = k;
+      }
+    if (first >= last)
+      return {};
+    const auto part = [&](std::size_t from, std::size_t to) {
+      return sum(infarct, from, to) / sum(wall, from, to);
+    };
+    return std::max(part(first, last - 1), part(first + 1, last));
   }
 };
 
-/// Columns of this size hold elements of all depths [mm].
+/// Infarct, and the wall that it takes along the wall [mm^3].
+struct Extent {
+  double infarct = 0.0, wall = 0.0;
+
+  void add(double of_infarct, double of_wall) {
+    infarct += of_infarct;
+    wall += of_wall;
+  }
+};
+
+/// Columns of this size hold elements of all depths, also where these lie aslant [mm].
 double column_size(const Mesh& mesh) {
   double volume = 0.0;
   for (int c = 0; c < mesh.cell_count(); ++c)
@@ -243,19 +259,27 @@ std::vector<SegmentInfarct> infarct_by_segment(const Mesh& mesh, const std::vect
     column.infarct.at(layer) += part[c] * V;
   }
   std::vector<SegmentInfarct> segments(17);
-  std::vector<double> covered(17, 0.0);
+  std::vector<Extent> deep(17), shallow(17);
   for (int s = 0; s < 17; ++s)
     segments[s].segment = s + 1;
   for (const auto& [key, column] : columns) {
     SegmentInfarct& segment = segments.at(key[0] - 1);
-    const double wall = column.total(column.wall);
+    const double wall = Column::sum(column.wall);
+    const double infarct = Column::sum(column.infarct);
     segment.wall += wall;
-    segment.infarct += column.total(column.infarct);
-    covered[key[0] - 1] += column.covered() * wall;
+    segment.infarct += infarct;
+    if (const auto covered = column.covered())
+      deep.at(key[0] - 1).add(infarct, *covered * wall);
+    else if (infarct > 0.0)
+      shallow.at(key[0] - 1).add(infarct, wall);
   }
-  for (int s = 0; s < 17; ++s)
+  for (int s = 0; s < 17; ++s) {
+    Extent extent = deep[s];
+    if (shallow[s].infarct > deep[s].infarct)  // else they are the edges of a deeper infarct
+      extent.add(shallow[s].infarct, shallow[s].wall);
     segments[s].transmurality =
-        covered[s] > 0.0 ? std::min(1.0, segments[s].infarct / covered[s]) : 0.0;
+        extent.wall > 0.0 ? std::min(1.0, extent.infarct / extent.wall) : 0.0;
+  }
   return segments;
 }
 

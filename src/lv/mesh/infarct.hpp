@@ -62,9 +62,9 @@ struct SegmentInfarct {
   double infarct = 0.0;  ///< of the infarcted parts of its elements [mm^3]
   /// Mean part of the wall's thickness that is infarcted where it is infarcted at all: infarcted
   /// volume over the volume of what columns of the wall have of it along the wall. Columns are 5 mm
-  /// high and 5 mm/30 mm (10 degrees) wide, or so large that they hold two elements each way; of
-  /// one that is infarcted at several depths that part of its cross-section counts that is
-  /// infarcted where most of it is, of others all. 0 without infarct.
+  /// high and 5 mm/30 mm (10 degrees) wide, or two elements each way; of one that is infarcted at
+  /// several depths the part of its cross-section counts that is infarcted there, of others all,
+  /// where they hold most of the infarct. 0 without infarct.
   double transmurality = 0.0;
 };
 [[nodiscard]] std::vector<SegmentInfarct> infarct_by_segment(const Mesh& mesh,

@@ -26,7 +26,8 @@ void make_circulation(const case_file::Case& c, const std::filesystem::path& fol
                                          const std::filesystem::path& folder,
                                          const heartbeat::Observers& observers);
 
-/// Throws InputError unless heartbeats of this mesh can begin where those of cycle.begin have ended.
+/// Throws InputError unless heartbeats of this mesh can begin where those of cycle.begin have
+/// ended.
 void check_begin(const case_file::Case& c, const mesh::Mesh& mesh);
 
 /// cycle.csv and beats.csv of heartbeats, and their figures pressure_volume.svg and wiggers.svg,
