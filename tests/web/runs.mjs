@@ -46,12 +46,14 @@ async function pretendFit() {
   writeFileSync(curves, readFileSync(curves, "utf8").split("\n").filter((line, i) => line === "" || i % 9 < 2).join("\n"));  // frames lie between rows
   summary.assumptions = [{ part: "septum", text: "the septum is assumed on the x axis" }, { part: "apex", text: "the apex is continued below the last contour" }];
   summary.unloaded = { pressure_mmHg: 8 };
+  summary.infarct = { volume_ml: 14, mass_g: 14.7, percent_of_wall: 12.3 };
   summary.marks = { edv_ml: "fitted", end_diastole: "computed", "end_diastole.pressure_mmHg": "assumed" };
   const judged = { unit: "%", low: 48, high: 77, source: "a study" };
   summary.plausibility = [
     { quantity: "ejection_fraction_percent", label: "ejection fraction", value: -26, answer: "outside", reason: "it holds more", impossible: true, ...judged },
     { quantity: "apex_rotation_deg", label: "rotation of the apex", value: 30, answer: "outside", reason: "", impossible: false, ...judged },
     { quantity: "circumferential_strain", label: "circumferential strain", value: -0.1, answer: "not applicable", reason: "an infarct", impossible: false, ...judged },
+    { quantity: "wall_volume_tails_percent", label: "change of an element's volume, 1st and 99th percentile", value: 6, answer: "outside", reason: "", impossible: false, ...judged },
     { quantity: "edv_ml", label: "end-diastolic volume", value: 131, answer: "within", reason: "", impossible: false, ...judged }];
   writeFileSync(file, JSON.stringify(summary));
   mkdirSync(join(to, "02b_calibrate"), { recursive: true });
