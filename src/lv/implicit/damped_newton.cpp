@@ -22,4 +22,15 @@ double rms_displacement(const std::vector<double>& correction, std::size_t nodes
   return std::sqrt(sum / static_cast<double>(nodes));
 }
 
+std::span<const double> add(std::span<const double> correction, double by,
+                            std::vector<Vec3>& positions, std::vector<double>& pressures) {
+  std::size_t next = 0;
+  for (Vec3& x : positions)
+    for (int i = 0; i < 3; ++i)
+      x[i] += by * correction[next++];
+  for (double& p : pressures)
+    p += by * correction[next++];
+  return correction.subspan(next);
+}
+
 }  // namespace lv::implicit

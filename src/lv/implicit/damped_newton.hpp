@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -38,6 +39,10 @@ struct [[nodiscard]] NewtonReport {
 
 /// The rms of a correction's first 3 `nodes` components, those of positions [mm].
 [[nodiscard]] double rms_displacement(const std::vector<double>& correction, std::size_t nodes);
+
+/// Adds so much of a correction to positions and then to pressures. What follows in it.
+std::span<const double> add(std::span<const double> correction, double by,
+                            std::vector<Vec3>& positions, std::vector<double>& pressures);
 
 /// Damped Newton with the error-oriented monotonicity test (P. Deuflhard, Newton Methods for
 /// Nonlinear Problems, 2004, algorithm NLEQ-ERR): a step is taken as far as it makes the next

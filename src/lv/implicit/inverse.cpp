@@ -65,12 +65,7 @@ class InverseNewton::Problem {
 
   [[nodiscard]] static Reference moved(Reference z, const std::vector<double>& correction,
                                        double by) {
-    const double* next = correction.data();
-    for (Vec3& X : z.nodes)
-      for (int i = 0; i < 3; ++i)
-        X[i] += by * *next++;
-    for (double& p : z.pressures)
-      p += by * *next++;
+    add(correction, by, z.nodes, z.pressures);
     return z;
   }
 

@@ -57,14 +57,9 @@ class Newton::Problem {
   }
 
   [[nodiscard]] static State moved(State state, const std::vector<double>& correction, double by) {
-    const double* next = correction.data();
-    for (Vec3& x : state.positions)
-      for (int i = 0; i < 3; ++i)
-        x[i] += by * *next++;
-    for (double& p : state.pressures)
-      p += by * *next++;
-    if (next != correction.data() + correction.size())
-      state.cavity_pressure += by * *next;
+    const auto rest = add(correction, by, state.positions, state.pressures);
+    if (!rest.empty())
+      state.cavity_pressure += by * rest.front();
     return state;
   }
 

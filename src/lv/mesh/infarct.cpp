@@ -84,16 +84,20 @@ std::vector<int> healthy_parts(const Mesh& mesh, const Infarcted& infarcted) {
   return part;
 }
 
+/// The transmural coordinate t of a cell's centre.
+double depth_of(const Mesh& mesh, int c) {
+  double t = 0.0;
+  for (const int a : mesh.cell(c))
+    t += mesh.transmural[a];
+  return t / nodes_per_cell(mesh.kind);
+}
+
 }  // namespace
 
 Infarcted infarcted_where(const Mesh& mesh, const Region& inside) {
   Infarcted infarcted;
-  for (int c = 0; c < mesh.cell_count(); ++c) {
-    double t = 0.0;
-    for (const int a : mesh.cell(c))
-      t += mesh.transmural[a];
-    infarcted.push_back(inside(cell_centre(mesh, c), t / nodes_per_cell(mesh.kind)));
-  }
+  for (int c = 0; c < mesh.cell_count(); ++c)
+    infarcted.push_back(inside(cell_centre(mesh, c), depth_of(mesh, c)));
   return infarcted;
 }
 
@@ -222,7 +226,7 @@ struct Extent {
   }
 };
 
-/// Columns of this size hold elements of all depths, also where these lie aslant [mm].
+/// Columns of this size hold two elements each way, or more [mm].
 double column_size(const Mesh& mesh) {
   double volume = 0.0;
   for (int c = 0; c < mesh.cell_count(); ++c)
@@ -231,11 +235,8 @@ double column_size(const Mesh& mesh) {
 }
 
 std::size_t layer_of(const Mesh& mesh, int cell) {
-  double t = 0.0;
-  for (const int a : mesh.cell(cell))
-    t += mesh.transmural[a];
-  t /= static_cast<double>(mesh.cell(cell).size());
-  return std::min(Column::layers - 1, static_cast<std::size_t>(Column::layers * std::max(t, 0.0)));
+  const double t = std::max(depth_of(mesh, cell), 0.0);
+  return std::min(Column::layers - 1, static_cast<std::size_t>(Column::layers * t));
 }
 
 }  // namespace
