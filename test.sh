@@ -13,6 +13,6 @@ case "$1" in
   --quick) select="-L ^(unit|style)$" ;;
   *) select="-LE ^nightly$" ;;
 esac
-# tests that start several ranks say so (PROCESSORS) and run alone
+# Tests that start several ranks say so (PROCESSORS) and run alone; the others run beside each other, so that BLAS needs no threads.
 # shellcheck disable=SC2086
-ctest --test-dir build/release --output-on-failure -j "$(nproc)" $select
+OPENBLAS_NUM_THREADS=1 ctest --test-dir build/release --output-on-failure -j "$(nproc)" $select

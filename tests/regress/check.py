@@ -204,30 +204,38 @@ def different_tables(a, b):
             if not filecmp.cmp(a / name, b / name, shallow=False)]
 
 
-def wait_for(file, seconds=120):
+def wait_for_another(file, written, seconds=120):
+    """Waits until a file is there that was not written at that time [ns]."""
     end = time.time() + seconds
-    while not file.exists() and time.time() < end:
+    while time.time() < end:
+        if file.exists() and file.stat().st_mtime_ns != written:
+            return True
         time.sleep(0.02)
-    return file.exists()
+    return False
 
 
-def check_stop_and_resume(reference, work, stop, code, ranks=1):
-    """Stops a run in its middle, resumes it, and compares with an undisturbed one."""
+def check_stops_and_resume(reference, work, stops, ranks=1):
+    """Stops a run in its middle, once for each (signal, exit code), resumes it to its end, and compares with an undisturbed one."""
     case = work.parent / "often.toml"
     case.write_text((here / "small.toml").read_text().replace('checkpoint_interval = "1 s"',
                                                               'checkpoint_interval = "0.1 s"'))
-    process = subprocess.Popen(command(work, ranks, case), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-    check(f"{stop.name} on {ranks}: a checkpoint is written", wait_for(work / "03_beat.part" / "checkpoint.bin"))
-    time.sleep(1.0)
-    process.send_signal(stop)
-    process.communicate()
-    check(f"{stop.name} on {ranks}: exit code {code}", process.returncode == code, process.returncode)
-    check(f"{stop.name} on {ranks}: nothing looks finished", not (work / "03_beat").exists())
+    checkpoint = work / "03_beat.part" / "checkpoint.bin"
+    resumes = "resumed from the checkpoint"
+    for n, (stop, code) in enumerate(stops):
+        written = checkpoint.stat().st_mtime_ns if n else None
+        process = subprocess.Popen(command(work, ranks, case), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        check(f"{stop.name} on {ranks}: a checkpoint is written", wait_for_another(checkpoint, written))
+        time.sleep(1.0)
+        process.send_signal(stop)
+        told = process.communicate()[0]
+        check(f"{stop.name} on {ranks}: exit code {code}", process.returncode == code, process.returncode)
+        check(f"{stop.name} on {ranks}: nothing looks finished", not (work / "03_beat").exists())
+        check(f"{stop.name} on {ranks}: began where the stop before it left off", n == 0 or resumes in told, told)
     resumed = run(work, ranks, case)
-    check(f"{stop.name} on {ranks}: the next run resumes", resumed.returncode == 0 and "resumed from the checkpoint" in resumed.stdout,
+    check(f"stopped on {ranks}: the next run resumes", resumed.returncode == 0 and resumes in resumed.stdout,
           resumed.stdout + resumed.stderr)
     different = different_tables(reference, work)
-    check(f"{stop.name} on {ranks}: the resumed run gives the same tables", not different, different)
+    check(f"stopped on {ranks}: the resumed run gives the same tables", not different, different)
     check_outputs(work)
 
 
@@ -273,8 +281,7 @@ def check_one(folder):
         check_examples(undisturbed)
         check_documents(undisturbed)
         check_stages(undisturbed)
-        check_stop_and_resume(undisturbed, folder / "killed", signal.SIGKILL, -signal.SIGKILL)
-        check_stop_and_resume(undisturbed, folder / "terminated", signal.SIGTERM, 130)
+        check_stops_and_resume(undisturbed, folder / "stopped", [(signal.SIGKILL, -signal.SIGKILL), (signal.SIGTERM, 130)])
         check_moved(undisturbed)
     check_unloading(folder / "unloaded")
     check_documents(folder / "unloaded")
@@ -288,7 +295,7 @@ def check_two(folder):
     check("a beat runs", done.returncode == 0, done.stdout + done.stderr)
     if done.returncode == 0:
         check_ranks(undisturbed, folder / "two_ranks")
-        check_stop_and_resume(folder / "two_ranks", folder / "stopped_on_two", signal.SIGINT, 130, ranks=2)
+        check_stops_and_resume(folder / "two_ranks", folder / "stopped_on_two", [(signal.SIGINT, 130)], ranks=2)
     check_one_rank(folder)
     check_same_bits(folder)
 

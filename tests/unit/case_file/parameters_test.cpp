@@ -218,6 +218,16 @@ work::Ingredients record(const Case& c, Stage stage) {
   return work::ingredients(c, stage, files);
 }
 
+/// What is told of a case for each stage before its results.
+template <class Told>
+auto by_stage(const Case& c, const Told& told) {
+  std::map<Stage, decltype(told(c, Stage::mesh))> result;
+  for (const Stage stage : case_file::all_stages)
+    if (stage < Stage::results)
+      result.emplace(stage, told(c, stage));
+  return result;
+}
+
 }  // namespace
 
 TEST_CASE("every parameter says what it means, and its default is a value that may be written",
@@ -372,24 +382,27 @@ TEST_CASE("a mesh that is asked for and not made is warned of", "[unit][case_fil
 
 TEST_CASE("the record of a stage changes with whatever the stage sees, and with nothing else",
           "[unit][case_file]") {
-  for (const Lines& base : bases())
+  for (const Lines& base : bases()) {
+    const Case before = parsed(base);
+    const auto records = by_stage(before, record);
+    const auto seen_before = by_stage(before, seen);
     for (const Parameter& p : case_file::parameters()) {
       if (base.contains(p.name) || *p.words != '\0' || p.text == case_file::Text::perhaps_path)
         continue;  // choices change which parameters count; what may name a file is one
-      const Case before = parsed(base);
       if (!refusal(base, p.name, other_value(p, before)).empty())
         continue;
       const Case after = parsed(with(base, p.name, other_value(p, before)));
-      for (const Stage stage : case_file::all_stages) {
-        if (!case_file::has_stage(before, stage) || stage >= Stage::results)
+      for (const auto& [stage, recorded] : records) {
+        if (!case_file::has_stage(before, stage))
           continue;
         INFO(p.name << ", stage " << lv::stage_names.at(static_cast<std::size_t>(stage)));
-        const bool sees = seen(before, stage) != seen(after, stage);
+        const bool sees = seen_before.at(stage) != seen(after, stage);
         const bool may_differ = sees && p.changes_results;
         if (p.text != case_file::Text::path)  // whose files count, not their names
-          CHECK(may_differ == (record(before, stage) != record(after, stage)));
+          CHECK(may_differ == (recorded != record(after, stage)));
       }
     }
+  }
 }
 
 TEST_CASE("that a parameter is set is in the record of the stages that may ask, and of no other",
@@ -401,6 +414,7 @@ TEST_CASE("that a parameter is set is in the record of the stages that may ask, 
   CHECK(untried.size() >= 3);
   for (const Lines& base : bases()) {
     const Case silent = parsed(base);
+    const auto records = by_stage(silent, record);
     for (const Parameter& p : case_file::parameters()) {
       const bool may_be_said = !base.contains(p.name) && counts_only(p, silent).empty() &&
                                refusal(base, p.name, p.get(silent)).empty();
@@ -410,15 +424,13 @@ TEST_CASE("that a parameter is set is in the record of the stages that may ask, 
       CHECK_FALSE(is_set(silent, p.name, Stage::results));
       CHECK(is_set(said, p.name, Stage::results));
       CHECK(record(silent, Stage::results) != record(said, Stage::results));
-      for (const Stage stage : case_file::all_stages) {
-        if (stage >= Stage::results)
-          continue;
+      for (const auto& [stage, recorded] : records) {
         const bool is_remark = p.remark_whether_set.contains(stage);
         const bool may_ask = counts(p, silent, stage) && (p.whether_set_counts || is_remark);
         INFO(p.name << ", stage " << lv::stage_names.at(static_cast<std::size_t>(stage)));
-        CHECK(may_ask == (record(silent, stage) != record(said, stage)));
+        CHECK(may_ask == (recorded != record(said, stage)));
         if (is_remark)
-          CHECK(work::fingerprint_of_result(record(silent, stage)) ==
+          CHECK(work::fingerprint_of_result(recorded) ==
                 work::fingerprint_of_result(record(said, stage)));
         if (may_ask)
           untried.erase(p.name);
