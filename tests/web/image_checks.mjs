@@ -2,9 +2,9 @@
 import { spawnSync } from "node:child_process";
 import { existsSync, readFileSync, readdirSync } from "node:fs";
 import { join } from "node:path";
-import { root } from "./browser.mjs";
+import { root, settled } from "./browser.mjs";
 import { checkAccessible, checkDownloads, checkOpening } from "./page_checks.mjs";
-import { check, close, csv, dot, folder, images, nothingAsked, number, open, setSlider, work } from "./setting.mjs";
+import { check, close, csv, dot, folder, images, nothingAsked, number, open, rimPixels, saved, setSlider, work } from "./setting.mjs";
 
 const vector = (row, name, end) => ["x", "y", "z"].map((axis) => Number(row[`${name}_${axis}${end}`]));
 
@@ -115,6 +115,60 @@ async function checkGaps(page) {
     (await path.locator("text").allTextContents()).filter((word) => ["ED", "ES"].includes(word)).length === 2);
 }
 
+/** The infarct's border on the wall beside where its M, coloured by two colours that meet at 0.5, changes from one to the other. */
+async function checkBorderOnWall(page) {
+  const shoot = async () => {
+    await settled(page);
+    return page.locator("canvas.wall").evaluate((canvas) => {
+      const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d");
+      copy.drawImage(canvas, 0, 0);
+      return { width: canvas.width, height: canvas.height, data: [...copy.getImageData(0, 0, canvas.width, canvas.height).data] };
+    });
+  };
+  const { width, height, data } = await shoot();
+  await page.selectOption("#wall select >> nth=0", "infarct");
+  for (const [name, value] of [["lowest colour", 0.4999], ["highest colour", 0.5001]])
+    await page.getByLabel(name).evaluate((input, to) => { input.value = to; input.dispatchEvent(new Event("change")); }, value);
+  const M = (await shoot()).data;
+  const key = await page.locator("#wall .legend").textContent();
+  await page.selectOption("#wall select >> nth=0", "circumferential_strain");
+  const rims = [];
+  for (let i = 0; i < data.length; i += 4) if ([0, 1, 2].every((d) => Math.abs(data[i + d] - 26) < 2)) rims.push(i / 4);
+  const reach = 4;  // [pixels]
+  const isBetween = (at) => {
+    let [more, less] = [false, false];
+    for (let y = Math.floor(at / width) - reach; y <= Math.floor(at / width) + reach; ++y)
+      for (let x = (at % width) - reach; x <= (at % width) + reach; ++x) {
+        if (y < 0 || y >= height) continue;
+        const [r, g, b] = M.slice(4 * (y * width + x), 4 * (y * width + x) + 3);
+        if (r > 1.6 * b && g > 1.6 * b) more = true;  // yellow
+        if (b > 1.2 * r && r > 1.2 * g) less = true;  // violet
+      }
+    return more && less;
+  };
+  const right = rims.filter(isBetween).length;
+  check("the infarct's border is drawn on the wall where M is 0.5", rims.length > 200 && right > 0.95 * rims.length, `${right} of ${rims.length}`);
+  check("and not where M itself is shown", !/border/.test(key), key);
+}
+
+/** What goes around the infarct in pictures and bull's-eyes of strain. */
+async function checkBorder(page) {
+  await checkBorderOnWall(page);
+  check("its line has its name in the legend", /border of the infarct/.test(await page.locator("#wall .legend").textContent()));
+  const { bytes } = await saved(page, page.locator("#wall button.save").first());
+  check("and is in a saved picture", await rimPixels(page, bytes) > 200);
+  const eyes = await page.locator("#regions figure").evaluateAll((all) => all.map((one) => ({ caption: one.querySelector("figcaption").textContent, line: one.querySelector("path.infarct")?.getAttribute("d") ?? "",
+    regions: [...one.querySelectorAll("[data-index]")].map((shape) => shape.getAttribute("aria-label")).filter((name) => name.endsWith(", infarcted")).map((name) => name.split(": ")[0]) })));
+  const { infarct_segments: segments } = JSON.parse(readFileSync(join(images, "04_results/summary.json"), "utf8"));
+  const wrong = eyes.filter(({ regions }) => regions.every((name) => /^\d+ /.test(name))).flatMap(({ regions }) => segments.filter(({ segment, percent_of_segment: percent }) =>
+    Math.abs(percent - 25) > 8 && (percent > 25) !== regions.some((name) => name.replace(/^\d+ /, "") === segment)));
+  check("bull's-eyes of strain have a line around the segments a quarter of which is infarcted, and their captions say so",
+    eyes.length === 4 && eyes.every(({ caption, line, regions }) => line.length > 100 && regions.length > 0 && /white line: around regions/.test(caption)) && wrong.length === 0, JSON.stringify({ eyes, wrong }));
+  const heads = await page.locator("#regions h3").allTextContents();
+  check("their headings say which state strain is from", heads.join() === "circumferential strain at end-diastole, from early diastole*, assumed,circumferential strain at end-systole, from end-diastole" ||
+    heads.join() === "circumferential strain at end-diastole, from early diastole,circumferential strain at end-systole, from end-diastole", heads.join());
+}
+
 /** Figures that the run itself wrote, without a browser. */
 export function checkFigures() {
   const figures = (run) => readdirSync(join(run, "05_report/figures")).filter((name) => name.endsWith(".svg"));
@@ -132,10 +186,13 @@ export async function checkImages() {
   await checkOutlines(page);
   await checkStrain(page);
   await checkGaps(page);
+  const details = await page.locator("#details").innerText();
+  check("no table has a load for a time, nor numbers below any meaning", !/no time|\b0\.000|\de−/.test(details), details.match(/.*(no time|\b0\.000|\de−).*/)?.[0]);
+  await checkBorder(page);
   await checkDownloads(page, images);
   check("a page with images: no error, no network", said.length === 0 && nothingAsked(asked), said.join("\n"));
   await done();
-  await checkOpening("images.html", 1);  // in the view that shows the phantom's infarct
+  await checkOpening("images.html", 1, true);  // in the view that shows the phantom's infarct
 }
 
 /** A wall that lies in none of the images beside it. */

@@ -53,7 +53,7 @@ async function pretendFit() {
     { quantity: "ejection_fraction_percent", label: "ejection fraction", value: -26, answer: "outside", reason: "it holds more", impossible: true, ...judged },
     { quantity: "apex_rotation_deg", label: "rotation of the apex", value: 30, answer: "outside", reason: "", impossible: false, ...judged },
     { quantity: "circumferential_strain", label: "circumferential strain", value: -0.1, answer: "not applicable", reason: "an infarct", impossible: false, ...judged },
-    { quantity: "wall_volume_tails_percent", label: "change of an element's volume, 1st and 99th percentile", value: 6, answer: "outside", reason: "", impossible: false, ...judged },
+    { quantity: "wall_volume_tails_percent", label: "change of an element's volume, 1st and 99th percentile", value: 6, answer: "outside", reason: "", impossible: false, of: "computation", ...judged },
     { quantity: "edv_ml", label: "end-diastolic volume", value: 131, answer: "within", reason: "", impossible: false, ...judged }];
   writeFileSync(file, JSON.stringify(summary));
   mkdirSync(join(to, "02b_calibrate"), { recursive: true });

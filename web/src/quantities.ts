@@ -51,5 +51,8 @@ export function shown(x: number | null | undefined, digits = 3): string {
   return text.replaceAll("-", "−");
 }
 
+/** What is below any meaning is zero. */
+export const nothingBelow = (least: number, x: number | null | undefined) => (typeof x === "number" && Math.abs(x) < least ? 0 : x);
+
 /** A sentence of a file as a printer sets it: "±" for "+-", "²" for "^2", minus signs before numbers. */
 export const typeset = (text: string) => text.replaceAll("+-", "±").replaceAll("^2", "²").replace(/(^|[\s(])-(?=\d)/g, "$1−");

@@ -7,7 +7,7 @@ import { transmurality } from "./regions_section.ts";
 import { heartOf, starredTitle } from "./orientation.ts";
 import type { Shared } from "./shared.ts";
 import { healthyAdults, healthySubject, type MeanSd, paper, patient, volunteers } from "./published.ts";
-import { label, quantities, quantity, shown, stateTitle, typeset, volumeAt } from "./quantities.ts";
+import { label, nothingBelow, quantities, quantity, shown, stateTitle, typeset, volumeAt } from "./quantities.ts";
 
 const pm = (x: MeanSd | undefined) => (x ? `${shown(x.mean)} ± ${shown(x.sd, 2)}` : "–");
 /** As it is printed. */
@@ -29,7 +29,7 @@ const momentsOf = (c: Case) => Object.keys(c.summary.whole_wall ?? {});
 function flat(json: any, prefix: string): [string, string][] {
   if (json !== null && typeof json === "object")
     return Object.entries(json).flatMap(([key, inner]) => flat(inner, prefix ? `${prefix}.${key}` : key));
-  return [[prefix, json === null ? "–" : String(json)]];
+  return [[prefix, typeof json === "string" ? json : wordOrNumber(json === null ? "" : String(json))]];
 }
 
 /** "computed", or "fitted / computed" where the columns differ. */
@@ -38,21 +38,21 @@ const marks = (c: Case, ...paths: string[]) => [...new Set(paths.map((path) => c
 function stateTable(c: Case): HTMLElement {
   const moments = momentsOf(c);
   const names = ["early_diastole", ...moments];
-  const row = (title: string, key: string, digits = 4) => [title, ...names.map((name) => shown(c.summary[name]?.[key], digits)),
+  const row = (title: string, key: string, digits = 4, nothing = 0) => [title, ...names.map((name) => shown(nothingBelow(nothing, c.summary[name]?.[key]), digits)),
     marks(c, ...names.map((name) => `${name}.${key}`))];
   const measured = moments.map((name) => shown(measuredVolume(c, volumeAt(name)), 4));
   return table(fileName(c.name, "states"), ["", ...names.map((name) => c.momentTitle(name)), "origin"], [
-    row(c.isLoaded ? "load (no time)" : "time (s)", "time_s"), row("endocardial pressure (mmHg)", "pressure_mmHg"), row("cavity volume (ml)", "cavity_volume_ml"),
+    ...(c.isLoaded ? [] : [row("time (s)", "time_s")]), row("endocardial pressure (mmHg)", "pressure_mmHg"), row("cavity volume (ml)", "cavity_volume_ml"),
     ["measured cavity volume (ml)", "–", ...measured, "measured"],
     row("wall volume (ml)", "wall_volume_ml"), row("endocardial apex z (mm)", "apex_endo_z_mm"),
     row("epicardial apex z (mm)", "apex_epi_z_mm"), row("radius of the endocardium at the base (mm)", "base_endo_radius_mm"),
-    row("largest axial shift of the base (mm)", "base_axial_shift_mm", 2)]);
+    row("largest axial shift of the base (mm)", "base_axial_shift_mm", 2, 1e-3)]);
 }
 
 function plausibilityTable(c: Case): HTMLElement | undefined {
   const all = judgements(c);
   return all.length === 0 ? undefined : table(fileName(c.name, "plausibility"), ["figure", "value", "usual", "answer", "why, source"], all.map((j) =>
-    [j.label, `${shown(j.value)}${j.unit === "1" ? "" : j.unit === "deg" ? "°" : ` ${j.unit}`}`, rangeOf(j), answerOf(j), typeset([j.reason, j.source].filter(Boolean).join("; "))]));
+    [j.label, `${shown(nothingBelow(j.low === null || j.high === null ? 0 : 1e-3 * (j.high - j.low), j.value))}${j.unit === "1" ? "" : j.unit === "deg" ? "°" : ` ${j.unit}`}`, rangeOf(j), answerOf(j), typeset([j.reason, j.source].filter(Boolean).join("; "))]));
 }
 
 function runTable(c: Case): HTMLElement {

@@ -3,7 +3,7 @@ import type { Scale } from "./colours.ts";
 import { type Case, rowAt, type Scheme, type Series, value } from "./data.ts";
 import { el, fileName, missing, overlaidPng, savePng, titled } from "./dom.ts";
 import { Fibres } from "./fibres.ts";
-import { cutName, heartOf, isAt, looks, openingLook, openingReason, sideName } from "./orientation.ts";
+import { cutName, heartOf, isAt, looks, openingLook, openingReason, sideName, starNote } from "./orientation.ts";
 import { Overlay } from "./overlay.ts";
 import { infarct, label, quantities, quantity, shown } from "./quantities.ts";
 import { type Cut, scaleOf, Shared, type Timeline } from "./shared.ts";
@@ -21,6 +21,9 @@ function slider(title: string, min: number, max: number, step: number, unit: str
   const show = (x: number) => { input.value = String(x); output.textContent = `${x} ${unit}`; };
   return { element: el("label", {}, title, input, output), show };
 }
+
+/** "strain from end-diastole"; empty of other quantities. */
+const strainSince = (c: Case, name: string, time: number) => [c.since(name, time)].filter(Boolean).map((words) => `strain ${words}`).join();
 
 export const regionName = (c: Case, scheme: Scheme, index: number) => c.regionNames(scheme)[index] ?? `${index + 1}`;
 
@@ -41,7 +44,7 @@ class Panel {
       return;
     }
     this.view = new WallView(c.wall, heartOf(c), room);
-    this.overlay = new Overlay(this.view);
+    this.overlay = new Overlay(this.view, starNote(this.view.heart, c.assumesInfarct ? ["infarct"] : []));
     const { opening } = c.wall;
     if (opening && opening.frame === time.frame(number, time.start)) {
       this.opening = el("img", { class: "opening", alt: "", src: `data:image/png;base64,${opening.png}` });
@@ -131,8 +134,10 @@ class Panel {
     const [q, scale] = [quantity(state.quantity), this.scale()];
     const has = q === infarct || this.c.wall!.quantities.includes(q.name);
     const lines = [this.c.name, this.moment(state.step), cutName(state.cut) + this.side, ...(has ? [] : [`${q.title} is not in this case's frames`]),
-      this.c.sinceAssumed(q.name, this.time.time(this.number, state.step))].filter(Boolean);
-    this.overlay!.write(lines, scale, q === infarct && this.c.assumesInfarct ? `${label(q)}* (* assumed)` : label(q));
+      strainSince(this.c, q.name, this.time.time(this.number, state.step))].filter(Boolean);
+    const star = this.c.assumesInfarct ? "*" : "";
+    const hasBorder = this.c.json.wall!.infarct && q !== infarct;
+    this.overlay!.write(lines, scale, q === infarct ? label(q) + star : label(q), hasBorder ? `border of the infarct${star}` : "");
     this.view.canvas.setAttribute("aria-label", `The wall in 3-D, ${label(q)}: ${lines.join("; ")}. Arrow keys turn it.`);
   }
 
