@@ -41,28 +41,29 @@ function sides(scheme: Scheme): number[] {
   return Array.from({ length: rings + 1 }, (_, ring) => radius - ((radius - inner) * ring) / rings);
 }
 
-/** The line between regions that are outlined and others, in pieces of a degree: sides of all sectors lie at whole degrees. */
+/** The line between regions that are outlined and others, in pieces of 15 degrees: where sides of sectors lie. */
 function outlineOf(scheme: Scheme, outlined: boolean[]): string {
+  const piece = 15;
   const rings = sectorsPerRing[scheme];
   const r = sides(scheme);
   const first = rings.map((_, ring) => rings.slice(0, ring).reduce((sum, count) => sum + count, 0));
   const isIn = (ring: number, degrees: number) => {
     if (ring < 0) return false;
     const count = rings[ring];
-    const sector = Math.round((degrees + 0.5 - 90) / (360 / count));
+    const sector = Math.round((degrees + 0.5 * piece - 90) / (360 / count));
     return outlined[first[ring] + (((sector % count) + count) % count)];
   };
   const at = (distance: number, degrees: number) => {
     const a = (degrees * Math.PI) / 180;
     return `${(centre + distance * Math.cos(a)).toFixed(2)} ${(centre - distance * Math.sin(a)).toFixed(2)}`;
   };
-  const pieces: string[] = [];
+  let line = "";
   for (let ring = 0; ring < rings.length; ++ring)
-    for (let d = 0; d < 360; ++d) {
-      if (isIn(ring, d) !== isIn(ring - 1, d)) pieces.push(`M${at(r[ring], d)}L${at(r[ring], d + 1)}`);
-      if (isIn(ring, d) !== isIn(ring, d - 1)) pieces.push(`M${at(r[ring], d)}L${at(r[ring + 1], d)}`);
+    for (let d = 0; d < 360; d += piece) {
+      if (isIn(ring, d) !== isIn(ring - 1, d)) line += `M${at(r[ring], d)}A${r[ring]} ${r[ring]} 0 0 0 ${at(r[ring], d + piece)}`;
+      if (isIn(ring, d) !== isIn(ring, d - piece)) line += `M${at(r[ring], d)}L${at(r[ring + 1], d)}`;
     }
-  return pieces.join("");
+  return line;
 }
 
 interface Place { d: string; ring: number; middle: number; r: number; whole: boolean }

@@ -207,7 +207,7 @@ export class Wall {
   /** Number of the region that each cell lies in, from 0. */
   region(scheme: Scheme): Int16Array | undefined { return this.regions[scheme]; }
 
-  /** Whether a quarter or more of each region's cells is infarcted; undefined without an infarct. */
+  /** Whether a quarter or more of each region is infarcted, by the mean of M over its cells; undefined without an infarct. */
   infarctedRegions(scheme: Scheme): boolean[] | undefined {
     const [M, regions, n] = [this.infarct, this.regions?.[scheme], this.nodesPerCell];
     if (!M || !regions) return undefined;
@@ -215,9 +215,9 @@ export class Wall {
     const [cells, infarcted] = [new Array<number>(all).fill(0), new Array<number>(all).fill(0)];
     regions.forEach((region, c) => {
       ++cells[region];
-      if (this.cells.subarray(n * c, n * (c + 1)).reduce((sum, node) => sum + M[node], 0) > 0.5 * n) ++infarcted[region];
+      for (let i = n * c; i < n * (c + 1); ++i) infarcted[region] += M[this.cells[i]] / n;
     });
-    return infarcted.map((count, region) => count >= 0.25 * cells[region] && count > 0);
+    return infarcted.map((sum, region) => sum > 0 && sum >= 0.25 * cells[region]);
   }
 }
 
