@@ -207,7 +207,7 @@ export class Wall {
   /** Number of the region that each cell lies in, from 0. */
   region(scheme: Scheme): Int16Array | undefined { return this.regions[scheme]; }
 
-  /** Whether a quarter or more of each region is infarcted, by the mean of M over its cells; undefined without an infarct. */
+  /** Whether more than half of each region is infarcted, by the mean of M over its cells; undefined without an infarct. */
   infarctedRegions(scheme: Scheme): boolean[] | undefined {
     const [M, regions, n] = [this.infarct, this.regions?.[scheme], this.nodesPerCell];
     if (!M || !regions) return undefined;
@@ -217,7 +217,7 @@ export class Wall {
       ++cells[region];
       for (let i = n * c; i < n * (c + 1); ++i) infarcted[region] += M[this.cells[i]] / n;
     });
-    return infarcted.map((sum, region) => sum > 0 && sum >= 0.25 * cells[region]);
+    return infarcted.map((sum, region) => sum > 0.5 * cells[region]);
   }
 }
 

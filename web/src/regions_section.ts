@@ -4,7 +4,7 @@ import { barParts, colourBar } from "./bar.ts";
 import type { Scale } from "./colours.ts";
 import { Case, type Scheme, value } from "./data.ts";
 import { el, figure, fileName, folded, missing, section } from "./dom.ts";
-import { heartOf, starNote } from "./orientation.ts";
+import { heartOf, marked, starNote } from "./orientation.ts";
 import { label, type Quantity, quantity, shown, stateTitle } from "./quantities.ts";
 import { Shared, statesOf } from "./shared.ts";
 import { regionName } from "./wall_section.ts";
@@ -62,6 +62,9 @@ const since = (c: Case, q: Quantity, state: string) => c.since(q.name, c.timeOf(
 const heading = (cases: Case[], q: Quantity, state: string) =>
   [`${label(q)} at ${stateTitle(state)}`, [...new Set(cases.map((c) => since(c, q, state)).filter(Boolean))].join(" or ")].filter(Boolean).join(", ");
 
+/** What goes around regions of a bull's-eye; before the word "infarct". */
+const outlineWords = (outlined: boolean[]) => outlined.some(Boolean) ? "white line: around regions more than half of which is" : "no region is more than half";
+
 function readOut(cases: Case[], shared: Shared): string {
   const { selection } = shared.state;
   if (!selection) return "";
@@ -92,10 +95,9 @@ export function bullsEyeSection(cases: Case[], shared: Shared, scaleNow: () => S
     ? el("div", { class: "pair" }, ...(["aha17", "sector"] as const).map((scheme) => {
       const { values, details } = means(c, q, state, scheme);
       const outlined = c.wall?.infarctedRegions(scheme);
-      const star = c.assumesInfarct ? "*" : "";
       const title = [`${c.name}: ${q.title} at ${stateTitle(state)}`, since(c, q, state), schemeTitle[scheme]].filter(Boolean).join(", ");
-      return marks.draw(c, scheme, values, details, scale, title + (outlined ? `; white line: around regions a quarter or more of which is infarct${star}` : ""),
-        fileName(c.name, q.name, state, scheme), `${label(q)}, mean of the region`, { outlined, assumed: outlined && star ? ["infarct"] : [] });
+      return marks.draw(c, scheme, values, details, scale, title + (outlined ? `; ${outlineWords(outlined)} ${marked("infarct", c.assumesInfarct)}` : ""),
+        fileName(c.name, q.name, state, scheme), `${label(q)}, mean of the region`, { outlined, assumed: outlined && c.assumesInfarct ? ["infarct"] : [] });
     }))
     : missing(`${c.name}: regions.csv is missing, so there are no regional means.`);
   const refresh = () => {

@@ -4,7 +4,7 @@ import { el, fileName, folded, missing, paperSwitch, perCase, save, section, tab
 import { calibration, measuredVolume } from "./calibration_section.ts";
 import { answerOf, judgements, rangeOf } from "./first_section.ts";
 import { transmurality } from "./regions_section.ts";
-import { heartOf, starredTitle } from "./orientation.ts";
+import { heartOf, marked, starredTitle } from "./orientation.ts";
 import type { Shared } from "./shared.ts";
 import { healthyAdults, healthySubject, type MeanSd, paper, patient, volunteers } from "./published.ts";
 import { label, nothingBelow, quantities, quantity, shown, stateTitle, typeset, volumeAt } from "./quantities.ts";
@@ -120,8 +120,9 @@ export function normalSection(cases: Case[]): HTMLElement {
 
 function scarTable(c: Case): Node | undefined {
   const rows: any[] = c.summary?.infarct_segments ?? [];
+  const infarct = marked("infarct", c.assumesInfarct);
   return rows.length ? table(fileName(c.name, "infarct-segments"),
-    [starredTitle("infarcted segment (AHA)", heartOf(c)), "infarct (ml)", "infarct (g)", "part of the segment (%)", "transmurality (%)"], rows.map((s) =>
+    [starredTitle("infarcted segment (AHA)", heartOf(c)), `${infarct} (ml)`, `${infarct} (g)`, "part of the segment (%)", "transmurality (%)"], rows.map((s) =>
       [s.segment, ...["infarct_ml", "infarct_g", "percent_of_segment", "transmurality_percent"].map((key) => shown(s[key]))])) : undefined;
 }
 
