@@ -5,7 +5,7 @@ import { colourOf, inkOn, type Scale } from "./colours.ts";
 import { sectorsPerRing, type Scheme } from "./data.ts";
 import { ink, svg, uniqueId } from "./dom.ts";
 import { marked } from "./orientation.ts";
-import { shown } from "./quantities.ts";
+import { nothingBelow, shown } from "./quantities.ts";
 
 export interface BullsEye {
   scheme: Scheme;
@@ -134,7 +134,7 @@ export function drawBullsEye(plot: BullsEye): DrawnBullsEye {
   root.append(svg("defs", {}, svg("pattern", { id, width: 6, height: 6, patternUnits: "userSpaceOnUse", patternTransform: "rotate(45)" },
     svg("rect", { width: 6, height: 6, fill: "#d9d9d9" }), svg("rect", { width: 2, height: 6, fill: "#9a9a9a" }))));
   const all = places(plot.scheme);
-  const shownValues = plot.values.map((x) => shown(x, 2));
+  const shownValues = plot.values.map((x) => shown(nothingBelow(0.1 * plot.scale.floor, x), 2));
   const longest = shownValues.reduce((most, text) => Math.max(most, text.length), 0);
   const focus = (index: number) => {
     shapes.forEach((shape, i) => shape.setAttribute("tabindex", i === index ? "0" : "-1"));

@@ -29,7 +29,7 @@ void main() {
   if (v > none.x && v < none.y) colour = uncoloured;
   colour = mix(colour, vec3(0.80, 0.62, 0.58), plain);
   if (flatLight < 0.5) colour *= 0.55 + 0.45 * abs(normalize(n).z);
-  float off = abs(m - 0.5) / max(length(vec2(dFdx(m), dFdy(m))), 1e-6) / pixel;
+  float off = abs(m - 0.5) / max(length(vec2(dFdx(m), dFdy(m))), 1e-6) / max(pixel, 1.0);
   if (bordered > 0.5 && off < 1.8) colour = vec3(off < 0.8 ? 1.0 : 0.1);
   float away = (1.0 - c) / max(fwidth(c), 1e-6) / pixel;
   if (choosing > 0.5 && c < 0.9999) {
