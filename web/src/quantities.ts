@@ -47,7 +47,7 @@ export function shown(x: number | null | undefined, digits = 3): string {
   if (x === null || x === undefined || Number.isNaN(x)) return "–";
   if (Math.abs(x) < rounding) return "0";
   const text = Math.abs(x) >= 1e5 || Math.abs(x) < 1e-3 ? x.toPrecision(digits)
-    : x.toFixed(Math.max(0, digits - 1 - Math.floor(Math.log10(Math.abs(x) || 1))));
+    : x.toFixed(Math.max(0, digits - 1 - Math.floor(Math.log10(Math.abs(Number(x.toPrecision(digits)))))));
   return text.replaceAll("-", "−");
 }
 

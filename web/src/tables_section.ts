@@ -9,10 +9,12 @@ import type { Shared } from "./shared.ts";
 import { healthyAdults, healthySubject, type MeanSd, paper, patient, volunteers } from "./published.ts";
 import { label, nothingBelow, quantities, quantity, shown, stateTitle, typeset, volumeAt } from "./quantities.ts";
 
-const pm = (x: MeanSd | undefined) => (x ? `${shown(x.mean)} ± ${shown(x.sd, 2)}` : "–");
+const pm = (x: MeanSd | undefined, least = 0) => (x ? `${shown(nothingBelow(least, x.mean))} ± ${shown(nothingBelow(least, x.sd), 2)}` : "–");
 /** As it is printed. */
 const printed = (x: MeanSd | undefined) => (x ? `${x.mean} ± ${x.sd}`.replace("-", "−") : "–");
-const ofRow = (row: Row | undefined): string => (row && row.mean !== "" ? pm({ mean: value(row.mean), sd: value(row.sd) }) : "–");
+const ofRow = (row: Row | undefined, least = 0): string => (row && row.mean !== "" ? pm({ mean: value(row.mean), sd: value(row.sd) }, least) : "–");
+/** What of a quantity is below any meaning: a tenth of what has no colour. */
+const leastOf = (name: string) => 0.1 * quantity(name).floor;
 
 const known = ["case", "program", "resolution", "early_diastole", "edv_ml", "esv_ml", "stroke_volume_ml", "mass_g",
   "ejection_fraction_percent", "strain", "whole_wall", "fibre_shortening_percent",
@@ -76,7 +78,7 @@ function detailsOf(c: Case): (Node | undefined)[] {
     el("h3", {}, "Whole wall, mean ± standard deviation"),
     table(fileName(c.name, "whole-wall"), ["quantity", ...momentsOf(c).map(stateTitle), "origin"], quantities
       .filter((q) => momentsOf(c).some((state) => s.whole_wall?.[state]?.[q.name])).map((q) => [label(q),
-        ...momentsOf(c).map((state) => pm(s.whole_wall?.[state]?.[q.name])), marks(c, "whole_wall")])),
+        ...momentsOf(c).map((state) => pm(s.whole_wall?.[state]?.[q.name], leastOf(q.name))), marks(c, "whole_wall")])),
     el("p", { class: "help" }, `Strain: ${s.strain ?? "not stated"}.`),
     el("h3", {}, "Run"), runTable(c),
     ...Object.keys(s).filter((key) => ![...known, ...momentsOf(c), ...steadyKeys(c)].includes(key)).map((key) =>
@@ -131,7 +133,7 @@ export function zoneSection(cases: Case[], shared: Shared): HTMLElement {
   if (cases.every((c) => !c.regionNames("zone").length))
     return folded("zones", title, cases.some((c) => c.regions.length) ? "There is no infarct." : "regions.csv is missing: there are no results yet.");
   const names = ["active_tension", "fibre_stress", "fibre_stress_passive", "fibre_strain", "circumferential_strain", "longitudinal_strain", "radial_strain"];
-  const cells = (row: Row | undefined) => row ? [ofRow(row), shown(value(row.p1)), shown(value(row.p50)), shown(value(row.p99))] : ["–", "–", "–", "–"];
+  const cells = (row: Row | undefined, least: number) => row ? [ofRow(row, least), ...["p1", "p50", "p99"].map((name) => shown(nothingBelow(least, value(row[name]))))] : ["–", "–", "–", "–"];
   return section("zones", title,
     "Per AHA segment the part of it that is infarcted, and the transmurality: the part of the wall's thickness that the infarct takes where it is, be that little of the segment. Distributions at end-systole over the infarct (M = 1), " +
     "its border zone (0 < M < 1) and remote muscle (M = 0), from regions.csv; on request with the means the paper gives for its patient.", paperSwitch(),
@@ -142,7 +144,7 @@ export function zoneSection(cases: Case[], shared: Shared): HTMLElement {
       return [transmurality(c, shared), table(fileName(c.name, "zones"), ["quantity, zone", "volume (ml)", "mean ± sd", "1%", "median", "99%", "paper's patient"],
         names.flatMap((name) => zones.map((zone) => {
           const row = c.row("end_systole", "zone", zone, name);
-          return [`${label(quantity(name))}, ${zone}`, shown(value(row?.volume_ml)), ...cells(row),
+          return [`${label(quantity(name))}, ${zone}`, shown(value(row?.volume_ml)), ...cells(row, leastOf(name)),
             printed(patient[zone as "remote"]?.[name])];
         })), [6]), scarTable(c)];
     }));
