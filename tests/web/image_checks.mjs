@@ -2,9 +2,9 @@
 import { spawnSync } from "node:child_process";
 import { existsSync, readFileSync, readdirSync } from "node:fs";
 import { join } from "node:path";
-import { root } from "./browser.mjs";
+import { root, settled } from "./browser.mjs";
 import { checkAccessible, checkDownloads, checkOpening } from "./page_checks.mjs";
-import { check, close, csv, dot, folder, images, nothingAsked, number, open, setSlider, work } from "./setting.mjs";
+import { check, close, csv, dot, folder, images, nothingAsked, number, open, rimPixels, saved, setSlider, work } from "./setting.mjs";
 
 const vector = (row, name, end) => ["x", "y", "z"].map((axis) => Number(row[`${name}_${axis}${end}`]));
 
@@ -115,6 +115,66 @@ async function checkGaps(page) {
     (await path.locator("text").allTextContents()).filter((word) => ["ED", "ES"].includes(word)).length === 2);
 }
 
+/** The canvas's pixels, kept in the browser. */
+async function kept(page) {
+  await settled(page);
+  return page.locator("canvas.wall").evaluateHandle((canvas) => {
+    const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d");
+    copy.drawImage(canvas, 0, 0);
+    return copy.getImageData(0, 0, canvas.width, canvas.height);
+  });
+}
+
+/** The rims of the infarct's border, and how many of their pixels lie within 4 pixels of both yellow and violet in a picture of M. */
+const onBorder = (page, strain, M) => page.evaluate(([{ data, width, height }, { data: m }]) => {
+  const reach = 4;
+  let [rims, right] = [0, 0];
+  for (let i = 0; i < data.length; i += 4) {
+    if (![0, 1, 2].every((d) => Math.abs(data[i + d] - 26) < 2)) continue;
+    ++rims;
+    const [x0, y0] = [(i / 4) % width, Math.floor(i / 4 / width)];
+    let [yellow, violet] = [false, false];
+    for (let y = Math.max(0, y0 - reach); y <= Math.min(height - 1, y0 + reach); ++y)
+      for (let k = 4 * (y * width + x0 - reach); k <= 4 * (y * width + x0 + reach); k += 4) {
+        yellow ||= m[k] > 1.6 * m[k + 2] && m[k + 1] > 1.6 * m[k + 2];
+        violet ||= m[k + 2] > 1.2 * m[k] && m[k] > 1.2 * m[k + 1];
+      }
+    if (yellow && violet) ++right;
+  }
+  return { rims, right };
+}, [strain, M]);
+
+/** The infarct's border on the wall, beside its M coloured by two colours that meet at 0.5. */
+async function checkBorderOnWall(page) {
+  const strain = await kept(page);
+  await page.selectOption("#wall select >> nth=0", "infarct");
+  for (const [name, value] of [["lowest colour", 0.4999], ["highest colour", 0.5001]])
+    await page.getByLabel(name).evaluate((input, to) => { input.value = to; input.dispatchEvent(new Event("change")); }, value);
+  const { rims, right } = await onBorder(page, strain, await kept(page));
+  check("the infarct's border is drawn on the wall where M is 0.5", rims > 200 && right > 0.95 * rims, `${right} of ${rims}`);
+  const key = await page.locator("#wall .legend").textContent();
+  check("and not where M itself is shown", !/border/.test(key), key);
+  await page.selectOption("#wall select >> nth=0", "circumferential_strain");
+}
+
+/** What goes around the infarct in pictures and bull's-eyes of strain. */
+async function checkBorder(page) {
+  await checkBorderOnWall(page);
+  check("its line has its name in the legend", /border of the infarct/.test(await page.locator("#wall .legend").textContent()));
+  const { bytes } = await saved(page, page.locator("#wall button.save").first());
+  check("and is in a saved picture", await rimPixels(page, bytes) > 200);
+  const eyes = await page.locator("#regions figure").evaluateAll((all) => all.map((one) => ({ caption: one.querySelector("figcaption").textContent, line: one.querySelector("path.infarct")?.getAttribute("d").length ?? 0,
+    regions: [...one.querySelectorAll("[data-index]")].map((shape) => shape.getAttribute("aria-label")).filter((name) => name.endsWith(", infarcted")).map((name) => name.split(": ")[0]) })));
+  const { infarct_segments: segments } = JSON.parse(readFileSync(join(images, "04_results/summary.json"), "utf8"));
+  const wrong = eyes.filter(({ caption }) => caption.includes("AHA")).flatMap(({ regions }) => segments.filter(({ segment, percent_of_segment: percent }) =>
+    (percent < 20 || percent > 50) && (percent > 50) !== regions.some((name) => name.replace(/^\d+ /, "") === segment)));
+  check("bull's-eyes of strain have a line around the segments more than half of which is infarcted, and their captions say so",
+    eyes.length === 4 && eyes.every(({ caption, line, regions }) => line > 100 && regions.length > 0 && /white line: around regions/.test(caption)) && wrong.length === 0, JSON.stringify({ eyes, wrong }));
+  const heads = await page.locator("#regions h3").allTextContents();
+  check("their headings say which state strain is from", heads.join() === "circumferential strain at end-diastole, from early diastole*, assumed,circumferential strain at end-systole, from end-diastole" ||
+    heads.join() === "circumferential strain at end-diastole, from early diastole,circumferential strain at end-systole, from end-diastole", heads.join());
+}
+
 /** Figures that the run itself wrote, without a browser. */
 export function checkFigures() {
   const figures = (run) => readdirSync(join(run, "05_report/figures")).filter((name) => name.endsWith(".svg"));
@@ -132,10 +192,17 @@ export async function checkImages() {
   await checkOutlines(page);
   await checkStrain(page);
   await checkGaps(page);
+  const details = await page.locator("#details").innerText();
+  check("no table has a load for a time, nor numbers below any meaning", !/no time|\b0\.000|\de−/.test(details), details.match(/.*(no time|\b0\.000|\de−).*/)?.[0]);
+  await checkBorder(page);
+  await page.setViewportSize({ width: 390, height: 844 });
+  const wide = await page.locator("#summary .table, #zones .table").evaluateAll((all) => all.filter((one) => one.scrollWidth > one.clientWidth + 1).map((one) => one.innerText.slice(0, 60)));
+  check("on a phone the tables of numbers and infarct fit", wide.length === 0, wide.join("; "));
+  await page.setViewportSize({ width: 1000, height: 760 });
   await checkDownloads(page, images);
   check("a page with images: no error, no network", said.length === 0 && nothingAsked(asked), said.join("\n"));
   await done();
-  await checkOpening("images.html", 1);  // in the view that shows the phantom's infarct
+  await checkOpening("images.html", 1, true);  // in the view that shows the phantom's infarct
 }
 
 /** A wall that lies in none of the images beside it. */
@@ -189,7 +256,7 @@ export async function checkReal() {
   const heads = await page.locator("#details thead th").allTextContents();
   const captions = await page.locator("#regions figcaption").allTextContents();
   check("HV01: early diastole, which nothing shows, is starred in table, bull's-eyes of strain since then and rotation", heads.includes("early diastole*") &&
-    captions.filter((words) => words.includes("strain from early diastole*, assumed")).length === 2 && /\* assumed: early diastole/.test(await page.locator("#rotation").textContent()), `${heads} ${captions}`);
+    captions.filter((words) => words.includes("from early diastole*, assumed")).length === 2 && /\* assumed: early diastole/.test(await page.locator("#rotation").textContent()), `${heads} ${captions}`);
   check("HV01: its quality sheet is shown, images are said to be missing, no error", /cavity fitted/.test(await page.locator("#input").innerText()) &&
     (await page.locator("#outlines .missing").count()) === 1 && said.length === 0, said.join("\n"));
   await done();

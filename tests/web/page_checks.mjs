@@ -4,7 +4,7 @@ import { createServer } from "node:http";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
 import { drawn, newPage, openPage, root, scrub, settled } from "./browser.mjs";
-import { browser, check, close, coloursIn, csv, folder, nothingAsked, number, open, pixels, saved, setSlider, work } from "./setting.mjs";
+import { browser, check, close, coloursIn, csv, folder, nothingAsked, number, open, pixels, rimPixels, saved, setSlider, work } from "./setting.mjs";
 
 async function checkFirstScreen(page) {
   await page.setViewportSize({ width: 1280, height: 720 });
@@ -264,7 +264,7 @@ async function checkSlowArrival() {
 }
 
 /** The pictures that a page opens with, before any array is unpacked, beside the walls that take their place. */
-export async function checkOpening(file, count) {
+export async function checkOpening(file, count, isInfarcted = false) {
   const settings = { viewport: { width: 1280, height: 720 } };
   const early = await newPage(browser, settings);
   await early.addInitScript(() => { Blob.prototype.stream = () => new ReadableStream(); });
@@ -292,6 +292,8 @@ export async function checkOpening(file, count) {
     return { both, one };
   }, shots);
   const pictures = await early.locator("img.opening").count();
+  const rims = (await early.locator("img.opening").evaluateAll((all) => all.map((one) => one.src.split(",")[1]))).map((data) => rimPixels(late, Buffer.from(data, "base64")));
+  check(isInfarcted ? "and with the infarct's border" : "and without a border where there is no infarct", (await Promise.all(rims)).every((count) => (isInfarcted ? count > 200 : count === 0)));
   check(`${file} opens with ${count} picture(s) of the wall, with words, letters and legend, where the wall then is`, pictures === count && both > 20_000 && one < 0.03 * both,
     `${pictures} ${both} ${one}`);
   await early.context().close();

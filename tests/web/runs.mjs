@@ -15,7 +15,7 @@ async function runImages() {
   if (existsSync(images)) return;
   await ventricle("phantom", "study", "--phases", "6", "--field-of-view", "150", "--shortening", "0.12", "--nifti", "true", "--dicom", "false");
   const file = join(folder, "study/coarse.toml");
-  writeFileSync(file, `engine = "quasi_static"\n${readFileSync(join(folder, "study/case.toml"), "utf8")}\n[quasi_static]\nedge_length = "14 mm"\n`);
+  writeFileSync(file, `engine = "quasi_static"\n${readFileSync(join(folder, "study/case.toml"), "utf8")}\n[quasi_static]\nedge_length = "18 mm"\n`);
   await ventricle("run", file, "--work", images, "--ranks", "1");
 }
 
@@ -53,7 +53,7 @@ async function pretendFit() {
     { quantity: "ejection_fraction_percent", label: "ejection fraction", value: -26, answer: "outside", reason: "it holds more", impossible: true, ...judged },
     { quantity: "apex_rotation_deg", label: "rotation of the apex", value: 30, answer: "outside", reason: "", impossible: false, ...judged },
     { quantity: "circumferential_strain", label: "circumferential strain", value: -0.1, answer: "not applicable", reason: "an infarct", impossible: false, ...judged },
-    { quantity: "wall_volume_tails_percent", label: "change of an element's volume, 1st and 99th percentile", value: 6, answer: "outside", reason: "", impossible: false, ...judged },
+    { quantity: "wall_volume_tails_percent", label: "change of an element's volume, 1st and 99th percentile", value: 6, answer: "outside", reason: "", impossible: false, of: "computation", ...judged },
     { quantity: "edv_ml", label: "end-diastolic volume", value: 131, answer: "within", reason: "", impossible: false, ...judged }];
   writeFileSync(file, JSON.stringify(summary));
   mkdirSync(join(to, "02b_calibrate"), { recursive: true });
@@ -145,7 +145,7 @@ export const realData = (() => {
 async function runReal() {
   if (!realData) return;
   const file = (name) => JSON.stringify(join(realData, name));
-  writeFileSync(join(folder, "hv01.toml"), ["name = 'HV01'", "engine = 'quasi_static'", "[quasi_static]", "edge_length = '10 mm'", "[anatomy]", "source = 'contours'", "[anatomy.contours]",
+  writeFileSync(join(folder, "hv01.toml"), ["name = 'HV01'", "engine = 'quasi_static'", "[quasi_static]", "edge_length = '14 mm'", "[anatomy]", "source = 'contours'", "[anatomy.contours]",
     `short_axis = ${file("contours_sa_aligned_long_axis.csv")}`, `long_axis = ${file("contours_la.csv")}`, `apex_endo = ${file("apex_endo.csv")}`,
     `apex_epi = ${file("apex_epi.csv")}`, "septum_point = ['37.1 mm', '0.8 mm', '-4.5 mm']", "[calibrate]", "passive = 'scale'",
     "edv = '142.6 ml'", "[active]", "T_scale = 3.0", "[strain]", `measured = ${file("segmental_strain_from_cine.csv")}`, "measured_column = 'frame10'"].join("\n"));

@@ -92,6 +92,19 @@ export async function saved(page, button) {
   return { name: download.suggestedFilename(), bytes: readFileSync(await download.path()) };
 }
 
+/** How many pixels of a picture have the colour of the rims of an infarct's border. */
+export const rimPixels = (page, png) => page.evaluate(async (data) => {
+  const image = new Image();
+  image.src = `data:image/png;base64,${data}`;
+  await image.decode();
+  const context = new OffscreenCanvas(image.width, image.height).getContext("2d");
+  context.drawImage(image, 0, 0);
+  const pixels = context.getImageData(0, 0, image.width, image.height).data;
+  let count = 0;
+  for (let i = 0; i < pixels.length; i += 4) count += pixels[i + 3] === 255 && [0, 1, 2].every((d) => Math.abs(pixels[i + d] - 26) < 2) ? 1 : 0;
+  return count;
+}, png.toString("base64"));
+
 /** How many colours a saved picture has in some boxes (x, y, width, height in pixels, negative from the right or the bottom). */
 export const coloursIn = (page, png, boxes) => page.evaluate(async ({ data, boxes }) => {
   const image = new Image();

@@ -44,6 +44,8 @@ export async function checkFitted() {
     "rotation": await page.locator("#rotation svg.chart").textContent(), "flow": await page.locator("#flow svg.overlay").textContent() };
   const marks = { "the 3-D view": "* assumed: septum, apex", "bull's-eyes": "* assumed: septum, apex", "rotation": "to the apex*", "flow": "S*" };
   for (const [name, mark] of Object.entries(marks)) check(`what was assumed is marked in ${name}`, starred[name].includes(mark), starred[name]);
+  const captions = await page.locator("#regions figcaption").allTextContents();
+  check("once in each caption", captions.every((words) => words.split("assumed").length === 2 && !/\*\s*\(/.test(words)), captions);
   const drawing = await savedSvg(page, "#regions");
   check("and in a saved bull's-eye, with its case, quantity and colour bar", /assumed: septum,/.test(drawing.text) && /circumferential strain/.test(drawing.text) &&
     drawing.text.includes("mean of the region") && drawing.gradients === 1 && drawing.anchors === 0, JSON.stringify(drawing));

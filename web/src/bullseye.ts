@@ -5,7 +5,7 @@ import { colourOf, inkOn, type Scale } from "./colours.ts";
 import { sectorsPerRing, type Scheme } from "./data.ts";
 import { ink, svg, uniqueId } from "./dom.ts";
 import { marked } from "./orientation.ts";
-import { shown } from "./quantities.ts";
+import { nothingBelow, shown } from "./quantities.ts";
 
 export interface BullsEye {
   scheme: Scheme;
@@ -15,6 +15,7 @@ export interface BullsEye {
   scale: Scale;
   title: string;
   assumed: boolean;  // the septum
+  outlined?: boolean[];  // regions that a line goes around
   pick: (index: number | undefined, fixed: boolean) => void;
 }
 
@@ -33,17 +34,48 @@ function ringShape(inner: number, outer: number, from: number, to: number): stri
     `A${inner} ${inner} 0 ${wide} 1 ${at(inner, from)}Z`;
 }
 
+/** How far the outer side of each ring is from the middle, and the inner side of the last. */
+function sides(scheme: Scheme): number[] {
+  const rings = sectorsPerRing[scheme].length;
+  const inner = scheme === "aha17" ? 0 : 0.06 * radius;
+  return Array.from({ length: rings + 1 }, (_, ring) => radius - ((radius - inner) * ring) / rings);
+}
+
+/** The line between regions that are outlined and others, in pieces of 15 degrees: where sides of sectors lie. */
+function outlineOf(scheme: Scheme, outlined: boolean[]): string {
+  const piece = 15;
+  const rings = sectorsPerRing[scheme];
+  const r = sides(scheme);
+  const first = rings.map((_, ring) => rings.slice(0, ring).reduce((sum, count) => sum + count, 0));
+  const isIn = (ring: number, degrees: number) => {
+    if (ring < 0) return false;
+    const count = rings[ring];
+    const sector = Math.round((degrees + 0.5 * piece - 90) / (360 / count));
+    return outlined[first[ring] + (((sector % count) + count) % count)];
+  };
+  const at = (distance: number, degrees: number) => {
+    const a = (degrees * Math.PI) / 180;
+    return `${(centre + distance * Math.cos(a)).toFixed(2)} ${(centre - distance * Math.sin(a)).toFixed(2)}`;
+  };
+  let line = "";
+  for (let ring = 0; ring < rings.length; ++ring)
+    for (let d = 0; d < 360; d += piece) {
+      if (isIn(ring, d) !== isIn(ring - 1, d)) line += `M${at(r[ring], d)}A${r[ring]} ${r[ring]} 0 0 0 ${at(r[ring], d + piece)}`;
+      if (isIn(ring, d) !== isIn(ring, d - piece)) line += `M${at(r[ring], d)}L${at(r[ring + 1], d)}`;
+    }
+  return line;
+}
+
 interface Place { d: string; ring: number; middle: number; r: number; whole: boolean }
 
 function places(scheme: Scheme): Place[] {
   const rings = sectorsPerRing[scheme];
-  const inner = scheme === "aha17" ? 0 : 0.06 * radius;
-  const edge = (ring: number) => radius - ((radius - inner) * ring) / rings.length;
+  const r = sides(scheme);
   return rings.flatMap((count, ring) => Array.from({ length: count }, (_, k) => {
     const step = (2 * Math.PI) / count;
     const middle = Math.PI / 2 + k * step;
-    return { d: ringShape(Math.max(edge(ring + 1), 0), edge(ring), middle - step / 2, middle + step / 2), ring, middle,
-      r: count === 1 ? 0 : (edge(ring) + edge(ring + 1)) / 2, whole: count === 1 };
+    return { d: ringShape(r[ring + 1], r[ring], middle - step / 2, middle + step / 2), ring, middle,
+      r: count === 1 ? 0 : (r[ring] + r[ring + 1]) / 2, whole: count === 1 };
   }));
 }
 
@@ -102,7 +134,7 @@ export function drawBullsEye(plot: BullsEye): DrawnBullsEye {
   root.append(svg("defs", {}, svg("pattern", { id, width: 6, height: 6, patternUnits: "userSpaceOnUse", patternTransform: "rotate(45)" },
     svg("rect", { width: 6, height: 6, fill: "#d9d9d9" }), svg("rect", { width: 2, height: 6, fill: "#9a9a9a" }))));
   const all = places(plot.scheme);
-  const shownValues = plot.values.map((x) => shown(x, 2));
+  const shownValues = plot.values.map((x) => shown(nothingBelow(0.1 * plot.scale.floor, x), 2));
   const longest = shownValues.reduce((most, text) => Math.max(most, text.length), 0);
   const focus = (index: number) => {
     shapes.forEach((shape, i) => shape.setAttribute("tabindex", i === index ? "0" : "-1"));
@@ -117,7 +149,7 @@ export function drawBullsEye(plot: BullsEye): DrawnBullsEye {
   };
   const shapes = all.map(({ d }, index) => {
     const value = plot.values[index];
-    const name = `${plot.names[index]}: ${plot.details[index]}`;
+    const name = `${plot.names[index]}: ${plot.details[index]}${plot.outlined?.[index] ? ", infarcted" : ""}`;
     return svg("path", { d, fill: Number.isNaN(value) ? `url(#${id})` : colourOf(plot.scale, value), stroke: parting, "stroke-width": 1.2,
       tabindex: index === 0 ? 0 : -1, "data-index": index, role: "button", "aria-label": name,
       pointerenter: () => plot.pick(index, false), pointerleave: () => plot.pick(undefined, false),
@@ -125,6 +157,11 @@ export function drawBullsEye(plot: BullsEye): DrawnBullsEye {
       keydown: (event: KeyboardEvent) => keydown(event, index) }, svg("title", {}, name));
   });
   root.append(...(plot.scheme === "aha17" ? territoryGroups(all, shapes) : shapes));
+  if (plot.outlined) {
+    const d = outlineOf(plot.scheme, plot.outlined);
+    root.append(...[["#1a1a1a", 4.5], ["#fff", 2]].map(([stroke, width]) => svg("path", { class: "infarct", d, fill: "none", stroke, "stroke-width": width,
+      "stroke-linecap": "round", "pointer-events": "none" })));
+  }
   root.append(...all.map((place, i) => texts(plot, place, i, shownValues[i], longest)), ...words(plot.assumed),
     ...(plot.scheme === "aha17" ? territoryNames(plot.assumed) : []));
   const ring = svg("path", { class: "live", fill: "none", stroke: "#000", "stroke-width": 3, "pointer-events": "none" });

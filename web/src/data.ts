@@ -206,6 +206,19 @@ export class Wall {
 
   /** Number of the region that each cell lies in, from 0. */
   region(scheme: Scheme): Int16Array | undefined { return this.regions[scheme]; }
+
+  /** Whether more than half of each region is infarcted, by the mean of M over its cells; undefined without an infarct. */
+  infarctedRegions(scheme: Scheme): boolean[] | undefined {
+    const [M, regions, n] = [this.infarct, this.regions?.[scheme], this.nodesPerCell];
+    if (!M || !regions) return undefined;
+    const all = sectorsPerRing[scheme].reduce((sum, count) => sum + count, 0);
+    const [cells, infarcted] = [new Array<number>(all).fill(0), new Array<number>(all).fill(0)];
+    regions.forEach((region, c) => {
+      ++cells[region];
+      for (let i = n * c; i < n * (c + 1); ++i) infarcted[region] += M[this.cells[i]] / n;
+    });
+    return infarcted.map((sum, region) => sum > 0.5 * cells[region]);
+  }
 }
 
 /** A named moment of a beat, from moments.csv. */
@@ -273,10 +286,12 @@ export class Case {
     return this.isUnloaded ? "without load" : this.assumes("early diastole") ? `${stateTitle(name)}*` : stateTitle(name);
   }
 
-  /** Of a strain at a time up to end-diastole, from a moment that was assumed: "strain from early diastole*, assumed"; else empty. */
-  sinceAssumed(quantity: string, time: number): string {
-    const isSince = quantity.endsWith("_strain") && this.assumes("early diastole") && time <= (this.timeOf("end_diastole") ?? Infinity) + 1e-5;
-    return isSince ? "strain from early diastole*, assumed" : "";
+  /** The state that a strain at a time is from: "from end-diastole", "from early diastole*, assumed"; empty of other quantities. */
+  since(quantity: string, time: number): string {
+    if (!quantity.endsWith("_strain") || Number.isNaN(time)) return "";
+    if (time > (this.timeOf("end_diastole") ?? Infinity) + 1e-5) return `from ${stateTitle("end_diastole")}`;
+    if (this.isUnloaded) return "from the wall without load";
+    return `from ${this.momentTitle("early_diastole")}${this.assumes("early diastole") ? ", assumed" : ""}`;
   }
 
   /** The axes of the model in image space; undefined when it is not there, or nobody knows. */

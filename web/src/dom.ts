@@ -104,7 +104,7 @@ const saveButton = (name: string, format: string, make: () => Promise<Blob>) =>
 export const savePng = (name: string, make: () => Promise<Blob>) => el("div", { class: "buttons" }, saveButton(name, "png", make));
 
 /** Words in lines of at most so many letters. */
-function inLines(words: string, most: number): string[] {
+export function inLines(words: string, most: number): string[] {
   return words.split(" ").reduce<string[]>((lines, word) => (lines.length && lines.at(-1)!.length + word.length < most
     ? [...lines.slice(0, -1), `${lines.at(-1)} ${word}`] : [...lines, word]), []);
 }

@@ -52,12 +52,9 @@ const figures: Figure[] = [
 ];
 
 interface Judgement { quantity: string; label: string; value: number; unit: string; low: number | null; high: number | null; source: string; answer: string;
-  reason: string; impossible: boolean }
+  reason: string; impossible: boolean; of?: "heart" | "computation" }
 
 export const judgements = (c: Case): Judgement[] => c.summary?.plausibility ?? [];
-
-/** What is judged of the model's numbers, not of the heart. */
-const ofNumbers = ["base_axial_shift_mm", "wall_volume_mean_percent", "wall_volume_tails_percent"];
 
 export const answerOf = (j: Judgement) => (j.impossible ? "IMPOSSIBLE" : j.answer);
 
@@ -97,7 +94,7 @@ export function sentence(c: Case): string {
   if (!s) return `${c.name}: the run has no results yet.`;
   const names = (all: Judgement[]) => all.map((j) => j.label.split(",")[0]).join(", ");
   const [unsound, outside] = [true, false].map((numbers) => judgements(c).filter((j) => j.answer === "outside" && !j.impossible &&
-    ofNumbers.includes(j.quantity) === numbers));
+    (j.of === "computation") === numbers));
   const impossible = judgements(c).filter((j) => j.impossible);
   const flags = [impossible.length ? `IMPOSSIBLE: ${names(impossible)}` : "",
     outside.length ? `outside the usual range: ${names(outside)}` : "",
@@ -118,8 +115,8 @@ export function firstSection(cases: Case[]): HTMLElement {
     : table(name, ["", "model", ...(none ? [] : ["measured"]), "usual", "answer", "origin"], ofOne(cases[0], !none));
   return titled("summary", "Summary", {}, content,
     none ? el("p", { class: "help" }, `No measured volumes: ${several ? "neither case" : "the case"} is ${several ? "" : "not "}fitted to any.`) : undefined,
-    found && el("p", { class: "help" }, `Strain at end-systole is Green-Lagrange, the mean over the wall${none ? "" : "; measured, the mean over the regions of the images"}. ` +
-      "Sources of the usual ranges are below."));
+    found && el("p", { class: "help" }, `Strain at end-systole is Green-Lagrange, from end-diastole, the mean over the wall${none ? "" : "; measured, the mean over the regions of the images"}. ` +
+      "Origin: measured, fitted to a measurement, assumed, or computed from these. Sources of the usual ranges are below."));
 }
 
 /** What was assumed and what the run warns of, in full: beside or below the numbers and the picture, which mark it. */
@@ -133,6 +130,6 @@ export function remarks(cases: Case[]): HTMLElement {
 
 /** "Assumed: septum, apex." */
 export function assumedSentence(c: Case): string {
-  const parts = [...new Set([...c.assumptions.map((a) => a.part), ...(c.assumesInfarct ? ["infarct"] : [])])];
+  const parts = [...new Set([...(c.mark("mass_g") === "assumed" ? ["shape"] : []), ...c.assumptions.map((a) => a.part), ...(c.assumesInfarct ? ["infarct"] : [])])];
   return parts.length ? ` Assumed: ${parts.join(", ")}.` : "";
 }

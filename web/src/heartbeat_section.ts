@@ -3,7 +3,7 @@ import { type Chart, drawChart, type DrawnChart, drawStack, type Line } from "./
 import { lineColours } from "./colours.ts";
 import { type Case, type Row, rowBetween, value } from "./data.ts";
 import { el, figure, fileName, folded, section, table } from "./dom.ts";
-import { beatMeasures, label, shown } from "./quantities.ts";
+import { beatMeasures, label, nothingBelow, shown } from "./quantities.ts";
 import type { Shared, Timeline } from "./shared.ts";
 
 /** Valve events in their order: the column of beats.csv [ms from the beat's beginning] and a short name. */
@@ -102,7 +102,7 @@ function measuresTable(all: Heartbeats[]): HTMLElement {
   const [a, b] = all;
   const columns = b ? [...all.map((h) => h.c.name), "difference"] : [`beat ${a.measures.length}`, "change from the beat before"];
   const cells = (name: string) => (b ? [shown(of(a, name), 4), shown(of(b, name), 4), shown(of(b, name) - of(a, name))]
-    : [shown(of(a, name), 4), shown(of(a, name) - of(a, name, 2))]);
+    : [shown(of(a, name), 4), shown(nothingBelow(1e-4 * Math.abs(of(a, name)), of(a, name) - of(a, name, 2)))]);
   return table(fileName(...all.map((h) => h.c.name), "beat"), ["measure", ...columns, "definition"],
     beatMeasures.map((m) => [label(m), ...cells(m.name), m.help]));
 }

@@ -22,8 +22,8 @@ export function starNote(heart: Heart, more: string[] = []): string {
 }
 
 /** A column's title, with what was assumed of the anatomy that its regions hang on. */
-export function starredTitle(title: string, heart: Heart, more: string[] = []): string {
-  const note = starNote(heart, more);
+export function starredTitle(title: string, heart: Heart): string {
+  const note = starNote(heart);
   return note ? `${title}* (${note})` : title;
 }
 

@@ -1,8 +1,7 @@
 // What is written over a 3-D view, and saved and printed with it: case, moment, cut, letters, legend, scale bar.
 import { barParts } from "./bar.ts";
 import type { Scale } from "./colours.ts";
-import { ink, svg } from "./dom.ts";
-import { starNote } from "./orientation.ts";
+import { ink, inLines, svg } from "./dom.ts";
 import type { WallView } from "./wall_view.ts";
 
 const edge = 10;  // [pixels]
@@ -13,6 +12,10 @@ function place(element: Element, attributes: Record<string, string | number>): v
     if (element.getAttribute(name) !== String(value)) element.setAttribute(name, String(value));
 }
 
+/** The line around an infarct, white with dark rims, and what it is; above a colour bar. */
+const borderKey = (words: string) => [...[["#1a1a1a", 4.5], ["#fff", 1.8]].map(([stroke, width]) => svg("path", { d: "M1 -8h24", stroke, "stroke-width": width })),
+  svg("text", { x: 32, y: -4, fill: ink.text }, words)];
+
 export class Overlay {
   readonly element = svg("svg", { class: "overlay", "font-family": "sans-serif", "font-size": 13, "aria-hidden": "true" });
   private caption = svg("g", { fill: ink.text });
@@ -21,38 +24,41 @@ export class Overlay {
   private letters = new Map<string, SVGTextElement>();
   private bar = svg("path", { stroke: ink.text, "stroke-width": 2, fill: "none" });
   private length = svg("text", { "text-anchor": "middle", fill: ink.text, "font-size": 12 }, "20 mm");
-  private star = svg("text", { "text-anchor": "end", fill: ink.text, "font-size": 11, stroke: ink.paper, "stroke-width": 3, "paint-order": "stroke" });
+  private stars = svg("g", { "text-anchor": "end", fill: ink.text, "font-size": 11, stroke: ink.paper, "stroke-width": 3, "paint-order": "stroke" });
   private legendParts: (width: number) => SVGElement[] = () => [];
   private explained = "";  // by the legend
   private legendWidth = 0;
 
-  constructor(private view: WallView) {
-    this.element.append(this.caption, this.region, this.legend, this.bar, this.length, this.star);
+  /** `star` says what the stars mean. */
+  constructor(private view: WallView, private star: string) {
+    this.element.append(this.caption, this.region, this.legend, this.bar, this.length, this.stars);
     for (const { name, label } of view.letters()) {
       const letter = svg("text", { class: "letter", "data-letter": name, "text-anchor": "middle", dy: "0.35em", "font-size": name.length > 1 ? 13 : 18,
         "font-weight": 700, fill: ink.text, stroke: ink.paper, "stroke-width": 4, "paint-order": "stroke" }, label);
       this.letters.set(name, letter);
       this.element.append(letter);
     }
-    this.star.textContent = starNote(view.heart);
   }
 
-  write(lines: string[], scale: Scale, title: string): void {
+  /** `border`: what the line on the wall goes around, if there is one. */
+  write(lines: string[], scale: Scale, title: string, border: string): void {
     this.caption.replaceChildren(...lines.map((line, i) =>
       svg("text", { x: edge, y: 20 + 17 * i, ...(i === 0 ? { "font-weight": 600 } : {}) }, line)));
-    const explained = JSON.stringify([scale, title]);
+    const explained = JSON.stringify([scale, title, border]);
     if (explained === this.explained) return;
     this.explained = explained;
-    this.legendParts = (width) => barParts(scale, title, width);
+    this.legendParts = (width) => [...barParts(scale, title, width), ...(border ? borderKey(border) : [])];
     this.legendWidth = 0;
     this.place();
   }
 
-  /** Left of the middle, where an assumed apex has its name. */
+  /** Left of the middle, where an assumed apex has its name, and the stars' meaning on the right of it. */
   private placeLegend(width: number): void {
     const room = Math.max(60, Math.min(190, width / 2 - 32 - edge));
     if (room === this.legendWidth) return;
     this.legendWidth = room;
+    const lines = inLines(this.star, width < 480 ? 24 : Infinity);
+    this.stars.replaceChildren(...lines.map((line, i) => svg("text", { y: 13 * (i + 1 - lines.length) }, line)));
     this.legend.replaceChildren(...this.legendParts(room));
   }
 
@@ -71,7 +77,7 @@ export class Overlay {
     place(this.region, { x: width - edge });
     place(this.bar, { d: `M${width - edge - length} ${height - 22}v6h${length}v-6` });
     place(this.length, { x: width - edge - length / 2, y: height - 24 });
-    place(this.star, { x: width - edge, y: height - 44 });
+    place(this.stars, { transform: `translate(${width - edge} ${height - 44})` });
     for (const { name, x, y, seen } of letters)
       place(this.letters.get(name)!, { x: x.toFixed(1), y: y.toFixed(1), visibility: seen ? "visible" : "hidden" });
   }

@@ -47,9 +47,12 @@ export function shown(x: number | null | undefined, digits = 3): string {
   if (x === null || x === undefined || Number.isNaN(x)) return "–";
   if (Math.abs(x) < rounding) return "0";
   const text = Math.abs(x) >= 1e5 || Math.abs(x) < 1e-3 ? x.toPrecision(digits)
-    : x.toFixed(Math.max(0, digits - 1 - Math.floor(Math.log10(Math.abs(x) || 1))));
+    : x.toFixed(Math.max(0, digits - 1 - Math.floor(Math.log10(Math.abs(Number(x.toPrecision(digits)))))));
   return text.replaceAll("-", "−");
 }
+
+/** What is below any meaning is zero. */
+export const nothingBelow = (least: number, x: number | null | undefined) => (typeof x === "number" && Math.abs(x) < least ? 0 : x);
 
 /** A sentence of a file as a printer sets it: "±" for "+-", "²" for "^2", minus signs before numbers. */
 export const typeset = (text: string) => text.replaceAll("+-", "±").replaceAll("^2", "²").replace(/(^|[\s(])-(?=\d)/g, "$1−");

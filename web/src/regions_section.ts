@@ -4,7 +4,7 @@ import { barParts, colourBar } from "./bar.ts";
 import type { Scale } from "./colours.ts";
 import { Case, type Scheme, value } from "./data.ts";
 import { el, figure, fileName, folded, missing, section } from "./dom.ts";
-import { heartOf, starredTitle } from "./orientation.ts";
+import { heartOf, marked, starNote } from "./orientation.ts";
 import { label, type Quantity, quantity, shown, stateTitle } from "./quantities.ts";
 import { Shared, statesOf } from "./shared.ts";
 import { regionName } from "./wall_section.ts";
@@ -19,13 +19,13 @@ class Marked {
   clear(): void { this.plots = []; }
 
   draw(c: Case, scheme: Scheme, values: number[], details: string[], scale: Scale, title: string, file: string,
-    barTitle: string, assumed: string[] = []): HTMLElement {
+    barTitle: string, { outlined, assumed = [] }: { outlined?: boolean[]; assumed?: string[] } = {}): HTMLElement {
     const heart = heartOf(c);
     const names = c.regionNames(scheme);
-    const drawn = drawBullsEye({ scheme, names, values, details, scale, title, assumed: heart.assumed,
+    const drawn = drawBullsEye({ scheme, names, values, details, scale, title, assumed: heart.assumed, outlined,
       pick: (index, fixed) => this.shared.pick(index === undefined ? undefined : { scheme, index }, fixed) });
     this.plots.push({ drawn, scheme });
-    return figure(starredTitle(title, heart, assumed), file, drawn.figure, (width) => barParts(scale, barTitle, width));
+    return figure([title, starNote(heart, assumed)].filter(Boolean).join("; "), file, drawn.figure, (width) => barParts(scale, barTitle, width));
   }
 
   mark(): void {
@@ -54,6 +54,16 @@ function difference(cases: Case[], q: Quantity, marks: Marked): HTMLElement | un
     el("div", { class: "pair" }, ...states.map((state, s) => marks.draw(cases[1], "aha17", all[s], all[s].map((x) => shown(x)), scale,
       `${q.title} at ${stateTitle(state)}, ${b} − ${a}`, fileName(b, "minus", a, q.name, state), `${label(q)}, ${b} − ${a}`))));
 }
+
+/** The state that a strain at a moment is from. */
+const since = (c: Case, q: Quantity, state: string) => c.since(q.name, c.timeOf(state) ?? NaN);
+
+/** "circumferential strain at end-systole, from end-diastole". */
+const heading = (cases: Case[], q: Quantity, state: string) =>
+  [`${label(q)} at ${stateTitle(state)}`, [...new Set(cases.map((c) => since(c, q, state)).filter(Boolean))].join(" or ")].filter(Boolean).join(", ");
+
+/** What goes around regions of a bull's-eye; before the word "infarct". */
+const outlineWords = (outlined: boolean[]) => outlined.some(Boolean) ? "white line: around regions more than half of which is" : "no region is more than half";
 
 function readOut(cases: Case[], shared: Shared): string {
   const { selection } = shared.state;
@@ -84,8 +94,10 @@ export function bullsEyeSection(cases: Case[], shared: Shared, scaleNow: () => S
   const pair = (c: Case, q: Quantity, state: string, scale: Scale) => c.regions.length
     ? el("div", { class: "pair" }, ...(["aha17", "sector"] as const).map((scheme) => {
       const { values, details } = means(c, q, state, scheme);
-      return marks.draw(c, scheme, values, details, scale, [`${c.name}: ${q.title} at ${stateTitle(state)}`, schemeTitle[scheme], c.sinceAssumed(q.name, c.timeOf(state) ?? NaN)].filter(Boolean).join(", "),
-        fileName(c.name, q.name, state, scheme), `${label(q)}, mean of the region`);
+      const outlined = c.wall?.infarctedRegions(scheme);
+      const title = [`${c.name}: ${q.title} at ${stateTitle(state)}`, since(c, q, state), schemeTitle[scheme]].filter(Boolean).join(", ");
+      return marks.draw(c, scheme, values, details, scale, title + (outlined ? `; ${outlineWords(outlined)} ${marked("infarct", c.assumesInfarct)}` : ""),
+        fileName(c.name, q.name, state, scheme), `${label(q)}, mean of the region`, { outlined, assumed: outlined && c.assumesInfarct ? ["infarct"] : [] });
     }))
     : missing(`${c.name}: regions.csv is missing, so there are no regional means.`);
   const refresh = () => {
@@ -96,7 +108,7 @@ export function bullsEyeSection(cases: Case[], shared: Shared, scaleNow: () => S
       return;
     }
     const scale = scaleNow();
-    place.replaceChildren(...statesOf(cases).map((state) => el("div", { class: "state-of" }, el("h3", {}, `${label(q)} at ${stateTitle(state)}`),
+    place.replaceChildren(...statesOf(cases).map((state) => el("div", { class: "state-of" }, el("h3", {}, heading(cases, q, state)),
       colourBar(scale, `${label(q)}, mean of the region`), el("div", { class: "cases" }, ...cases.map((c) => pair(c, q, state, scale))))),
       ...[difference(cases, q, marks)].filter((part) => part !== undefined));
     mark();
@@ -126,7 +138,7 @@ export function transmurality(c: Case, shared: Shared): HTMLElement | undefined 
     ? `infarct in ${shown(row.percent_of_segment)}% of the segment, there through ${shown(row.transmurality_percent)}% of the wall` : "no infarct");
   const one = (key: string, title: string, file: string) =>
     marks.draw(c, "aha17", of.map((row) => row?.[key] ?? 0), details, scale, `${c.name}: ${title} (%)`, fileName(c.name, file), `${title}${star} (%)`,
-      assumed);
+      { assumed });
   const drawn = [one("percent_of_segment", "part of the segment that is infarcted", "infarcted-part"),
     one("transmurality_percent", "transmurality where it is infarcted", "transmurality")];
   shared.onChange((_, changed) => changed.has("selection") && marks.mark());

@@ -4,15 +4,17 @@ import { el, fileName, folded, missing, paperSwitch, perCase, save, section, tab
 import { calibration, measuredVolume } from "./calibration_section.ts";
 import { answerOf, judgements, rangeOf } from "./first_section.ts";
 import { transmurality } from "./regions_section.ts";
-import { heartOf, starredTitle } from "./orientation.ts";
+import { heartOf, marked, starredTitle } from "./orientation.ts";
 import type { Shared } from "./shared.ts";
 import { healthyAdults, healthySubject, type MeanSd, paper, patient, volunteers } from "./published.ts";
-import { label, quantities, quantity, shown, stateTitle, typeset, volumeAt } from "./quantities.ts";
+import { label, nothingBelow, quantities, quantity, shown, stateTitle, typeset, volumeAt } from "./quantities.ts";
 
-const pm = (x: MeanSd | undefined) => (x ? `${shown(x.mean)} ± ${shown(x.sd, 2)}` : "–");
+const pm = (x: MeanSd | undefined, least = 0) => (x ? `${shown(nothingBelow(least, x.mean))} ± ${shown(nothingBelow(least, x.sd), 2)}` : "–");
 /** As it is printed. */
 const printed = (x: MeanSd | undefined) => (x ? `${x.mean} ± ${x.sd}`.replace("-", "−") : "–");
-const ofRow = (row: Row | undefined): string => (row && row.mean !== "" ? pm({ mean: value(row.mean), sd: value(row.sd) }) : "–");
+const ofRow = (row: Row | undefined, least = 0): string => (row && row.mean !== "" ? pm({ mean: value(row.mean), sd: value(row.sd) }, least) : "–");
+/** What of a quantity is below any meaning: a tenth of what has no colour. */
+const leastOf = (name: string) => 0.1 * quantity(name).floor;
 
 const known = ["case", "program", "resolution", "early_diastole", "edv_ml", "esv_ml", "stroke_volume_ml", "mass_g",
   "ejection_fraction_percent", "strain", "whole_wall", "fibre_shortening_percent",
@@ -29,7 +31,7 @@ const momentsOf = (c: Case) => Object.keys(c.summary.whole_wall ?? {});
 function flat(json: any, prefix: string): [string, string][] {
   if (json !== null && typeof json === "object")
     return Object.entries(json).flatMap(([key, inner]) => flat(inner, prefix ? `${prefix}.${key}` : key));
-  return [[prefix, json === null ? "–" : String(json)]];
+  return [[prefix, typeof json === "string" ? json : wordOrNumber(json === null ? "" : String(json))]];
 }
 
 /** "computed", or "fitted / computed" where the columns differ. */
@@ -38,21 +40,21 @@ const marks = (c: Case, ...paths: string[]) => [...new Set(paths.map((path) => c
 function stateTable(c: Case): HTMLElement {
   const moments = momentsOf(c);
   const names = ["early_diastole", ...moments];
-  const row = (title: string, key: string, digits = 4) => [title, ...names.map((name) => shown(c.summary[name]?.[key], digits)),
+  const row = (title: string, key: string, digits = 4, nothing = 0) => [title, ...names.map((name) => shown(nothingBelow(nothing, c.summary[name]?.[key]), digits)),
     marks(c, ...names.map((name) => `${name}.${key}`))];
   const measured = moments.map((name) => shown(measuredVolume(c, volumeAt(name)), 4));
   return table(fileName(c.name, "states"), ["", ...names.map((name) => c.momentTitle(name)), "origin"], [
-    row(c.isLoaded ? "load (no time)" : "time (s)", "time_s"), row("endocardial pressure (mmHg)", "pressure_mmHg"), row("cavity volume (ml)", "cavity_volume_ml"),
+    ...(c.isLoaded ? [] : [row("time (s)", "time_s")]), row("endocardial pressure (mmHg)", "pressure_mmHg"), row("cavity volume (ml)", "cavity_volume_ml"),
     ["measured cavity volume (ml)", "–", ...measured, "measured"],
     row("wall volume (ml)", "wall_volume_ml"), row("endocardial apex z (mm)", "apex_endo_z_mm"),
     row("epicardial apex z (mm)", "apex_epi_z_mm"), row("radius of the endocardium at the base (mm)", "base_endo_radius_mm"),
-    row("largest axial shift of the base (mm)", "base_axial_shift_mm", 2)]);
+    row("largest axial shift of the base (mm)", "base_axial_shift_mm", 2, 1e-3)]);
 }
 
 function plausibilityTable(c: Case): HTMLElement | undefined {
   const all = judgements(c);
   return all.length === 0 ? undefined : table(fileName(c.name, "plausibility"), ["figure", "value", "usual", "answer", "why, source"], all.map((j) =>
-    [j.label, `${shown(j.value)}${j.unit === "1" ? "" : j.unit === "deg" ? "°" : ` ${j.unit}`}`, rangeOf(j), answerOf(j), typeset([j.reason, j.source].filter(Boolean).join("; "))]));
+    [j.label, `${shown(nothingBelow(j.low === null || j.high === null ? 0 : 1e-3 * (j.high - j.low), j.value))}${j.unit === "1" ? "" : j.unit === "deg" ? "°" : ` ${j.unit}`}`, rangeOf(j), answerOf(j), typeset([j.reason, j.source].filter(Boolean).join("; "))]));
 }
 
 function runTable(c: Case): HTMLElement {
@@ -76,7 +78,7 @@ function detailsOf(c: Case): (Node | undefined)[] {
     el("h3", {}, "Whole wall, mean ± standard deviation"),
     table(fileName(c.name, "whole-wall"), ["quantity", ...momentsOf(c).map(stateTitle), "origin"], quantities
       .filter((q) => momentsOf(c).some((state) => s.whole_wall?.[state]?.[q.name])).map((q) => [label(q),
-        ...momentsOf(c).map((state) => pm(s.whole_wall?.[state]?.[q.name])), marks(c, "whole_wall")])),
+        ...momentsOf(c).map((state) => pm(s.whole_wall?.[state]?.[q.name], leastOf(q.name))), marks(c, "whole_wall")])),
     el("p", { class: "help" }, `Strain: ${s.strain ?? "not stated"}.`),
     el("h3", {}, "Run"), runTable(c),
     ...Object.keys(s).filter((key) => ![...known, ...momentsOf(c), ...steadyKeys(c)].includes(key)).map((key) =>
@@ -120,8 +122,9 @@ export function normalSection(cases: Case[]): HTMLElement {
 
 function scarTable(c: Case): Node | undefined {
   const rows: any[] = c.summary?.infarct_segments ?? [];
+  const infarct = marked("infarct", c.assumesInfarct);
   return rows.length ? table(fileName(c.name, "infarct-segments"),
-    [starredTitle("infarcted segment (AHA)", heartOf(c)), "infarct (ml)", "infarct (g)", "part of the segment (%)", "transmurality (%)"], rows.map((s) =>
+    [starredTitle("infarcted segment (AHA)", heartOf(c)), `${infarct} (ml)`, `${infarct} (g)`, "part of the segment (%)", "transmurality (%)"], rows.map((s) =>
       [s.segment, ...["infarct_ml", "infarct_g", "percent_of_segment", "transmurality_percent"].map((key) => shown(s[key]))])) : undefined;
 }
 
@@ -130,7 +133,7 @@ export function zoneSection(cases: Case[], shared: Shared): HTMLElement {
   if (cases.every((c) => !c.regionNames("zone").length))
     return folded("zones", title, cases.some((c) => c.regions.length) ? "There is no infarct." : "regions.csv is missing: there are no results yet.");
   const names = ["active_tension", "fibre_stress", "fibre_stress_passive", "fibre_strain", "circumferential_strain", "longitudinal_strain", "radial_strain"];
-  const cells = (row: Row | undefined) => row ? [ofRow(row), shown(value(row.p1)), shown(value(row.p50)), shown(value(row.p99))] : ["–", "–", "–", "–"];
+  const cells = (row: Row | undefined, least: number) => row ? [ofRow(row, least), ...["p1", "p50", "p99"].map((name) => shown(nothingBelow(least, value(row[name]))))] : ["–", "–", "–", "–"];
   return section("zones", title,
     "Per AHA segment the part of it that is infarcted, and the transmurality: the part of the wall's thickness that the infarct takes where it is, be that little of the segment. Distributions at end-systole over the infarct (M = 1), " +
     "its border zone (0 < M < 1) and remote muscle (M = 0), from regions.csv; on request with the means the paper gives for its patient.", paperSwitch(),
@@ -141,7 +144,7 @@ export function zoneSection(cases: Case[], shared: Shared): HTMLElement {
       return [transmurality(c, shared), table(fileName(c.name, "zones"), ["quantity, zone", "volume (ml)", "mean ± sd", "1%", "median", "99%", "paper's patient"],
         names.flatMap((name) => zones.map((zone) => {
           const row = c.row("end_systole", "zone", zone, name);
-          return [`${label(quantity(name))}, ${zone}`, shown(value(row?.volume_ml)), ...cells(row),
+          return [`${label(quantity(name))}, ${zone}`, shown(value(row?.volume_ml)), ...cells(row, leastOf(name)),
             printed(patient[zone as "remote"]?.[name])];
         })), [6]), scarTable(c)];
     }));

@@ -11,22 +11,26 @@ import { atPoints, cutWall, type Plane, type Section } from "./section.ts";
 const vertexShader = `
 attribute float value;
 attribute float chosen;
-varying float v; varying float c; varying vec3 place; varying vec3 n;
+attribute float infarct;
+varying float v; varying float c; varying float m; varying vec3 place; varying vec3 n;
 void main() {
-  v = value; c = chosen; place = position; n = normalMatrix * normal;
+  v = value; c = chosen; m = infarct; place = position; n = normalMatrix * normal;
   gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
 }`;
 // A chosen region has c = 1 at all its corners, so its border is where c falls below 1: a dark line there with a light one around it.
+// The infarct's border is where M = 0.5: a white line with dark rims.
 const fragmentShader = `
 uniform sampler2D map; uniform vec2 range; uniform vec2 none; uniform vec3 uncoloured; uniform vec4 plane; uniform float choosing;
-uniform float plain; uniform float flatLight; uniform float pixel;
-varying float v; varying float c; varying vec3 place; varying vec3 n;
+uniform float plain; uniform float flatLight; uniform float pixel; uniform float bordered;
+varying float v; varying float c; varying float m; varying vec3 place; varying vec3 n;
 void main() {
   if (dot(plane.xyz, place) > plane.w) discard;
   vec3 colour = texture2D(map, vec2(clamp((v - range.x) / (range.y - range.x), 0.0, 1.0) * 0.99609375 + 0.001953125, 0.5)).rgb;
   if (v > none.x && v < none.y) colour = uncoloured;
   colour = mix(colour, vec3(0.80, 0.62, 0.58), plain);
   if (flatLight < 0.5) colour *= 0.55 + 0.45 * abs(normalize(n).z);
+  float off = abs(m - 0.5) / max(length(vec2(dFdx(m), dFdy(m))), 1e-6) / max(pixel, 1.0);
+  if (bordered > 0.5 && off < 1.8) colour = vec3(off < 0.8 ? 1.0 : 0.1);
   float away = (1.0 - c) / max(fwidth(c), 1e-6) / pixel;
   if (choosing > 0.5 && c < 0.9999) {
     if (away < 2.5) colour = vec3(0.0);
@@ -60,13 +64,14 @@ function material(flatLight: number): ShaderMaterial {
   return new ShaderMaterial({ vertexShader, fragmentShader, side: DoubleSide, uniforms: {
     map: { value: null }, range: { value: new Vector2(0, 1) }, plane: { value: new Vector4(0, 0, 0, 1) },
     none: { value: new Vector2(0, 0) }, uncoloured: { value: new Vector3(...uncoloured).divideScalar(255) }, pixel: { value: 1 },
-    choosing: { value: 0 }, plain: { value: 0 }, flatLight: { value: flatLight } } });
+    choosing: { value: 0 }, bordered: { value: 0 }, plain: { value: 0 }, flatLight: { value: flatLight } } });
 }
 
 const roughSize = 3.2;  // between corners of a rough surface [mm]
 
-/** What is shown: positions and values of the wall's own nodes (no values: no colours), and the plane that cuts them. */
-export interface Shape { positions: Float32Array; values?: Float32Array; plane?: Plane }
+/** What is shown: positions and values of the wall's own nodes (no values: no colours), the plane that cuts them, and whether the infarct's
+ * border is drawn. */
+export interface Shape { positions: Float32Array; values?: Float32Array; plane?: Plane; isBordered: boolean }
 
 export class WallBody {
   readonly drawn: DrawnWall;
@@ -76,6 +81,7 @@ export class WallBody {
   section?: Section;
   positions!: Float32Array;   // of all nodes that are drawn
   private values?: Float32Array;
+  private infarct?: Float32Array;  // M of all nodes that are drawn
   private triangles: Triangles;  // of the skin
   private cells: number[];       // behind each
   private skinNodes: Int32Array;
@@ -90,6 +96,7 @@ export class WallBody {
     }
     this.cells = Array.from(this.triangles.faces, (face) => this.drawn.skinCells[face]);
     this.skinNodes = Int32Array.from(new Set(this.triangles.nodes)).sort();
+    this.infarct = wall.infarct && this.drawn.at(wall.infarct);
     this.skin = this.makeSkin();
     this.cap = new Mesh(new BufferGeometry(), material(1));
     for (const object of [this.skin, this.cap]) object.frustumCulled = false;
@@ -108,15 +115,19 @@ export class WallBody {
     geometry.setAttribute("normal", dynamic(skinNodes.length, 3));
     geometry.setAttribute("value", dynamic(skinNodes.length, 1));
     geometry.setAttribute("chosen", dynamic(skinNodes.length, 1));
+    geometry.setAttribute("infarct", new BufferAttribute(Float32Array.from(skinNodes, (node) => this.infarct?.[node] ?? 0), 1));
     geometry.setIndex(index);
     geometry.boundingSphere = new Sphere(new Vector3(), 1e4);
     return new Mesh(geometry, material(0));
   }
 
-  show({ positions, values, plane }: Shape): void {
+  show({ positions, values, plane, isBordered }: Shape): void {
     if (plane) ({ section: this.section, positions: this.positions } = cutWall(this.drawn, positions, plane));
     else [this.section, this.positions] = [undefined, this.drawn.at(positions, 3)];
     this.values = values && this.drawn.at(values);
+    const { wall, nodes } = this.drawn;
+    if (wall.infarct && this.infarct!.length < nodes) this.infarct = this.drawn.at(wall.infarct);  // a section adds nodes
+    for (const { material: { uniforms } } of this.surfaces) uniforms.bordered.value = isBordered ? 1 : 0;
     this.updateSkin();
     this.updateCap();
   }
@@ -160,7 +171,8 @@ export class WallBody {
     const count = this.section.weight.length;
     geometry.dispose();
     geometry.setAttribute("position", new BufferAttribute(this.section.points, 3));
-    geometry.setAttribute("value", new BufferAttribute(this.values ? atPoints(this.section, this.values) : new Float32Array(count), 1));
+    for (const [name, nodal] of [["value", this.values], ["infarct", this.infarct]] as const)
+      geometry.setAttribute(name, new BufferAttribute(nodal ? atPoints(this.section, nodal) : new Float32Array(count), 1));
     geometry.setAttribute("normal", new BufferAttribute(new Float32Array(3 * count), 3));
     geometry.setAttribute("chosen", new BufferAttribute(new Float32Array(count), 1));
     geometry.setIndex(this.section.triangles);

@@ -3,7 +3,7 @@ import type { Scale } from "./colours.ts";
 import { type Case, rowAt, type Scheme, type Series, value } from "./data.ts";
 import { el, fileName, missing, overlaidPng, savePng, titled } from "./dom.ts";
 import { Fibres } from "./fibres.ts";
-import { cutName, heartOf, isAt, looks, openingLook, openingReason, sideName } from "./orientation.ts";
+import { cutName, heartOf, isAt, looks, marked, openingLook, openingReason, sideName, starNote } from "./orientation.ts";
 import { Overlay } from "./overlay.ts";
 import { infarct, label, quantities, quantity, shown } from "./quantities.ts";
 import { type Cut, scaleOf, Shared, type Timeline } from "./shared.ts";
@@ -21,6 +21,9 @@ function slider(title: string, min: number, max: number, step: number, unit: str
   const show = (x: number) => { input.value = String(x); output.textContent = `${x} ${unit}`; };
   return { element: el("label", {}, title, input, output), show };
 }
+
+/** "strain from end-diastole"; empty of other quantities. */
+const strainSince = (c: Case, name: string, time: number) => [c.since(name, time)].filter(Boolean).map((words) => `strain ${words}`).join();
 
 export const regionName = (c: Case, scheme: Scheme, index: number) => c.regionNames(scheme)[index] ?? `${index + 1}`;
 
@@ -41,7 +44,7 @@ class Panel {
       return;
     }
     this.view = new WallView(c.wall, heartOf(c), room);
-    this.overlay = new Overlay(this.view);
+    this.overlay = new Overlay(this.view, starNote(this.view.heart, c.assumesInfarct ? ["infarct"] : []));
     const { opening } = c.wall;
     if (opening && opening.frame === time.frame(number, time.start)) {
       this.opening = el("img", { class: "opening", alt: "", src: `data:image/png;base64,${opening.png}` });
@@ -131,8 +134,9 @@ class Panel {
     const [q, scale] = [quantity(state.quantity), this.scale()];
     const has = q === infarct || this.c.wall!.quantities.includes(q.name);
     const lines = [this.c.name, this.moment(state.step), cutName(state.cut) + this.side, ...(has ? [] : [`${q.title} is not in this case's frames`]),
-      this.c.sinceAssumed(q.name, this.time.time(this.number, state.step))].filter(Boolean);
-    this.overlay!.write(lines, scale, q === infarct && this.c.assumesInfarct ? `${label(q)}* (* assumed)` : label(q));
+      strainSince(this.c, q.name, this.time.time(this.number, state.step))].filter(Boolean);
+    const hasBorder = this.c.json.wall!.infarct && q !== infarct;
+    this.overlay!.write(lines, scale, marked(label(q), q === infarct && this.c.assumesInfarct), hasBorder ? marked("border of the infarct", this.c.assumesInfarct) : "");
     this.view.canvas.setAttribute("aria-label", `The wall in 3-D, ${label(q)}: ${lines.join("; ")}. Arrow keys turn it.`);
   }
 
@@ -215,7 +219,7 @@ function rangeFields(shared: Shared) {
 
 const help = "Drag to turn, wheel or pinch to zoom, arrow keys to turn when the picture has the focus. Letters stand at the anterior (A), septal (S), " +
   "inferior (I) and lateral (L) wall; a short axis is seen from the apex, anterior up, septum left. What lies before a cut is taken away, " +
-  "from whichever side it is seen. Point at the wall to read a value and to outline its segment here and in the bull's-eyes; click to keep " +
+  "from whichever side it is seen. The white line with dark rims is the infarct's border, where M = 0.5: half-way through its border zone. Point at the wall to read a value and to outline its segment here and in the bull's-eyes; click to keep " +
   "it. The section is cut anew at every moment by a plane fixed in space. Only moments that the run wrote are shown, none is made up in " +
   "between. Values of elements are averaged to the nodes; what is nearly nothing has no colour. Fibres are drawn by their part in the surface " +
   "or section: short where they run through it.";

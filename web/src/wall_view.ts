@@ -141,7 +141,7 @@ export class WallView {
     if (!width || !height) return;
     this.renderer?.setSize(width, height, false);
     // room for letters around the wall, for the caption above and the apex below it
-    const [above, below] = [84, 22];  // [pixels]
+    const [above, below] = [98, 22];  // [pixels]
     const across = 2 * (this.room.radius + 16);
     const mm = Math.max(Math.max(this.room.length + 8, across) / Math.max(height - above - below, 1), across / width);  // a pixel
     const [half, lower] = [0.5 * mm * height, 0.5 * mm * (above - below)];
@@ -195,7 +195,7 @@ export class WallView {
     return arm.dot(new Vector3(...plane.normal)) < 0 ? turned(plane) : plane;
   }
 
-  /** The wall at a frame; `series` colours it, M if it is an array. The first one finely. */
+  /** The wall at a frame; `field` colours it; if it is an array, which is M, the infarct has no border. The first one finely. */
   show(frame: number, field: Series | Float32Array | undefined, scale: Scale, cut: Cut, fibres: Fibres | undefined): void {
     const isFirst = !this.shape;
     const positions = this.wall.positions(frame);
@@ -203,7 +203,7 @@ export class WallView {
     this.cut = cut;
     this.fibres = fibres;
     const values = field instanceof Float32Array ? field : field?.addTo(new Float32Array(this.wall.nodes), frame);
-    this.shape = { positions, values, plane: planeOf(cut, this.heart) };
+    this.shape = { positions, values, plane: planeOf(cut, this.heart), isBordered: this.wall.infarct !== undefined && !(field instanceof Float32Array) };
     this.valueScale = scale;
     this.form(isFirst ? this.fine : this.inMotion());
     if (isFirst) this.rest();

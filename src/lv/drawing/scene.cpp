@@ -36,6 +36,7 @@ void check(const Item& item) {
     LV_CHECK(faces->size() == patch.triangles.size());
   if (const auto* points = std::get_if<PointValues>(&item.paint))
     LV_CHECK(points->values.size() == patch.points.size());
+  LV_CHECK(item.border.empty() || item.border.size() == patch.points.size());
 }
 
 /// From space to the grid of samples: x to the right, y down, z away from the viewer, in samples.
@@ -182,6 +183,8 @@ class Shader {
     const Vec3 w = flat.weights * Vec3(x + 0.5, y + 0.5, 1.0);
     if (on_outline(item, flat, w))
       return item.outline;
+    if (const auto line = border(item, flat, w))
+      return *line;
     const auto ground = paint(item, flat.triangle, w);
     const Colour c = ground ? *ground : missing(x, y);
     const double light = item.shaded ? brightness(flat, w) : 1.0;
@@ -201,6 +204,21 @@ class Shader {
         return true;
     }
     return false;
+  }
+
+  /// Where a number is 0.5; divided by its gradient, what it is off is the distance from there.
+  [[nodiscard]] std::optional<Colour> border(const Item& item, const Flat& flat,
+                                             const Vec3& w) const {
+    constexpr double half_width = 0.8, rim = 1.0;  // [points]
+    if (item.border.empty())
+      return {};
+    const auto& corners = item.patch.triangles[flat.triangle];
+    const Vec3 M(item.border[corners[0]], item.border[corners[1]], item.border[corners[2]]);
+    const double slope = (flat.weights.transpose() * M).head<2>().norm() * samples_per_point_;
+    const double off = std::abs(w.dot(M) - 0.5);
+    if (off < half_width * slope)
+      return hex(0xffffff);
+    return off < (half_width + rim) * slope ? std::optional(hex(0x1a1a1a)) : std::nullopt;
   }
 
   [[nodiscard]] static std::optional<Colour> paint(const Item& item, int triangle, const Vec3& w) {

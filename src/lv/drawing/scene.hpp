@@ -46,6 +46,8 @@ struct Item {
   double outline_width = 0.0;  ///< of element edges [points]; 0: none
   Colour outline = hex(0x262626);
   bool shaded = true;  ///< by a light near the viewer; without it colours are those of the scale
+  std::vector<double> border{};  ///< at the patch's points: a white line with dark rims is drawn
+                                 ///< where this is 0.5; empty: none
 };
 
 struct Scene {

@@ -101,10 +101,15 @@ Opening opening(const WallSeries& wall, int order, std::size_t frame, const Name
   const std::vector<float>& field = wall.quantities.at(opening_quantity)[frame];
   const std::vector<double> values =
       curved.at_nodes(std::vector<double>(field.begin(), field.end()));
+  const std::vector<double> infarct =
+      has_infarct(wall)
+          ? curved.at_nodes(std::vector<double>(wall.infarct.begin(), wall.infarct.end()))
+          : std::vector<double>{};
   const auto item = [&](const drawing::WallPatch& patch, bool is_shaded) {
     return drawing::Item{.patch = patch.patch,
                          .paint = drawing::PointValues{patch.at_points(values), scale},
-                         .shaded = is_shaded};
+                         .shaded = is_shaded,
+                         .border = infarct.empty() ? infarct : patch.at_points(infarct)};
   };
   drawing::Scene scene{
       .items = {item(drawing::wall_surface(curved.mesh, x, curved.mesh.epi), true)}};
@@ -114,8 +119,10 @@ Opening opening(const WallSeries& wall, int order, std::size_t frame, const Name
   }
   const drawing::Camera camera = camera_of(wall.reach, view.view(orientation));
   const auto pixels = [&](double mm) { return static_cast<int>(std::lround(mm * pixels_per_mm)); };
+  // the page shows it at about half its size
   const drawing::Image image = drawing::render(
-      scene, camera, {.width = pixels(camera.width), .height = pixels(camera.height)});
+      scene, camera,
+      {.width = pixels(camera.width), .height = pixels(camera.height), .pixels_per_point = 2.0});
   return {drawing::image_png(image), image.width * image.mm_per_pixel};
 }
 

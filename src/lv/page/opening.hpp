@@ -12,8 +12,8 @@
 
 namespace lv::page {
 
-/// The wall as the page opens with it: circumferential strain at end-systole, in one of its views.
-/// The browser has it before it can draw by itself.
+/// The wall as the page opens with it: circumferential strain at end-systole, in one of its views,
+/// with the border of its infarct (M = 0.5). The browser has it before it can draw by itself.
 struct Opening {
   std::string png;        ///< transparent beside the wall; its middle half-way between bottom and
                           ///< top of the reach

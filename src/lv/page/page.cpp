@@ -315,14 +315,26 @@ std::vector<TimedFrame> wall_frames(const fs::path& work) {
   return frames;
 }
 
+/// A case's wall at all its moments; nothing without frames.
+std::optional<WallSeries> wall_of(const fs::path& work) {
+  const std::vector<TimedFrame> frames = wall_frames(work);
+  if (frames.empty())
+    return {};
+  return read_wall_series(frames, report::time_of(work, heartbeat::end_diastole)
+                                      .value_or(std::numeric_limits<double>::infinity()));
+}
+
+using Walls = std::vector<std::optional<WallSeries>>;
+
 /// Where a case's wall stands in time.
-Course course_of(const fs::path& work) {
-  Course course;
-  for (const TimedFrame& frame : wall_frames(work))
-    course.times.push_back(frame.time);
-  course.end_systole = report::time_of(work, heartbeat::end_systole);
-  course.has_beats = !report::file_of(work, "beat", "cycle.csv").empty();
-  return course;
+Course course_of(const fs::path& work, const std::optional<WallSeries>& wall) {
+  return {.times = wall ? wall->times : std::vector<double>{},
+          .end_systole = report::time_of(work, heartbeat::end_systole),
+          .has_beats = !report::file_of(work, "beat", "cycle.csv").empty()};
+}
+
+report::MeshFacts mesh_of(const fs::path& work) {
+  return report::mesh_facts(work).value_or(report::MeshFacts{});
 }
 
 /// What the page opens with: one scale and one view for all cases, and a frame of each.
@@ -332,32 +344,22 @@ struct OpeningPlan {
   std::size_t view = 0;  ///< of `views`
 };
 
-constexpr double never = std::numeric_limits<double>::infinity();
-
-/// The view that a page of these cases opens in, at a frame of each.
-std::size_t view_of(const std::vector<fs::path>& works,
-                    const std::vector<std::optional<std::size_t>>& frames) {
+/// `walls` of the cases in `works`.
+OpeningPlan opening_plan(const std::vector<fs::path>& works, const Walls& walls) {
+  std::vector<Course> courses;
+  for (std::size_t i = 0; i < works.size(); ++i)
+    courses.push_back(course_of(works[i], walls[i]));
+  OpeningPlan plan{.scale = opening_scale(works), .frames = opening_frames(courses)};
   std::vector<double> shown(views.size(), 0.0);
   for (std::size_t i = 0; i < works.size(); ++i) {
-    if (!frames[i])
+    if (!walls[i])
       continue;
-    const WallSeries wall = read_wall_series({wall_frames(works[i]).at(*frames[i])}, never);
-    const auto mesh = report::mesh_facts(works[i]).value_or(report::MeshFacts{});
-    const std::vector<double> one = infarct_shown(wall, 0, {.septum_angle = mesh.septum_angle});
+    const std::vector<double> one = infarct_shown(*walls[i], plan.frames[i].value(),
+                                                  {.septum_angle = mesh_of(works[i]).septum_angle});
     std::transform(one.begin(), one.end(), shown.begin(), shown.begin(), std::plus<>());
   }
-  return opening_view(shown);
-}
-
-OpeningPlan opening_plan(const std::vector<PageCase>& cases) {
-  std::vector<fs::path> works;
-  std::vector<Course> courses;
-  for (const PageCase& shown : cases) {
-    works.push_back(shown.work);
-    courses.push_back(course_of(shown.work));
-  }
-  const auto frames = opening_frames(courses);
-  return {opening_scale(works), frames, view_of(works, frames)};
+  plan.view = opening_view(shown);
+  return plan;
 }
 
 /// Nothing where results or the quantity are missing.
@@ -372,7 +374,8 @@ Json opening_json(const WallSeries& wall, const report::MeshFacts& mesh, const O
 }
 
 /// A page is passed on, and the name of a folder may be that of a patient.
-Data case_html(const PageCase& shown, int number, const OpeningPlan& plan) {
+Data case_html(const PageCase& shown, const std::optional<WallSeries>& wall, int number,
+               const OpeningPlan& plan) {
   static constexpr std::array<const char*, 2> folders{"the first work folder",
                                                       "the second work folder"};
   PagedArrays arrays(number);
@@ -382,21 +385,18 @@ Data case_html(const PageCase& shown, int number, const OpeningPlan& plan) {
             {"files", files_json(shown.work)}};
   if (const std::string name = report::case_name(shown.work); !name.empty())
     json["name"] = name;
-  const auto known_mesh = report::mesh_facts(shown.work);
-  if (known_mesh)
-    add_mesh_facts(json, *known_mesh, shown.work);
+  if (const auto mesh = report::mesh_facts(shown.work))
+    add_mesh_facts(json, *mesh, shown.work);
   const auto blood = frames_of(report::file_of(shown.work, "beat", "blood.pvd"));
   json["has_blood"] = !blood.empty();
-  if (const auto frames = wall_frames(shown.work); !frames.empty()) {
-    const WallSeries wall = read_wall_series(
-        frames, report::time_of(shown.work, heartbeat::end_diastole).value_or(never));
-    json["wall"] = wall_json(wall, arrays);
-    const auto mesh = known_mesh.value_or(report::MeshFacts{});
+  if (wall) {
+    json["wall"] = wall_json(*wall, arrays);
+    const report::MeshFacts mesh = mesh_of(shown.work);
     json["wall"]["order"] = mesh.order;
-    if (Json first = opening_json(wall, mesh, plan, plan.frames[number].value()); !first.is_null())
+    if (Json first = opening_json(*wall, mesh, plan, plan.frames[number].value()); !first.is_null())
       json["wall"]["opening"] = std::move(first);
     const LongAxis plane{mesh.septum_angle};  // the four-chamber view's
-    const auto [lower, upper] = surroundings(wall, plane);
+    const auto [lower, upper] = surroundings(*wall, plane);
     // the wall's frames are the blood's borders; the undeformed mesh is none
     if (!blood.empty() && !report::file_of(shown.work, "beat", "wall.pvd").empty())
       json["flow"] = flow_json(read_flow_series(blood, plane, lower, upper), plane, arrays);
@@ -493,7 +493,13 @@ std::string page(const std::vector<PageCase>& cases, const std::string& version)
     LV_CHECK(at != std::string::npos);
     html.replace(at, mark.size(), data);
   };
-  const OpeningPlan plan = opening_plan(cases);
+  std::vector<fs::path> works;
+  Walls walls;
+  for (const PageCase& shown : cases) {
+    works.push_back(shown.work);
+    walls.push_back(wall_of(shown.work));
+  }
+  const OpeningPlan plan = opening_plan(works, walls);
   Data data{element("about", "application/json",
                     Json{{"version", version},
                          {"cases", cases.size()},
@@ -508,14 +514,12 @@ std::string page(const std::vector<PageCase>& cases, const std::string& version)
                         .dump()),
             "", ""};
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    const Data one = case_html(cases[i], static_cast<int>(i), plan);
+    const Data one = case_html(cases[i], walls[i], static_cast<int>(i), plan);
+    walls[i].reset();
     data.summary += one.summary;
     data.wall += one.wall;
     data.more += one.more;
   }
-  std::vector<std::filesystem::path> works;
-  for (const PageCase& one : cases)
-    works.push_back(one.work);
   put(title, title + ("\n" + runs_element(works)));
   put("<!-- more data -->", data.more);
   put("<!-- wall data -->", data.wall);

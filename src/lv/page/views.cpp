@@ -48,12 +48,16 @@ drawing::Plane NamedView::cut(const drawing::Orientation& orientation) const {
   return {Vec3::Zero(), normal.dot(view(orientation)) < 0.0 ? normal : Vec3(-normal)};
 }
 
+bool has_infarct(const WallSeries& wall) {
+  return std::any_of(wall.infarct.begin(), wall.infarct.end(), [](float M) { return M > 0.5F; });
+}
+
 std::vector<double> infarct_shown(const WallSeries& wall, std::size_t frame,
                                   const drawing::Orientation& orientation) {
-  const std::vector<double> M(wall.infarct.begin(), wall.infarct.end());
   std::vector<double> shown(views.size(), 0.0);
-  if (std::none_of(M.begin(), M.end(), [](double value) { return value > 0.5; }))
+  if (!has_infarct(wall))
     return shown;
+  const std::vector<double> M(wall.infarct.begin(), wall.infarct.end());
   const mesh::Mesh mesh = wall.mesh();
   const std::vector<Vec3> x = wall.positions(frame);
   const drawing::Item surface = marked(drawing::wall_surface(mesh, x, mesh.epi), M);

@@ -45,6 +45,9 @@ inline constexpr std::array<NamedView, 9> views{{
     {"apex", 90.0, -89.9, Opened::nothing},
 }};
 
+/// Whether any of a wall's nodes has M > 0.5.
+[[nodiscard]] bool has_infarct(const WallSeries& wall);
+
 /// How much infarct each view shows of a wall at a frame: the area of the picture in which the
 /// surface or section that is seen has M > 0.5 [mm²]. Views along the axis count as 0.
 [[nodiscard]] std::vector<double> infarct_shown(const WallSeries& wall, std::size_t frame,

@@ -8,8 +8,8 @@
 
 namespace lv::report {
 
-/// Of whom a range speaks: of every computed wall, of the ventricles of healthy adults, or of their
-/// muscle, with which a wall that has an infarct is not compared.
+/// Of whom a range speaks: of every computed wall, and so of the computation, of the ventricles of
+/// healthy adults, or of their muscle, with which a wall that has an infarct is not compared.
 enum class Population { any_wall, healthy_ventricle, healthy_muscle };
 
 /// What a beat is judged by.

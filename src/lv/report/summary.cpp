@@ -159,10 +159,17 @@ Json bound(double value) {
 
 Json judgement_json(const Judgement& j) {
   const PlausibleRange& range = *j.range;
-  return {{"quantity", range.quantity},   {"label", range.label},     {"value", number(j.value)},
-          {"unit", range.unit},           {"low", bound(range.low)},  {"high", bound(range.high)},
-          {"source", range.source},       {"answer", name(j.answer)}, {"reason", j.reason},
-          {"impossible", j.is_impossible}};
+  return {{"quantity", range.quantity},
+          {"label", range.label},
+          {"value", number(j.value)},
+          {"unit", range.unit},
+          {"low", bound(range.low)},
+          {"high", bound(range.high)},
+          {"source", range.source},
+          {"answer", name(j.answer)},
+          {"reason", j.reason},
+          {"impossible", j.is_impossible},
+          {"of", range.population == Population::any_wall ? "computation" : "heart"}};
 }
 
 std::string plausibility_text(const std::vector<Judgement>& judgements) {

@@ -153,3 +153,19 @@ TEST_CASE("a fibre's stick has its length, direction and thickness", "[unit][dra
   const Image image = render(scene, fitted(scene, Vec3::UnitY()), {.width = 900, .height = 200});
   CHECK(covered_area(image) == Approx(8.0).epsilon(0.02));  // length x diameter
 }
+
+TEST_CASE("a border is a white line with dark rims where its number is 0.5", "[unit][drawing]") {
+  Item item = square(20.0, 0.0, red);
+  item.border = {0.0, 1.0, 1.0, 0.0};  // from left to right: 0.5 between pixels 19 and 20
+  const Image image = picture({{item}});
+  for (const int y : {5, 20, 35}) {
+    CHECK(same(image.colour(5, y), red));
+    CHECK(image.colour(18, y).r < 0.5);
+    CHECK(image.colour(19, y).b > 0.6);
+    CHECK(image.colour(20, y).b > 0.6);
+    CHECK(image.colour(21, y).r < 0.5);
+    CHECK(same(image.colour(34, y), red));
+  }
+  item.border = {1.0, 1.0, 1.0, 1.0};
+  CHECK(same(picture({{item}}).colour(20, 20), red));
+}

@@ -121,6 +121,19 @@ TEST_CASE("every figure of the summary is measured, fitted, assumed or computed"
   CHECK(mark_of(other["marks"], "edv_ml") == "computed");
 }
 
+TEST_CASE("what is judged of the computation is told from what is judged of the heart",
+          "[unit][report]") {
+  const json summary = json::parse(report::summary_json({}, {}, results(true)));
+  std::set<std::string> of_computation;
+  for (const json& judged : summary["plausibility"])
+    if (judged["of"] == "computation")
+      of_computation.insert(judged["quantity"]);
+    else
+      CHECK(judged["of"] == "heart");
+  CHECK(of_computation == std::set<std::string>{"base_axial_shift_mm", "wall_volume_mean_percent",
+                                                "wall_volume_tails_percent"});
+}
+
 TEST_CASE("what was assumed is said at the end, once", "[unit][report]") {
   const report::RunFacts facts = calibrated_facts();
   const json summary = json::parse(report::summary_json(facts, {}, results(true)));
