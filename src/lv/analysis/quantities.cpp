@@ -38,7 +38,7 @@ constexpr Quantity other(const char* name, const char* title, const char* unit,
   return {name, title, unit, of, field};
 }
 
-constexpr std::array<Quantity, 16> list{
+constexpr std::array<Quantity, 17> list{
     shown_stress(
         "active_tension", "active tension", [](Cell c, Strain) { return c.tension; },
         "Tension T along the fibre that the muscle makes."),
@@ -85,7 +85,13 @@ constexpr std::array<Quantity, 16> list{
         "pressure", "pressure p", "kPa", [](Cell c, Strain) { return c.pressure; }, "pressure"),
     Quantity{"activation_time", "activation time", "ms",
              [](Cell c, Strain) { return 1e3 * c.activation_time; }, "activation_time", false, true,
-             false, 0.0, 0.0, "How long after the beginning of a beat's calcium it rises here."}};
+             false, 0.0, 0.0, "How long after the beginning of a beat's calcium it rises here."},
+    Quantity{"work_density", "work density of the muscle", "kPa",
+             [](Cell c, Strain) { return c.work_density; }, "work_density", false, true, true, 0.0,
+             stress_floor,
+             "Work that active tension did over the last heartbeat, by the undeformed volume (kPa "
+             "= mJ/ml): the area of its loop of stress and stretch. Negative: stretched while it "
+             "was tense."}};
 
 constexpr Quantity infarct{
     "infarct",

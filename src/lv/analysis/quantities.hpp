@@ -30,7 +30,7 @@ struct Quantity {
 };
 
 /// All of them, in the order of regions.csv: the quantities of the paper's sections 3.3-3.5, and
-/// when muscle is activated, which not all beats know.
+/// when muscle is activated and what it does in a heartbeat, which not all beats know.
 [[nodiscard]] std::span<const Quantity> quantities();
 
 /// An infarct's extent M, which a wall has at its nodes and at all moments: in words and colours;

@@ -6,6 +6,8 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include <algorithm>
+
 namespace lv::analysis {
 namespace {
 
@@ -159,6 +161,14 @@ std::vector<CellFields> shape_fields(const solid::Wall& wall, const mesh::Mesh& 
   s.positions = positions;
   s.tension.assign(positions.size(), 0.0);
   return cell_fields(wall, s, std::vector<double>(mesh.cell_count(), 0.0));
+}
+
+void set_work_density(std::span<const double> of_elements, std::vector<CellFields>& cells) {
+  if (of_elements.empty())
+    return;
+  const std::size_t parts = std::max<std::size_t>(1, cells.size() / of_elements.size());
+  for (std::size_t c = 0; c < cells.size(); ++c)
+    cells[c].work_density = of_elements[c / parts];
 }
 
 CellStrain strain(const CellFields& now) {

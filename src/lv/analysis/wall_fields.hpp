@@ -5,6 +5,7 @@
 #include "lv/solid/wall.hpp"
 
 #include <limits>
+#include <span>
 #include <vector>
 
 namespace lv::analysis {
@@ -23,6 +24,8 @@ struct CellFields : solid::CellStress {
   /// When it is activated, after the calcium of the beat begins [s]; not a number: at once with the
   /// others.
   double activation_time = std::numeric_limits<double>::quiet_NaN();
+  /// What its muscle did over the last heartbeat, by its volume [kPa]; not a number: not known.
+  double work_density = std::numeric_limits<double>::quiet_NaN();
   Mat3 F = Mat3::Identity();
   Mat3 fibre_frame = Mat3::Identity();  ///< columns f0, s0, n0
   mesh::WallAxes axes;                  ///< of the undeformed wall
@@ -70,6 +73,10 @@ class FieldAnalysis {
   solid::Wall wall_;  ///< without volumetric penalty: p stands for it
   solid::Supports supports_;
 };
+
+/// Gives every cell the work density of the finite element that it is a part of [kPa]; leaves them
+/// where there is none.
+void set_work_density(std::span<const double> of_elements, std::vector<CellFields>& cells);
 
 /// Green-Lagrange strain of an element between two states, E = (F^T F - 1)/2 with F = F_now
 /// F_then^-1, in the wall's own directions at the earlier state.

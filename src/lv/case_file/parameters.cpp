@@ -1205,6 +1205,9 @@ constexpr Group of_protocol[]{
      {
          number("cycle.step", LV_AT(protocol.cycle.step), "s", above_up_to(0.0, 0.02),
                 "of time, at most; a step that fails is repeated shorter"),
+         number("cycle.step_error", LV_AT(protocol.cycle.step_error), "", between(0.0, 0.1),
+                "local error of a step in the cavity's volume and pressure, as a part of them; "
+                "steps with more are repeated shorter; 0: all are cycle.step long"),
          value("cycle.inertia", LV_AT(protocol.cycle.inertia),
                "whether the wall has the mass of muscle.density; else it is in equilibrium at "
                "every time"),

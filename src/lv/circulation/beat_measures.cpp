@@ -68,6 +68,30 @@ double work(Beat beat) {
   return sum;
 }
 
+/// Inflow between two times of a beat that repeats: its volume and its greatest.
+struct Inflow {
+  double volume = none, flow = none;
+};
+
+Inflow inflow(Beat beat, double from, double to) {
+  const double period = beat.back().time - beat.front().time;
+  const auto since = [&](double t) { return t - from - period * std::floor((t - from) / period); };
+  Inflow in;
+  if (!std::isfinite(from) || !std::isfinite(to))
+    return in;
+  in = {0.0, 0.0};
+  for (std::size_t i = 0; i + 1 < beat.size(); ++i) {
+    const double middle = 0.5 * (beat[i].time + beat[i + 1].time) - beat.front().time;
+    if (since(middle) > since(to))
+      continue;
+    const double flow =
+        std::max(0.0, 0.5 * (beat[i].signals.mitral_flow + beat[i + 1].signals.mitral_flow));
+    in.volume += flow * (beat[i + 1].time - beat[i].time);
+    in.flow = std::max(in.flow, flow);
+  }
+  return in;
+}
+
 double rate(Beat beat, std::size_t i) {
   return (beat[i + 1].signals.pressure - beat[i].signals.pressure) /
          (beat[i + 1].time - beat[i].time);
@@ -112,7 +136,7 @@ Crossing end_diastole(Beat beat, const Crossing& aortic_opens) {
 
 }  // namespace
 
-BeatMeasures measure_beat(Beat beat) {
+BeatMeasures measure_beat(Beat beat, double atrium) {
   const Crossing aortic_opens = crossing(beat, &Signals::aortic_gradient, true);
   const Crossing mitral_closes = end_diastole(beat, aortic_opens);
   const Crossing aortic_closes =
@@ -146,6 +170,13 @@ BeatMeasures measure_beat(Beat beat) {
   m.isovolumic_contraction = m.aortic_opens - m.mitral_closes;
   m.ejection_time = m.aortic_closes - m.aortic_opens;
   m.isovolumic_relaxation = m.mitral_opens - m.aortic_closes;
+  const double filled = m.mitral_closes;
+  const Inflow early = inflow(beat, m.mitral_opens, std::isnan(atrium) ? filled : atrium);
+  const Inflow late = inflow(beat, atrium, filled);
+  m.early_filling = early.volume;
+  m.early_filling_flow = early.flow;
+  m.late_filling = late.volume;
+  m.late_filling_flow = late.flow;
   m.relaxation_constant = mitral_opens.found && mitral_opens.before > fastest_fall + 1
                               ? relaxation(beat, fastest_fall, mitral_opens.before)
                               : none;

@@ -119,6 +119,7 @@ class Alone {
   Cycle run() {
     cycle_.columns = Circuit::columns();
     cycle_.period = p_.period;
+    cycle_.atrium = atrial_contraction(p_);
     observe();
     while (static_cast<int>(cycle_.beats.size()) < p_.beats && !cycle_.is_limit)
       beat();
@@ -136,7 +137,7 @@ class Alone {
     const double begin = static_cast<double>(cycle_.beats.size()) * p_.period;
     for (int i = 1; i <= steps; ++i)
       step(begin + i * dt, dt);
-    cycle_.beats.push_back(measure_beat(std::span(cycle_.samples).subspan(first)));
+    cycle_.beats.push_back(measure_beat(std::span(cycle_.samples).subspan(first), cycle_.atrium));
     cycle_.change = largest_change(before, history_.now);
     const bool changed_little = p_.tolerance > 0.0 && cycle_.change <= p_.tolerance;
     cycle_.to_come = changed_little
@@ -243,6 +244,11 @@ std::span<const Sample> samples_of(const Cycle& cycle, int beat) {
   };
   const auto end = at(beat + 1);
   return {at(beat), end == cycle.samples.end() ? end : end + 1};
+}
+
+double atrial_contraction(const CircuitParameters& p) {
+  return p.kind == Kind::closed_loop ? std::fmod(p.closed_loop.left_atrium.t_C, p.period)
+                                     : std::numeric_limits<double>::quiet_NaN();
 }
 
 Cycle run_alone(const CircuitParameters& p) {

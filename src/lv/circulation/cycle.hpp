@@ -5,6 +5,7 @@
 #include "lv/circulation/stand_in.hpp"
 
 #include <functional>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -14,12 +15,13 @@ namespace lv::circulation {
 struct Cycle {
   std::vector<Sample> samples;  ///< of every step, the start included
   std::vector<BeatMeasures> beats;
-  std::vector<Column> columns;  ///< of Signals::others
-  double period = 0.0;          ///< of a beat [s]
-  bool is_limit = false;        ///< the last beat is that of a limit cycle: is_limit_cycle
-  double change = 0.0;          ///< largest relative change of a state over the last beat
-  double to_come = 0.0;         ///< change_to_come; 0 where the last beat's own change says enough
-  bool cut_short = false;       ///< the beat after the last found no solution
+  std::vector<Column> columns;                               ///< of Signals::others
+  double period = 0.0;                                       ///< of a beat [s]
+  double atrium = std::numeric_limits<double>::quiet_NaN();  ///< of measure_beat [s]
+  bool is_limit = false;    ///< the last beat is that of a limit cycle: is_limit_cycle
+  double change = 0.0;      ///< largest relative change of a state over the last beat
+  double to_come = 0.0;     ///< change_to_come; 0 where the last beat's own change says enough
+  bool cut_short = false;   ///< the beat after the last found no solution
   int gave_way = 0;         ///< times that a wall joined to it snapped to an equilibrium far off
   double volume_gap = 0.0;  ///< largest |V/V_lv - 1| of a wall's cavity V that is joined to it
   double blood_lost = 0.0;  ///< |blood at the end/blood at the start - 1| of a closed loop
@@ -28,6 +30,9 @@ struct Cycle {
 
 /// The samples of a whole beat, counted from 0, those that begin and end it included.
 [[nodiscard]] std::span<const Sample> samples_of(const Cycle& cycle, int beat);
+
+/// When the left atrium begins to contract in a beat [s]; not a number: a windkessel has none.
+[[nodiscard]] double atrial_contraction(const CircuitParameters& parameters);
 
 /// Runs a circulation whose left ventricle is an elastance, by implicit steps of second order, and
 /// logs how far it is every few seconds. Throws NoSolution as implicit_step does, and Interrupted.

@@ -77,7 +77,9 @@ struct EnergyBalance {
   /// Of the pressure on the endocardium; the negative of the stroke work int p dV where the base
   /// stays in its plane.
   double pressure = 0.0;
-  double muscle = 0.0;     ///< -int int P_active : dF dX
+  double muscle = 0.0;  ///< -int int P_active : dF dX
+  /// The same of each finite element by its undeformed volume [kPa].
+  std::vector<double> work_density{};
   double stored = 0.0;     ///< change of int W dX
   double kinetic = 0.0;    ///< change of int rho v.v/2 dX
   double supports = 0.0;   ///< into springs and dashpots

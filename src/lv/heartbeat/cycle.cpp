@@ -21,10 +21,12 @@ namespace lv::heartbeat {
 namespace {
 
 using circulation::Sample;
+using circulation::Signals;
 using implicit::TimeEngine;
 using units::mmHg;
 
 constexpr int most_step_halvings = 8;
+constexpr int halvings_for_error = 5;
 constexpr int halvings_before_giving_way = 3;
 constexpr int good_steps_to_grow = 10;
 constexpr int checkpoint_every =
@@ -123,6 +125,8 @@ class CycleRun {
   void end_beat();
   [[nodiscard]] bool gives_way(const implicit::TimeStep& step,
                                const implicit::VolumeOfPressure& volume);
+  [[nodiscard]] bool is_too_long(double dt) const;
+  [[nodiscard]] double local_error(double dt) const;
   void shorten(const std::string& why);
   void stop_early(const std::string& why);
   void count_time();
@@ -293,6 +297,13 @@ void CycleRun::step() {
     shorten(newton.why);
     return;
   }
+  if (is_too_long(dt)) {
+    engine_.go_back(before);
+    ++state().beat.retries;
+    ++state().halvings;
+    state().good_steps = 0;
+    return;
+  }
   record_.step(dt, engine_.pressure(), engine_.cavity_volume());
   RunState& run = state();
   ++run.beat.steps;
@@ -315,10 +326,45 @@ void CycleRun::add_work(const Passed& before) {
   const TimeEngine::Work work = engine_.work_since(before);
   EnergyBalance& sum = state().beat.energy;
   sum.pressure += work.pressure;
-  sum.muscle += work.muscle;
+  sum.muscle += work.muscle.whole;
+  sum.work_density.resize(work.muscle.density.size());
+  for (std::size_t e = 0; e < sum.work_density.size(); ++e)
+    sum.work_density[e] += work.muscle.density[e];
   sum.supports += work.supports + work.base;
   sum.viscosity += work.viscosity;
   sum.base += work.base;
+}
+
+/// Some halvings are left for steps that fail.
+bool CycleRun::is_too_long(double dt) const {
+  const double most = setup_.cycle.step_error;
+  return most > 0.0 && record_.run().halvings < halvings_for_error && local_error(dt) > most;
+}
+
+/// Of the step to here, in the cavity's volume or pressure, as a part of the largest of the last
+/// four. Backward differences of second order miss y by 2/9 of what the parabola through the three
+/// samples before misses on the other side: 2/11 of how far both are apart (Milne's device).
+double CycleRun::local_error(double dt) const {
+  const auto beat = record_.samples_of_beat();
+  if (beat.size() < 3)
+    return 0.0;
+  const auto last = beat.last(3);
+  const double t = record_.now().time + dt;
+  const auto apart = [&](double Signals::*value, double now) {
+    double parabola = 0.0;
+    double scale = std::abs(now);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double y = last[i].signals.*value;
+      const double t_j = last[(i + 1) % 3].time;
+      const double t_k = last[(i + 2) % 3].time;
+      parabola += y * (t - t_j) * (t - t_k) / ((last[i].time - t_j) * (last[i].time - t_k));
+      scale = std::max(scale, std::abs(y));
+    }
+    return std::abs(now - parabola) / scale;
+  };
+  return 2.0 / 11.0 *
+         std::max(apart(&Signals::volume, engine_.cavity_volume()),
+                  apart(&Signals::pressure, engine_.pressure()));
 }
 
 /// Where shorter steps did not help.

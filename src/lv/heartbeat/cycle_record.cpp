@@ -18,6 +18,8 @@ using circulation::Sample;
 using circulation::Signals;
 using units::mmHg;
 
+constexpr double most_growth = 1.5;  // of a beat's change after a leap, which may overshoot
+
 Archive archived(const Beat& beat) {
   Archive archive;
   store(beat.curves, archive);
@@ -61,6 +63,7 @@ std::string why_incomplete(std::span<const Sample> beat) {
 CycleRecord::CycleRecord(const CycleCourse& course) : course_(course), circuit_(course.circuit) {
   course_.calcium.mode = material::Calcium::Mode::transient;
   cycle_.period = period();
+  cycle_.atrium = circulation::atrial_contraction(course_.circuit);
   cycle_.columns = circuit_.columns();
 }
 
@@ -173,8 +176,7 @@ const char* CycleRecord::phase() const {
 }
 
 void CycleRecord::end_beat() {
-  const auto samples = std::span(cycle_.samples).subspan(begins_.back());
-  cycle_.beats.push_back(circulation::measure_beat(samples));
+  cycle_.beats.push_back(circulation::measure_beat(samples_of_beat(), cycle_.atrium));
   change_before_ = cycle_.change;
   const double of_states = circulation::largest_change(states_before_, circuit_.states());
   cycle_.change = of_states;
@@ -204,7 +206,9 @@ void CycleRecord::end_beat() {
       "most",
       beat_, in_ml(now.end_diastolic_volume), in_ml(now.end_systolic_volume),
       now.peak_pressure / mmHg, cycle_.change);
-  if (course_.cycle.leap && !done() && of_states > course_.cycle.tolerance)
+  if (cycle_.leaps > 0 && cycle_.change > most_growth * change_before_)
+    leaps_settle_ = false;
+  if (course_.cycle.leap && leaps_settle_ && !done() && of_states > course_.cycle.tolerance)
     leap();
 }
 
@@ -220,8 +224,7 @@ void CycleRecord::judge() {
 }
 
 circulation::BeatenStates CycleRecord::beaten() const {
-  return {states_before_, circuit_.states(), std::span(cycle_.samples).subspan(begins_.back()),
-          cycle_.beats.back()};
+  return {states_before_, circuit_.states(), samples_of_beat(), cycle_.beats.back()};
 }
 
 /// The vessels of a closed loop take tens of beats to share out its blood: this saves them.
@@ -299,13 +302,13 @@ Beat CycleRecord::result(const Observers& observers) {
 
 void CycleRecord::store(Archive& archive) const {
   archive.set("circuit", circuit_.numbers());
-  archive.set("run",
-              {run_.time, static_cast<double>(run_.phase), run_.next_frame, run_.next_curve,
-               run_.largest_velocity, static_cast<double>(run_.halvings),
-               static_cast<double>(run_.good_steps), static_cast<double>(run_.patience),
-               static_cast<double>(run_.flips), static_cast<double>(run_.beat.steps),
-               static_cast<double>(run_.beat.retries), run_.beat.wall_clock,
-               static_cast<double>(beat_), since_, change_before_, blood_at_start_, pressure()});
+  archive.set("run", {run_.time, static_cast<double>(run_.phase), run_.next_frame, run_.next_curve,
+                      run_.largest_velocity, static_cast<double>(run_.halvings),
+                      static_cast<double>(run_.good_steps), static_cast<double>(run_.patience),
+                      static_cast<double>(run_.flips), static_cast<double>(run_.beat.steps),
+                      static_cast<double>(run_.beat.retries), run_.beat.wall_clock,
+                      static_cast<double>(beat_), since_, change_before_, blood_at_start_,
+                      pressure(), leaps_settle_ ? 1.0 : 0.0});
   archive.set("states_before", states_before_);
   archive.set("begins", {begins_.begin(), begins_.end()});
   archive.set("frame_times", run_.frame_times);
@@ -315,7 +318,7 @@ void CycleRecord::store(Archive& archive) const {
 }
 
 void CycleRecord::load(Archive& archive, std::size_t nodes) {
-  const auto& n = archive.get_rows("run", 17, 1, {.missing = true});
+  const auto& n = archive.get_rows("run", 18, 1, {.missing = true});
   const auto whole = [&](double number, double most = std::numeric_limits<int>::max()) {
     return archive.whole_number(number, {0.0, most});
   };
@@ -335,6 +338,7 @@ void CycleRecord::load(Archive& archive, std::size_t nodes) {
   since_ = n[13];
   change_before_ = n[14];
   blood_at_start_ = n[15];
+  leaps_settle_ = whole(n[17], 1.0) == 1;
   cycle_ = load_cycle(archive);
   states_before_ = archive.get_rows("states_before", 1, circuit_.states().size());
   for (const int begin : archive.get_whole("begins", beat_ + 1,
@@ -367,6 +371,7 @@ void store(const circulation::Cycle& cycle, Archive& archive) {
   archive.set("cycle.samples", std::move(numbers));
   archive.set_words("cycle.columns", names);
   archive.set_words("cycle.units", units);
+  archive.set("cycle.atrium", {cycle.atrium});
   archive.set(
       "cycle.facts",
       {cycle.period, static_cast<double>(cycle.beats.size()), cycle.is_limit ? 1.0 : 0.0,
@@ -399,11 +404,12 @@ std::vector<Sample> load_samples(const Archive& archive, std::size_t columns) {
 void store(const EnergyBalance& energy, Archive& archive) {
   archive.set("energy", {energy.pressure, energy.muscle, energy.stored, energy.kinetic,
                          energy.supports, energy.viscosity, energy.base});
+  archive.set("work_density", energy.work_density);
 }
 
 EnergyBalance load_energy(const Archive& archive) {
   const auto& n = archive.get_rows("energy", 7, 1);
-  return {n[0], n[1], n[2], n[3], n[4], n[5], n[6]};
+  return {n[0], n[1], archive.get_rows("work_density", 1), n[2], n[3], n[4], n[5], n[6]};
 }
 
 circulation::Cycle load_cycle(const Archive& archive) {
@@ -419,6 +425,7 @@ circulation::Cycle load_cycle(const Archive& archive) {
   if (cycle.samples.empty())
     archive.refuse("it has no samples of its heartbeats");
   cycle.period = facts[0];
+  cycle.atrium = archive.get_rows("cycle.atrium", 1, 1, {0.0, cycle.period, true})[0];
   cycle.is_limit = archive.whole_number(facts[2], {0.0, 1.0}) == 1;
   cycle.cut_short = archive.whole_number(facts[3], {0.0, 1.0}) == 1;
   cycle.change = facts[4];
@@ -430,7 +437,8 @@ circulation::Cycle load_cycle(const Archive& archive) {
   const double most = cycle.samples.back().time / cycle.period + 1e-9;
   const int beats = archive.whole_number(facts[1], {0.0, most});
   for (int b = 0; b < beats; ++b)
-    cycle.beats.push_back(circulation::measure_beat(circulation::samples_of(cycle, b)));
+    cycle.beats.push_back(
+        circulation::measure_beat(circulation::samples_of(cycle, b), cycle.atrium));
   return cycle;
 }
 

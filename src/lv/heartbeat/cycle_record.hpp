@@ -55,7 +55,9 @@ struct CycleCourse {
 /// volume, by more than the tolerance and beats to come would add little (is_limit_cycle), or with
 /// their largest number. Between two beats a closed
 /// loop may leap to the limit cycle that is foretold (circulation::foretold_limit); a beat that
-/// changes nothing is one of wall and circuit all the same.
+/// changes nothing is one of wall and circuit all the same. A leap makes several times of a beat's
+/// change, and of what two beats never repeat exactly too: the first beat after one that changes
+/// half as much again as the beat before it ends them.
 class CycleRecord {
  public:
   /// Throws InputError where there is no circulation.
@@ -129,6 +131,10 @@ class CycleRecord {
   [[nodiscard]] const RunState& run() const { return run_; }
   [[nodiscard]] const char* phase() const;
 
+  /// The samples of the beat underway, its beginning included.
+  [[nodiscard]] std::span<const circulation::Sample> samples_of_beat() const {
+    return std::span(cycle_.samples).subspan(begins_.back());
+  }
   /// All beats so far, and where the circuit is now.
   [[nodiscard]] const circulation::Cycle& cycle() const { return cycle_; }
   [[nodiscard]] std::span<const double> circuit_states() const { return circuit_.states(); }
@@ -166,6 +172,7 @@ class CycleRecord {
   double change_before_ =
       std::numeric_limits<double>::quiet_NaN();  ///< of the beat before the last
   double blood_at_start_ = 0.0;
+  bool leaps_settle_ = true;  ///< no beat has changed much more than the one before it
 };
 
 /// Adds what a heartbeat's work was to an archive, and takes it out again.

@@ -294,7 +294,10 @@ void ImmersedRun::housekeeping() {
 
 /// Simulated time that the run will probably still take.
 double ImmersedRun::time_left() {
-  double left = settling_time_left(phase(), time_in_phase(), run_.steady);
+  Phase now = phase();
+  if (const NamedMoment* filled = run_.beat.find(end_diastole))
+    now.usual = usual_after_filling(now, phases_.front(), filled->wall.time);
+  double left = settling_time_left(now, time_in_phase(), run_.steady);
   for (std::size_t next = run_.phase + 1; next < phases_.size(); ++next)
     left += phases_[next].usual;
   return left;

@@ -29,6 +29,7 @@ struct CycleParameters {
   bool leap = true;              ///< whether a closed loop leaps towards it between beats
   std::string begin = {};        ///< file of where other beats ended, as the case file names it
   double step = 2e-3;            ///< of time, at most [s]
+  double step_error = 0.0;       ///< of a step, at most; 0: all are as long as they may be [-]
   bool inertia = false;          ///< whether the wall has a mass
   double spectral_radius = 0.5;  ///< of the generalised alpha rule, with inertia [-]
 };

@@ -50,4 +50,10 @@ double settling_time_left(const Phase& phase, double time, const SteadyVolume& v
   return std::min(std::max(left, least), phase.longest - time);
 }
 
+double usual_after_filling(const Phase& phase, const Phase& filling, double took) {
+  const auto at_least = [](const Phase& p) { return p.ramp + p.window; };
+  const double sooner = (took - at_least(filling)) / (filling.usual - at_least(filling));
+  return std::lerp(at_least(phase), phase.usual, std::clamp(sooner, 0.0, 1.0));
+}
+
 }  // namespace lv::heartbeat

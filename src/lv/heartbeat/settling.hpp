@@ -12,4 +12,9 @@ namespace lv::heartbeat {
 [[nodiscard]] double settling_time_left(const Phase& phase, double time,
                                         const SteadyVolume& volume);
 
+/// How long a phase usually takes after the filling of the same wall took so long [s]: muscle that
+/// came to rest sooner than usual under a pressure does so under tension, since it is stiffer. One
+/// that came later says nothing.
+[[nodiscard]] double usual_after_filling(const Phase& phase, const Phase& filling, double took);
+
 }  // namespace lv::heartbeat

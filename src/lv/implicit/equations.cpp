@@ -473,21 +473,28 @@ double Equations::stored_energy(const State& state) const {
   return parallel::sum(energy);
 }
 
-double Equations::muscle_work(const Working& from, const Working& to) const {
-  double work = 0.0;
+Equations::MuscleWork Equations::muscle_work(const Working& from, const Working& to) const {
+  MuscleWork work{std::vector<double>(elements())};
   for (std::size_t i = 0; i < wall_.points.size(); ++i) {
     const ElementState a = element_state(wall_, wall_.own[i], from.state);
     const ElementState b = element_state(wall_, wall_.own[i], to.state);
+    double here = 0.0;
+    double volume = 0.0;
     for (std::size_t q = 0; q < wall_.points[i].size(); ++q) {
       const Point& point = wall_.points[i][q];
       const Mat3 F_a = a.x * point.gradient.transpose();
       const Mat3 F_b = b.x * point.gradient.transpose();
       const Vec3 stress = Constitution{model_, from.tension, i, q}.active(F_a, point.infarct) +
                           Constitution{model_, to.tension, i, q}.active(F_b, point.infarct);
-      work -= 0.5 * point.volume * stress.dot(F_b.col(0) - F_a.col(0));
+      here -= 0.5 * point.volume * stress.dot(F_b.col(0) - F_a.col(0));
+      volume += point.volume;
     }
+    work.density[wall_.own[i]] = here / volume;
+    work.whole += here;
   }
-  return parallel::sum(work);
+  parallel::sum(work.density);
+  work.whole = parallel::sum(work.whole);
+  return work;
 }
 
 }  // namespace lv::implicit

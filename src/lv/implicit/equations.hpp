@@ -183,12 +183,17 @@ class Equations {
   [[nodiscard]] double kinetic_energy(std::span<const Vec3> velocities) const;
 
   /// What muscle does while the wall goes from one state to another, -int P_active : dF dX, by the
-  /// mean of both stresses; positive where it shortens under tension [mN mm].
+  /// mean of both stresses; positive where it shortens under tension: of every element, by its
+  /// undeformed volume [kPa], and in all [mN mm]. Collective.
   struct Working {
     const State& state;
     const TensionAt& tension;
   };
-  [[nodiscard]] double muscle_work(const Working& from, const Working& to) const;
+  struct MuscleWork {
+    std::vector<double> density;
+    double whole = 0.0;
+  };
+  [[nodiscard]] MuscleWork muscle_work(const Working& from, const Working& to) const;
 
   /// What the cavity's pressure does on the endocardium on the way from one state to another [mN
   /// mm].

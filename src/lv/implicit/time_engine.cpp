@@ -96,6 +96,14 @@ NewtonReport TimeEngine::advance(const TimeStep& step, const VolumeOfPressure& v
   return report;
 }
 
+void TimeEngine::go_back(const Passed& begin) {
+  engine_.place(begin.state);
+  muscle_ = begin.muscle;
+  rates_ = begin.rates;
+  base_ = begin.base;
+  dt_before_ = 0.0;  // nothing to extrapolate from
+}
+
 bool TimeEngine::give_way(const TimeStep& step, const VolumeOfPressure& volume) {
   const solid::BasePlace base = step.base.at(1.0, step.dt);
   if (has_rates_ || !engine_.give_way({tension_after(step), 0.0, volume, nullptr, base}))

@@ -31,6 +31,16 @@ class TimeEngine {
   /// One step; the engine stays where it was when it fails.
   NewtonReport advance(const TimeStep& step, const VolumeOfPressure& volume);
 
+  /// A time that was passed: where the wall was and what its muscle was like.
+  struct Passed {
+    State state;
+    Muscle muscle;
+    Rates rates;
+    solid::BasePlace base;
+  };
+  /// Takes the last step back, to where it began.
+  void go_back(const Passed& begin);
+
   /// A step after which the wall is where it gives way to, where advance() finds no equilibrium
   /// near by. Of a wall without rates, which no inertia or viscosity holds back. False, with the
   /// engine where it was, if there is none.
@@ -61,13 +71,6 @@ class TimeEngine {
   /// How many numbers Moment::muscle has.
   [[nodiscard]] std::size_t muscle_numbers() const;
 
-  /// A time that was passed: where the wall was and what its muscle was like.
-  struct Passed {
-    State state;
-    Muscle muscle;
-    Rates rates;
-    solid::BasePlace base;
-  };
   [[nodiscard]] Passed present() const { return {engine_.state(), muscle_, rates_, base_}; }
   /// Stress in every linear cell of the mesh; collective.
   [[nodiscard]] std::vector<solid::CellStress> cell_stress(const Passed& at) const;
@@ -75,7 +78,9 @@ class TimeEngine {
   /// on the wall, by the wall on its supports and against its viscosity, and by what moves the base
   /// on its supports [mN mm].
   struct Work {
-    double pressure = 0.0, muscle = 0.0, supports = 0.0, viscosity = 0.0, base = 0.0;
+    double pressure = 0.0;
+    Equations::MuscleWork muscle;
+    double supports = 0.0, viscosity = 0.0, base = 0.0;
   };
   [[nodiscard]] Work work_since(const Passed& before) const;
   [[nodiscard]] double stored_energy() const {

@@ -62,6 +62,10 @@ BeatResult read_beat(const std::filesystem::path& folder, const mesh::Mesh& mesh
   if (archive.has("cycle.facts")) {
     result.beat.cycle = heartbeat::load_cycle(archive);
     result.beat.energy = heartbeat::load_energy(archive);
+    const std::size_t parts = mesh.order == 2 ? 8 : 1;
+    if (const std::size_t elements = result.beat.energy.work_density.size();
+        elements > 0 && elements * parts != static_cast<std::size_t>(mesh.cell_count()))
+      archive.refuse("'work_density' is of another wall");
     result.beat.activation_times = load_activation_times(archive, mesh.nodes.size());
   }
   result.beat.steps = archive.whole_number(facts[0]);

@@ -433,6 +433,8 @@ std::string make_results(const Case& c, const anatomy::MeshResult& mesh, const B
   analysis::BeatFields fields{analysis.at_rest(), {}};
   for (const heartbeat::NamedMoment& m : beat.beat.moments)
     fields.moments.push_back({m.name, analysis.fields(m.wall)});
+  for (auto& moment : fields.moments)
+    analysis::set_work_density(beat.beat.energy.work_density, moment.cells);
   std::string text;
   parallel::on_root([&] {
     report::RunFacts facts = run_facts(c, mesh, beat);

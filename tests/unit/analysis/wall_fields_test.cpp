@@ -174,3 +174,13 @@ TEST_CASE("stresses are those of the laws, and along the fibre T lambda^2", "[un
     CHECK((pressure - cell.pressure * Mat3::Identity()).norm() < 1e-12);
   }
 }
+
+TEST_CASE("every part of an element has its work density", "[unit][analysis]") {
+  std::vector<CellFields> cells(16);
+  analysis::set_work_density({}, cells);
+  CHECK(std::isnan(cells.front().work_density));
+  const std::vector<double> of_elements{3.0, 5.0};
+  analysis::set_work_density(of_elements, cells);
+  CHECK(cells[7].work_density == 3.0);
+  CHECK(cells[8].work_density == 5.0);
+}

@@ -16,6 +16,7 @@
 namespace {
 
 using namespace lv::circulation;
+using lv::units::ml;
 using lv::units::mmHg;
 
 CircuitParameters quick(Kind kind) {
@@ -108,7 +109,35 @@ TEST_CASE("a circulation comes to its limit cycle and stays there", "[unit][circ
     CHECK(last.stroke_volume == Approx(before.stroke_volume).epsilon(5e-3));
     CHECK(last.aortic_opens > last.mitral_closes);
     CHECK(last.mitral_opens > last.aortic_closes);
+    // what has come in is what went out, but for what leaks back
+    const bool has_atrium = kind == Kind::closed_loop;
+    CHECK(std::isnan(last.late_filling) != has_atrium);
+    CHECK(last.early_filling + (has_atrium ? last.late_filling : 0.0) ==
+          Approx(last.stroke_volume).epsilon(2e-2));
+    CHECK(last.early_filling_flow > 0.0);
   }
+}
+
+TEST_CASE("inflow before the atrium contracts is early, and after it late, across the beat's end",
+          "[unit][circulation]") {
+  std::vector<Sample> beat;  // opens at 0.5 s, closes at 0.1 s
+  for (int i = 0; i <= 100; ++i) {
+    Sample s;
+    s.time = 3.0 + 0.01 * i;
+    const double t = 0.01 * (i + 0.5);
+    const bool fills = t < 0.1 || t > 0.5;
+    s.signals.mitral_gradient = fills ? 1.0 : -1.0;
+    s.signals.aortic_gradient = t > 0.2 && t < 0.4 ? 1.0 : -1.0;
+    s.signals.mitral_flow = fills ? (t > 0.5 && t < 0.8 ? 300.0 * ml : 100.0 * ml) : 0.0;
+    s.signals.pressure = s.signals.volume = 1.0;
+    beat.push_back(s);
+  }
+  const BeatMeasures m = measure_beat(beat, 0.8);
+  CHECK(m.early_filling == Approx(90.0 * ml).epsilon(0.03));
+  CHECK(m.late_filling == Approx(30.0 * ml).epsilon(0.06));
+  CHECK(m.early_filling_flow == Approx(300.0 * ml));
+  CHECK(m.late_filling_flow < 210.0 * ml);
+  CHECK(measure_beat(beat).early_filling == Approx(120.0 * ml).epsilon(0.03));
 }
 
 TEST_CASE("a circuit that fills slowly is no limit cycle where it starts", "[unit][circulation]") {

@@ -2,7 +2,9 @@
 
 #include "lv/base/check.hpp"
 #include "lv/circulation/circuit.hpp"
+#include "lv/circulation/elastance.hpp"
 #include "lv/geometry/ellipsoid.hpp"
+#include "lv/heartbeat/cycle_record.hpp"
 #include "lv/mesh/wall_mesh.hpp"
 
 #include "support/circuit_step.hpp"
@@ -124,6 +126,7 @@ void check_same(const Beat& undisturbed, const Beat& resumed) {
   const heartbeat::EnergyBalance& before = undisturbed.energy;
   const heartbeat::EnergyBalance& after = resumed.energy;
   CHECK(before.muscle == after.muscle);
+  CHECK(before.work_density == after.work_density);
   CHECK(before.supports == after.supports);
   CHECK(before.viscosity == after.viscosity);
   CHECK(before.kinetic == after.kinetic);
@@ -220,6 +223,31 @@ TEST_CASE(
   CHECK(e.error() < 0.01);
   CHECK(std::abs(e.base) > 0.03 * e.muscle);         // else the balance would not see it
   CHECK(e.supports > 1.05 * still.energy.supports);  // dashpots of the epicardium are drawn along
+  const implicit::TimeEngine engine(mesh, setup.model, {});
+  const implicit::Equations& equations = engine.equations();
+  REQUIRE(e.work_density.size() == equations.elements());
+  std::vector<double> at_points;
+  for (const double density : e.work_density)
+    at_points.insert(at_points.end(), equations.points_per_element(), density);
+  constexpr double wall = 113.6 * units::ml;
+  CHECK(equations.mean(at_points) * wall == Approx(e.muscle).epsilon(0.01));
+}
+
+TEST_CASE("steps are as short as their local error asks", "[unit][heartbeat]") {
+  const mesh::Mesh mesh = coarsest_wall();
+  CycleSetup setup = quick(mesh);
+  const auto opens = [](const Beat& beat) { return beat.cycle->beats.back().aortic_opens; };
+  setup.cycle.step = 2e-3;
+  const Beat fine = heartbeat::run_cycle(setup, empty_folder("lv_cycle_fine"), {});
+  setup.cycle.step = 1.6e-2;
+  const Beat rough = heartbeat::run_cycle(setup, empty_folder("lv_cycle_rough"), {});
+  setup.cycle.step_error = 1e-3;
+  const Beat adaptive = heartbeat::run_cycle(setup, empty_folder("lv_cycle_adaptive"), {});
+  CHECK(adaptive.retries > rough.retries);
+  CHECK(adaptive.steps < fine.steps / 2);
+  INFO("opens " << opens(fine) << " fine, " << opens(rough) << " rough, " << opens(adaptive));
+  CHECK(std::abs(opens(adaptive) - opens(fine)) < 0.5 * std::abs(opens(rough) - opens(fine)));
+  check_same(adaptive, stopped_and_resumed(setup));
 }
 
 TEST_CASE("muscle that is activated later contracts later", "[unit][heartbeat]") {
@@ -324,6 +352,51 @@ TEST_CASE("a wall in a closed loop leaps to its limit cycle and keeps the loop's
   CHECK(leaping.cycle->change < 0.3 * walking.cycle->change);
   CHECK(circulation::blood_of(setup.circuit, leaping.cycle->samples.back().signals) ==
         Approx(1400.0 * units::ml).epsilon(1e-10));
+}
+
+namespace {
+
+/// Beats of a closed loop around an elastance, the last of 20 or that of a limit cycle. Each is
+/// stronger or weaker by up to `noise` of itself.
+circulation::Cycle loop_with_noise(double noise) {
+  heartbeat::CycleCourse course;
+  course.circuit.kind = circulation::Kind::closed_loop;
+  course.cycle = {.beats = 20, .tolerance = 1e-3, .step = 8e-3};
+  heartbeat::CycleRecord record(course);
+  double volume = course.circuit.start.V_lv;
+  record.start(volume, record.filling_pressure());
+  while (!record.done()) {
+    record.begin_beat();
+    circulation::ElastanceParameters beating = course.circuit.left_ventricle;
+    beating.E_A *= 1.0 + noise * std::cos(7.0 * record.beat() * record.beat());
+    const circulation::Elastance ventricle(beating, record.period());
+    while (!record.beat_is_over()) {
+      const double dt = record.step_size(course.cycle.step);
+      const double E = ventricle.at(record.after(dt));
+      double p = E * (volume - beating.V_0);
+      for (int k = 0; k < 50; ++k) {
+        const auto [after, slope] = record.volume_after(dt, p);
+        p -= (after - p / E - beating.V_0) / (slope - 1.0 / E);
+      }
+      volume = p / E + beating.V_0;
+      record.step(dt, p, volume);
+    }
+    record.end_beat();
+  }
+  return record.cycle();
+}
+
+}  // namespace
+
+TEST_CASE("leaps end where beats that differ leave larger changes after them",
+          "[unit][heartbeat]") {
+  const circulation::Cycle same = loop_with_noise(0.0);
+  CHECK(same.is_limit);
+  const circulation::Cycle other = loop_with_noise(0.01);
+  CHECK_FALSE(other.is_limit);
+  CHECK(other.leaps > 1);
+  CHECK(other.leaps < 8);  // of 19
+  CHECK(same.leaps > other.leaps);
 }
 
 TEST_CASE("heartbeats in an archive are those that were put in", "[unit][heartbeat]") {

@@ -63,3 +63,17 @@ TEST_CASE("a volume that was elsewhere within the window has to stay for the res
                              recorded(contraction, jump + since, volume)) ==
           Approx(contraction.window - since).margin(2e-3));
 }
+
+TEST_CASE("a wall that was filled sooner than usual is expected to contract sooner",
+          "[unit][heartbeat]") {
+  const auto all = phases({});
+  const Phase& filling = all.front();
+  const Phase& contraction = all.back();
+  const auto after = [&](double took) { return usual_after_filling(contraction, filling, took); };
+  CHECK(after(filling.usual) == Approx(contraction.usual));
+  CHECK(after(2.0 * filling.usual) == Approx(contraction.usual));
+  const double least = contraction.ramp + contraction.window;
+  CHECK(after(0.5 * (filling.usual + filling.ramp + filling.window)) ==
+        Approx(0.5 * (contraction.usual + least)));
+  CHECK(after(0.1) == Approx(least));
+}
