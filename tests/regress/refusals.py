@@ -2,6 +2,7 @@
 """Fits whose target is out of reach: each must say so within 30 s of processor time, mesh included. Usage: refusals.py VENTRICLE [coarse|default]
 [WORDS]: on coarse elements or the default mesh, the cases whose name has these words. On the default mesh the coarse wall that is tried first may say
 so with a warning, where the finer one could still reach the target: both times are shown."""
+import math
 import os
 import pathlib
 import resource
@@ -34,6 +35,27 @@ cases = {
     "EDV too large, unloaded from 2 mmHg": 'unloaded.pressure = "2 mmHg"\ncalibrate.passive = "scale"\ncalibrate.edv = "120 ml"\n',
 }
 
+# A wall of 5 mm around 230 ml, bent, and flattened by so much of its radius on one side: without load it is folded.
+flattened = 'anatomy.source = "contours"\nanatomy.contours.short_axis = "flat.csv"\nunloaded.pressure = "8 mmHg"\ncalibrate.passive = "klotz"\n'
+cases |= {f"thin wall flattened by {100 * part:.0f}%": flattened for part in (0.18, 0.3)}
+
+
+def draw_flattened(part, file):
+    """Loops of such a wall every 8 mm, as CSV."""
+    rows = ["slice,contour,point,x_mm,y_mm,z_mm"]
+    for k in range(12):
+        z = 20.0 - 8.0 * k
+        for side, radius, length in (("endo", 33.0, 70.0), ("epi", 38.0, 75.0)):
+            if abs(z) >= length - 1.0:
+                continue
+            r = radius * math.sqrt(1.0 - (z / length) ** 2)
+            for n in range(48):
+                angle = 2.0 * math.pi * n / 48
+                across = math.remainder(angle, 2.0 * math.pi) / 0.7
+                flat = r * (1.0 - part * math.exp(-across**2))
+                rows.append(f"{k + 1},{side},{n + 1},{flat * math.cos(angle) + 20.0 * (z / 90.0)**2:.4f},{flat * math.sin(angle):.4f},{z:.1f}")
+    file.write_text("\n".join(rows) + "\n")
+
 
 def seconds_of(process):
     """Processor time of a process that runs, and of its children that ended."""
@@ -44,6 +66,8 @@ def seconds_of(process):
 def refuse(name, lines, folder):
     """Exit code, processor seconds until it first says that the target is out of reach and until its end, and its last words."""
     case = folder / "case.toml"
+    if "flat.csv" in lines:
+        draw_flattened(float(name.split()[-1].rstrip("%")) / 100.0, folder / "flat.csv")
     case.write_text(f'name = "{name}"\nengine = "quasi_static"\n{elements}{lines}')
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     said = None

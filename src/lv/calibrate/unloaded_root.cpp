@@ -15,6 +15,7 @@ constexpr double longest_stride = 1.4;    // of the stiffness's logarithm: a fac
 constexpr double shortest_stride = 0.03;  // towards where there is no wall without load
 constexpr double usual_slope = -0.6;      // d ln(seen - V)/d ln stiffness, before it is known
 constexpr int most_walls = 30;
+constexpr int most_without = 4;  // walls for which there is none without load, before one has
 
 /// A wall that was tried: ln stiffness and ln((seen - V)/(seen - target)), which falls.
 struct Tried {
@@ -57,6 +58,7 @@ class UnloadedSearch {
   bool try_at(double log_x) {
     const Outcome<double> V = volume_(std::exp(log_x));
     if (!V) {
+      ++without_;
       nowhere_ = std::max(log_x, nowhere_.value_or(log_x));
       reason_ = V.why().what;
       return false;
@@ -90,7 +92,7 @@ class UnloadedSearch {
   /// Whether there is no farther to go, in the direction that is left.
   [[nodiscard]] bool at_its_end(double next) const {
     if (!now_)
-      return *nowhere_ >= high_;
+      return *nowhere_ >= high_ || without_ >= most_without;
     if (soft_ && stiff_)
       return false;
     if (soft_)
@@ -108,9 +110,9 @@ class UnloadedSearch {
         "that folds or turns inside out when it is unloaded is often drawn too thin somewhere";
     if (!now_)
       throw OutOfReach(target_.origin,
-                       fmt::format("{}: no stiffness up to {} = {:g}, the end of its range, gives "
-                                   "it a shape without load: {}",
-                                   what, unknown_.name, unknown_.range.high, reason_),
+                       fmt::format("{}: no stiffness up to {} = {:.3g} gives it a shape without "
+                                   "load: {}",
+                                   what, unknown_.name, std::exp(*nowhere_), reason_),
                        remedy, 0.0);
     const Tried& end = soft_ ? *soft_ : *stiff_;
     const bool at_end_of_range = soft_ || !nowhere_;
@@ -133,6 +135,7 @@ class UnloadedSearch {
   std::optional<Tried> soft_, stiff_;  ///< the nearest on both sides of the root
   std::optional<double> nowhere_;      ///< the stiffest without a wall free of load
   std::string reason_;                 ///< why there is none
+  int without_ = 0;                    ///< such walls
 };
 
 }  // namespace

@@ -27,6 +27,8 @@ constexpr double smallest_share = 1.0 / 64;  // of the pressure, before it gives
 constexpr double far_below = 0.02;
 constexpr double loose = 0.5;  // tolerance on the way to the whole pressure, and what is near [mm]
 
+constexpr int creeping = 20;  // equilibria, failed ones included, without halving the distance
+
 constexpr double near_end = 2.0;  // of the given shape: no trial begins from no load there [mm]
 
 constexpr int smooth_degree = 3;
@@ -81,6 +83,8 @@ class Unloader {
     if (inverse_finds(start))
       return result();
     const std::optional<Unloaded> inverse = near_inverse();
+    if (!inverse && has_inverse())
+      warn();
     if (inverse)
       start = &*inverse;
     forget();
@@ -103,9 +107,13 @@ class Unloader {
     return start.loaded.positions.empty() ? nullptr : &start.loaded;
   }
 
+  [[nodiscard]] bool has_inverse() const {
+    return solver_.newton.linear.method == LinearMethod::direct;
+  }
+
   /// By the inverse problem, a wall without folds that loaded again is within the tolerance.
   bool inverse_finds(const Unloaded* start) {
-    if (solver_.newton.linear.method != LinearMethod::direct)
+    if (!has_inverse())
       return false;
     std::optional<Reference> guess;
     if (start != nullptr)
@@ -165,14 +173,27 @@ class Unloader {
            now_.left <= std::max(parameters_.tolerance, parameters_.near_enough);
   }
 
-  /// Whether it is near enough, and hardly comes nearer.
+  /// Whether it is near enough and hardly comes nearer, or creeps.
   [[nodiscard]] bool is_done_with() const {
-    return is_near_enough() && equilibria_ - halved_ >= UnloadForecast::patience;
+    return is_creeping() || (is_near_enough() && equilibria_ - halved_ >= UnloadForecast::patience);
   }
+
+  [[nodiscard]] bool is_creeping() const { return equilibria_ - halved_ >= creeping; }
 
   /// P (X - x*)
   [[nodiscard]] Eigen::VectorXd smoothed(const Eigen::VectorXd& X) const {
     return SmoothFields(given_.nodes, smooth_degree).nearest(X - target_);
+  }
+
+  /// What follows may take a minute.
+  void warn() const {
+    const std::string why = has_wall() && is_folded(now_.step.folds)
+                                ? fmt::format("is folded ({})", words(now_.step.folds))
+                                : "was not found";
+    log::warn(
+        "the wall without load that becomes the seen shape at {:.2f} mmHg {}: that shape cannot be "
+        "reached unless a smooth wall near by is found",
+        parameters_.pressure / units::mmHg, why);
   }
 
   [[nodiscard]] Unsolved not_found() const {
@@ -260,7 +281,7 @@ class Unloader {
   void approach() {
     if (try_from(target_, nullptr) || is_near())
       return;
-    if (has_wall() && is_folded(now_.step.folds))
+    if (has_wall() && (is_folded(now_.step.folds) || is_creeping()))
       return;
     double reached = 0.0;
     double share = 0.5;

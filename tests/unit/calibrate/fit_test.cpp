@@ -366,7 +366,7 @@ TEST_CASE("a V0 below what any wall without load holds is refused with what ther
                         Contains("the softest for which there is a shape without load") &&
                         Contains("the wall folds"));
   CHECK_THROWS_WITH(fit(seen_wall(100.0), {}, klotz_plan()),
-                    Contains("no stiffness up to scale = 50"));
+                    Contains("no stiffness up to scale = 16"));
   Plan stiff = klotz_plan();
   stiff.stiffness = {5.0, 50.0};
   CHECK_THROWS_WITH(fit(seen_wall(0.01), {}, stiff), Contains("the end of its range"));

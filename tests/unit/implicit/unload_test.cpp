@@ -4,6 +4,7 @@
 #include "lv/base/interrupt.hpp"
 #include "lv/base/units.hpp"
 #include "lv/geometry/ellipsoid.hpp"
+#include "lv/mesh/cell.hpp"
 #include "lv/mesh/wall_mesh.hpp"
 
 #include <catch2/catch.hpp>
@@ -215,6 +216,23 @@ TEST_CASE("an equilibrium of another wall is refused", "[implicit]") {
   implicit::State other = engine.state();
   other.pressures.pop_back();
   CHECK_THROWS_AS(engine.restore(other, {}), InputError);
+}
+
+TEST_CASE("the mean stress of a wall that contracts is that of Laplace's law", "[implicit]") {
+  const mesh::Mesh wall = coarse_ventricle();
+  Engine engine(wall, model(1.0), {});
+  const double pressure = 60.0 * mmHg;
+  const double V = engine.go_to({pressure, 0.5}).value();
+  double trace = 0.0, wall_volume = 0.0;
+  const auto stresses = engine.cell_stress();
+  for (int c = 0; c < wall.cell_count(); ++c) {
+    const auto& s = stresses[static_cast<std::size_t>(c)];
+    const double volume = mesh::cell_volume(wall, c);
+    trace += volume * (s.cauchy_passive.trace() + s.cauchy_active.trace() - 3.0 * s.pressure);
+    wall_volume += volume;
+  }
+  // of means over straight cells, which hold a few hundredths less than the curved elements
+  CHECK(trace / wall_volume == Approx(3.0 * pressure * V / wall_volume).epsilon(0.05));
 }
 
 TEST_CASE("a wall that would be folded is replaced by a smooth one, or refused", "[implicit]") {
