@@ -5,6 +5,7 @@
 #include "lv/base/median.hpp"
 #include "lv/image/volume.hpp"
 #include "lv/segment/closed_path.hpp"
+#include "lv/segment/coils.hpp"
 #include "lv/segment/edge_width.hpp"
 #include "lv/segment/grey_levels.hpp"
 #include "lv/segment/redraw_border.hpp"
@@ -206,7 +207,8 @@ struct Work {
   std::vector<Radii> blood, middle, epi, endo;
   std::vector<double> motion;  ///< of the blood's edge, see shared_motion
   Levels levels;
-  double inside = 0.0;  ///< grey value of blood or, at the tip, of what is blood and muscle
+  double inside = 0.0;   ///< grey value of blood or, at the tip, of what is blood and muscle
+  double fullest = 0.0;  ///< the same while it holds most blood
 };
 
 constexpr double faintest = 1.2;  // blood beside muscle; a slice without either is left out later
@@ -323,7 +325,8 @@ std::vector<Radii> drawn_endocardium(const Work& work, const std::vector<Radii>&
     const Radii& seen = work.endo[t];
     const Radii shape = inner == nullptr ? seen : scaled_to(inner->frames[t].endo, seen, sees[t]);
     const Radii expected = closed_straight(shape, seen, sees[t]);
-    lines.push_back(convex(fit_border(endocardial_fit(seen, sees[t], expected))));
+    const Radii smooth = convex(fit_border(endocardial_fit(seen, sees[t], expected)));
+    lines.push_back(closed_straight(smooth, smooth, sees[t]));  // where harmonics bulge
   }
   return steady_in_time(lines, work.motion);
 }
@@ -338,7 +341,7 @@ SliceBorders finish(const Work& work, const Pixel& centre, const SliceBorders* i
     walls.push_back(seen_wall(work, t, inner));
   const std::vector<Radii> endo = drawn_endocardium(work, walls, inner);
   const double muscle = work.levels.muscle.mean();
-  SliceBorders slice{centre, (work.inside - muscle) / muscle, {}};
+  SliceBorders slice{centre, (work.fullest - muscle) / muscle, {}};
   for (std::size_t t = 0; t < endo.size(); ++t) {
     const Radii smooth = harmonics_of(work.epi[t], epi_harmonics);
     const Radii& sees = walls[t];
@@ -352,15 +355,46 @@ SliceBorders finish(const Work& work, const Pixel& centre, const SliceBorders* i
   return slice;
 }
 
-Work begin(const image::CineSlice& slice, const Centre& centre) {
-  Work work;
+std::vector<Polar> sampled(const image::CineSlice& slice, const Pixel& centre) {
+  std::vector<Polar> values;
   for (const image::Picture& frame : slice.frames)
-    work.values.push_back(sample(frame, centre.at, grid));
-  work.levels = guess_levels(work.values, centre.radius, grid);
+    values.push_back(sample(frame, centre, grid));
+  return values;
+}
+
+/// What a slice shows as coils would that receive equally, and the blood in it.
+Work begin(std::vector<Polar> values, double radius, const Polar& received) {
+  Work work;
+  work.values = std::move(values);
+  for (Polar& frame : work.values)
+    frame /= received;
+  work.levels = guess_levels(work.values, radius, grid);
   work.inside = work.levels.blood;
-  for (const Polar& values : work.values)
-    work.blood.push_back(blood_edge(values, work.levels));
+  work.fullest = fullest_blood(work.values, radius, grid);
+  for (const Polar& frame : work.values)
+    work.blood.push_back(blood_edge(frame, work.levels));
   return work;
+}
+
+constexpr double surely_blood = 0.5;  // part of the cavity's radius within which it is
+
+/// All slices, evened out by what the blood tells of the coils where a slice looks like the heart.
+std::vector<Work> begin_evened(const image::Cine& cine, const Heart& heart) {
+  constexpr double like_seed = 0.5;
+  std::vector<std::vector<Polar>> values;
+  for (std::size_t s = 0; s < cine.slices.size(); ++s)
+    values.push_back(sampled(cine.slices[s], heart.centres[s].at));
+  std::vector<BloodPool> pools;
+  for (std::size_t s = 0; s < values.size(); ++s)
+    if (heart.centres[s].likeness >= like_seed * heart.centres[heart.seed].likeness)
+      pools.push_back({values[s], surely_blood * heart.centres[s].radius});
+  const Polar received = sensitivity(coil_gradient(pools, grid), grid);
+  std::vector<Work> all;
+  for (std::size_t s = 0; s < values.size(); ++s) {
+    interrupt::check();
+    all.push_back(begin(std::move(values[s]), heart.centres[s].radius, received));
+  }
+  return all;
 }
 
 /// Finds the blood's edge again where its grey value is another one.
@@ -380,16 +414,13 @@ void learn_round(Work& work, double muscle_of_slice) {
 }
 
 std::vector<Work> begin_all(const image::Cine& cine, const Heart& heart) {
-  std::vector<Work> all;
+  std::vector<Work> all = begin_evened(cine, heart);
   std::vector<std::vector<double>> outside;
-  for (std::size_t s = 0; s < cine.slices.size(); ++s) {
-    interrupt::check();
-    all.push_back(begin(cine.slices[s], heart.centres[s]));
-    outside.push_back(around_blood(all.back().values, all.back().blood, grid));
-  }
   std::vector<double> blood;
-  for (const Work& work : all)
+  for (const Work& work : all) {
+    outside.push_back(around_blood(work.values, work.blood, grid));
     blood.push_back(work.levels.blood);
+  }
   const std::vector<double> muscle = muscle_levels(outside, blood);
   const std::vector<double> whole = whole_blood(blood, muscle);
   for (std::size_t s = 0; s < all.size(); ++s) {
@@ -531,7 +562,10 @@ Radii redrawn_epicardium(const Frame& frame, const std::optional<Radii>& endo,
 }  // namespace
 
 Radii redraw_border(const image::CineSlice& slice, const Redrawing& asked, double fall) {
-  Work work = begin(slice, asked.centre);
+  std::vector<Polar> values = sampled(slice, asked.centre.at);
+  const Polar received =
+      sensitivity(coil_gradient({{values, surely_blood * asked.centre.radius}}, grid), grid);
+  Work work = begin(std::move(values), asked.centre.radius, received);
   learn_round(
       work,
       muscle_levels({around_blood(work.values, work.blood, grid)}, {work.levels.blood}).front());

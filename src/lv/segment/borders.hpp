@@ -31,6 +31,8 @@ struct Drawn {
 
 /// Draws endocardium and epicardium on all frames of all slices.
 ///
+/// What coils receive unequally is evened out (see coil_gradient).
+///
 /// Grey levels are learnt from the study: blood as the median of the inner half of the cavity of a
 /// slice, muscle as the most frequent grey value 2 to 10 mm outside the blood of all slices, then
 /// of each slice, then along each ray where the wall was found, since coils make one side brighter.
@@ -46,8 +48,8 @@ struct Drawn {
 ///
 /// The endocardium is then a sum of three harmonics that papillary muscles hardly push inwards, and
 /// its convex hull. Where no muscle is seen behind it, as in the outflow tract, it takes the shape
-/// of the next slice towards the middle of the heart, but goes no farther out than straight from
-/// one end of the muscle to the other.
+/// of the next slice towards the middle of the heart, and is then cut straight from one end of the
+/// muscle to the other.
 [[nodiscard]] Drawn draw_borders(const image::Cine& cine, const Heart& heart,
                                  const std::optional<double>& fall);
 

@@ -62,6 +62,18 @@ Levels guess_levels(const std::vector<Polar>& frames, double radius, const Polar
   return {blood, Radii::Constant(grid.rays, usual * blood), 0.0};
 }
 
+double fullest_blood(const std::vector<Polar>& frames, double radius, const PolarGrid& grid) {
+  const int inner = grid.index(0.5 * radius) + 1;
+  std::vector<double> shown;
+  for (const Polar& values : frames) {
+    const auto middle = values.leftCols(inner).reshaped();
+    shown.push_back(median({middle.begin(), middle.end()}));
+  }
+  const auto quartile = shown.begin() + static_cast<std::ptrdiff_t>(3 * shown.size() / 4);
+  std::nth_element(shown.begin(), quartile, shown.end());
+  return *quartile;
+}
+
 std::vector<double> around_blood(const std::vector<Polar>& frames, const std::vector<Radii>& blood,
                                  const PolarGrid& grid) {
   std::vector<double> values;

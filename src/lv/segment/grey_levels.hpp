@@ -18,6 +18,12 @@ struct Levels {
 [[nodiscard]] Levels guess_levels(const std::vector<Polar>& frames, double radius,
                                   const PolarGrid& grid);
 
+/// The same of blood while a slice holds most of it: the upper quartile over the frames of what
+/// each shows. The tip comes and goes; a cavity that ends in a slice at end-systole may be half of
+/// its thickness deep at end-diastole.
+[[nodiscard]] double fullest_blood(const std::vector<Polar>& frames, double radius,
+                                   const PolarGrid& grid);
+
 /// The grey values 2 to 10 mm outside the blood.
 [[nodiscard]] std::vector<double> around_blood(const std::vector<Polar>& frames,
                                                const std::vector<Radii>& blood,

@@ -81,14 +81,18 @@ double mean(const std::vector<double>& values) {
   return sum / static_cast<double>(values.size());
 }
 
-/// Covariance over the frames.
-double covariance(const std::vector<double>& a, const std::vector<double>& b) {
+/// By what part of its mean a changes where b changes by all of its own: the slope of least squares
+/// over the frames.
+double shared_change(const std::vector<double>& a, const std::vector<double>& b) {
   const double mean_a = mean(a);
   const double mean_b = mean(b);
-  double sum = 0.0;
-  for (std::size_t t = 0; t < a.size(); ++t)
-    sum += (a[t] - mean_a) * (b[t] - mean_b);
-  return sum / static_cast<double>(a.size());
+  double common = 0.0;
+  double own = 0.0;
+  for (std::size_t t = 0; t < a.size(); ++t) {
+    common += (a[t] / mean_a - 1.0) * (b[t] / mean_b - 1.0);
+    own += std::pow(b[t] / mean_b - 1.0, 2);
+  }
+  return own > 0.0 ? common / own : 1.0;
 }
 
 /// Whether the base lies at the run's first slices.
@@ -113,8 +117,11 @@ std::vector<std::size_t> from_base(const Run& run, bool base_first) {
   return slices;
 }
 
-/// Drops slices at the base, of the upper half, whose blood grows while the others' shrinks.
+/// Drops slices at the base, of the upper half, whose blood does not shrink with the others': a
+/// ventricle's does by about as much, that of an atrium grows, and a slice that the base passes
+/// stays between.
 void drop_atrium(const std::vector<SliceBorders>& borders, std::vector<std::size_t>& slices) {
+  constexpr double ventricle = 0.5;  // part of the others' relative change
   std::vector<double> lower(borders.front().frames.size(), 0.0);
   for (std::size_t n = slices.size() / 2; n < slices.size(); ++n) {
     const std::vector<double> areas = areas_of(borders[slices[n]]);
@@ -122,7 +129,8 @@ void drop_atrium(const std::vector<SliceBorders>& borders, std::vector<std::size
       lower[t] += areas[t];
   }
   std::size_t drop = 0;
-  while (drop < slices.size() / 2 && covariance(areas_of(borders[slices[drop]]), lower) < 0.0)
+  while (drop < slices.size() / 2 &&
+         shared_change(areas_of(borders[slices[drop]]), lower) < ventricle)
     ++drop;
   slices.erase(slices.begin(), slices.begin() + static_cast<std::ptrdiff_t>(drop));
 }
@@ -194,7 +202,7 @@ std::string ranges(const std::vector<std::size_t>& numbers) {
 /// Why a slice is left out: by itself, or for where it lies.
 std::string why_left_out(const std::vector<SliceBorders>& borders, const Run& run, std::size_t s) {
   if (s >= run.first && s <= run.last)
-    return "its blood grows while that of the others shrinks; an atrium";
+    return "its blood does not shrink with that of the others; an atrium";
   const std::string by_itself = shows_none(borders[s], usual_contrast(borders));
   return by_itself.empty() ? fmt::format("it lies beyond slice {}, which shows no ventricle",
                                          s < run.first ? run.first : run.last + 2)

@@ -4,6 +4,7 @@
 #include "lv/geometry/contour_measures.hpp"
 #include "lv/geometry/contour_table.hpp"
 #include "lv/segment/borders.hpp"
+#include "lv/segment/coils.hpp"
 #include "lv/segment/redraw.hpp"
 #include "lv/strain/measures.hpp"
 
@@ -16,6 +17,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <numbers>
 #include <optional>
 
 using namespace lv;
@@ -80,8 +82,8 @@ void try_redrawing(const std::string& what, const image::Cine& cine,
 
 /// A ring of muscle round blood of 25 mm radius, 9 mm thick; outside it lung on the left, and on
 /// the right liver, as bright as muscle, behind a line of 2 mm that is as bright as a part of
-/// muscle.
-image::Picture ring_beside_liver(double line) {
+/// muscle. Coils receive exp(g . x) at x from the middle [mm].
+image::Picture ring_beside_liver(double line, const segment::CoilGradient& g) {
   constexpr double blood = 1000.0;  // five times the muscle's, as in sharp images of today
   constexpr double muscle = 200.0;
   image::Picture picture;
@@ -92,20 +94,39 @@ image::Picture ring_beside_liver(double line) {
     for (int i = 0; i < plane.columns; ++i) {
       const double r = 1.4 * std::hypot(i - 50, j - 50);
       const double outside = i < 50 ? 0.2 * muscle : r < 36.0 ? line * muscle : muscle;
-      picture.values.push_back(static_cast<float>(r < 25.0 ? blood : r < 34.0 ? muscle : outside));
+      const double received = std::exp(g.dot(1.4 * segment::CoilGradient(i - 50, j - 50)));
+      picture.values.push_back(static_cast<float>(received * (r < 25.0   ? blood
+                                                              : r < 34.0 ? muscle
+                                                                         : outside)));
     }
   return picture;
 }
 
-/// The epicardium that is drawn round it.
-segment::Radii epicardium_beside_liver(double line) {
+/// The same with blood instead of all that lies within 35 degrees of the ring's right.
+image::Picture open_ring() {
+  image::Picture picture = ring_beside_liver(0.5, segment::CoilGradient::Zero());
+  const image::Plane& plane = picture.plane;
+  for (int j = 0; j < plane.rows; ++j)
+    for (int i = 50; i < plane.columns; ++i)
+      if (std::abs(j - 50) < std::tan(35.0 * std::numbers::pi / 180.0) * (i - 50))
+        picture.values[static_cast<std::size_t>(j) * plane.columns + i] = picture.at(50, 50);
+  return picture;
+}
+
+/// The borders that are drawn round the middle of a picture that three slices show.
+segment::FrameBorders borders_of(const image::Picture& shown) {
   image::Cine cine;
-  cine.slices.assign(3, {"slice", {5, ring_beside_liver(line)}, {}, 0.0});
+  cine.slices.assign(3, {"slice", {5, shown}, {}, 0.0});
   for (std::size_t s = 0; s < 3; ++s)
     for (image::Picture& picture : cine.slices[s].frames)
       picture.plane.origin.z() = 10.0 * static_cast<double>(s);
   const segment::Centre middle{segment::Pixel(50.0, 50.0), 1.0, 25.0};
-  return segment::draw_borders(cine, {{3, middle}, 1}, 0.5).slices[1].frames[0].epi;
+  return segment::draw_borders(cine, {{3, middle}, 1}, 0.5).slices[1].frames[0];
+}
+
+segment::FrameBorders borders_beside_liver(
+    double line, const segment::CoilGradient& g = segment::CoilGradient::Zero()) {
+  return borders_of(ring_beside_liver(line, g));
 }
 
 /// What a segmentation finds of the phantom at end-diastole and end-systole.
@@ -244,7 +265,7 @@ TEST_CASE("volumes that rest on doubtful borders say so", "[segment]") {
 }
 
 TEST_CASE("the epicardium stays within lung and within liver behind a dark line", "[segment]") {
-  const segment::Radii epi = epicardium_beside_liver(0.5);
+  const segment::Radii epi = borders_beside_liver(0.5).epi;
   CHECK(epi.maxCoeff() < 35.5);
   CHECK(epi.minCoeff() > 32.5);
   CHECK(epi.mean() == Approx(34.0).margin(0.7));
@@ -256,8 +277,30 @@ TEST_CASE("it is the dark line that leaves liver out", "[segment]") {
     const Eigen::Index n = epi.size() / 6;
     return 0.5 * (epi.head(n).mean() + epi.tail(n).mean());
   };
-  CHECK(liver(epicardium_beside_liver(0.5)) == Approx(34.0).margin(0.7));
-  CHECK(liver(epicardium_beside_liver(1.0)) > 38.0);
+  CHECK(liver(borders_beside_liver(0.5).epi) == Approx(34.0).margin(0.7));
+  CHECK(liver(borders_beside_liver(1.0).epi) > 38.0);
+}
+
+TEST_CASE("an outflow tract is closed straight from one end of the muscle to the other",
+          "[segment]") {
+  const segment::Radii endo = borders_of(open_ring()).endo;
+  const double straight = 25.0 * std::cos(35.0 * std::numbers::pi / 180.0);
+  CHECK(endo(0) == Approx(straight).margin(1.5));  // where a circle would be at 25 mm
+  CHECK(endo(endo.size() / 2) == Approx(25.0).margin(1.5));
+}
+
+TEST_CASE("coils that receive two or three times as much on one side move no border", "[segment]") {
+  constexpr double within = 0.8;  // [mm]; a step of the radii is 0.75
+  const segment::FrameBorders even = borders_beside_liver(0.5);
+  for (const double ratio : {2.0, 3.0})  // over 100 mm
+    for (const int quarter : {0, 1, 2, 3}) {
+      CAPTURE(ratio, quarter);
+      const double side = 0.5 * std::numbers::pi * quarter;
+      const segment::FrameBorders seen = borders_beside_liver(
+          0.5, std::log(ratio) / 100.0 * segment::CoilGradient(std::cos(side), std::sin(side)));
+      CHECK((seen.endo - even.endo).abs().maxCoeff() < within);
+      CHECK((seen.epi - even.epi).abs().maxCoeff() < within);
+    }
 }
 
 TEST_CASE("a heart has the same borders however its images are stored or received", "[segment]") {
