@@ -60,7 +60,9 @@ function at(h: Heartbeats, name: string, time: number): number {
 /** Valve events of the last beat, if it is a whole one. */
 function valveEvents(h: Heartbeats): { time: number; label: string }[] {
   const row = h.measures[h.count - 1];
-  return events.map(([name, words]) => ({ time: value(row?.[name]) / 1000, label: words })).filter(({ time }) => Number.isFinite(time));
+  const period = value(h.last.at(-1)!.time_s) - h.begin;
+  const after = (time: number) => (time < 0 ? time + period : time);  // one before the beat, as at its end
+  return events.map(([name, words]) => ({ time: after(value(row?.[name]) / 1000), label: words })).filter(({ time }) => Number.isFinite(time));
 }
 
 /** Loops: of one case all beats, the last one in colour with its valve events; of two their last beats. */

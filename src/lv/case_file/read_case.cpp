@@ -355,10 +355,13 @@ class CaseReader {
              "must be at least a hundred times that of every open valve");
     check_blood();
     const auto fits = [&](const circulation::ElastanceParameters& e, const std::string& chamber) {
+      const double share = p.period / (e.T_C + e.T_R);
       together(e.T_C + e.T_R <= p.period,
                {"circulation." + chamber + ".T_R", "circulation." + chamber + ".T_C",
                 "circulation.period"},
-               "and T_C take longer together than a beat (circulation.period)");
+               fmt::format("and T_C take longer together than a beat (circulation.period): T_C = "
+                           "{:.2g} s and T_R = {:.2g} s would fit",
+                           0.9 * share * e.T_C, 0.9 * share * e.T_R));
     };
     fits(p.left_ventricle, "left_ventricle");
     fits(p.closed_loop.left_atrium, "closed_loop.left_atrium");

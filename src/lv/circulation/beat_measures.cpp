@@ -134,6 +134,16 @@ Crossing end_diastole(Beat beat, const Crossing& aortic_opens) {
   return closes;
 }
 
+/// When the mitral valve closed that is closed as the beat begins: before it, as at the end of a
+/// beat that repeats [s]; not a number where it does not close there.
+double closed_before(Beat beat, const Crossing& opens) {
+  Crossing last;
+  for (Crossing next = crossing(beat, &Signals::mitral_gradient, false, opens.before); next.found;
+       next = crossing(beat, &Signals::mitral_gradient, false, next.before + 1))
+    last = next;
+  return last.time(beat) - (beat.back().time - beat.front().time);
+}
+
 }  // namespace
 
 BeatMeasures measure_beat(Beat beat, double atrium) {
@@ -163,14 +173,16 @@ BeatMeasures measure_beat(Beat beat, double atrium) {
   m.stroke_work = work(beat);
   m.largest_pressure_rate = rate(beat, fastest_rise);
   m.least_pressure_rate = rate(beat, fastest_fall);
-  m.mitral_closes = mitral_closes.time(beat);
+  const bool begins_closed =
+      mitral_closes.before == 0 && beat.front().signals.mitral_gradient < 0.0;
+  m.mitral_closes = begins_closed ? closed_before(beat, mitral_opens) : mitral_closes.time(beat);
   m.aortic_opens = aortic_opens.time(beat);
   m.aortic_closes = aortic_closes.time(beat);
   m.mitral_opens = mitral_opens.time(beat);
   m.isovolumic_contraction = m.aortic_opens - m.mitral_closes;
   m.ejection_time = m.aortic_closes - m.aortic_opens;
   m.isovolumic_relaxation = m.mitral_opens - m.aortic_closes;
-  const double filled = m.mitral_closes;
+  const double filled = std::isnan(m.mitral_closes) ? mitral_closes.time(beat) : m.mitral_closes;
   const Inflow early = inflow(beat, m.mitral_opens, std::isnan(atrium) ? filled : atrium);
   const Inflow late = inflow(beat, atrium, filled);
   m.early_filling = early.volume;

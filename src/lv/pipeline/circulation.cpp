@@ -19,6 +19,10 @@ using case_file::Case;
 
 namespace {
 
+/// How long atria may contract before the ventricles without a warning [s]: far beyond the time
+/// that the front takes in people.
+constexpr double shortest_lead = 0.05, longest_lead = 0.3;
+
 std::string words_of_what_is_to_come(const circulation::Cycle& cycle) {
   if (cycle.to_come >= 1.0)
     return ", but the circuit is still as far from where beats would take it as the states are "
@@ -136,18 +140,29 @@ std::string chamber_beyond_beat(const Case& c) {
   std::string text;
   for (const auto& [name, chamber] :
        {std::pair{"left_atrium", &loop.left_atrium}, std::pair{"right_atrium", &loop.right_atrium},
-        std::pair{"right_ventricle", &loop.right_ventricle}})
+        std::pair{"right_ventricle", &loop.right_ventricle}}) {
+    const double before = loop.right_ventricle.t_C - chamber->t_C;
+    const double lead = before - period * std::floor(before / period);
+    const bool is_atrium = chamber != &loop.right_ventricle;
+    const char* comma = text.empty() ? "" : ", ";
     if (chamber->t_C >= period)
       text += fmt::format(
           "{}circulation.closed_loop.{}.t_C is {:g} s and begins {:.3g} s after a "
           "beat does",
-          text.empty() ? "" : ", ", name, chamber->t_C, std::fmod(chamber->t_C, period));
+          comma, name, chamber->t_C, std::fmod(chamber->t_C, period));
+    else if (is_atrium && (lead < shortest_lead || lead > longest_lead))
+      text += fmt::format(
+          "{}circulation.closed_loop.{}.t_C is {:g} s, {:.3g} s before the right ventricle "
+          "contracts",
+          comma, name, chamber->t_C, lead);
+  }
   if (text.empty())
     return "";
   return fmt::format(
       "{}, for a beat lasts {:.3g} s (circulation.period): atria contract 0.1 to 0.2 s before the "
-      "ventricles (circulation.left_ventricle.t_C is {:g} s); set t_C to less than the period",
-      text, period, c.circulation.left_ventricle.t_C);
+      "ventricles (circulation.closed_loop.right_ventricle.t_C is {:g} s); set t_C so, and to less "
+      "than the period",
+      text, period, loop.right_ventricle.t_C);
 }
 
 }  // namespace lv::pipeline

@@ -376,8 +376,11 @@ class Pipeline {
       print(fmt::format("\n{}\nparameters in {}\n\n", read_file(folder(stage) / "calibration.txt"),
                         (folder(stage) / "calibrated.toml").string()));
     if (stage == Stage::circulation)
-      print(fmt::format("\n{}\ntables and figures in {}\n\n",
-                        read_file(folder(stage) / "circulation.txt"), folder(stage).string()));
+      print(options_.until == "circulation"
+                ? fmt::format("\n{}\ntables and figures in {}\n\n",
+                              read_file(folder(stage) / "circulation.txt"), folder(stage).string())
+                : fmt::format("the circulation with an elastance instead of this wall: {}\n",
+                              (folder(stage) / "circulation.txt").string()));
     if (stage == Stage::strain)
       print(fmt::format("\n{}\nstrain in {}\n\n", read_file(folder(stage) / "strain.txt"),
                         folder(stage).string()));

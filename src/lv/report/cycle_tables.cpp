@@ -39,8 +39,8 @@ struct Measure {
 };
 
 constexpr const char* event_meaning =
-    "from the beat's beginning, where the pressure across the "
-    "valve changes its sign";
+    "from the beat's beginning, where the pressure across the valve changes its sign; negative: "
+    "before it, by the same beat's end; empty: not in this beat";
 
 constexpr Measure measures[]{
     {&BeatMeasures::end_diastolic_volume, "edv", "end-diastolic volume", "ml",
@@ -160,7 +160,8 @@ void mark_events(const Beats& beats, const Table& measured, drawing::LineChart& 
     const auto column = measured.numbers(e.column);
     if (static_cast<int>(column.size()) != beats.count() || std::isnan(column.back()))
       continue;
-    const double at = time.front() + 1e-3 * column.back();
+    const double after = 1e-3 * column.back();
+    const double at = after < 0.0 ? time.back() + after : time.front() + after;
     chart.series.push_back({.label = e.words,
                             .x = {value_at(time, loop.x, at)},
                             .y = {value_at(time, loop.y, at)},

@@ -243,9 +243,26 @@ TEST_CASE("a beat that begins with a closed mitral valve has its end-diastole th
   while (beat.front().signals.mitral_gradient >= 0.0)
     beat = beat.subspan(1);
   const BeatMeasures m = measure_beat(beat);
-  CHECK(m.mitral_closes == 0.0);
+  CHECK(std::isnan(m.mitral_closes));  // nobody has seen it
   CHECK(m.end_diastolic_volume == beat.front().signals.volume);
   CHECK(m.end_systolic_volume == cycle.beats.back().end_systolic_volume);
+}
+
+TEST_CASE("a mitral valve that closed before the beat begins has a time before it",
+          "[unit][circulation]") {
+  const Cycle cycle = run_alone(quick(Kind::closed_loop));
+  const auto last = samples_of(cycle, static_cast<int>(cycle.beats.size()) - 1);
+  const BeatMeasures seen = measure_beat(last);
+  const std::size_t length = last.size();
+  const std::span samples(cycle.samples);
+  std::size_t begin = samples.size() - 2 * length + 1;  // of the beat before the last
+  const double whole = samples[begin].time;
+  while (samples[begin].time < whole + seen.mitral_closes)
+    ++begin;
+  const BeatMeasures m = measure_beat(samples.subspan(begin, length));
+  CHECK(m.mitral_closes < 0.0);
+  CHECK(m.mitral_closes == Approx(seen.mitral_closes - (samples[begin].time - whole)).margin(1e-3));
+  CHECK(m.isovolumic_contraction == Approx(seen.isovolumic_contraction).margin(1e-3));
 }
 
 TEST_CASE("a ventricle too weak to open the aortic valve has no end-systole",

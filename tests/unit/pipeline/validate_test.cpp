@@ -55,6 +55,11 @@ TEST_CASE("a chamber that contracts after the beat's end is warned of", "[unit][
   CHECK_THAT(beyond, !Catch::Contains("right_ventricle.t_C"));
   const auto warnings = pipeline::cycle_warnings(c, {});
   CHECK(std::find(warnings.begin(), warnings.end(), beyond) != warnings.end());
+  c.circulation.period = 1.5;
+  CHECK_THAT(pipeline::chamber_beyond_beat(c),
+             Catch::Contains("left_atrium.t_C is 0.72 s, 0.88 s before the right ventricle"));
+  c.circulation.closed_loop.left_atrium.t_C = c.circulation.closed_loop.right_atrium.t_C = 1.42;
+  CHECK(pipeline::chamber_beyond_beat(c).empty());
   c.circulation.kind = circulation::Kind::windkessel;  // which has no such chambers
   CHECK(pipeline::chamber_beyond_beat(c).empty());
 }
