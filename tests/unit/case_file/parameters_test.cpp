@@ -143,7 +143,7 @@ std::string quantity(double value, const Parameter& p) {
 
 /// A number that the range allows, near another.
 double other_than(double value, const Parameter& p, double step) {
-  for (const double part : {1.0, -1.0, 0.1, -0.1, 0.01})
+  for (const double part : {1.0, -1.0, 0.1, -0.1, 0.01, 0.001})
     if (p.range.contains(value + part * step))
       return value + part * step;
   FAIL("no other value of " << p.name);

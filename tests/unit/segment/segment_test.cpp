@@ -30,7 +30,7 @@ using test::Agreement;
 using test::agreement;
 
 void tell(const std::string& what, const Agreement& a) {
-  fmt::print("{}: Dice {:.3f}, distance {:.2f} mm, volume {:+.1f}%, {} of {} loops missed\n", what,
+  fmt::print("{}: Dice {:.3f}, distance {:.4f} mm, volume {:+.1f}%, {} of {} loops missed\n", what,
              a.dice, a.distance, 100.0 * a.volume, a.missed, a.loops);
 }
 
