@@ -145,7 +145,7 @@ export const realData = (() => {
 async function runReal() {
   if (!realData) return;
   const file = (name) => JSON.stringify(join(realData, name));
-  writeFileSync(join(folder, "hv01.toml"), ["name = 'HV01'", "engine = 'quasi_static'", "[quasi_static]", "edge_length = '14 mm'", "[anatomy]", "source = 'contours'", "[anatomy.contours]",
+  writeFileSync(join(folder, "hv01.toml"), ["name = 'HV01'", "engine = 'quasi_static'", "[quasi_static]", "edge_length = '10 mm'", "[anatomy]", "source = 'contours'", "[anatomy.contours]",
     `short_axis = ${file("contours_sa_aligned_long_axis.csv")}`, `long_axis = ${file("contours_la.csv")}`, `apex_endo = ${file("apex_endo.csv")}`,
     `apex_epi = ${file("apex_epi.csv")}`, "septum_point = ['37.1 mm', '0.8 mm', '-4.5 mm']", "[calibrate]", "passive = 'scale'",
     "edv = '142.6 ml'", "[active]", "T_scale = 3.0", "[strain]", `measured = ${file("segmental_strain_from_cine.csv")}`, "measured_column = 'frame10'"].join("\n"));
