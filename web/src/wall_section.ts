@@ -23,7 +23,7 @@ function slider(title: string, min: number, max: number, step: number, unit: str
 }
 
 /** "strain from end-diastole"; empty of other quantities. */
-const strainSince = (c: Case, name: string, time: number) => [c.since(name, time)].filter(Boolean).map((words) => `strain ${words}`).join();
+const strainSince = (c: Case, name: string, time: number) => c.since(name, time) && `strain ${c.since(name, time)}`;
 
 export const regionName = (c: Case, scheme: Scheme, index: number) => c.regionNames(scheme)[index] ?? `${index + 1}`;
 

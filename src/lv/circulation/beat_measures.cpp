@@ -1,5 +1,7 @@
 #include "lv/circulation/beat_measures.hpp"
 
+#include "lv/base/periodic.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -75,7 +77,7 @@ struct Inflow {
 
 Inflow inflow(Beat beat, double from, double to) {
   const double period = beat.back().time - beat.front().time;
-  const auto since = [&](double t) { return t - from - period * std::floor((t - from) / period); };
+  const auto since = [&](double t) { return time_in_period(t - from, period); };
   Inflow in;
   if (!std::isfinite(from) || !std::isfinite(to))
     return in;

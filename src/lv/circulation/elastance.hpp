@@ -1,5 +1,6 @@
 #pragma once
 
+#include "lv/base/periodic.hpp"
 #include "lv/circulation/parameters.hpp"
 
 #include <cmath>
@@ -15,7 +16,7 @@ class Elastance {
 
   /// E_B + E_A e(t) [kPa/mm^3].
   [[nodiscard]] double at(double t) const {
-    const double s = t - p_.t_C - period_ * std::floor((t - p_.t_C) / period_);
+    const double s = time_in_period(t - p_.t_C, period_);
     constexpr double pi = std::numbers::pi;
     if (s < p_.T_C)
       return p_.E_B + p_.E_A * 0.5 * (1.0 - std::cos(pi * s / p_.T_C));

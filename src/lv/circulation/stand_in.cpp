@@ -1,6 +1,7 @@
 #include "lv/circulation/stand_in.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/periodic.hpp"
 
 #include <algorithm>
 
@@ -30,8 +31,7 @@ StandIn StandIn::with_contractility(double factor) const {
 double StandIn::elastance(double t) const {
   if (elastances_.empty() || contractility_ == 0.0)
     return 0.0;
-  const double period = times_.back();
-  const double s = t - period * std::floor(t / period);
+  const double s = time_in_period(t, times_.back());
   const auto after = std::upper_bound(times_.begin() + 1, times_.end() - 1, s);
   const auto i = static_cast<std::size_t>(after - times_.begin());
   const double share = (s - times_[i - 1]) / (times_[i] - times_[i - 1]);

@@ -3,6 +3,7 @@
 #include "lv/base/check.hpp"
 #include "lv/base/ending.hpp"
 #include "lv/base/lines.hpp"
+#include "lv/base/periodic.hpp"
 #include "lv/base/units.hpp"
 
 #include <fmt/format.h>
@@ -279,7 +280,7 @@ BaseMotion::BaseMotion(const MeasuredMotion& measured, const solid::BaseFrame& f
 }
 
 Vector4d BaseMotion::pose(double time) const {
-  const double t = time - clock_.period * std::floor(time / clock_.period);
+  const double t = time_in_period(time, clock_.period);
   const auto next = std::upper_bound(times_.begin() + 1, times_.end() - 1, t);
   const auto i = static_cast<std::size_t>(next - times_.begin()) - 1;
   const double h = times_[i + 1] - times_[i];

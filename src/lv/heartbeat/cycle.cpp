@@ -127,6 +127,7 @@ class CycleRun {
                                const implicit::VolumeOfPressure& volume);
   [[nodiscard]] bool is_too_long(double dt) const;
   [[nodiscard]] double local_error(double dt) const;
+  void halve();
   void shorten(const std::string& why);
   void stop_early(const std::string& why);
   void count_time();
@@ -299,9 +300,7 @@ void CycleRun::step() {
   }
   if (is_too_long(dt)) {
     engine_.go_back(before);
-    ++state().beat.retries;
-    ++state().halvings;
-    state().good_steps = 0;
+    halve();
     return;
   }
   record_.step(dt, engine_.pressure(), engine_.cavity_volume());
@@ -375,10 +374,16 @@ bool CycleRun::gives_way(const implicit::TimeStep& step, const implicit::VolumeO
   return true;
 }
 
-void CycleRun::shorten(const std::string& why) {
+/// The step that was taken back is tried again at half its length.
+void CycleRun::halve() {
   ++state().beat.retries;
+  ++state().halvings;
   state().good_steps = 0;
-  if (++state().halvings > most_step_halvings) {
+}
+
+void CycleRun::shorten(const std::string& why) {
+  halve();
+  if (state().halvings > most_step_halvings) {
     stop_early(why);
     return;
   }

@@ -100,7 +100,7 @@ class PartTables {
 std::vector<CellStress> Equations::cell_stress(const State& state, const TensionAt& tension) const {
   const PointMaker maker(mesh_);
   PartTables tables(mesh_);
-  const int parts = mesh_.order == 2 ? 8 : 1;
+  const int parts = mesh::cells_per_element(mesh_.order);
   std::vector<CellStress> result(mesh_.cell_count());
   for (std::size_t i = 0; i < wall_.points.size(); ++i) {
     const int e = wall_.own[i];

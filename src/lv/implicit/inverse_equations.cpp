@@ -104,7 +104,7 @@ bool InverseEquations::holds_frames() const {
 template <class Visit>
 void InverseEquations::for_points(const mesh::Mesh& wall, const Visit& visit) const {
   const mesh::UndeformedWall undeformed(wall);
-  const int parts = wall.order == 2 ? 8 : 1;
+  const int parts = mesh::cells_per_element(wall.order);
   std::size_t number = 0;
   for (std::size_t i = 0; i < elements_.own.size(); ++i) {
     const int e = elements_.own[i];

@@ -44,7 +44,7 @@ ReferenceWall reference_wall(const mesh::Mesh& mesh) {
   wall.pressure_count =
       *std::max_element(wall.pressures.nodes.begin(), wall.pressures.nodes.end()) + 1;
   wall.owners = partition(wall.elements, parallel::size());
-  const int parts = mesh.order == 2 ? 8 : 1;
+  const int parts = mesh::cells_per_element(mesh.order);
   const PointMaker maker(mesh);
   const solid::ShapeTable shapes = solid::element_shapes(mesh.kind, mesh.order);
   for (int e = 0; e < wall.elements.size(); ++e) {

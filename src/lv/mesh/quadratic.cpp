@@ -62,7 +62,7 @@ ElementNodes gather(std::span<const int> nodes, int nodes_per_part, int parts,
 }  // namespace
 
 ElementNodes elements(const Mesh& mesh) {
-  return gather(mesh.cells, nodes_per_cell(mesh.kind), mesh.order == 2 ? 8 : 1,
+  return gather(mesh.cells, nodes_per_cell(mesh.kind), cells_per_element(mesh.order),
                 places(mesh.kind, mesh.order));
 }
 

@@ -8,6 +8,11 @@
 /// The quadratic elements of a mesh of order 2.
 namespace lv::mesh {
 
+/// How many cells of a mesh of this order, its linear parts, make one finite element.
+[[nodiscard]] constexpr int cells_per_element(int order) {
+  return order == 2 ? 8 : 1;
+}
+
 /// Nodes of an element or a side of the given order, and how many there are of it.
 struct ElementNodes {
   int nodes_per_element = 0;

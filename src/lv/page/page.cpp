@@ -333,10 +333,6 @@ Course course_of(const fs::path& work, const std::optional<WallSeries>& wall) {
           .has_beats = !report::file_of(work, "beat", "cycle.csv").empty()};
 }
 
-report::MeshFacts mesh_of(const fs::path& work) {
-  return report::mesh_facts(work).value_or(report::MeshFacts{});
-}
-
 /// What the page opens with: one scale and one view for all cases, and a frame of each.
 struct OpeningPlan {
   std::optional<drawing::ColourScale> scale;
@@ -354,8 +350,9 @@ OpeningPlan opening_plan(const std::vector<fs::path>& works, const Walls& walls)
   for (std::size_t i = 0; i < works.size(); ++i) {
     if (!walls[i])
       continue;
-    const std::vector<double> one = infarct_shown(*walls[i], plan.frames[i].value(),
-                                                  {.septum_angle = mesh_of(works[i]).septum_angle});
+    const auto mesh = report::mesh_facts(works[i]).value_or(report::MeshFacts{});
+    const std::vector<double> one =
+        infarct_shown(*walls[i], plan.frames[i].value(), {.septum_angle = mesh.septum_angle});
     std::transform(one.begin(), one.end(), shown.begin(), shown.begin(), std::plus<>());
   }
   plan.view = opening_view(shown);
@@ -385,13 +382,14 @@ Data case_html(const PageCase& shown, const std::optional<WallSeries>& wall, int
             {"files", files_json(shown.work)}};
   if (const std::string name = report::case_name(shown.work); !name.empty())
     json["name"] = name;
-  if (const auto mesh = report::mesh_facts(shown.work))
-    add_mesh_facts(json, *mesh, shown.work);
+  const auto known_mesh = report::mesh_facts(shown.work);
+  if (known_mesh)
+    add_mesh_facts(json, *known_mesh, shown.work);
   const auto blood = frames_of(report::file_of(shown.work, "beat", "blood.pvd"));
   json["has_blood"] = !blood.empty();
   if (wall) {
     json["wall"] = wall_json(*wall, arrays);
-    const report::MeshFacts mesh = mesh_of(shown.work);
+    const auto mesh = known_mesh.value_or(report::MeshFacts{});
     json["wall"]["order"] = mesh.order;
     if (Json first = opening_json(*wall, mesh, plan, plan.frames[number].value()); !first.is_null())
       json["wall"]["opening"] = std::move(first);

@@ -3,6 +3,7 @@
 #include "lv/base/parallel.hpp"
 #include "lv/heartbeat/cycle.hpp"
 #include "lv/heartbeat/run_state.hpp"
+#include "lv/mesh/quadratic.hpp"
 
 #include <fmt/format.h>
 
@@ -62,9 +63,9 @@ BeatResult read_beat(const std::filesystem::path& folder, const mesh::Mesh& mesh
   if (archive.has("cycle.facts")) {
     result.beat.cycle = heartbeat::load_cycle(archive);
     result.beat.energy = heartbeat::load_energy(archive);
-    const std::size_t parts = mesh.order == 2 ? 8 : 1;
     if (const std::size_t elements = result.beat.energy.work_density.size();
-        elements > 0 && elements * parts != static_cast<std::size_t>(mesh.cell_count()))
+        elements > 0 && elements * mesh::cells_per_element(mesh.order) !=
+                            static_cast<std::size_t>(mesh.cell_count()))
       archive.refuse("'work_density' is of another wall");
     result.beat.activation_times = load_activation_times(archive, mesh.nodes.size());
   }

@@ -1,6 +1,7 @@
 #include "lv/pipeline/circulation.hpp"
 
 #include "lv/base/log.hpp"
+#include "lv/base/periodic.hpp"
 #include "lv/beating_wall/base_motion.hpp"
 #include "lv/circulation/cycle.hpp"
 #include "lv/heartbeat/cycle.hpp"
@@ -141,8 +142,7 @@ std::string chamber_beyond_beat(const Case& c) {
   for (const auto& [name, chamber] :
        {std::pair{"left_atrium", &loop.left_atrium}, std::pair{"right_atrium", &loop.right_atrium},
         std::pair{"right_ventricle", &loop.right_ventricle}}) {
-    const double before = loop.right_ventricle.t_C - chamber->t_C;
-    const double lead = before - period * std::floor(before / period);
+    const double lead = time_in_period(loop.right_ventricle.t_C - chamber->t_C, period);
     const bool is_atrium = chamber != &loop.right_ventricle;
     const char* comma = text.empty() ? "" : ", ";
     if (chamber->t_C >= period)

@@ -15,6 +15,7 @@
 #include "lv/cine/strain.hpp"
 #include "lv/heartbeat/quasi_static_beat.hpp"
 #include "lv/mesh/infarct.hpp"
+#include "lv/mesh/quadratic.hpp"
 #include "lv/mesh/quality.hpp"
 #include "lv/mesh/refine.hpp"
 #include "lv/pipeline/calibration.hpp"
@@ -175,7 +176,7 @@ report::RunFacts run_facts(const Case& c, const anatomy::MeshResult& mesh, const
   facts.ranks = beat.ranks;
   facts.nodes = static_cast<int>(mesh.mesh.nodes.size());
   facts.order = mesh.mesh.order;
-  facts.elements = mesh.mesh.cell_count() / (mesh.mesh.order == 2 ? 8 : 1);
+  facts.elements = mesh.mesh.cell_count() / mesh::cells_per_element(mesh.mesh.order);
   if (c.engine == case_file::EngineChoice::immersed) {
     facts.grid = fmt::format("{} x {} x {}", c.box.cells[0], c.box.cells[1], c.box.cells[2]);
     facts.mesh_width = case_file::model_parameters(c, mesh.mesh).grid.spacing.minCoeff();
@@ -431,10 +432,10 @@ std::string make_results(const Case& c, const anatomy::MeshResult& mesh, const B
                          const std::filesystem::path& folder) {
   const analysis::FieldAnalysis analysis = field_analysis(c, mesh.mesh, beat.beat.activation_times);
   analysis::BeatFields fields{analysis.at_rest(), {}};
-  for (const heartbeat::NamedMoment& m : beat.beat.moments)
+  for (const heartbeat::NamedMoment& m : beat.beat.moments) {
     fields.moments.push_back({m.name, analysis.fields(m.wall)});
-  for (auto& moment : fields.moments)
-    analysis::set_work_density(beat.beat.energy.work_density, moment.cells);
+    analysis::set_work_density(beat.beat.energy.work_density, fields.moments.back().cells);
+  }
   std::string text;
   parallel::on_root([&] {
     report::RunFacts facts = run_facts(c, mesh, beat);

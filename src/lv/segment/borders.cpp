@@ -376,8 +376,6 @@ Work begin(std::vector<Polar> values, double radius, const Polar& received) {
   return work;
 }
 
-constexpr double surely_blood = 0.5;  // part of the cavity's radius within which it is
-
 /// All slices, evened out by what the blood tells of the coils where a slice looks like the heart.
 std::vector<Work> begin_evened(const image::Cine& cine, const Heart& heart) {
   constexpr double like_seed = 0.5;

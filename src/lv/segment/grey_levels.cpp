@@ -53,7 +53,7 @@ void add_outside(const std::vector<Polar>& frames, const std::vector<Radii>& blo
 
 Levels guess_levels(const std::vector<Polar>& frames, double radius, const PolarGrid& grid) {
   constexpr double usual = 0.35;
-  const int inner = grid.index(0.5 * radius) + 1;
+  const int inner = grid.index(surely_blood * radius) + 1;
   std::vector<double> middle;
   for (const Polar& values : frames)
     for (const double v : values.leftCols(inner).reshaped())
@@ -63,7 +63,7 @@ Levels guess_levels(const std::vector<Polar>& frames, double radius, const Polar
 }
 
 double fullest_blood(const std::vector<Polar>& frames, double radius, const PolarGrid& grid) {
-  const int inner = grid.index(0.5 * radius) + 1;
+  const int inner = grid.index(surely_blood * radius) + 1;
   std::vector<double> shown;
   for (const Polar& values : frames) {
     const auto middle = values.leftCols(inner).reshaped();

@@ -6,6 +6,9 @@
 
 namespace lv::segment {
 
+/// Part of the cavity's radius within which all is blood, but for papillary muscles.
+constexpr double surely_blood = 0.5;
+
 /// The grey values of blood in a slice and of muscle along each ray.
 struct Levels {
   double blood = 1.0;

@@ -42,11 +42,10 @@ void require_cine(const image::Cine& cine, const std::string& where);
 ///   half of the blood or more in half of the frames, and blood and muscle differ by half of what
 ///   they do in most slices.
 /// - From the base (the end with larger areas) slices are dropped whose area, as a part of its
-/// mean,
-///   changes by less than half of what the others' does, or against it: an atrium fills while the
-///   ventricle empties. In a frame the most basal ones are left out where muscle surrounds less than
-///   half (median over a tenth of the cycle either way), the most apical ones where the cavity's
-///   mean radius is below 3 mm.
+///   mean, changes by less than half of what the others' does, or against it: an atrium fills while
+///   the ventricle empties. In a frame the most basal ones are left out where muscle surrounds less
+///   than half (median over a tenth of the cycle either way), the most apical ones where the
+///   cavity's mean radius is below 3 mm.
 /// - Phases are proposed from the volume of the slices that show the ventricle in all frames.
 ///
 /// Throws InputError, with `where` naming the images, if slices have different numbers of images or
