@@ -85,7 +85,9 @@ class Pipeline {
   /// What would run and why, a line a stage; known to the root.
   [[nodiscard]] std::string describe() {
     std::string text;
-    for (const Planned& p : plan()) {
+    const std::vector<Planned> stages = plan();
+    check_before(stages);
+    for (const Planned& p : stages) {
       const work::StageFolder stage = folder_of(p);
       text += stage.up_to_date()
                   ? fmt::format("{:<10} is up to date\n", name_of(p.stage))
@@ -136,12 +138,26 @@ class Pipeline {
     return {work_, folder(p.stage).filename().string(), p.ingredients};
   }
 
-  /// A fit that cannot succeed must not be found out after the stages before it.
+  /// What validate would refuse of fits and heartbeats must not be found out after the stages
+  /// before them.
   void check_before(const std::vector<Planned>& stages) {
+    const auto is_due = [&](Stage s) {
+      return std::any_of(stages.begin(), stages.end(), [&](const Planned& p) {
+        return p.stage == s && !folder_of(p).up_to_date();
+      });
+    };
     on_root([&] {
-      for (const Planned& p : stages)
-        if (p.stage == Stage::calibrate && !folder_of(p).up_to_date())
-          check_measured_volumes(case_, shape());
+      if (!is_due(Stage::calibrate) && !is_due(Stage::beat))
+        return;
+      if (is_due(Stage::mesh)) {
+        CheckedCase checked = check_case(case_);
+        shape_ = std::move(checked.shape);
+        wall_ = std::move(checked.wall);
+        return;
+      }
+      if (is_due(Stage::calibrate))
+        check_measured_volumes(case_, shape());
+      check_on_wall(case_, anatomy::read_mesh_result(folder(Stage::mesh), case_.fibres));
     });
   }
 
@@ -220,8 +236,8 @@ class Pipeline {
         break;
       case Stage::mesh:
         on_root([&] {
-          const anatomy::MeshResult mesh = make_mesh(c, shape());
-          check_room(case_, mesh.mesh);  // before a fit takes its time
+          const anatomy::MeshResult mesh = wall_ ? *wall_ : make_mesh(c, shape());
+          check_room(case_, mesh.mesh);
           anatomy::write_mesh_result(mesh, part);
           report::write_facts(report::MeshFacts{c.regions.septum_angle, mesh.mesh.order,
                                                 c.engine == case_file::EngineChoice::immersed},
@@ -398,7 +414,8 @@ class Pipeline {
   work::FileContents files_;
   std::string text_;
   std::optional<anatomy::Shape> shape_;
-  double seconds_of_pictures_ = 0.0;  ///< of the seen mesh; 0 where another run made it
+  std::optional<anatomy::MeshResult> wall_;  ///< where a check has made it
+  double seconds_of_pictures_ = 0.0;         ///< of the seen mesh; 0 where another run made it
   static constexpr const char* coarse_name = "coarse";  ///< folder of the mesh for a first fit
   static constexpr const char* elements_name = "quasi_static";  ///< folder of the mesh for fits
 };
