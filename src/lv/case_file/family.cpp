@@ -2,6 +2,7 @@
 
 #include "lv/case_file/read_case.hpp"
 #include "lv/circulation/circuit.hpp"
+#include "lv/circulation/heart_rate.hpp"
 
 #include <fmt/format.h>
 
@@ -86,6 +87,8 @@ std::vector<Member> family(const Study& study) {
 Case under(const Factors& factors, Case c) {
   if (factors.preload != 1.0)
     c = with_blood_around(c.circulation.start.V_lv, std::move(c));
+  c.circulation = circulation::with_times_at(c.circulation.period / factors.heart_rate,
+                                             std::move(c.circulation));
   std::vector<Change> changes;
   for (const Lever& lever : {preload, afterload, contractility, heart_rate}) {
     if (factors.*lever.factor == 1.0)

@@ -1168,8 +1168,10 @@ constexpr Group of_study[]{
          same_results(numbers("study.contractility", LV_AT(study.contractility), of_factor,
                               "of the muscle's tension: active.land2017.T_ref or "
                               "active.T_scale")),
-         same_results(numbers("study.heart_rate", LV_AT(study.heart_rate), of_factor,
-                              "of beats per time, 1/circulation.period; calcium stays")),
+         same_results(
+             numbers("study.heart_rate", LV_AT(study.heart_rate), of_factor,
+                     "of beats per time, 1/circulation.period, with the times of chambers; "
+                     "calcium stays")),
      }},
 };
 
@@ -1384,13 +1386,18 @@ constexpr Range of_elastance = between(0.0, 100.0);
       LV_LOOP(place, R_ven, "mmHg s/ml", of_resistance, "resistance of the veins"),        \
       LV_LOOP(place, C_ven, "ml/mmHg", of_compliance, "compliance of the veins"),          \
       LV_LOOP(place, L_ven, "mmHg s^2/ml", of_resistance, "inertance of the veins")
+/// What is said of times whose default follows the heart rate (circulation::with_times_at).
+#define of_the_rate \
+  "default: that of 75 beats a minute, of other periods as systole (docs/circulation.md)"
+constexpr const char* contraction_time = "duration of contraction; " of_the_rate;
+constexpr const char* relaxation_time = "duration of relaxation; " of_the_rate;
 /// The elastance of a chamber of a closed loop.
-#define LV_CHAMBER(place, name)                                                     \
-  LV_LOOP(place, E_A, "mmHg/ml", of_elastance, "active elastance of the " name),    \
-      LV_LOOP(place, E_B, "mmHg/ml", above_up_to(0.0, 100.0), "passive elastance"), \
-      LV_LOOP(place, T_C, "s", above_up_to(0.0, 3.0), "duration of contraction"),   \
-      LV_LOOP(place, T_R, "s", above_up_to(0.0, 3.0), "duration of relaxation"),    \
-      LV_LOOP(place, t_C, "s", between(0.0, 3.0), "when contraction begins"),       \
+#define LV_CHAMBER(place, name)                                                             \
+  LV_LOOP(place, E_A, "mmHg/ml", of_elastance, "active elastance of the " name),            \
+      LV_LOOP(place, E_B, "mmHg/ml", above_up_to(0.0, 100.0), "passive elastance"),         \
+      LV_LOOP(place, T_C, "s", above_up_to(0.0, 3.0), contraction_time),                    \
+      LV_LOOP(place, T_R, "s", above_up_to(0.0, 3.0), relaxation_time),                     \
+      LV_LOOP(place, t_C, "s", between(0.0, 3.0), "when contraction begins; " of_the_rate), \
       LV_LOOP(place, V_0, "ml", between(0.0, 1000.0), "volume without pressure")
 
 constexpr Group of_circulation[]{
@@ -1444,9 +1451,9 @@ constexpr Group of_circulation[]{
          number("circulation.left_ventricle.E_B", LV_AT(circulation.left_ventricle.E_B), "mmHg/ml",
                 above_up_to(0.0, 100.0), "passive elastance"),
          number("circulation.left_ventricle.T_C", LV_AT(circulation.left_ventricle.T_C), "s",
-                above_up_to(0.0, 3.0), "duration of contraction"),
+                above_up_to(0.0, 3.0), contraction_time),
          number("circulation.left_ventricle.T_R", LV_AT(circulation.left_ventricle.T_R), "s",
-                above_up_to(0.0, 3.0), "duration of relaxation"),
+                above_up_to(0.0, 3.0), relaxation_time),
          number("circulation.left_ventricle.V_0", LV_AT(circulation.left_ventricle.V_0), "ml",
                 between(0.0, 1000.0), "volume without pressure"),
          number("circulation.start.V_lv", LV_AT(circulation.start.V_lv), "ml", between(0.0, 2000.0),

@@ -10,6 +10,7 @@
 #include "lv/case_file/beat_fit.hpp"
 #include "lv/case_file/case_lines.hpp"
 #include "lv/case_file/parameter_values.hpp"
+#include "lv/circulation/heart_rate.hpp"
 
 #include <fmt/format.h>
 
@@ -159,12 +160,27 @@ class CaseReader {
           std::min(case_.calibration.pressure_error, 0.5 * case_.unloaded.pressure);
   }
 
+  /// Times of chambers that the case does not set are those of its heart rate.
+  void follow_heart_rate() {
+    Case usual;
+    usual.circulation =
+        circulation::with_times_at(case_.circulation.period, std::move(usual.circulation));
+    for (const char* chamber : {"left_ventricle", "closed_loop.left_atrium",
+                                "closed_loop.right_atrium", "closed_loop.right_ventricle"})
+      for (const char* time : {"T_C", "T_R", "t_C"}) {
+        const std::string name = fmt::format("circulation.{}.{}", chamber, time);
+        if (!case_.origin.contains(name))
+          copy(*find_parameter(name), usual, case_);
+      }
+  }
+
   /// Rules that concern several parameters.
   void check_together() {
     take_cuff();
     check_pressures();
     check_slices();
     limit_pressure_error();
+    follow_heart_rate();
     const geometry::Ellipsoid& e = case_.anatomy.ellipsoid;
     together(e.epi_radius > e.endo_radius,
              {"anatomy.ellipsoid.epi_radius", "anatomy.ellipsoid.endo_radius"},
@@ -644,6 +660,10 @@ Case parse_case(const std::string& text, const std::filesystem::path& file) {
 
 Case read_case(const std::filesystem::path& file) {
   Case c = parse_case(read_text(file), file);
+  if (c.origin.empty())
+    throw InputError(file.string(), "sets no parameter: it is empty, or no case file",
+                     "The default case, an idealised healthy ventricle, is a line such as "
+                     "name = \"healthy\"");
   require_files(c);
   return c;
 }

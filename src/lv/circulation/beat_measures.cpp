@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <utility>
 
 namespace lv::circulation {
 namespace {
@@ -99,23 +101,54 @@ double rate(Beat beat, std::size_t i) {
          (beat[i + 1].time - beat[i].time);
 }
 
-/// Least squares of log p against time between two samples.
-double relaxation(Beat beat, std::size_t from, std::size_t to) {
+/// When the pressure falls fastest, after the beat's beginning: where a parabola through the rates
+/// of three steps, the steepest between the others, has its least [s].
+double fastest_fall(Beat beat, std::size_t step) {
+  const auto middle = [&](std::size_t i) { return std::midpoint(beat[i].time, beat[i + 1].time); };
+  double t = middle(step) - beat[0].time;
+  if (step == 0 || step + 2 >= beat.size())
+    return t;
+  const double before = middle(step) - middle(step - 1);
+  const double after = middle(step + 1) - middle(step);
+  const double fall = (rate(beat, step) - rate(beat, step - 1)) / before;
+  const double rise = (rate(beat, step + 1) - rate(beat, step)) / after;
+  if (rise > fall)
+    t -= (fall * after + rise * before) / (2.0 * (rise - fall));
+  return t;
+}
+
+/// Least squares of log p, linear between samples, against time between two times after the beat's
+/// beginning: sums would jump where a sample passes an end.
+double relaxation(Beat beat, double from, double to) {
+  if (!(to > from))
+    return none;
   double n = 0.0;
   double t1 = 0.0;
   double t2 = 0.0;
   double y1 = 0.0;
   double ty = 0.0;
-  for (std::size_t i = from; i <= to; ++i) {
-    if (!(beat[i].signals.pressure > 0.0))
+  const auto add = [&](double weight, double t, double y) {
+    n += weight;
+    t1 += weight * t;
+    t2 += weight * t * t;
+    y1 += weight * y;
+    ty += weight * t * y;
+  };
+  for (std::size_t i = 0; i + 1 < beat.size(); ++i) {
+    const double t = beat[i].time - beat[0].time - from;
+    const double step = beat[i + 1].time - beat[i].time;
+    const double begin = std::max(t, 0.0);
+    const double end = std::min(t + step, to - from);
+    if (end <= begin)
+      continue;
+    const double p = beat[i].signals.pressure;
+    const double next = beat[i + 1].signals.pressure;
+    if (!(p > 0.0 && next > 0.0))
       return none;
-    const double t = beat[i].time - beat[from].time;
-    const double y = std::log(beat[i].signals.pressure);
-    n += 1.0;
-    t1 += t;
-    t2 += t * t;
-    y1 += y;
-    ty += t * y;
+    for (const auto& [share, weight] : {std::pair{0.0, 1.0}, {0.5, 4.0}, {1.0, 1.0}}) {
+      const double at = std::lerp(begin, end, share);  // Simpson's rule, exact for parabolas
+      add(weight * (end - begin), at, std::lerp(std::log(p), std::log(next), (at - t) / step));
+    }
   }
   const double slope = (n * ty - t1 * y1) / (n * t2 - t1 * t1);
   return slope < 0.0 ? -1.0 / slope : none;
@@ -156,10 +189,10 @@ BeatMeasures measure_beat(Beat beat, double atrium) {
   const Crossing mitral_opens =
       crossing(beat, &Signals::mitral_gradient, true, aortic_closes.before);
   std::size_t fastest_rise = 0;
-  std::size_t fastest_fall = 0;
+  std::size_t steepest_fall = 0;
   for (std::size_t i = 0; i + 1 < beat.size(); ++i) {
     fastest_rise = rate(beat, i) > rate(beat, fastest_rise) ? i : fastest_rise;
-    fastest_fall = rate(beat, i) < rate(beat, fastest_fall) ? i : fastest_fall;
+    steepest_fall = rate(beat, i) < rate(beat, steepest_fall) ? i : steepest_fall;
   }
   BeatMeasures m{};
   m.end_diastolic_volume = mitral_closes.of(beat, &Signals::volume);
@@ -174,7 +207,7 @@ BeatMeasures measure_beat(Beat beat, double atrium) {
   m.aortic_mean = mean(beat, &Signals::aortic_pressure);
   m.stroke_work = work(beat);
   m.largest_pressure_rate = rate(beat, fastest_rise);
-  m.least_pressure_rate = rate(beat, fastest_fall);
+  m.least_pressure_rate = rate(beat, steepest_fall);
   const bool begins_closed =
       mitral_closes.before == 0 && beat.front().signals.mitral_gradient < 0.0;
   m.mitral_closes = begins_closed ? closed_before(beat, mitral_opens) : mitral_closes.time(beat);
@@ -191,9 +224,8 @@ BeatMeasures measure_beat(Beat beat, double atrium) {
   m.early_filling_flow = early.flow;
   m.late_filling = late.volume;
   m.late_filling_flow = late.flow;
-  m.relaxation_constant = mitral_opens.found && mitral_opens.before > fastest_fall + 1
-                              ? relaxation(beat, fastest_fall, mitral_opens.before)
-                              : none;
+  m.relaxation_constant =
+      relaxation(beat, fastest_fall(beat, steepest_fall), mitral_opens.time(beat));
   return m;
 }
 

@@ -30,8 +30,8 @@ struct BeatMeasures {
   double largest_pressure_rate, least_pressure_rate;                    ///< dp/dt [kPa/s]
   double mitral_closes, aortic_opens, aortic_closes, mitral_opens;      ///< [s]
   double isovolumic_contraction, ejection_time, isovolumic_relaxation;  ///< [s]
-  /// Of p = p_0 exp(-t/tau), least squares of log p from the fastest fall to the opening of the
-  /// mitral valve [s].
+  /// Of p = p_0 exp(-t/tau), least squares of log p over the time from the fastest fall to the
+  /// opening of the mitral valve, both found between samples [s].
   double relaxation_constant;
 };
 

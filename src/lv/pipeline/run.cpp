@@ -56,13 +56,14 @@ class Pipeline {
 
   void run() {
     std::optional<work::WorkLock> lock;
-    on_root([&] { lock.emplace(work_); });
+    on_root([&] {
+      lock.emplace(work_);
+      std::filesystem::remove(reached());
+    });
     on_root([&] { log::to_file(work_ / "log.txt", case_file::names_alone(case_, work_)); });
     on_root([&] { report::write_case_name(work_, case_.name); });
     log::info("{}: ventricle {} on {} rank{}, results in {}", case_.name, work::version(),
               parallel::size(), parallel::size() == 1 ? "" : "s", work_.string());
-    if (case_.origin.empty())
-      log::warn("{}: {}", case_.file.string(), no_parameters);
     for (const std::string& what : case_.without_effect)
       log::warn("{}", what);
     for (const std::string& odd :
@@ -82,10 +83,20 @@ class Pipeline {
       run_stage(p);
   }
 
+  /// A page of what a case has come to whose heartbeats nature refused; its banner says why.
+  void show_reached() const {
+    if (!parallel::is_root() || !std::filesystem::exists(folder(Stage::beat).string() + ".part"))
+      return;
+    write_page({work_}, reached(), Replaces::any_page);
+    log::info("page of what was reached: {}", reached().string());
+  }
+
   /// What would run and why, a line a stage; known to the root.
   [[nodiscard]] std::string describe() {
     std::string text;
-    for (const Planned& p : plan()) {
+    const std::vector<Planned> stages = plan();
+    check_before(stages);
+    for (const Planned& p : stages) {
       const work::StageFolder stage = folder_of(p);
       text += stage.up_to_date()
                   ? fmt::format("{:<10} is up to date\n", name_of(p.stage))
@@ -136,12 +147,26 @@ class Pipeline {
     return {work_, folder(p.stage).filename().string(), p.ingredients};
   }
 
-  /// A fit that cannot succeed must not be found out after the stages before it.
+  /// What validate would refuse of fits and heartbeats must not be found out after the stages
+  /// before them.
   void check_before(const std::vector<Planned>& stages) {
+    const auto is_due = [&](Stage s) {
+      return std::any_of(stages.begin(), stages.end(), [&](const Planned& p) {
+        return p.stage == s && !folder_of(p).up_to_date();
+      });
+    };
     on_root([&] {
-      for (const Planned& p : stages)
-        if (p.stage == Stage::calibrate && !folder_of(p).up_to_date())
-          check_measured_volumes(case_, shape());
+      if (!is_due(Stage::calibrate) && !is_due(Stage::beat))
+        return;
+      if (is_due(Stage::mesh)) {
+        CheckedCase checked = check_case(case_);
+        shape_ = std::move(checked.shape);
+        wall_ = std::move(checked.wall);
+        return;
+      }
+      if (is_due(Stage::calibrate))
+        check_measured_volumes(case_, shape());
+      check_on_wall(case_, anatomy::read_mesh_result(folder(Stage::mesh), case_.fibres));
     });
   }
 
@@ -220,8 +245,8 @@ class Pipeline {
         break;
       case Stage::mesh:
         on_root([&] {
-          const anatomy::MeshResult mesh = make_mesh(c, shape());
-          check_room(case_, mesh.mesh);  // before a fit takes its time
+          const anatomy::MeshResult mesh = wall_ ? *wall_ : make_mesh(c, shape());
+          check_room(case_, mesh.mesh);
           anatomy::write_mesh_result(mesh, part);
           report::write_facts(report::MeshFacts{c.regions.septum_angle, mesh.mesh.order,
                                                 c.engine == case_file::EngineChoice::immersed},
@@ -365,6 +390,7 @@ class Pipeline {
   }
 
   [[nodiscard]] std::filesystem::path calibration() const { return folder(Stage::calibrate); }
+  [[nodiscard]] std::filesystem::path reached() const { return work_ / "report.html"; }
 
   /// What a user looks at first.
   void show(Stage stage) const {
@@ -398,7 +424,8 @@ class Pipeline {
   work::FileContents files_;
   std::string text_;
   std::optional<anatomy::Shape> shape_;
-  double seconds_of_pictures_ = 0.0;  ///< of the seen mesh; 0 where another run made it
+  std::optional<anatomy::MeshResult> wall_;  ///< where a check has made it
+  double seconds_of_pictures_ = 0.0;         ///< of the seen mesh; 0 where another run made it
   static constexpr const char* coarse_name = "coarse";  ///< folder of the mesh for a first fit
   static constexpr const char* elements_name = "quasi_static";  ///< folder of the mesh for fits
 };
@@ -418,10 +445,13 @@ void run(const Case& c, const RunOptions& options) {
     return;
   }
   interrupt::install();
+  Pipeline pipeline(c, options);
   try {
-    Pipeline(c, options).run();
+    pipeline.run();
   } catch (const std::exception& failure) {
     log::keep(fmt::format("the run ended early: {}", failure.what()));  // the program tells it
+    if (dynamic_cast<const NoSolution*>(&failure) != nullptr)
+      pipeline.show_reached();
     throw;
   }
 }

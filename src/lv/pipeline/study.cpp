@@ -224,8 +224,10 @@ void run_study(const Case& c, const RunOptions& options) {
   StudyRun study(c, options);
   if (!options.dry_run)
     study.run();
-  else if (parallel::is_root())
+  else if (parallel::is_root()) {
+    static_cast<void>(check_case(c));
     print(study.describe());
+  }
 }
 
 }  // namespace lv::pipeline

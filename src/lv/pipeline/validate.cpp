@@ -20,6 +20,7 @@
 #include "lv/pipeline/study.hpp"
 #include "lv/scar/infarct.hpp"
 #include "lv/solid/endocardial_surface.hpp"
+#include "lv/work/ingredients.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -28,13 +29,13 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <optional>
 #include <utility>
 
 namespace lv::pipeline {
 namespace {
 
 using case_file::Case;
+using case_file::Stage;
 using units::mmHg;
 
 /// A short name for the last line, and what it means.
@@ -71,8 +72,6 @@ std::string study_beyond_beat(const Case& c) {
 
 std::vector<Warning> warnings_of(const Case& c, const anatomy::Shape& shape, double cavity) {
   std::vector<Warning> warnings;
-  if (c.origin.empty())
-    warnings.push_back({"default case", no_parameters});
   for (const std::string& text : c.without_effect)
     warnings.push_back({"no effect", text});
   if (std::string slow = slow_relaxation(c); !slow.empty())
@@ -239,44 +238,56 @@ std::string unlike_end_diastole(const Case& c) {
       seen / mmHg, filled / mmHg);
 }
 
-std::string validate(const Case& c) {
+void check_on_wall(const Case& c, const anatomy::MeshResult& wall) {
+  check_room(c, wall.mesh);
+  static_cast<void>(beating_wall::activation_times(c, wall));  // which may not fit to the wall
+  static_cast<void>(
+      beating_wall::base_motion(c, wall.mesh));  // whose table may not fit to the beat
+  static_cast<void>(cine::strain_targets(c, wall.regions));
+  check_begin(c, wall.mesh);
+}
+
+CheckedCase check_case(const Case& c) {
   Mistakes mistakes;
-  std::string strain;
-  std::optional<anatomy::Shape> shape;
-  mistakes.attempt([&] { strain = cine::check_strain(c); });
-  log::info("anatomy ...");  // each of these may take long
-  mistakes.attempt([&] { shape = anatomy::make_anatomy(c); });
+  CheckedCase checked;
+  mistakes.attempt([&] { checked.strain = cine::check_strain(c); });
+  log::info("looking at the anatomy ...");  // each of these may take long
+  mistakes.attempt(
+      [&] { checked.shape = anatomy::make_anatomy(work::stage_view(c, Stage::anatomy)); });
   mistakes.attempt([&] { scar::require_infarct(c); });
   mistakes.raise();
-  check_measured_volumes(c, *shape);
-  const int members = check_study(c);
-  log::info("mesh ...");
+  check_measured_volumes(c, checked.shape);
+  checked.members = check_study(c);
+  log::info("looking at the mesh ...");
   const int said = log::warnings();
-  const anatomy::MeshResult result = make_mesh(c, *shape);
-  const bool warned_of_infarct = log::warnings() > said;  // of the mesh itself there are none
-  check_room(c, result.mesh);
-  static_cast<void>(beating_wall::activation_times(c, result));  // which may not fit to the wall
-  static_cast<void>(
-      beating_wall::base_motion(c, result.mesh));  // whose table may not fit to the beat
-  check_begin(c, result.mesh);
+  checked.wall = make_mesh(work::stage_view(c, Stage::mesh), checked.shape);
+  checked.warned_of_infarct = log::warnings() > said;  // of the mesh itself there are none
+  check_on_wall(c, checked.wall);
+  return checked;
+}
+
+std::string validate(const Case& c) {
+  const CheckedCase checked = check_case(c);
+  const anatomy::MeshResult& result = checked.wall;
   const double cavity = solid::EndocardialSurface(result.mesh).volume(result.mesh.nodes);
-  std::string text = describe_shape(c, *shape, cavity, result.mesh);
+  std::string text = describe_shape(c, checked.shape, cavity, result.mesh);
   if (const auto targets = cine::strain_targets(c, result.regions); !targets.empty())
     text += fmt::format("  strains of {} segments to fit to\n", targets.size());
-  text += strain + describe_mesh(result.mesh);
+  text += checked.strain + describe_mesh(result.mesh);
   if (const std::string infarct = scar::describe_infarct(c, result); !infarct.empty())
     text += fmt::format("  {}\n", infarct);
   if (c.calibration.cycle)
     text += describe_beat_fit(c);
-  if (members > 0)
-    text += fmt::format("  a study of {} cases: ventricle study {}\n", members, c.file.string());
-  const std::vector<Warning> warnings = warnings_of(c, *shape, cavity);
+  if (checked.members > 0)
+    text += fmt::format("  a study of {} cases: ventricle study {}\n", checked.members,
+                        c.file.string());
+  const std::vector<Warning> warnings = warnings_of(c, checked.shape, cavity);
   for (const Warning& w : warnings)
     text += fmt::format("  warning: {}\n", w.text);
-  const Cost cost = cost_of(c, *shape, result);
+  const Cost cost = cost_of(c, checked.shape, result);
   return text + cost.details +
          fmt::format("on one core: {}; {}; next: {}\n", cost.words,
-                     names_of(warnings, warned_of_infarct), next_command(c));
+                     names_of(warnings, checked.warned_of_infarct), next_command(c));
 }
 
 }  // namespace lv::pipeline

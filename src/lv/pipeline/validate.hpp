@@ -1,20 +1,32 @@
 #pragma once
 
 #include "lv/anatomy/anatomy.hpp"
+#include "lv/anatomy/mesh_result.hpp"
 #include "lv/case_file/case.hpp"
 
 #include <string>
 
 namespace lv::pipeline {
 
-/// Builds anatomy and mesh in memory and says what a run would compute; its last line says what the
-/// beat would take on each engine, which warnings matter and what to do next. Throws InputError
-/// with all that is missing or wrong, as far as it can be told without the rest.
-[[nodiscard]] std::string validate(const case_file::Case& c);
+/// What a run would be made of, as far as its files tell.
+struct CheckedCase {
+  std::string strain;  ///< what will be followed and compared with, in words
+  anatomy::Shape shape;
+  anatomy::MeshResult wall;
+  int members = 0;  ///< of its study; 0 without one
+  bool warned_of_infarct = false;
+};
 
-/// Of a case file without parameters.
-inline constexpr const char* no_parameters =
-    "the case file sets no parameter: this is the default case, the idealised healthy ventricle";
+/// Builds anatomy and mesh in memory and reads all files that fits and heartbeats take. Throws
+/// InputError with all that is missing or wrong, as far as it can be told without the rest.
+[[nodiscard]] CheckedCase check_case(const case_file::Case& c);
+
+/// Throws InputError for files and boxes that do not fit to the wall.
+void check_on_wall(const case_file::Case& c, const anatomy::MeshResult& wall);
+
+/// Says what a run would compute; its last line says what the beat would take on each engine, which
+/// warnings matter and what to do next. Throws InputError as check_case.
+[[nodiscard]] std::string validate(const case_file::Case& c);
 
 /// What is to know of a fit in a case with heartbeats, which is made outside of them; empty else.
 [[nodiscard]] std::string fit_outside_heartbeats(const case_file::Case& c);

@@ -40,7 +40,7 @@ struct Measure {
 
 constexpr const char* event_meaning =
     "from the beat's beginning, where the pressure across the valve changes its sign; negative: "
-    "before it, by the same beat's end; empty: not in this beat";
+    "before it, by the same beat's end; empty: not in this beat, or before it";
 
 constexpr Measure measures[]{
     {&BeatMeasures::end_diastolic_volume, "edv", "end-diastolic volume", "ml",
@@ -85,8 +85,25 @@ constexpr Measure measures[]{
     {&BeatMeasures::isovolumic_relaxation, "isovolumic_relaxation", "isovolumic relaxation", "ms",
      "from the closing of the aortic valve to the opening of the mitral valve"},
     {&BeatMeasures::relaxation_constant, "tau", "relaxation constant tau", "ms",
-     "of p = p_0 exp(-t/tau), least squares of log p from the steepest fall to the opening of the "
-     "mitral valve"}};
+     "of p = p_0 exp(-t/tau), least squares of log p over the time from the steepest fall to the "
+     "opening of the mitral valve, both found between steps"}};
+
+/// What is instead of a measure that a beat does not have.
+const char* why_unseen(double BeatMeasures::*measure, const BeatMeasures& beat) {
+  const bool begins_in_ejection = std::isnan(beat.aortic_opens) && !std::isnan(beat.aortic_closes);
+  const bool begins_closed =
+      std::isnan(beat.mitral_closes) && !std::isnan(beat.end_diastolic_volume);
+  if (measure == &BeatMeasures::aortic_opens && begins_in_ejection)
+    return "is open when the beat begins";
+  if (measure == &BeatMeasures::mitral_closes && begins_closed)
+    return "is closed when the beat begins";
+  if (measure == &BeatMeasures::mitral_opens && !std::isnan(beat.mitral_closes))
+    return "not again in this beat";
+  if ((measure == &BeatMeasures::ejection_time && begins_in_ejection) ||
+      (measure == &BeatMeasures::isovolumic_contraction && (begins_in_ejection || begins_closed)))
+    return "began before the beat";
+  return "did not happen";
+}
 
 /// A column of the signals of the ventricle.
 struct SignalColumn {
@@ -277,9 +294,9 @@ std::string beat_text(const BeatMeasures& beat) {
   std::string text;
   for (const Measure& m : measures) {
     const double value = beat.*m.value / units::parse_unit(m.unit).factor;
-    text +=
-        fmt::format("  {:<26} {}\n", m.words,
-                    std::isnan(value) ? "did not happen" : fmt::format("{:.4g} {}", value, m.unit));
+    text += fmt::format(
+        "  {:<26} {}\n", m.words,
+        std::isnan(value) ? why_unseen(m.value, beat) : fmt::format("{:.4g} {}", value, m.unit));
   }
   return text;
 }

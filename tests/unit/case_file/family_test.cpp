@@ -54,6 +54,30 @@ TEST_CASE("a member of a study is the case with what its factors multiply", "[un
         Approx(1.5 * loop.circulation.closed_loop.systemic.R_ar));
 }
 
+TEST_CASE("a faster heart's chambers have times of their own that fit, set or not",
+          "[unit][case_file]") {
+  const auto loop = [](const std::string& more) {
+    return case_file::parse_case("[circulation]\nkind = \"closed_loop\"\n" + more, "case.toml")
+        .circulation;
+  };
+  const circulation::ClosedLoopParameters usual = loop("").closed_loop;
+  CHECK(usual.left_atrium.t_C == 0.72);
+  CHECK(usual.right_ventricle.T_R == 0.4);
+  const auto fast = loop("period = \"0.4 s\"\nclosed_loop.left_atrium.t_C = \"0.3 s\"\n");
+  CHECK(fast.closed_loop.right_ventricle.T_C == Approx(0.25 * 0.5946).epsilon(1e-3));
+  CHECK(fast.closed_loop.right_atrium.t_C == Approx(0.5 - 0.18 * 0.5946).epsilon(1e-3));
+  CHECK(fast.closed_loop.left_atrium.t_C == 0.3);
+  const auto c = case_file::parse_case(
+      "[circulation]\nkind = \"closed_loop\"\nclosed_loop.right_ventricle.T_R = \"0.35 s\"\n"
+      "closed_loop.left_atrium.t_C = \"0.7 s\"\n",
+      "case.toml");
+  const circulation::CircuitParameters faster =
+      case_file::under({.heart_rate = 2.0}, c).circulation;
+  CHECK(faster.closed_loop.right_ventricle.T_R == Approx(0.35 * 0.5946).epsilon(1e-3));
+  CHECK(faster.closed_loop.left_atrium.t_C == Approx(0.5 - 0.2 * 0.5946).epsilon(1e-3));
+  CHECK(faster.closed_loop.right_atrium.t_C == Approx(0.5 - 0.18 * 0.5946).epsilon(1e-3));
+}
+
 TEST_CASE("a factor that makes a case which cannot be run is refused at its line",
           "[unit][case_file]") {
   const auto c = studied("heart_rate = [2.5]\n");

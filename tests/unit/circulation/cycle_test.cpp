@@ -99,6 +99,33 @@ TEST_CASE("the last closing of the mitral valve before ejection ends diastole",
   CHECK(m.mitral_closes == Approx(0.25));
 }
 
+TEST_CASE("the relaxation constant does not hang on where the steps lie", "[unit][circulation]") {
+  // a logistic fall, an exponential one from some 50 ms after its steepest on, until 10 mmHg
+  constexpr double tau = 0.05;
+  const auto pressure = [](double t) {
+    return 110.0 * mmHg / (1.0 + std::exp((t - 0.3537) / tau));
+  };
+  const auto sampled = [&](double shift, double step) {
+    std::vector<Sample> beat;
+    for (double t = 0.0; t < 0.7; t += beat.size() == 1 ? step + shift : step) {
+      Sample s;
+      s.time = 2.0 + t;
+      s.signals.pressure = pressure(t);
+      s.signals.mitral_gradient = 10.0 * mmHg - pressure(t);
+      s.signals.aortic_gradient = t > 0.05 && t < 0.25 ? 1.0 : -1.0;
+      beat.push_back(s);
+    }
+    return measure_beat(beat).relaxation_constant;
+  };
+  const double exact = sampled(0.0, 1e-5);
+  CHECK(exact > tau);  // the fall bends over at first
+  for (const double step : {2e-3, 5e-3, 1e-2})
+    for (int i = 0; i < 10; ++i) {
+      INFO("steps of " << step << " s, shifted by " << i << " tenths");
+      CHECK(sampled(0.1 * i * step, step) == Approx(exact).epsilon(5e-4));
+    }
+}
+
 TEST_CASE("a circulation comes to its limit cycle and stays there", "[unit][circulation]") {
   for (const Kind kind : {Kind::windkessel, Kind::closed_loop}) {
     const Cycle cycle = run_alone(quick(kind));

@@ -40,7 +40,21 @@ TEST_CASE("beats.csv has a row per beat, and nothing for what did not happen", "
   CHECK(table.numbers("edv_ml").back() ==
         Approx(1e-3 * cycle.beats.back().end_diastolic_volume).epsilon(1e-6));
   CHECK(table.words("mitral_opens_ms").back().empty());
-  CHECK(report::beat_text(cycle.beats.back()).find("did not happen") != std::string::npos);
+  CHECK_THAT(report::beat_text(cycle.beats.back()),
+             Catch::Contains("mitral valve opens at      not again in this beat"));
+}
+
+TEST_CASE("of valves that are open or closed as a beat begins it says so", "[unit][report]") {
+  const circulation::Cycle cycle = two_beats();
+  auto last = circulation::samples_of(cycle, 1);
+  const double opens = cycle.beats.back().aortic_opens;
+  while (last.front().time < 0.8 + opens + 0.01)
+    last = last.subspan(1);
+  CHECK_THAT(report::beat_text(circulation::measure_beat(last)),
+             Catch::Contains("aortic valve opens at      is open when the beat begins") &&
+                 Catch::Contains("mitral valve closes at     is closed when the beat begins") &&
+                 Catch::Contains("isovolumic contraction     began before the beat") &&
+                 Catch::Contains("ejection time              began before the beat"));
 }
 
 TEST_CASE("the loop marks the last beat, the Wiggers diagram its phases", "[unit][report]") {
