@@ -38,7 +38,7 @@ constexpr Quantity other(const char* name, const char* title, const char* unit,
   return {name, title, unit, of, field};
 }
 
-constexpr std::array<Quantity, 17> list{
+constexpr std::array<Quantity, 18> list{
     shown_stress(
         "active_tension", "active tension", [](Cell c, Strain) { return c.tension; },
         "Tension T along the fibre that the muscle makes."),
@@ -93,7 +93,12 @@ constexpr std::array<Quantity, 17> list{
              stress_floor,
              "Work that active tension did over the last heartbeat, by the undeformed volume (kPa "
              "= mJ/ml): the area of its loop of stress and stretch. Negative: stretched while it "
-             "was tense."}};
+             "was tense."},
+    Quantity{"contractility", "factor of contractility", "1",
+             [](Cell c, Strain) { return c.contractility; }, "contractility", false, true, true,
+             1.0, 0.005,
+             "By what the active tension of each AHA segment is multiplied: as the case says, or "
+             "fitted from strain where muscle.contractility is marked as fitted."}};
 
 constexpr Quantity infarct{
     "infarct",

@@ -125,33 +125,35 @@ FieldAnalysis::FieldAnalysis(const mesh::Mesh& mesh, const solid::CardiacModel& 
                              std::vector<double> activation_times)
     : mesh_(mesh),
       activation_times_(std::move(activation_times)),
+      contractility_(mesh::at_nodes(mesh, model.contractility)),
       wall_(mesh, without_penalty(model.myocardium)),
       supports_(mesh, model.base, model.surroundings) {}
 
 std::vector<CellFields> FieldAnalysis::fields(const heartbeat::Snapshot& snapshot) const {
   if (snapshot.stress.empty())
-    return activated(
+    return completed(
         cell_fields(wall_, snapshot, wall_pressure(mesh_, wall_, supports_, snapshot)));
   std::vector<CellFields> cells = shape_fields(wall_, mesh_, snapshot.positions);
   for (std::size_t c = 0; c < cells.size(); ++c)
     static_cast<solid::CellStress&>(cells[c]) = snapshot.stress[c];
-  return activated(std::move(cells));
+  return completed(std::move(cells));
 }
 
 std::vector<CellFields> FieldAnalysis::at_rest() const {
-  return activated(shape_fields(wall_, mesh_, mesh_.nodes));
+  return completed(shape_fields(wall_, mesh_, mesh_.nodes));
 }
 
-/// Means over the nodes of each element.
-std::vector<CellFields> FieldAnalysis::activated(std::vector<CellFields> cells) const {
-  if (activation_times_.empty())
-    return cells;
-  for (std::size_t c = 0; c < cells.size(); ++c) {
-    const auto nodes = mesh_.cell(static_cast<int>(c));
-    cells[c].activation_time = 0.0;
-    for (const int node : nodes)
-      cells[c].activation_time += activation_times_[node] / static_cast<double>(nodes.size());
-  }
+std::vector<CellFields> FieldAnalysis::completed(std::vector<CellFields> cells) const {
+  const auto set = [&](double CellFields::*field, const std::vector<double>& of_nodes) {
+    for (std::size_t c = 0; !of_nodes.empty() && c < cells.size(); ++c) {
+      const auto nodes = mesh_.cell(static_cast<int>(c));
+      cells[c].*field = 0.0;
+      for (const int node : nodes)
+        cells[c].*field += of_nodes[node] / static_cast<double>(nodes.size());
+    }
+  };
+  set(&CellFields::activation_time, activation_times_);
+  set(&CellFields::contractility, contractility_);
   return cells;
 }
 

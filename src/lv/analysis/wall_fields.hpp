@@ -24,6 +24,8 @@ struct CellFields : solid::CellStress {
   /// When it is activated, after the calcium of the beat begins [s]; not a number: at once with the
   /// others.
   double activation_time = std::numeric_limits<double>::quiet_NaN();
+  /// Factor of the tension; not a number: the muscle is the same everywhere.
+  double contractility = std::numeric_limits<double>::quiet_NaN();
   /// What its muscle did over the last heartbeat, by its volume [kPa]; not a number: not known.
   double work_density = std::numeric_limits<double>::quiet_NaN();
   Mat3 F = Mat3::Identity();
@@ -66,11 +68,13 @@ class FieldAnalysis {
   [[nodiscard]] std::vector<CellFields> at_rest() const;
 
  private:
-  [[nodiscard]] std::vector<CellFields> activated(std::vector<CellFields> cells) const;
+  /// With what is known of the nodes besides.
+  [[nodiscard]] std::vector<CellFields> completed(std::vector<CellFields> cells) const;
 
   const mesh::Mesh& mesh_;
   std::vector<double> activation_times_;
-  solid::Wall wall_;  ///< without volumetric penalty: p stands for it
+  std::vector<double> contractility_;  ///< per node; may be empty
+  solid::Wall wall_;                   ///< without volumetric penalty: p stands for it
   solid::Supports supports_;
 };
 

@@ -9,6 +9,7 @@
 #include "lv/calibrate/fit_parts.hpp"
 #include "lv/calibrate/klotz.hpp"
 #include "lv/calibrate/least_squares.hpp"
+#include "lv/calibrate/posterior.hpp"
 #include "lv/calibrate/unloaded_root.hpp"
 
 #include <Eigen/Core>
@@ -42,7 +43,9 @@ constexpr double rough_esv = 0.02;       // of ln(V/V_target), with a first T_sc
 constexpr double first_stiffness = 2.0;  // stiff walls are unloaded more easily
 constexpr double shortest_step = 5e-3;   // of the logarithms of scale and exponent
 constexpr double shortest_of_strains = 1e-4;
-constexpr double unloaded_difference = 0.05;  // unloading leaves volumes scattered
+constexpr double shortest_of_segments = 3e-3;
+constexpr std::array<double, 2> segment_factors{0.02, 50.0};  // within which they are sought
+constexpr double unloaded_difference = 0.05;                  // unloading leaves volumes scattered
 
 /// First steps of a bracket.
 constexpr double far = 1.5;
@@ -114,6 +117,8 @@ class Fitter {
     begin(of_sensitivity);
     fit_.sensitivity = sensitivity(model_, fit_.parameters, fitted, fit_.observations,
                                    {plan_.edv.volume, ed_loads(), es_loads(), plan_.errors});
+    if (!fit_.segments.empty())
+      know_segments();
     return std::move(fit_);
   }
 
@@ -300,8 +305,11 @@ class Fitter {
   [[nodiscard]] FitParameters moved_to(const std::vector<Fitted>& fitted,
                                        const Eigen::VectorXd& x) const {
     FitParameters p = fit_.parameters;
-    for (std::size_t j = 0; j < fitted.size(); ++j)
-      p.*fitted[j].member = std::exp(x[static_cast<Eigen::Index>(j)]);
+    const auto n = static_cast<Eigen::Index>(fitted.size());
+    for (Eigen::Index j = 0; j < n; ++j)
+      p.*fitted[j].member = std::exp(x[j]);
+    for (Eigen::Index j = n; j < x.size(); ++j)
+      p.segments[plan_.segments[j - n] - 1] = std::exp(x[j]);
     return p;
   }
 
@@ -374,18 +382,26 @@ class Fitter {
     return r;
   }
 
-  /// By the logarithms of the parameters.
+  /// By the logarithms of the parameters, and of the segments' factors, with their penalty.
   void fit_strains(const std::vector<Fitted>& fitted) {
     begin(of_strains);
-    const Logarithms logs = logarithms(fitted);
+    const Logarithms logs = with_segments(logarithms(fitted));
+    const auto segments = static_cast<Eigen::Index>(plan_.segments.size());
+    const auto residuals = [&](const Eigen::VectorXd& x) -> Outcome<Eigen::VectorXd> {
+      const auto r = weighted_residuals(moved_to(fitted, x));
+      if (!r)
+        return r;
+      Eigen::VectorXd all(r->size() + segments);
+      all << *r, x.tail(segments) / plan_.spread;
+      return all;
+    };
     const Minimum minimum =
-        least_squares(
-            [&](const Eigen::VectorXd& x) { return weighted_residuals(moved_to(fitted, x)); },
-            logs.start, logs.low, logs.high,
-            {.difference = difference,
-             .longest = longest_step,
-             .shortest = shortest_of_strains,
-             .confirms = true})
+        least_squares(residuals, logs.start, logs.low, logs.high,
+                      {.difference = difference,
+                       .longest = longest_step,
+                       .shortest = segments > 0 ? shortest_of_segments : shortest_of_strains,
+                       .confirms = true,
+                       .linearise = [&](const auto& x) { linearise(fitted, x); }})
             .value();
     if (!minimum.is_found)
       throw NoSolution(
@@ -393,9 +409,45 @@ class Fitter {
                       minimum.evaluations, minimum.r.norm()),
           "Fit fewer parameters, or start nearer to the values that are expected");
     fit_.parameters = moved_to(fitted, minimum.x);
+    posterior_ = posterior(minimum.slopes, segments);
     StrainFit& s = fit_.strain_fit.emplace();
-    s.chi_squared = minimum.r.squaredNorm();
-    s.degrees_of_freedom = static_cast<int>(minimum.r.size() - minimum.x.size());
+    const Eigen::Index data = minimum.r.size() - segments;
+    s.chi_squared = minimum.r.head(data).squaredNorm();
+    s.degrees_of_freedom = static_cast<double>(data) - posterior_.resolution.sum();
+    const double misfit = std::sqrt(std::max(1.0, s.chi_squared / s.degrees_of_freedom));
+    for (Eigen::Index j = 0; j < segments; ++j) {
+      const Eigen::Index at = minimum.x.size() - segments + j;
+      fit_.segments.push_back({plan_.segments[j], std::exp(minimum.x[at]),
+                               misfit * std::sqrt(posterior_.covariance(at, at)),
+                               posterior_.resolution[at]});
+    }
+  }
+
+  void linearise(const std::vector<Fitted>& fitted, const std::optional<Eigen::VectorXd>& x) {
+    if (model_.linearise && !plan_.segments.empty())
+      model_.linearise(x ? std::optional(moved_to(fitted, *x)) : std::nullopt);
+  }
+
+  [[nodiscard]] Logarithms with_segments(Logarithms logs) const {
+    const Eigen::Index n = logs.start.size();
+    const auto all = n + static_cast<Eigen::Index>(plan_.segments.size());
+    for (Eigen::VectorXd* values : {&logs.start, &logs.low, &logs.high})
+      values->conservativeResize(all);
+    for (Eigen::Index j = n; j < all; ++j) {
+      logs.start[j] = std::log(fit_.parameters.segments[plan_.segments[j - n] - 1]);
+      logs.low[j] = std::log(segment_factors.front());
+      logs.high[j] = std::log(segment_factors.back());
+    }
+    return logs;
+  }
+
+  /// The errors of the other parameters, which hang on those of the segments.
+  void know_segments() {
+    Sensitivity& s = fit_.sensitivity;
+    const Eigen::Index n = s.covariance.rows();
+    s.covariance = posterior_.covariance.topLeftCorner(n, n);
+    const Eigen::VectorXd deviation = s.covariance.diagonal().cwiseSqrt();
+    s.correlation = s.covariance.cwiseQuotient(deviation * deviation.transpose());
   }
 
   [[nodiscard]] const Range& range_of(const Fitted& which) const {
@@ -544,6 +596,7 @@ class Fitter {
   FitParameters last_{.C_a = 0.0};  ///< of the last equilibrium
   bool has_tension_ = false;        ///< T_scale is near its end
   Fitted tension_{"T_scale", &FitParameters::T_scale};
+  Posterior posterior_;  ///< of the fit to strains
   Fit fit_;
 };
 

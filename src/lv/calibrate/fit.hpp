@@ -37,6 +37,10 @@ struct Plan {
   Range exponent, T_scale;
   std::vector<MeasuredStrain> strains;  ///< end-systolic; fitted to, besides the volumes, when any
   Errors errors;
+  /// AHA segments whose factors of contractility are fitted to the strains besides, and the
+  /// standard deviation of the factors' logarithms beforehand.
+  std::vector<int> segments = {};
+  double spread = 0.5;
   bool starts_near = false;       ///< the start is near the end
   bool parameters_alone = false;  ///< finds no sensitivities
   /// Of a fit near by (Fit::slopes), where the one to Klotz's V0 and curve begins with them.
@@ -57,10 +61,18 @@ struct Evaluation {
 
 /// How a model fits measured strains.
 struct StrainFit {
-  std::vector<double> strains;  ///< of the model, in the order of Plan::strains
-  double chi_squared = 0.0;     ///< |r|^2 of volumes and strains, each by its error
-  int degrees_of_freedom = 0;
-  double rms = 0.0, bias = 0.0;  ///< of model minus measured strain
+  std::vector<double> strains;      ///< of the model, in the order of Plan::strains
+  double chi_squared = 0.0;         ///< |r|^2 of volumes and strains, each by its error
+  double degrees_of_freedom = 0.0;  ///< data less the unknowns that they determine
+  double rms = 0.0, bias = 0.0;     ///< of model minus measured strain
+};
+
+/// The factor of contractility of an AHA segment.
+struct FittedSegment {
+  int segment = 0;
+  double factor = 1.0;
+  double error = 0.0;       ///< standard deviation of its logarithm
+  double resolution = 0.0;  ///< share that the data determine and not the penalty (posterior.hpp)
 };
 
 /// What the fit would be, had the shape been seen under another end-diastolic pressure.
@@ -82,6 +94,7 @@ struct Fit {
   std::vector<ObservedVolume> observations;
   std::vector<double> volumes;  ///< of the model at the observations [mm^3]
   std::optional<StrainFit> strain_fit;
+  std::vector<FittedSegment> segments;  ///< empty unless they are fitted
   Sensitivity sensitivity;
   std::vector<OtherPressure> other_pressures;  ///< of an end-diastolic shape; not filled by `fit`
   std::vector<Evaluation> history;
@@ -119,7 +132,10 @@ struct Fit {
 ///   sum_k [(V_k/V_k,measured - 1)/sigma_V]^2 + sum_i [(E_i - E_i,measured)/sigma_E]^2,
 ///
 /// by Gauss-Newton steps in their logarithms (least_squares.hpp; the points of the Klotz curve
-/// count as volumes). It need not meet the volumes within the tolerance.
+/// count as volumes). It need not meet the volumes within the tolerance. Where factors c_j of
+/// segments are fitted besides, the penalty sum_j (ln c_j/spread)^2 is added. Errors are larger
+/// where the data are missed by more than their errors, by (chi^2/degrees of freedom)^(1/2); those
+/// of the other parameters then know that the factors move with them.
 ///
 /// Throws OutOfReach for a volume out of reach and NoSolution when a fitted model misses the
 /// measured volumes, to which alone it was fitted, by more than the tolerance.

@@ -70,7 +70,8 @@ std::vector<FitPart> parts_of(const Plan& plan) {
   Equilibria trial = of_muscle(at_rest, true, plan.active);
   trial[3] += strains;
   if (strains > 0.0)
-    parts.push_back({of_strains, trial, 3.0 * (fitted + 1.0)});
+    parts.push_back(
+        {of_strains, trial, 3.0 * (fitted + static_cast<double>(plan.segments.size()) + 1.0)});
   parts.push_back(
       {of_result, of_muscle(at_rest + (exponent > 0.0 ? 1.0 : 0.0), false, plan.active)});
   if (!plan.parameters_alone)

@@ -10,11 +10,14 @@
 namespace lv::calibrate {
 namespace {
 
-constexpr int most_evaluations = 40;
+/// Three sets of differences, and steps.
+int most_evaluations(Eigen::Index unknowns) {
+  return 30 + 3 * static_cast<int>(unknowns);
+}
 
 /// Forward differences, backward ones at the upper bound and where there is no residual.
-std::optional<Eigen::MatrixXd> differences(const Residuals& residuals, const Minimum& at,
-                                           const Eigen::VectorXd& high, double difference) {
+std::optional<Eigen::MatrixXd> columns(const Residuals& residuals, const Minimum& at,
+                                       const Eigen::VectorXd& high, double difference) {
   Eigen::MatrixXd J(at.r.size(), at.x.size());
   for (Eigen::Index j = 0; j < at.x.size(); ++j) {
     bool found = false;
@@ -31,6 +34,17 @@ std::optional<Eigen::MatrixXd> differences(const Residuals& residuals, const Min
     if (!found)
       return {};
   }
+  return J;
+}
+
+std::optional<Eigen::MatrixXd> differences(const Residuals& residuals, const Minimum& at,
+                                           const Eigen::VectorXd& high,
+                                           const LeastSquaresSearch& search) {
+  if (search.linearise)
+    search.linearise(at.x);
+  auto J = columns(residuals, at, high, search.difference);
+  if (search.linearise)
+    search.linearise({});
   return J;
 }
 
@@ -60,9 +74,9 @@ Outcome<Minimum> least_squares(const Residuals& residuals, const Eigen::VectorXd
   best.r = *first;
   bool fresh = !search.slopes;
   std::optional<Eigen::MatrixXd> J =
-      search.slopes ? search.slopes : differences(counted, best, high, search.difference);
+      search.slopes ? search.slopes : differences(counted, best, high, search);
   double longest = search.longest;
-  while (J && best.evaluations < most_evaluations) {
+  while (J && best.evaluations < most_evaluations(start.size())) {
     const Eigen::VectorXd full = -dense::least_squares(*J, best.r);
     const double shortening = std::min(1.0, longest / full.cwiseAbs().maxCoeff());
     const Eigen::VectorXd step = (best.x + shortening * full).cwiseMax(low).cwiseMin(high) - best.x;
@@ -73,7 +87,7 @@ Outcome<Minimum> least_squares(const Residuals& residuals, const Eigen::VectorXd
       best.is_found = fresh || (!search.confirms && longest == search.longest);
       if (best.is_found)
         break;
-      J = differences(counted, best, high, search.difference);
+      J = differences(counted, best, high, search);
       fresh = true;
       longest = search.longest;
       continue;

@@ -31,6 +31,9 @@ struct LeastSquaresSearch {
   /// Whether the last step is one by fresh differences: the minimum of residuals that stay large
   /// is where these say, not where Broyden's updates do.
   bool confirms = false;
+  /// Told about where differences are taken from now on, and with nothing that they are done: the
+  /// residuals between may be right to first order only. May be empty.
+  std::function<void(const std::optional<Eigen::VectorXd>&)> linearise = {};
 };
 
 /// The x within bounds with the smallest |r(x)|^2, of residuals that cost much: Gauss-Newton steps

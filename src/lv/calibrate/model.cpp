@@ -33,7 +33,61 @@ void Ventricle::begin_near(std::vector<Vec3> unloaded) {
   unloaded_with_ = {.C_a = 0.0};  // of no muscle: it is not yet found
 }
 
+void Ventricle::linearise(const std::optional<FitParameters>& about,
+                          const std::vector<int>& segments) {
+  about_ = about;
+  segments_ = segments;
+  slopes_.clear();
+}
+
+bool Ventricle::is_linear(const FitParameters& parameters) const {
+  if (!about_ || parameters == *about_)
+    return false;
+  FitParameters others = parameters;
+  others.segments = about_->segments;
+  return others == *about_;
+}
+
+/// Active stress goes in proportion to a factor, so that twice as much changes the residual by its
+/// derivative by the logarithm.
+Outcome<Ventricle::Slopes> Ventricle::slopes(const Loads& loads) {
+  const auto volume_there = volume(*about_, loads);
+  if (!volume_there)
+    return volume_there.why();
+  std::vector<implicit::StaticModel> twice;
+  for (const int segment : segments_) {
+    FitParameters other = *about_;
+    other.segments[segment - 1] *= 2.0;
+    twice.push_back(model_of_(other));
+  }
+  const auto responses = engine_->responses(twice);
+  if (!responses)
+    return responses.why();
+  return Slopes{loads, engine_->state().positions, *responses};
+}
+
+Outcome<std::vector<Vec3>> Ventricle::moved(const FitParameters& parameters, const Loads& loads) {
+  auto found = std::find_if(slopes_.begin(), slopes_.end(),
+                            [&](const Slopes& s) { return distance(s.loads, loads) == 0.0; });
+  if (found == slopes_.end()) {
+    auto added = slopes(loads);
+    if (!added)
+      return added.why();
+    found = slopes_.insert(slopes_.end(), *added);
+  }
+  std::vector<Vec3> positions = found->positions;
+  for (std::size_t j = 0; j < segments_.size(); ++j) {
+    const int s = segments_[j] - 1;
+    const double by = std::log(parameters.segments[s] / about_->segments[s]);
+    for (std::size_t a = 0; by != 0.0 && a < positions.size(); ++a)
+      positions[a] += by * found->by_segment[j][a];
+  }
+  return positions;
+}
+
 Outcome<double> Ventricle::unloaded_volume(const FitParameters& parameters) {
+  if (is_linear(parameters))
+    return unloaded_volume(*about_);
   if (unloading_.pressure == 0.0 || (unloaded_ && unloaded_with_ == parameters))
     return endocardium_.volume(wall_.nodes);
   folded_volume_ = std::numeric_limits<double>::quiet_NaN();
@@ -63,6 +117,10 @@ Outcome<double> Ventricle::volume(const FitParameters& parameters, const Loads& 
   const auto unloaded = unloaded_volume(parameters);
   if (!unloaded || distance(loads, {}) == 0.0)  // undeformed, as implicit::Engine::set_model says
     return unloaded;
+  if (is_linear(parameters)) {
+    const auto positions = moved(parameters, loads);
+    return positions ? Outcome<double>(endocardium_.volume(*positions)) : positions.why();
+  }
   const auto volume = approach(model_of_(parameters), loads);
   if (!volume)
     return volume;
@@ -75,6 +133,8 @@ Outcome<double> Ventricle::volume(const FitParameters& parameters, const Loads& 
 
 Outcome<std::vector<Vec3>> Ventricle::positions(const FitParameters& parameters,
                                                 const Loads& loads) {
+  if (is_linear(parameters))
+    return moved(parameters, loads);
   if (const auto found = volume(parameters, loads); !found)
     return found.why();
   return engine_->state().positions;

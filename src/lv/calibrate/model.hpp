@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lv/implicit/unload.hpp"
+#include "lv/mesh/regions.hpp"
 
 #include <functional>
 #include <limits>
@@ -15,6 +16,7 @@ struct FitParameters {
   double scale = 1.0;     ///< factor of a, a_f, a_s and a_fs besides
   double exponent = 1.0;  ///< factor of b, b_f, b_s and b_fs
   double T_scale = 1.0;   ///< strength of contraction (Appendix A)
+  mesh::SegmentFactors segments = mesh::even_segments();  ///< factors of it
 
   [[nodiscard]] bool operator==(const FitParameters&) const = default;
 };
@@ -31,6 +33,9 @@ struct Model {
   std::function<Outcome<std::vector<double>>(const FitParameters&, const Loads& ed,
                                              const Loads& es)>
       strains;
+  /// From now on answers for muscle that differs from this one in its factors of segments alone may
+  /// be right to first order only; nothing: no more. May be empty.
+  std::function<void(const std::optional<FitParameters>& about)> linearise = {};
   /// What the wall that was sought last holds without load, if it is folded [mm^3]; else not a
   /// number. May be empty.
   std::function<double()> folded_volume = {};
@@ -57,6 +62,14 @@ class Ventricle {
   Outcome<double> volume(const FitParameters& parameters, const solid::Loads& loads);
   Outcome<double> unloaded_volume(const FitParameters& parameters);
 
+  /// From now on muscle that differs from `about` in its factors c_j of these segments alone is
+  /// taken to move the wall to first order, under loads and with the wall without load held,
+  ///
+  ///   x = x_0 + sum_j (ln c_j - ln c_j0) dx/d ln c_j,   dx/d ln c_j = -K^-1 dR/d ln c_j;
+  ///
+  /// nothing: no more.
+  void linearise(const std::optional<FitParameters>& about, const std::vector<int>& segments);
+
   /// Of the nodes [mm].
   Outcome<std::vector<Vec3>> positions(const FitParameters& parameters, const solid::Loads& loads);
 
@@ -82,7 +95,17 @@ class Ventricle {
   void restore(Memory memory);
 
  private:
+  /// An equilibrium of about_, and how it moves with the logarithm of each segment's factor [mm].
+  struct Slopes {
+    solid::Loads loads;
+    std::vector<Vec3> positions;
+    std::vector<std::vector<Vec3>> by_segment;
+  };
+
   Outcome<double> approach(const implicit::StaticModel& model, const solid::Loads& loads);
+  [[nodiscard]] bool is_linear(const FitParameters& parameters) const;
+  Outcome<Slopes> slopes(const solid::Loads& loads);
+  Outcome<std::vector<Vec3>> moved(const FitParameters& parameters, const solid::Loads& loads);
   [[nodiscard]] Equilibrium& nearest(const solid::Loads& loads);
 
   const mesh::Mesh& given_;
@@ -96,6 +119,9 @@ class Ventricle {
   FitParameters unloaded_with_;
   std::optional<implicit::Engine> engine_;  ///< of wall_
   std::vector<Equilibrium> known_;
+  std::optional<FitParameters> about_;
+  std::vector<int> segments_;
+  std::vector<Slopes> slopes_;
 };
 
 }  // namespace lv::calibrate

@@ -33,6 +33,7 @@ RecordedFit recorded(const Plan& plan, const Fit& fit) {
     record.klotz_pressure = plan.ed_pressure;
     record.other_pressures = fit.other_pressures;
   }
+  record.segments = fit.segments;
   return record;
 }
 

@@ -27,11 +27,12 @@ struct RecordedFit {
   std::vector<RecordedVolume> volumes;
   std::optional<double> klotz_pressure;        ///< of a fit to Klotz's curve [kPa]
   std::vector<OtherPressure> other_pressures;  ///< the same fit for them
+  std::vector<FittedSegment> segments = {};    ///< see Fit
 };
 
 [[nodiscard]] RecordedFit recorded(const Plan& plan, const Fit& fit);
 
-/// All that a calibration may change, with their names.
+/// All numbers of the whole wall that a calibration may change, with their names.
 [[nodiscard]] const std::array<Fitted, 4>& all_parameters();
 
 /// As JSON: {"C_a": ..., "scale": ..., "exponent": ..., "T_scale": ...}.

@@ -98,9 +98,39 @@ std::string strain_rows(const Plan& plan, const Fit& fit) {
                         plan.strains[i].value, s.strains[i], s.strains[i] - plan.strains[i].value);
   text += fmt::format(
       "  bias {:.3f}, rms {:.3f}; weights 1/{:g} of a strain and 1/{:g} of a volume's "
-      "fraction; chi^2 {:.1f} for {} degrees of freedom\n",
+      "fraction; chi^2 {:.1f} for {:.1f} degrees of freedom\n",
       s.bias, s.rms, plan.errors.strain, plan.errors.volume, s.chi_squared, s.degrees_of_freedom);
   return text;
+}
+
+/// Of a segment's factor.
+struct Interval {
+  double low, high;
+};
+
+Interval interval(const FittedSegment& s) {
+  constexpr double of_95_percent = 1.96;
+  return {s.factor * std::exp(-of_95_percent * s.error),
+          s.factor * std::exp(of_95_percent * s.error)};
+}
+
+/// Factors of segments, and how sure they are.
+std::string segment_rows(const Plan& plan, const Fit& fit) {
+  std::string text =
+      fmt::format("\n  {:<22}{:>8}{:>16}{:>11}{:>12}   fitted from strain\n", "contractility of",
+                  "factor", "95% interval", "+-(ln)", "resolution");
+  double determined = 0.0;
+  for (const FittedSegment& s : fit.segments) {
+    const auto [low, high] = interval(s);
+    text += fmt::format("  {:<22}{:>8.3f}{:>16}{:>11.3f}{:>12.2f}\n",
+                        fmt::format("{} {}", s.segment, mesh::aha_name(s.segment)), s.factor,
+                        fmt::format("{:.2f} to {:.2f}", low, high), s.error, s.resolution);
+    determined += s.resolution;
+  }
+  return text + fmt::format(
+                    "  the data determine {:.1f} of {} factors, the penalty (spread {:g} of the "
+                    "logarithms) the rest\n",
+                    determined, fit.segments.size(), plan.spread);
 }
 
 /// (J^T J)^-1 for the stated errors, larger when the model fits worse than they allow.
@@ -222,6 +252,11 @@ std::vector<std::string> ambiguities(const Plan& plan, const Fit& fit) {
     }
   if (fit.strain_fit)
     words.push_back(weakest_direction(fit));
+  if (!fit.segments.empty())
+    words.emplace_back(
+        "Factors of contractility take up all that makes strain differ round the wall: thickness, "
+        "fibres, the right ventricle and errors of tracking too. What a measurement that is off "
+        "does to the other parameters is told with these factors held.");
   if (plan.active)
     words.emplace_back(
         "T_scale stands for every other cause of tension (calcium, its sensitivity, T_ref), which "
@@ -266,6 +301,13 @@ Json strains_json(const Plan& plan, const Fit& fit) {
   return json;
 }
 
+Json segment_json(const FittedSegment& s) {
+  const auto [low, high] = interval(s);
+  return {{"segment", s.segment},       {"name", mesh::aha_name(s.segment)},
+          {"factor", s.factor},         {"standard_error_of_logarithm", s.error},
+          {"interval_95", {low, high}}, {"resolution", s.resolution}};
+}
+
 Json uncertainty_json(const Plan& plan, const Fit& fit, std::size_t j) {
   const Fitted& which = fit.sensitivity.parameters[j];
   Json json{{"parameter", which.name}, {"value", fit.parameters.*which.member}};
@@ -284,8 +326,10 @@ Json uncertainty_json(const Plan& plan, const Fit& fit, std::size_t j) {
 
 std::string text(const Plan& plan, const Fit& fit) {
   std::string text = "calibration with the quasi-static engine\n\n" + volume_rows(fit) +
-                     (fit.strain_fit ? strain_rows(plan, fit) : "") + parameter_rows(plan, fit) +
-                     (fit.strain_fit ? deviation_rows(fit) : "") + derivative_rows(fit) + "\n";
+                     (fit.strain_fit ? strain_rows(plan, fit) : "") +
+                     (fit.segments.empty() ? "" : segment_rows(plan, fit)) +
+                     parameter_rows(plan, fit) + (fit.strain_fit ? deviation_rows(fit) : "") +
+                     derivative_rows(fit) + "\n";
   if (plan.passive == FittedPassive::scale_and_exponent) {
     const Klotz k = klotz(plan.edv.volume, plan.ed_pressure);
     text += fmt::format(
@@ -315,10 +359,26 @@ std::string json(const Plan& plan, const Fit& fit) {
   }
   if (fit.strain_fit)
     json["strains"] = strains_json(plan, fit);
+  for (const FittedSegment& s : fit.segments)
+    json["contractility"].push_back(segment_json(s));
+  if (!fit.segments.empty())
+    json["contractility_spread"] = plan.spread;
   json["uncertainty_by"] = "derivatives of the logarithms at the fit";
   json["ambiguities"] = ambiguities(plan, fit);
   json["evaluations"] = fit.history.size();
   return json.dump(2) + "\n";
+}
+
+Table contractility_table(const std::vector<FittedSegment>& segments) {
+  Table table({"segment", "name", "factor", "standard_error_of_logarithm", "low_95", "high_95",
+               "resolution"});
+  for (const FittedSegment& s : segments) {
+    const auto [low, high] = interval(s);
+    table.add_row({std::to_string(s.segment), mesh::aha_name(s.segment), Table::number(s.factor),
+                   Table::number(s.error), Table::number(low), Table::number(high),
+                   Table::number(s.resolution)});
+  }
+  return table;
 }
 
 Table history_table(const Fit& fit) {

@@ -11,6 +11,10 @@ namespace lv::calibrate {
 /// All of it as a JSON object.
 [[nodiscard]] std::string json(const Plan& plan, const Fit& fit);
 
+/// contractility.csv: segment, name, factor of the active tension, standard error of its logarithm,
+/// 95% interval and resolution (posterior.hpp).
+[[nodiscard]] Table contractility_table(const std::vector<FittedSegment>& segments);
+
 /// Every equilibrium of the search in its order: the history of the brackets.
 [[nodiscard]] Table history_table(const Fit& fit);
 

@@ -160,6 +160,18 @@ struct QuasiStatic {
 /// Which measure of strain a file holds: E = (lambda^2 - 1)/2 or lambda - 1.
 enum class StrainMeasure { green_lagrange, engineering };
 
+/// An infarct from strain alone: parts of the wall that shorten by less. The threshold is that of
+/// feature tracking against late enhancement in patients (docs/infarct.md).
+struct StrainInfarct {
+  std::string file;  ///< of regional strains
+  StrainMeasure measure = StrainMeasure::green_lagrange;
+  double threshold = -0.0756;  ///< of circumferential l/L - 1 at end-systole
+  double error = 0.03;         ///< standard deviation of those strains
+};
+
+/// Whether contractility is fitted as one number or beside it with a factor of each AHA segment.
+enum class FittedContractility { even, segments };
+
 /// Which parameters are fitted to which measured volumes, at the pressures of the protocol, and to
 /// which data of heartbeats.
 struct Calibration {
@@ -176,7 +188,9 @@ struct Calibration {
   std::string strains;                 ///< file of regional strains, fitted to besides; empty: none
   StrainMeasure strain_measure = StrainMeasure::green_lagrange;  ///< of that file
   calibrate::Errors errors;  ///< of what was measured, which weigh it
-  bool confirm = false;      ///< with the immersed engine
+  FittedContractility contractility = FittedContractility::even;
+  double contractility_spread = 0.5;  ///< standard deviation of ln factor over segments beforehand
+  bool confirm = false;               ///< with the immersed engine
   /// By which the end-diastolic pressure of a fit to Klotz's curve may be off: fitted anew [kPa].
   double pressure_error = 4.0 * units::mmHg;
 
@@ -228,7 +242,10 @@ struct Case {
   material::NiedererHunterSmith active;
   material::Land2017 land2017;
   mesh::InfarctParameters scar;  ///< where the infarct is
+  StrainInfarct scar_strain;
   material::InfarctScaling infarct;
+  std::string contractility_file;  ///< factors of the tension by AHA segment; empty: 1
+  std::optional<mesh::SegmentFactors> fitted_contractility;  ///< instead
   double muscle_density = 1.05e-6;  ///< of printed masses, and of a wall with inertia [kg/mm^3]
   material::Viscosity viscosity;
   double bulk_modulus = 0.0;  ///< of the implicit engine's wall; 0: incompressible [kPa]
@@ -288,6 +305,10 @@ inline constexpr double systolic_share = 0.9;
 
 /// How the wall is meshed for the engine of the case.
 [[nodiscard]] mesh::WallMeshParameters mesh_parameters(const Case& c);
+
+/// Factors of the active tension: those fitted, or those of muscle.contractility. Throws InputError
+/// naming file and line.
+[[nodiscard]] mesh::SegmentFactors segment_factors(const Case& c);
 
 /// The ventricle as the engine of the case knows it, its base held by the springs of the case or by
 /// the quasi-static engine's, so stiff that it does not move.

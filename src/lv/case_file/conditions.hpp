@@ -156,8 +156,8 @@ LV_CONDITION(quadratic_elements, c.quasi_static.order == 2, "with quasi_static.o
 LV_CONDITION(infarcted, may_have_infarct(c), "with an infarct (infarct.source)")
 LV_CONDITION(infarct_of_mesh, c.scar.source == Scar::mesh, "with infarct.source = \"mesh\"")
 LV_CONDITION(infarct_laid_on, c.scar.source != Scar::mesh && c.scar.source != Scar::none,
-             "with infarct.source = \"described\", \"elements\", \"surface\", \"labels\" or "
-             "\"lge\"")
+             "with infarct.source = \"described\", \"elements\", \"surface\", \"labels\", "
+             "\"strain\" or \"lge\"")
 LV_CONDITION(infarct_described, c.scar.source == Scar::described,
              "with infarct.source = \"described\"")
 LV_CONDITION(infarct_of_elements, c.scar.source == Scar::elements,
@@ -165,6 +165,7 @@ LV_CONDITION(infarct_of_elements, c.scar.source == Scar::elements,
 LV_CONDITION(infarct_of_surface, c.scar.source == Scar::surface,
              "with infarct.source = \"surface\"")
 LV_CONDITION(infarct_of_labels, c.scar.source == Scar::labels, "with infarct.source = \"labels\"")
+LV_CONDITION(infarct_of_strain, c.scar.source == Scar::strain, "with infarct.source = \"strain\"")
 LV_CONDITION(infarct_of_lge, c.scar.source == Scar::lge, "with infarct.source = \"lge\"")
 LV_CONDITION(infarct_of_images, c.scar.source == Scar::labels || c.scar.source == Scar::lge,
              "with infarct.source = \"labels\" or \"lge\"")
@@ -249,6 +250,8 @@ LV_CONDITION(esv_fit, c.calibration.cycle || c.calibration.active,
 LV_CONDITION(fit_to_beats, c.calibration.cycle, "with calibrate.cycle = true")
 LV_CONDITION(active_fit, c.calibration.active, "with calibrate.active = true")
 LV_CONDITION(strains_given, !c.calibration.strains.empty(), "with calibrate.strains")
+LV_CONDITION(segments_fitted, c.calibration.contractility == FittedContractility::segments,
+             "with calibrate.contractility = \"segments\"")
 LV_CONDITION(loaded, c.unloaded.pressure > 0.0, "with unloaded.pressure above 0")
 LV_CONDITION(cine, c.strain.asked(), "with the images of strain.cine")
 LV_CONDITION(measured, !c.strain.measured.empty(), "with strain.measured")

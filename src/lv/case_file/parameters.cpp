@@ -387,7 +387,7 @@ constexpr Group of_infarct[]{
      {},
      {
          choice("infarct.source", LV_AT(scar.source),
-                "mesh none described elements surface labels lge",
+                "mesh none described elements surface labels strain lge",
                 "where the infarct comes from: the mesh file's point array of M (no infarct if "
                 "it has none), nowhere, or one of the tables below; an element is infarcted if "
                 "its centre is",
@@ -491,6 +491,21 @@ constexpr Group of_infarct[]{
          value("infarct.labels.in_plane", LV_AT(scar.in_plane),
                "move each slice in its plane until the middle of its muscle and "
                "scar lies on that of the wall there (another breath-hold)"),
+     }},
+    {meshing,
+     {&infarct_of_strain},
+     {
+         file("infarct.strain.file", LV_AT(scar_strain.file),
+              "CSV of circumferential strains at end-systole from end-diastole with the columns of "
+              "calibrate.strains, where there is no late enhancement: parts that shorten by less "
+              "than the threshold are the infarct"),
+         choice("infarct.strain.measure", LV_AT(scar_strain.measure), "green_lagrange engineering",
+                "what that file holds: (lambda^2 - 1)/2 or lambda - 1"),
+         number("infarct.strain.threshold", LV_AT(scar_strain.threshold), "", between(-0.3, 0.1),
+                "lambda - 1 above which a part is infarcted (docs/infarct.md says whose it is)"),
+         number("infarct.strain.error", LV_AT(scar_strain.error), "", between(0.0, 0.2),
+                "standard deviation of those strains: parts nearer to the threshold are named as "
+                "undecided"),
      }},
     {meshing,
      {&infarct_of_lge},
@@ -787,6 +802,15 @@ constexpr Group of_muscle[]{
 };
 
 constexpr Group of_blood_and_base[]{
+    {mechanics,
+     {},
+     {
+         file(
+             "muscle.contractility", LV_AT(contractility_file),
+             "CSV with the columns segment (1 to 17 of the American Heart Association) and factor, "
+             "by which the active tension of that segment is multiplied, whatever the law, engine "
+             "and protocol; between segments it passes over the nodes of one element; empty: 1"),
+     }},
     {Stages(Stage::mesh, Stage::calibrate, Stage::unload, Stage::beat, Stage::results),
      {&mass_counts},
      {
@@ -1052,6 +1076,21 @@ constexpr Group of_measurements[]{
                 above_up_to(0.0, 1.0),
                 "standard deviation of the volumes, as a fraction, where "
                 "strains are fitted besides"),
+     }},
+    {mechanics,
+     {&strains_given},
+     {
+         choice("calibrate.contractility", LV_AT(calibration.contractility), "even segments",
+                "segments: a factor of contractility of each AHA segment that has a strain is "
+                "fitted besides, with its uncertainty (contractility.csv)"),
+     }},
+    {Stages(Stage::calibrate),
+     {&strains_given, &segments_fitted},
+     {
+         number("calibrate.contractility_spread", LV_AT(calibration.contractility_spread), "",
+                between(0.01, 3.0),
+                "standard deviation that ln(factor) of segments has before anything is measured: "
+                "(ln factor/spread)^2 is a penalty against noise"),
      }},
     {Stages(Stage::beat),
      {&fit, &immersed_engine},

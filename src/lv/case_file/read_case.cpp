@@ -306,6 +306,10 @@ class CaseReader {
          "must be above zero for a passive fit");
     rule(!k.active || case_.active_law == ActiveChoice::niederer, "calibrate.active",
          "fits T_scale of active.law = \"niederer\"; the case has another");
+    rule(k.contractility == FittedContractility::even || case_.contractility_file.empty() ||
+             case_.fitted_contractility,
+         "muscle.contractility",
+         "is what calibrate.contractility = \"segments\" fits: leave one of the two out");
     rule(
         !is_loaded(case_) || !passive ||
             case_.unloaded.pressure < 0.95 * case_.protocol.ed_pressure,

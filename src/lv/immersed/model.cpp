@@ -26,8 +26,10 @@ Model::Model(const mesh::Mesh& mesh, const solid::CardiacModel& heart,
       wall_(mesh, heart.myocardium),
       active_(heart.myocardium.active),
       strength_(solid::strength(mesh, heart.myocardium.infarct)),
-      contraction_(active_, {mesh.nodes, wall_.nodal_volumes(), strength_},
-                   parameters.blood.density, parameters.grid.spacing.minCoeff()),
+      contraction_(
+          active_,
+          {mesh.nodes, wall_.nodal_volumes(), strength_, mesh::at_nodes(mesh, heart.contractility)},
+          parameters.blood.density, parameters.grid.spacing.minCoeff()),
       supports_(mesh, heart.base, heart.surroundings),
       longest_step_(heart.surroundings.longest_step(parameters.blood.density *
                                                     parameters.grid.spacing.minCoeff())),

@@ -151,6 +151,33 @@ Outcome<double> Engine::set_model(const StaticModel& model) {
   return go_to(loads);
 }
 
+Outcome<std::vector<std::vector<Vec3>>> Engine::responses(const std::vector<StaticModel>& others) {
+  SparseMatrix K(equations_.pattern(), parameters_.newton.linear, equations_.undeformed());
+  equations_.tangent(state_, loads_, K);
+  const StaticModel model = equations_.model();
+  const std::vector<double> R = equations_.residual(state_, loads_);
+  std::vector<std::vector<Vec3>> all;
+  std::optional<Unsolved> why;
+  for (const StaticModel& other : others) {
+    equations_.set_model(held(other));
+    std::vector<double> change = equations_.residual(state_, loads_);
+    for (std::size_t k = 0; k < change.size(); ++k)
+      change[k] = R[k] - change[k];
+    const auto u = K.solve(change);
+    if (!u) {
+      why = u.why();
+      break;
+    }
+    std::vector<Vec3>& moves = all.emplace_back();
+    for (std::size_t a = 0; a < state_.positions.size(); ++a)
+      moves.emplace_back(u->data() + 3 * a);
+  }
+  equations_.set_model(model);
+  if (why)
+    return *why;
+  return all;
+}
+
 NewtonReport Engine::find(State guess, const Equilibrium& equilibrium) {
   NewtonReport report = newton_.solve(guess, equilibrium);
   if (report.converged) {

@@ -55,6 +55,10 @@ class Engine {
   /// 1 of (2.16), where Newton's method finds no way on.
   Outcome<double> set_model(const StaticModel& model);
 
+  /// How far the nodes go, to first order and under the same loads, when the muscle becomes each of
+  /// these: -K^-1 (R(x; other) - R(x)), by one factorisation.
+  Outcome<std::vector<std::vector<Vec3>>> responses(const std::vector<StaticModel>& others);
+
   /// The equilibrium near a guess, with any tension, or around a volume of the cavity; stays at the
   /// present one if it finds none. The loads are then its pressure alone.
   NewtonReport find(State guess, const Equilibrium& equilibrium);

@@ -202,11 +202,13 @@ Equations::Equations(const mesh::Mesh& mesh, const StaticModel& model)
       endocardium_(mesh),
       model_(for_order(model, mesh.order)),
       supports_(mesh, model.heart.base, model.heart.surroundings),
+      contractility_(at_points(mesh::at_nodes(mesh, model.heart.contractility))),
       masses_(masses(mesh, wall_, model.density)) {}
 
 void Equations::set_model(const StaticModel& model) {
   model_ = for_order(model, mesh_.order);
   supports_ = {mesh_, model.heart.base, model.heart.surroundings};
+  contractility_ = at_points(mesh::at_nodes(mesh_, model.heart.contractility));
   masses_ = masses(mesh_, wall_, model.density);
 }
 
@@ -224,8 +226,9 @@ Pattern Equations::pattern() const {
 }
 
 TensionAt Equations::steady(double activation) const {
-  return [this, activation](std::size_t, std::size_t, double stretch) {
-    return model_.contractility.at(stretch, activation);
+  return [this, activation](std::size_t element, std::size_t point, double stretch) {
+    const Tension T = model_.contractility.at(stretch, activation);
+    return contractility_.empty() ? T : contractility_[element * points_per_element() + point] * T;
   };
 }
 
@@ -376,8 +379,10 @@ double Equations::mean_tension(const State& state, const TensionAt& tension) con
 }
 
 std::vector<double> Equations::at_points(std::span<const double> nodal) const {
-  const Eigen::MatrixXd phi = solid::element_shapes(mesh_.kind, mesh_.order).value;
   std::vector<double> values;
+  if (nodal.empty())
+    return values;
+  const Eigen::MatrixXd phi = solid::element_shapes(mesh_.kind, mesh_.order).value;
   for (const int e : wall_.own) {
     Eigen::VectorXd own(phi.cols());
     for (Eigen::Index a = 0; a < own.size(); ++a)

@@ -124,8 +124,12 @@ class Equations {
   /// Which unknowns the tangent joins.
   [[nodiscard]] Pattern pattern() const;
 
-  /// The steady tension of an activation, the same at all points.
+  /// The steady tension of an activation, with the factors of the model's segments.
   [[nodiscard]] TensionAt steady(double activation) const;
+
+  /// These factors at the quadrature points of this rank's elements, one after the other; empty
+  /// where all are 1.
+  [[nodiscard]] std::span<const double> contractility() const { return contractility_; }
 
   /// R under a pressure in the cavity [kPa], complete on every rank; empty when an element is
   /// turned inside out at some point of any rank. The base is held at a place, which the tangent
@@ -169,7 +173,7 @@ class Equations {
 
   /// The values at the quadrature points of this rank's elements, one after the other, of a field
   /// that nodes have: the elements' shapes between them, never beyond the values of the element's
-  /// own nodes.
+  /// own nodes. None of an empty one.
   [[nodiscard]] std::vector<double> at_points(std::span<const double> nodal) const;
 
   /// Volume-weighted mean over the wall of what those points have.
@@ -231,6 +235,7 @@ class Equations {
   solid::EndocardialSurface endocardium_;
   StaticModel model_;
   solid::Supports supports_;
+  std::vector<double> contractility_;
   std::vector<Eigen::MatrixXd> masses_;  ///< int rho phi phi^T dX of own elements; none: no inertia
 };
 

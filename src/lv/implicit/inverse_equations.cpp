@@ -75,6 +75,7 @@ InverseEquations::InverseEquations(const mesh::Mesh& seen, const StaticModel& mo
   const Equations forward(seen, model);
   model_ = forward.model();  // as it is for the elements' order
   pattern_ = forward.pattern();
+  contractility_.assign(forward.contractility().begin(), forward.contractility().end());
   elements_.points.clear();
   hold_frames(this->seen());
 }

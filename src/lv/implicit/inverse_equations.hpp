@@ -91,8 +91,12 @@ class InverseEquations {
 
   const mesh::Mesh& seen_;
   StaticModel model_;
-  TensionAt tension_ = [this](std::size_t, std::size_t, double stretch) {
-    return model_.contractility.at(stretch, 0.0);
+  std::vector<double> contractility_;  ///< see Equations::contractility
+  TensionAt tension_ = [this](std::size_t element, std::size_t point, double stretch) {
+    const Tension T = model_.contractility.at(stretch, 0.0);
+    return contractility_.empty()
+               ? T
+               : contractility_[element * static_cast<std::size_t>(shapes_.points()) + point] * T;
   };
   ReferenceWall elements_;  ///< their numbers alone
   solid::ShapeTable shapes_;

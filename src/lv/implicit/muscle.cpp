@@ -22,7 +22,9 @@ auto as_dual(typename Law::template State<double> state) {
 
 }  // namespace
 
-Muscle::Muscle(const material::ActiveLaw& law, std::size_t points) : states_(law, points) {
+Muscle::Muscle(const material::ActiveLaw& law, std::size_t points,
+               std::span<const double> contractility)
+    : states_(law, points), contractility_(contractility.begin(), contractility.end()) {
   const auto* prescribed = std::get_if<material::PrescribedTension>(&law);
   if (prescribed != nullptr && prescribed->T_max != 0.0)
     throw InputError("active.law", "prescribes a tension, which knows no time",
@@ -37,13 +39,13 @@ Tension Muscle::after(const TimeStep& step, std::size_t point, double stretch) c
     law.advance(state, OneSlope::variable(stretch), before, after, step.dt);
     result = {state.tension.value, state.tension.slope[0]};
   });
-  return result;
+  return contractility(point) * result;
 }
 
 Tension Muscle::now(std::size_t point) const {
   Tension result;
   states_.visit([&](const auto&, const auto& states) { result.value = states[point].tension; });
-  return result;
+  return contractility(point) * result;
 }
 
 void Muscle::advance(const TimeStep& step, std::span<const double> stretch) {

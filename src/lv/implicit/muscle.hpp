@@ -30,8 +30,10 @@ struct TimeStep {
 class Muscle {
  public:
   /// A law without kinetics has no states and knows no time: such muscle is passive. Throws
-  /// InputError when it has a tension.
-  Muscle(const material::ActiveLaw& law, std::size_t points);
+  /// InputError when it has a tension. `contractility`: factor of the tension of each point; empty:
+  /// 1. Kinetics go by T/T_ref, which it leaves as it is.
+  Muscle(const material::ActiveLaw& law, std::size_t points,
+         std::span<const double> contractility = {});
 
   /// Brings every point to its steady state at its stretch.
   void relax(double Ca, std::span<const double> stretch) { states_.relax(Ca, stretch); }
@@ -52,7 +54,12 @@ class Muscle {
   void set_numbers(std::span<const double> numbers) { states_.set_numbers(numbers); }
 
  private:
+  [[nodiscard]] double contractility(std::size_t point) const {
+    return contractility_.empty() ? 1.0 : contractility_[point];
+  }
+
   material::MuscleStates<double> states_;
+  std::vector<double> contractility_;
 };
 
 }  // namespace lv::implicit

@@ -22,7 +22,8 @@ TimeEngine::TimeEngine(const mesh::Mesh& mesh, const StaticModel& model,
                        const SolverParameters& parameters, double spectral_radius)
     : engine_(mesh, model, parameters),
       muscle_(model.heart.myocardium.active,
-              engine_.equations().own_elements() * engine_.equations().points_per_element()),
+              engine_.equations().own_elements() * engine_.equations().points_per_element(),
+              engine_.equations().contractility()),
       has_rates_(model.has_rates()),
       has_inertia_(model.density > 0.0),
       rule_(GeneralisedAlpha::of_radius(spectral_radius)) {

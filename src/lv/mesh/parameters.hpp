@@ -63,6 +63,7 @@ enum class InfarctSource {
   elements,   ///< a set of elements of an imported mesh
   surface,    ///< a closed surface in image space
   labels,     ///< a labelled volume in image space
+  strain,     ///< segments that hardly shorten
   lge         ///< the brightness of a late-enhancement image in the wall
 };
 

@@ -119,6 +119,21 @@ int sector_at(double angle, double septum_angle, int sectors) {
   return (sector + sectors) % sectors + 1;
 }
 
+std::vector<double> at_nodes(const Mesh& mesh, const SegmentFactors& factors) {
+  if (mesh.segment.empty() || factors == even_segments())
+    return {};
+  std::vector<double> sum(mesh.nodes.size(), 0.0);
+  std::vector<double> cells(mesh.nodes.size(), 0.0);
+  for (int c = 0; c < mesh.cell_count(); ++c)
+    for (const int node : mesh.cell(c)) {
+      sum[node] += factors[mesh.segment[c] - 1];
+      cells[node] += 1.0;
+    }
+  for (std::size_t a = 0; a < sum.size(); ++a)
+    sum[a] /= cells[a];
+  return sum;
+}
+
 std::string sector_name(int slice, int sector) {
   static const std::array<std::string, 6> six{"ant", "antsept", "infsept",
                                               "inf", "inflat",  "antlat"};

@@ -2,6 +2,7 @@
 
 #include "lv/mesh/mesh.hpp"
 
+#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -47,6 +48,21 @@ inline constexpr int slice_count = 7;
 /// The sector, 1 to `sectors`, that holds an angle: sector 1 (anterior) has its middle a quarter
 /// turn beyond the septum's angle, the next ones follow clockwise seen from the base [rad].
 [[nodiscard]] int sector_at(double angle, double septum_angle, int sectors);
+
+inline constexpr int aha_count = 17;
+
+/// A factor of each AHA segment.
+using SegmentFactors = std::array<double, aha_count>;
+
+[[nodiscard]] constexpr SegmentFactors even_segments() {
+  SegmentFactors factors{};
+  factors.fill(1.0);
+  return factors;
+}
+
+/// At every node the mean of the factors of the cells around it, between which the elements
+/// interpolate; empty where all are 1 or the mesh has no segments.
+[[nodiscard]] std::vector<double> at_nodes(const Mesh& mesh, const SegmentFactors& factors);
 
 /// "ant", "antsept", ... of a sector of a slice.
 [[nodiscard]] std::string sector_name(int slice, int sector);

@@ -3,6 +3,7 @@
 #include "lv/base/check.hpp"
 #include "lv/base/log.hpp"
 #include "lv/base/parallel.hpp"
+#include "lv/pipeline/fit_archive.hpp"
 #include "lv/pipeline/unloading.hpp"
 
 #include <fmt/format.h>
@@ -22,8 +23,7 @@ void store_memory(const Ventricle::Memory& memory, Archive& archive) {
     store(memory.known[n].state, equilibrium_name(n), archive);
   }
   archive.set("loads", std::move(loads));
-  const calibrate::FitParameters& p = memory.unloaded_with;
-  archive.set("unloaded with", {p.C_a, p.scale, p.exponent, p.T_scale});
+  archive.set("unloaded with", numbers(memory.unloaded_with));
   if (memory.unloaded)
     store(*memory.unloaded, archive);
 }
@@ -34,8 +34,8 @@ Ventricle::Memory load_memory(const Archive& archive, std::size_t nodes) {
   for (std::size_t n = 0; 2 * n < loads.size(); ++n)
     memory.known.push_back(
         {{loads[2 * n], loads[2 * n + 1]}, load_state(archive, equilibrium_name(n), nodes)});
-  const auto& p = archive.get_rows("unloaded with", 4, 1);
-  memory.unloaded_with = {p[0], p[1], p[2], p[3]};
+  memory.unloaded_with = parameters_of(std::span<const double, parameter_count>(
+      archive.get_rows("unloaded with", parameter_count, 1).data(), parameter_count));
   if (archive.has("unloaded.nodes"))
     memory.unloaded = load_unloaded(archive, nodes);
   return memory;

@@ -24,6 +24,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace lv::pipeline {
 namespace {
@@ -49,14 +50,27 @@ Case with(Case c, const FitParameters& p) {
   c.passive.C_a = p.C_a;
   c.passive.holzapfel_ogden = c.passive.holzapfel_ogden.scaled(p.scale, p.exponent);
   c.active.T_scale = p.T_scale;
+  if (c.calibration.contractility == case_file::FittedContractility::segments)
+    c.fitted_contractility = p.segments;
   return c;
 }
 
-calibrate::Plan plan(const Case& c, const std::vector<cine::StrainTarget>& targets) {
+/// The AHA segments that strains say something of.
+std::vector<int> segments_of(const std::vector<strain::RegionStrain>& targets,
+                             const mesh::Regions& regions) {
+  std::set<int> segments;
+  for (const strain::RegionStrain& target : targets)
+    for (const int cell : target.cells)
+      segments.insert(regions.aha[cell]);
+  return {segments.begin(), segments.end()};
+}
+
+calibrate::Plan plan(const Case& c, const std::vector<strain::RegionStrain>& targets,
+                     const mesh::Regions& regions) {
   const case_file::Calibration& k = c.calibration;
   std::vector<calibrate::MeasuredStrain> strains;
-  for (const cine::StrainTarget& target : targets)
-    strains.push_back(target.measured);
+  for (const strain::RegionStrain& target : targets)
+    strains.push_back({target.region, target.strain});
   return {k.passive,
           k.active,
           c.protocol.ed_pressure,
@@ -68,7 +82,11 @@ calibrate::Plan plan(const Case& c, const std::vector<cine::StrainTarget>& targe
           k.exponent,
           k.T_scale,
           strains,
-          k.errors};
+          k.errors,
+          k.contractility == case_file::FittedContractility::segments
+              ? segments_of(targets, regions)
+              : std::vector<int>{},
+          k.contractility_spread};
 }
 
 /// Names of the parameters that are fitted at given pressures.
@@ -86,6 +104,8 @@ std::vector<std::string> muscle_names(const case_file::Calibration& k) {
       names.push_back(std::string("passive.holzapfel_ogden.") + b);
   if (k.active)
     names.emplace_back("active.T_scale");
+  if (k.contractility == case_file::FittedContractility::segments)
+    names.emplace_back("muscle.contractility");
   return names;
 }
 
@@ -169,7 +189,7 @@ struct FittedWall {
 };
 
 FittedWall fit_wall(const Case& c, const anatomy::MeshResult& mesh,
-                    const std::vector<cine::StrainTarget>& targets, const calibrate::Plan& task,
+                    const std::vector<strain::RegionStrain>& targets, const calibrate::Plan& task,
                     const FitStart& start, const FitLog& kept) {
   calibrate::Ventricle ventricle(
       mesh.mesh, [&](const FitParameters& p) { return case_file::static_model(with(c, p)); },
@@ -204,6 +224,9 @@ FittedWall fit_wall(const Case& c, const anatomy::MeshResult& mesh,
       [&](const FitParameters& p, const Loads& ed, const Loads& es) {
         return record.answer([&] { return strains(p, ed, es); });
       },
+      [&](const std::optional<FitParameters>& about) {
+        ventricle.linearise(about, task.segments);
+      },
       [&] { return ventricle.folded_volume(); }};
   calibrate::Fit fit = calibrate::fit(model, start.parameters, task, kept.forecast);
   ventricle.unloaded_volume(fit.parameters).value();
@@ -214,6 +237,7 @@ FittedWall fit_wall(const Case& c, const anatomy::MeshResult& mesh,
 calibrate::Plan alone(calibrate::Plan task) {
   task.parameters_alone = true;
   task.strains.clear();
+  task.segments.clear();
   return task;
 }
 
@@ -392,8 +416,8 @@ std::vector<calibrate::FittedMesh> walls_of(const Case& c,
 void fit_muscle(const Case& c, const anatomy::MeshResult& mesh,
                 const std::optional<anatomy::MeshResult>& coarse,
                 const std::filesystem::path& folder) {
-  const std::vector<cine::StrainTarget> targets = cine::strain_targets(c, mesh.regions);
-  calibrate::Plan task = plan(c, targets);
+  const std::vector<strain::RegionStrain> targets = cine::strain_targets(c, mesh.regions);
+  calibrate::Plan task = plan(c, targets, mesh.regions);
   const bool klotz = task.passive == FittedPassive::klotz;
   set_seen_volume(c, mesh, task);
   FitStart start{{.C_a = c.passive.C_a, .T_scale = c.active.T_scale}};
@@ -424,6 +448,8 @@ void fit_muscle(const Case& c, const anatomy::MeshResult& mesh,
     for (const std::filesystem::path& record : records)
       std::filesystem::remove(record);
     calibrate::history_table(fit).write_csv(folder / "calibration.csv");
+    if (!fit.segments.empty())
+      calibrate::contractility_table(fit.segments).write_csv(folder / contractility_name);
     write_file(folder / muscle_text, calibrate::text(task, fit));
     write_file(for_readers(folder / calibration_name), calibrate::json(task, fit));
     heartbeat::Archive archive;
@@ -495,6 +521,8 @@ void make_calibration(const Case& c, const anatomy::MeshResult& mesh, const Coar
 Case calibrated(Case c, const std::filesystem::path& file) {
   for (const std::string& name : muscle_names(c.calibration))
     c.origin[name] = for_readers(file).string();
+  if (c.calibration.contractility == case_file::FittedContractility::segments)
+    c.contractility_file = contractility_name;
   return with(std::move(c), load_parameters(heartbeat::Archive::read(file)));
 }
 
@@ -563,8 +591,10 @@ FitRecord fit_record(const Case& c, const std::filesystem::path& calibration,
   for (const ConfirmedVolume& v : record.beats.back().volumes)
     all.volumes.push_back(
         {v.name, v.measured, v.quasi_static, v.beat, v.within(c.calibration.tolerance)});
+  const calibrate::RecordedFit fit = read_fit(calibration);
   if (c.calibration.passive == FittedPassive::klotz)
-    add_klotz(read_fit(calibration), all);
+    add_klotz(fit, all);
+  all.segments = fit.segments;
   return all;
 }
 

@@ -36,6 +36,9 @@ void make_calibration(const case_file::Case& c, const anatomy::MeshResult& mesh,
 inline constexpr const char* calibration_name = "calibration.bin";
 inline constexpr const char* confirmation_name = "confirmation.bin";
 
+/// Factors of contractility fitted to strain, of a calibration and beside the results.
+inline constexpr const char* contractility_name = "contractility.csv";
+
 /// Names of the parameters that a calibration changes.
 [[nodiscard]] std::vector<std::string> fitted_names(const case_file::Case& c);
 

@@ -13,7 +13,7 @@ using heartbeat::Archive;
 using units::ml;
 
 /// A row of a beat's parameters, whether it is within the tolerance and how many volumes it has.
-constexpr std::size_t beat_width = 6;
+constexpr std::size_t beat_width = parameter_count + 2;
 
 Json json_of(const ConfirmedBeat& beat) {
   Json volumes = Json::array();
@@ -77,10 +77,12 @@ Confirmation read_confirmation(const std::filesystem::path& file) {
   std::size_t next = 0;
   for (std::size_t b = 0; b < beats.size(); b += beat_width) {
     const double* row = &beats[b];
-    record.beats.push_back({parameters_of(std::span<const double, 4>(row, 4)),
-                            {},
-                            archive.whole_number(row[4], {0.0, 1.0}) == 1});
-    const int count = archive.whole_number(row[5], {0.0, static_cast<double>(names.size() - next)});
+    record.beats.push_back(
+        {parameters_of(std::span<const double, parameter_count>(row, parameter_count)),
+         {},
+         archive.whole_number(row[parameter_count], {0.0, 1.0}) == 1});
+    const int count = archive.whole_number(row[parameter_count + 1],
+                                           {0.0, static_cast<double>(names.size() - next)});
     for (int n = 0; n < count; ++n)
       record.beats.back().volumes.push_back(volume_in(names, volumes, next++));
   }

@@ -54,7 +54,7 @@ void load_volumes(const Archive& archive, RecordedFit& fit) {
 }
 
 /// A row of the pressure, whether there is a fit, the volume without load and all parameters.
-constexpr std::size_t other_width = 7;
+constexpr std::size_t other_width = 3 + parameter_count;
 
 void store_other_pressures(const RecordedFit& fit, Archive& archive) {
   std::vector<double> rows;
@@ -69,6 +69,22 @@ void store_other_pressures(const RecordedFit& fit, Archive& archive) {
   archive.set_words("other_pressures.why_not", why_not);
 }
 
+constexpr std::size_t segment_width = 4;
+
+void store_segments(const RecordedFit& fit, Archive& archive) {
+  std::vector<double> rows;
+  for (const calibrate::FittedSegment& s : fit.segments)
+    rows.insert(rows.end(), {static_cast<double>(s.segment), s.factor, s.error, s.resolution});
+  archive.set("segments", std::move(rows));
+}
+
+void load_segments(const Archive& archive, RecordedFit& fit) {
+  const auto& rows = archive.get_rows("segments", segment_width);
+  for (std::size_t k = 0; k < rows.size(); k += segment_width)
+    fit.segments.push_back({archive.whole_number(rows[k], {1.0, mesh::aha_count}), rows[k + 1],
+                            rows[k + 2], rows[k + 3]});
+}
+
 void load_other_pressures(const Archive& archive, RecordedFit& fit) {
   const auto why_not = archive.get_words("other_pressures.why_not");
   const auto& rows = archive.get_rows("other_pressures", other_width, why_not.size());
@@ -76,7 +92,8 @@ void load_other_pressures(const Archive& archive, RecordedFit& fit) {
     const double* row = &rows[other_width * k];
     OtherPressure other{row[0], {}, row[2], why_not[k]};
     if (archive.whole_number(row[1], {0.0, 1.0}) == 1)
-      other.parameters = parameters_of(std::span<const double, 4>(row + 3, 4));
+      other.parameters =
+          parameters_of(std::span<const double, parameter_count>(row + 3, parameter_count));
     fit.other_pressures.push_back(std::move(other));
   }
 }
@@ -87,14 +104,16 @@ std::vector<double> numbers(const FitParameters& parameters) {
   std::vector<double> values;
   for (const Fitted& p : calibrate::all_parameters())
     values.push_back(parameters.*p.member);
+  values.insert(values.end(), parameters.segments.begin(), parameters.segments.end());
   return values;
 }
 
-FitParameters parameters_of(std::span<const double, 4> numbers) {
+FitParameters parameters_of(std::span<const double, parameter_count> numbers) {
   FitParameters parameters;
   auto next = numbers.begin();
   for (const Fitted& p : calibrate::all_parameters())
     parameters.*p.member = *next++;
+  std::copy(next, numbers.end(), parameters.segments.begin());
   return parameters;
 }
 
@@ -103,7 +122,8 @@ void store(const FitParameters& parameters, Archive& archive) {
 }
 
 FitParameters load_parameters(const Archive& archive) {
-  return parameters_of(std::span<const double, 4>(archive.get_rows("parameters", 4, 1).data(), 4));
+  return parameters_of(std::span<const double, parameter_count>(
+      archive.get_rows("parameters", parameter_count, 1).data(), parameter_count));
 }
 
 void store(const RecordedFit& fit, Archive& archive) {
@@ -116,6 +136,7 @@ void store(const RecordedFit& fit, Archive& archive) {
   archive.set("klotz_pressure", fit.klotz_pressure ? std::vector<double>{*fit.klotz_pressure}
                                                    : std::vector<double>{});
   store_other_pressures(fit, archive);
+  store_segments(fit, archive);
 }
 
 RecordedFit load_fit(const Archive& archive) {
@@ -124,6 +145,7 @@ RecordedFit load_fit(const Archive& archive) {
   if (!archive.get("klotz_pressure").empty())
     fit.klotz_pressure = archive.number("klotz_pressure");
   load_other_pressures(archive, fit);
+  load_segments(archive, fit);
   return fit;
 }
 

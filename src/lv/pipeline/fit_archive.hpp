@@ -20,8 +20,11 @@ void store(const calibrate::FitParameters& parameters, heartbeat::Archive& archi
 void store(const calibrate::RecordedFit& fit, heartbeat::Archive& archive);
 [[nodiscard]] calibrate::RecordedFit load_fit(const heartbeat::Archive& archive);
 
+inline constexpr std::size_t parameter_count = 4 + mesh::aha_count;
+
 /// Values of all parameters that a fit may change, and back.
 [[nodiscard]] std::vector<double> numbers(const calibrate::FitParameters& parameters);
-[[nodiscard]] calibrate::FitParameters parameters_of(std::span<const double, 4> numbers);
+[[nodiscard]] calibrate::FitParameters parameters_of(
+    std::span<const double, parameter_count> numbers);
 
 }  // namespace lv::pipeline

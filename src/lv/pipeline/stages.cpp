@@ -10,6 +10,7 @@
 #include "lv/base/table.hpp"
 #include "lv/base/time_left.hpp"
 #include "lv/beating_wall/activation.hpp"
+#include "lv/calibrate/summary.hpp"
 #include "lv/case_file/beat_fit.hpp"
 #include "lv/case_file/parameters.hpp"
 #include "lv/cine/strain.hpp"
@@ -27,6 +28,7 @@
 #include "lv/report/table_figures.hpp"
 #include "lv/report/tables_csv.hpp"
 #include "lv/scar/infarct.hpp"
+#include "lv/scar/strain_infarct.hpp"
 #include "lv/work/ingredients.hpp"
 #include "lv/work/version.hpp"
 #include "lv/work/workspace.hpp"
@@ -155,6 +157,13 @@ bool is_measurement(const std::string& parameter) {
 /// Whether images show the infarct; otherwise it lies where somebody said.
 bool scar_is_measured(const Case& c) {
   return c.scar.source == mesh::InfarctSource::labels || c.scar.source == mesh::InfarctSource::lge;
+}
+
+/// Where an infarct lies that no image shows.
+geometry::Assumption assumed_scar(const Case& c, const mesh::Regions& regions) {
+  if (c.scar.source == mesh::InfarctSource::strain)
+    return {"infarct", scar::describe(c, scar::strain_verdicts(c, regions))};
+  return {"infarct", "the infarct lies where the case says; no image shows it"};
 }
 
 /// What was measured, fitted and assumed.
@@ -341,6 +350,11 @@ std::string write_results(const Case& c, const anatomy::MeshResult& mesh, const 
                        fields.at(heartbeat::end_diastole));
   const drawing::Orientation orientation{c.regions.septum_angle, facts.assumed,
                                          facts.unloaded.has_value()};
+  if (facts.contractility) {
+    facts.contractility->write_csv(folder / contractility_name);
+    drawing::write(report::contractility_figure(*facts.contractility, orientation),
+                   folder / "contractility.png");
+  }
   report::write_facts(orientation, folder);
   draw(c, mesh.mesh, beat.beat, fields, orientation, folder);
   drawing::write(report::segments_figure(report::regions_table(results), orientation),
@@ -376,6 +390,7 @@ anatomy::MeshResult make_mesh(const Case& c, const anatomy::Shape& shape) {
     result.infarcted = mesh::refine_numbers(result.infarcted);
   }
   result.regions = mesh::divide(result.mesh, c.regions);
+  result.mesh.segment = result.regions.aha;
   return result;
 }
 
@@ -397,9 +412,11 @@ void show_mesh(const anatomy::MeshResult& result, const Case& c,
     if (!infarct.empty()) {
       log::info("{}", infarct);
       scar::infarct_table(c, result).write_csv(folder / "infarct.csv");
+      if (c.scar.source == mesh::InfarctSource::strain)
+        scar::strain_infarct_table(c, scar::strain_verdicts(c, result.regions))
+            .write_csv(folder / "infarct_strain.csv");
       if (!scar_is_measured(c))
-        orientation.assumed.push_back(
-            {"infarct", "the infarct lies where the case says; no image shows it"});
+        orientation.assumed.push_back(assumed_scar(c, result.regions));
       drawing::write(report::infarct_figure(m, orientation), folder / "infarct.png");
     }
   });
@@ -443,7 +460,11 @@ std::string make_results(const Case& c, const anatomy::MeshResult& mesh, const B
     facts.warnings.insert(facts.warnings.begin(), anatomy.warnings.begin(), anatomy.warnings.end());
     facts.assumed = std::move(anatomy.assumed);
     facts.assumed.insert(facts.assumed.end(), fitted.assumed.begin(), fitted.assumed.end());
+    if (c.scar.source == mesh::InfarctSource::strain)
+      facts.assumed.push_back(assumed_scar(c, mesh.regions));
     facts.fitted = fitted.volumes;
+    if (!fitted.segments.empty())
+      facts.contractility = calibrate::contractility_table(fitted.segments);
     facts.klotz = fitted.klotz;
     facts.fitted_beats = beside_beat(fitted.beats, beat.beat, c.calibration.tolerance);
     facts.unloaded = unloaded;

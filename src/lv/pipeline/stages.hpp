@@ -4,6 +4,7 @@
 #include "lv/anatomy/anatomy.hpp"
 #include "lv/anatomy/mesh_result.hpp"
 #include "lv/beating_wall/heartbeat_record.hpp"
+#include "lv/calibrate/fit.hpp"
 #include "lv/heartbeat/immersed_beat.hpp"
 #include "lv/pipeline/beat_result.hpp"
 #include "lv/report/summary.hpp"
@@ -29,8 +30,9 @@ void show_mesh(const anatomy::MeshResult& result, const case_file::Case& c,
 
 /// What results say of a fit, and of pressures that nobody measured.
 struct FitRecord {
-  std::vector<report::FittedVolume> volumes;  ///< empty unless the case is calibrated
-  std::vector<report::KlotzVolume> klotz;     ///< empty unless it is fitted to that curve
+  std::vector<report::FittedVolume> volumes;       ///< empty unless the case is calibrated
+  std::vector<report::KlotzVolume> klotz;          ///< empty unless it is fitted to that curve
+  std::vector<calibrate::FittedSegment> segments;  ///< factors of contractility, if fitted
   std::vector<beating_wall::FittedDatum>
       beats;  ///< what heartbeats were fitted to; empty unless they were
   std::vector<geometry::Assumption> assumed;

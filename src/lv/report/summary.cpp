@@ -241,6 +241,18 @@ void add_fits(const RunFacts& facts, Json& json) {
                              {"model_ml", number(1e-3 * v.model)}});
 }
 
+/// The rows of contractility.csv.
+void add_contractility(const Table& table, Json& json) {
+  const auto names = table.words("name");
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    Json row{{"name", names[i]}};
+    for (const char* column :
+         {"segment", "factor", "standard_error_of_logarithm", "low_95", "high_95", "resolution"})
+      row[column] = number(table.numbers(column)[i]);
+    json["contractility"].push_back(std::move(row));
+  }
+}
+
 /// What is to be thought of the numbers.
 void add_remarks(const RunFacts& facts, const Results& r, const std::vector<Judgement>& judgements,
                  Json& json) {
@@ -418,6 +430,8 @@ std::string summary_json(const RunFacts& facts, const heartbeat::Beat& beat, con
          {"end_diastole_to_end_systole_deg", number(slice.from_end_diastole / degree)},
          {"early_diastole_to_end_systole_deg", number(slice.from_early_diastole / degree)}});
   add_fits(facts, json);
+  if (facts.contractility)
+    add_contractility(*facts.contractility, json);
   if (!facts.scar.empty())
     json["infarct"] = infarct_json(facts, r);
   for (const SegmentScar& s : facts.scar)

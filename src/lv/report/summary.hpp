@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lv/analysis/results.hpp"
+#include "lv/base/table.hpp"
 #include "lv/geometry/fit_report.hpp"
 #include "lv/mesh/folds.hpp"
 #include "lv/report/marks.hpp"
@@ -86,6 +87,7 @@ struct RunFacts {
   std::vector<std::string> fitted_parameters, measured_parameters;  ///< names
   std::vector<FittedVolume> fitted;                                 ///< of a calibrated case
   std::vector<KlotzVolume> klotz;                                   ///< of a fit to that curve
+  std::optional<Table> contractility;      ///< contractility.csv of a fit to strain
   std::vector<FittedOfBeat> fitted_beats;  ///< of a case whose heartbeats were fitted
   std::optional<UnloadedShape> unloaded;
   std::vector<SegmentScar> scar;  ///< empty without infarct

@@ -277,6 +277,11 @@ class FigureFolder {
                 fmt::format("bulls_eyes_{}_{}", q.name, moment));
   }
 
+  void contractility() const {
+    if (const auto table = table_of(work_, "results", "contractility.csv"))
+      write(contractility_figure(*table, orientation_of(work_)), "contractility");
+  }
+
   void rotation() const {
     if (const auto table = table_of(work_, "results", "rotation.csv"))
       write(rotation_figure(*table, orientation_of(work_)), "rotation");
@@ -371,6 +376,29 @@ drawing::Figure bulls_eyes_figure(const Table& regions, const std::string& quant
           .colour_bar = drawing::ColourBar{label, scale}};
 }
 
+drawing::Figure contractility_figure(const Table& segments,
+                                     const drawing::Orientation& orientation) {
+  const auto numbers = segments.whole_numbers("segment");
+  const auto panel = [&](const char* column, const std::string& label, drawing::ColourScale scale) {
+    std::vector<double> values(mesh::aha_count, std::nan(""));
+    const auto found = segments.numbers(column);
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      values.at(numbers[i] - 1) = found[i];
+      scale.max = std::max(scale.max, std::ceil(10.0 * found[i]) / 10.0);
+    }
+    if (scale.middle > 0.0)
+      scale.min = 2.0 * scale.middle - scale.max;
+    drawing::Panel of = bulls_eye_panel(label, values, scale, 2, orientation);
+    of.colour_bar = drawing::ColourBar{label, scale};
+    return of;
+  };
+  return {.panels = {panel("factor", "factor", {drawing::diverging(), 0.0, 2.0, 1.0, 0.0}),
+                     panel("standard_error_of_logarithm", "standard error of ln(factor)",
+                           {drawing::sequential(), 0.0, 0.1})},
+          .title = "contractility, fitted from strain",
+          .footnote = with_stars(segment_note(), orientation)};
+}
+
 drawing::Figure rotation_figure(const Table& rotation, const drawing::Orientation& orientation) {
   const auto slice = rotation.numbers("slice");
   const auto series = [&](const char* label, const char* column, bool dashed) {
@@ -448,6 +476,7 @@ void write_figures(const fs::path& work, const fs::path& folder) {
   figures.curves();
   figures.heartbeats();
   figures.regions();
+  figures.contractility();
   figures.rotation();
   figures.muscle();
   figures.agreement();

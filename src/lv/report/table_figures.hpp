@@ -39,6 +39,11 @@ struct CurveFacts {
                                                 const std::string& state,
                                                 const drawing::Orientation& orientation);
 
+/// Factors of contractility in the 17 segments, fitted from strain, and the standard errors of
+/// their logarithms, from contractility.csv.
+[[nodiscard]] drawing::Figure contractility_figure(const Table& segments,
+                                                   const drawing::Orientation& orientation);
+
 /// Rotation of the slices, from rotation.csv.
 [[nodiscard]] drawing::Figure rotation_figure(const Table& rotation,
                                               const drawing::Orientation& orientation);

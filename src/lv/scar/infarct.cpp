@@ -16,6 +16,7 @@
 #include "lv/scar/scar_map.hpp"
 #include "lv/scar/scar_threshold.hpp"
 #include "lv/scar/slice_moves.hpp"
+#include "lv/scar/strain_infarct.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -466,6 +467,20 @@ Infarct of_elements(const Case& c, const anatomy::Shape& shape, const Mesh& mesh
   return {shape.infarcted, {shape.infarcted.begin(), shape.infarcted.end()}, {}};
 }
 
+/// Whole parts of the wall; none where all of them shorten.
+Infarct by_strain(const Case& c, const Mesh& mesh) {
+  const std::vector<StrainVerdict> verdicts = strain_verdicts(c, mesh::divide(mesh, c.regions));
+  log::warn("the infarct is {}", describe(c, verdicts));
+  Infarct infarct{
+      Infarcted(mesh.cell_count(), false), std::vector<double>(mesh.cell_count(), 0.0), {}};
+  for (const StrainVerdict& v : verdicts)
+    for (const int cell : v.cells) {
+      infarct.elements[cell] = infarct.elements[cell] || v.is_infarct;
+      infarct.part[cell] = infarct.elements[cell] ? 1.0 : 0.0;
+    }
+  return infarct;
+}
+
 /// Files may mean something else than was thought; who describes an infarct knows its size.
 void ask_if_large(const Case& c, const Mesh& mesh, const Infarct& infarct) {
   constexpr double large = 0.5;
@@ -502,6 +517,8 @@ Infarct infarcted(const Case& c, const anatomy::Shape& shape, const Mesh& mesh) 
       return within_surface(c, shape, mesh);
     case InfarctSource::labels:
       return within_labels(c, shape, mesh);
+    case InfarctSource::strain:
+      return by_strain(c, mesh);
     case InfarctSource::lge:
       return c.scar.lge.drawn.empty() ? by_brightness(c, shape, mesh) : as_drawn(c, shape, mesh);
     default:
@@ -569,6 +586,9 @@ void require_infarct(const Case& c) {
     missing = missing_of_labels(c);
   if (c.scar.source == InfarctSource::lge)
     missing = missing_of_lge(c, found);
+  if (c.scar.source == InfarctSource::strain && c.scar_strain.file.empty())
+    missing.add({"infarct.strain.file", case_file::fill_in,
+                 "the strains of segments, with the columns slice, segment and strain"});
   if (c.scar.source == InfarctSource::surface && c.scar.surface.empty())
     missing.add(
         {"infarct.surface.file", case_file::fill_in, "the closed surface that holds the infarct"});
@@ -578,12 +598,14 @@ void require_infarct(const Case& c) {
 InfarctExtent infarct_extent(const Case& c, const anatomy::Shape& shape, const Mesh& mesh) {
   if (c.scar.source == InfarctSource::mesh)
     return {mesh.infarct, mesh::part_by_extent(mesh), {}};
+  const InfarctExtent none{
+      std::vector<double>(mesh.nodes.size(), 0.0), std::vector<double>(mesh.cell_count(), 0.0), {}};
   if (c.scar.source == InfarctSource::none)
-    return {std::vector<double>(mesh.nodes.size(), 0.0),
-            std::vector<double>(mesh.cell_count(), 0.0),
-            {}};
+    return none;
   require_infarct(c);
   Infarct infarct = infarcted(c, shape, mesh);
+  if (std::find(infarct.elements.begin(), infarct.elements.end(), true) == infarct.elements.end())
+    return none;  // all of the wall shortens
   ask_if_large(c, mesh, infarct);
   std::vector<double> field = mesh::infarct_field(mesh, infarct.elements, c.scar.border);
   ask_if_scattered(c, mesh, infarct, field);

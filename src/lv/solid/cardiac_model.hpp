@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lv/material/myocardium.hpp"
+#include "lv/mesh/regions.hpp"
 #include "lv/solid/boundary.hpp"
 #include "lv/solid/support.hpp"
 
@@ -12,6 +13,7 @@ struct CardiacModel {
   material::Myocardium myocardium{};
   BasalSupport base{};
   Surroundings surroundings{};
+  mesh::SegmentFactors contractility = mesh::even_segments();  ///< of the active tension
 };
 
 }  // namespace lv::solid

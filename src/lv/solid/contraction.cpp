@@ -39,9 +39,13 @@ Contraction::Contraction(const material::ActiveLaw& law, const ContractingNodes&
       filter_(nodes.positions, nodes.volumes),
       tension_(nodes.positions.size(), 0.0),
       strength_(nodes.strength.begin(), nodes.strength.end()),
+      contractility_(nodes.contractility.begin(), nodes.contractility.end()),
       stiffness_(nodes.positions.size(), 0.0),
       stretch_rate_(nodes.positions.size(), 0.0),
-      damping_(nodes.positions.size(), 0.0) {}
+      damping_(nodes.positions.size(), 0.0) {
+  if (contractility_.empty())
+    contractility_.assign(nodes.positions.size(), 1.0);
+}
 
 void Contraction::relax(double Ca) {
   constexpr std::array at_rest{1.0};
@@ -80,7 +84,8 @@ void Contraction::damp_what_is_smoothed_away(double dt) {
 }
 
 void Contraction::prescribe(double tension) {
-  std::fill(tension_.begin(), tension_.end(), tension);
+  for (std::size_t a = 0; a < tension_.size(); ++a)
+    tension_[a] = contractility_[a] * tension;
 }
 
 double Contraction::wave_speed() const {
@@ -92,8 +97,8 @@ void Contraction::publish_tension() {
     for (std::size_t g = 0; g < packs.size(); ++g) {
       const Pack stiffness = law.sudden_stiffness(packs[g]);
       for (std::size_t a = g * pack_size; a < std::min((g + 1) * pack_size, tension_.size()); ++a) {
-        tension_[a] = packs[g].tension.get(a % pack_size) + damping_[a];
-        stiffness_[a] = strength_[a] * stiffness.get(a % pack_size);
+        tension_[a] = contractility_[a] * packs[g].tension.get(a % pack_size) + damping_[a];
+        stiffness_[a] = contractility_[a] * strength_[a] * stiffness.get(a % pack_size);
       }
     }
   });

@@ -11,11 +11,13 @@
 namespace lv::solid {
 
 /// The nodes of a contracting wall: positions in the undeformed wall [mm], the volume around each
-/// [mm^3] and the strength of contraction left by an infarct, 1 - M (2.24).
+/// [mm^3], the strength of contraction left by an infarct, 1 - M (2.24), and the factor of the
+/// tension where segments differ (empty: 1).
 struct ContractingNodes {
   std::span<const Vec3> positions;
   std::span<const double> volumes;
   std::span<const double> strength;
+  std::span<const double> contractility = {};
 };
 
 /// The strength per node of an infarcted wall.
@@ -60,7 +62,7 @@ class Contraction {
     advance(stretch, {{&Ca_before, 1}, {&Ca_after, 1}}, dt);
   }
 
-  /// The same tension at every node instead [kPa].
+  /// The same tension at every node instead, times its factor [kPa].
   void prescribe(double tension);
 
   /// Speed of the fastest fibre wave, sqrt(max dT/dlambda / rho), with the stiffness that a sudden
@@ -88,6 +90,7 @@ class Contraction {
                                ///< would make noise [mm]
   std::vector<double> tension_;
   std::vector<double> strength_;
+  std::vector<double> contractility_;
   std::vector<double> stiffness_;  ///< of a sudden stretch, with the infarct's factor [kPa]
   std::vector<double> stretch_rate_;
   std::vector<double> damping_;

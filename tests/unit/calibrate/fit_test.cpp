@@ -198,7 +198,7 @@ TEST_CASE("volumes and strains of a twin give its parameters back", "[calibrate]
   CHECK(found.parameters.T_scale == Approx(truth.T_scale).epsilon(1e-3));
   REQUIRE(found.strain_fit);
   CHECK(found.strain_fit->rms < 1e-5);
-  CHECK(found.strain_fit->degrees_of_freedom == 2);
+  CHECK(found.strain_fit->degrees_of_freedom == Approx(2.0));
 }
 
 TEST_CASE("the covariance of a fit to strains is that of its linear model", "[calibrate]") {
@@ -214,6 +214,38 @@ TEST_CASE("the covariance of a fit to strains is that of its linear model", "[ca
   CHECK((s.covariance - C).norm() < 1e-6 * C.norm());
   CHECK(s.strain_by_parameter(0, 1) == Approx(-0.05).epsilon(1e-3));
   CHECK(s.strain_by_parameter(0, 0) == Approx(0.0).margin(1e-6));
+}
+
+TEST_CASE("factors of segments are drawn to 1 as far as the penalty determines them",
+          "[calibrate]") {
+  const double slope = -0.05;
+  const auto of_segments = [&](const FitParameters& p, const Loads&, const Loads&) {
+    return std::vector<double>{-0.1 + slope * std::log(p.T_scale * p.segments[6]),
+                               -0.1 + slope * std::log(p.T_scale * p.segments[8])};
+  };
+  FitParameters truth{.C_a = 2.5, .T_scale = 4.0};
+  truth.segments[6] = 0.3;
+  Plan p = plan_for(truth);
+  const std::vector<double> seen = of_segments(truth, {}, {});
+  p.strains = {{"7", seen[0]}, {"9", seen[1]}};
+  p.errors = {.volume = 1e-5, .strain = 0.03};  // the volumes determine the other parameters
+  p.segments = {7, 9};
+  p.spread = 0.5;
+  const Fit found = fit({volume, unloaded_volume, of_segments}, {.C_a = 1.0, .T_scale = 3.0}, p);
+  const double data = std::pow(slope / p.errors.strain, 2);
+  const double penalty = 1.0 / (p.spread * p.spread);
+  REQUIRE(found.segments.size() == 2);
+  CHECK(found.segments[0].segment == 7);
+  CHECK(found.segments[0].resolution == Approx(data / (data + penalty)).epsilon(1e-3));
+  CHECK(found.segments[0].error == Approx(std::sqrt(1.0 / (data + penalty))).epsilon(1e-3));
+  CHECK(std::log(found.segments[0].factor) ==
+        Approx(found.segments[0].resolution * std::log(0.3)).epsilon(1e-2));
+  CHECK(found.segments[1].factor == Approx(1.0).epsilon(1e-2));
+  CHECK(found.parameters.segments[6] == found.segments[0].factor);
+  CHECK(found.parameters.segments[0] == 1.0);
+  CHECK(found.parameters.T_scale == Approx(4.0).epsilon(1e-3));
+  CHECK(found.strain_fit->degrees_of_freedom ==
+        Approx(2.0 - 2.0 * data / (data + penalty)).epsilon(1e-3));
 }
 
 TEST_CASE("a fit that the strains pull off its volumes is reported, not refused", "[calibrate]") {

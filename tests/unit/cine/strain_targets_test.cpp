@@ -33,8 +33,8 @@ TEST_CASE("strains are read for slices and for AHA segments", "[cine]") {
   const auto targets =
       cine::strain_targets(with_strains("3,Ant,-0.2\n\nAHA, 5, -0.1\r\n"), two_elements());
   REQUIRE(targets.size() == 2);
-  CHECK(targets[0].measured.region == "3 ant");
-  CHECK(targets[0].measured.value == -0.2);
+  CHECK(targets[0].region == "3 ant");
+  CHECK(targets[0].strain == -0.2);
   CHECK(targets[0].cells == std::vector<int>{0});
   CHECK(targets[1].cells == std::vector<int>{1});
 }

@@ -291,3 +291,16 @@ TEST_CASE("slack muscle has no tension until it is balanced at its stretch", "[u
   for (std::size_t a = 0; a < stretch.size(); ++a)
     CHECK(tension[a] == Approx(material::Land2017{}.steady_state(0.3, stretch[a]).tension));
 }
+
+TEST_CASE("the immersed wall has the factors of its segments", "[unit][immersed]") {
+  mesh::Mesh mesh = coarse_mesh();
+  mesh.segment = mesh::divide(mesh, {}).aha;
+  solid::CardiacModel half;
+  half.contractility.fill(0.5);
+  Model model(mesh, half, verify::in_default_box(mesh, cells));
+  model.relax(0.5);
+  Model whole(mesh, {}, verify::in_default_box(mesh, cells));
+  whole.relax(0.5);
+  CHECK(model.mean_tension() == Approx(0.5 * whole.mean_tension()));
+  CHECK(whole.mean_tension() > 1.0);
+}

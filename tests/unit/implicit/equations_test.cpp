@@ -183,3 +183,28 @@ TEST_CASE("linear tetrahedra are refused", "[unit][implicit]") {
   const Mesh mesh = test::block_mesh(CellKind::tetrahedron, 1);
   CHECK_THROWS_AS(implicit::reference_wall(mesh), InputError);
 }
+
+TEST_CASE("a factor of all segments is one of the law's strength, and of one of them is local",
+          "[unit][implicit]") {
+  Mesh mesh = mesh::refine(test::block_mesh(CellKind::hexahedron, 2));
+  mesh.segment.assign(mesh.cell_count(), 3);
+  CardiacModel weak = contracting();
+  weak.myocardium.active = material::NiedererHunterSmith{.T_scale = 1.5};
+  CardiacModel half = contracting();
+  half.contractility.fill(0.5);
+  const Loads loads{1.0, 0.7};
+  const Equations by_law(mesh, weak);
+  Equations by_factor(mesh, half);
+  test::RandomValues random(5);
+  const State state = some_state(by_law, random);
+  const auto expected = by_law.residual(state, loads);
+  const auto R = by_factor.residual(state, loads);
+  for (std::size_t k = 0; k < R.size(); ++k)
+    CHECK(R[k] == Approx(expected[k]).epsilon(1e-6).margin(1e-6));
+  const double mean = by_factor.mean_tension(state, by_factor.steady(0.7));
+  CHECK(mean == Approx(by_law.mean_tension(state, by_law.steady(0.7))));
+  half.contractility.fill(1.0);
+  half.contractility[1] = 0.0;  // no cell is of segment 2
+  by_factor.set_model(half);
+  CHECK(by_factor.mean_tension(state, by_factor.steady(0.7)) == Approx(2.0 * mean));
+}

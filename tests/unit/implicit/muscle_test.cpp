@@ -41,6 +41,26 @@ TEMPLATE_TEST_CASE("the slope of the tension after a step is that of the step's 
   }
 }
 
+TEST_CASE("the factor of a point's tension is one of the law's strength", "[unit][implicit]") {
+  NiedererHunterSmith weak;
+  weak.T_scale *= 0.5;
+  const std::vector<double> half(stretch.size(), 0.5);
+  Muscle by_law(weak, stretch.size());
+  Muscle by_factor(NiedererHunterSmith{}, stretch.size(), half);
+  for (Muscle* muscle : {&by_law, &by_factor}) {
+    muscle->relax(0.1, stretch);
+    for (int i = 0; i < 20; ++i)
+      muscle->advance({2e-3, {{0.6, 0.6}}}, stretch);
+  }
+  const TimeStep step{2e-3, {{0.6, 0.7}}};
+  for (std::size_t i = 0; i < stretch.size(); ++i) {
+    const auto expected = by_law.after(step, i, 1.02);
+    CHECK(by_factor.after(step, i, 1.02).value == Approx(expected.value));
+    CHECK(by_factor.after(step, i, 1.02).derivative == Approx(expected.derivative));
+    CHECK(by_factor.now(i).value == Approx(by_law.now(i).value));
+  }
+}
+
 TEMPLATE_TEST_CASE("muscle that takes a step has the tension that was foretold", "[unit][implicit]",
                    Land2017, NiedererHunterSmith) {
   Muscle muscle = contracting<TestType>();

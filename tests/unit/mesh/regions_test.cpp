@@ -173,3 +173,18 @@ TEST_CASE("sectors are counted about the cavity's centre in their slice", "[unit
     moved += regions.sector[c] != expected.sector[c] ? 1 : 0;
   CHECK(moved < upright.cell_count() / 20);  // cells at a border may change sides
 }
+
+TEST_CASE("factors of segments are means of the cells around each node", "[unit][mesh]") {
+  Mesh mesh = cells_at({at(0, -5), at(90, -5)});
+  mesh.nodes[mesh.cells[4]] = mesh.nodes[mesh.cells[0]];
+  mesh.cells[4] = mesh.cells[0];  // both cells have it
+  mesh::SegmentFactors factors = mesh::even_segments();
+  factors[2] = 0.4;
+  CHECK(mesh::at_nodes(mesh, factors).empty());  // without segments
+  mesh.segment = {3, 17};
+  CHECK(mesh::at_nodes(mesh, mesh::even_segments()).empty());
+  const auto nodal = mesh::at_nodes(mesh, factors);
+  CHECK(nodal[mesh.cells[0]] == Approx(0.7));
+  CHECK(nodal[mesh.cells[1]] == Approx(0.4));
+  CHECK(nodal[mesh.cells[5]] == Approx(1.0));
+}

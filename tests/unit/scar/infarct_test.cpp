@@ -8,6 +8,7 @@
 #include "lv/mesh/infarct.hpp"
 #include "lv/mesh/surface.hpp"
 #include "lv/scar/slice_moves.hpp"
+#include "lv/scar/strain_infarct.hpp"
 #include "lv/work/ingredients.hpp"
 
 #include "mesh_io/mesh_files.hpp"
@@ -501,4 +502,39 @@ TEST_CASE("the part of the wall that a map does not show is measured by volume",
   CHECK(below > 0.0);
   CHECK(scar::unseen_part(wall, above) == Approx(below / all));
   CHECK(scar::unseen_part(wall, [](int) { return true; }) == 0.0);
+}
+
+TEST_CASE("from strain alone parts that hardly shorten are the infarct, and near ones undecided",
+          "[unit][scar]") {
+  const mesh::Mesh wall = test::ellipsoid_mesh({}, 6.0);
+  const mesh::Regions regions = mesh::divide(wall, {});
+  const test::TemporaryFolder folder;
+  case_file::Case c;
+  c.file = folder / "case.toml";
+  c.scar.source = InfarctSource::strain;
+  CHECK_THROWS_WITH(scar::infarct_extent(c, {}, wall), Contains("infarct.strain.file is not set"));
+  c.scar_strain.file = "strains.csv";
+  // shortening by 2, 5 and 19%: (1 - 0.02)^2 = 1 + 2 E and so on
+  test::write_bytes(folder / "strains.csv",
+                    "slice,segment,strain\naha,7,-0.0198\naha,8,-0.04875\naha,9,-0.17195\n");
+  const auto verdicts = scar::strain_verdicts(c, regions);
+  REQUIRE(verdicts.size() == 3);
+  CHECK(verdicts[0].shortening == Approx(-0.02));
+  CHECK((verdicts[0].is_infarct && !verdicts[0].is_undecided));
+  CHECK((verdicts[1].is_infarct && verdicts[1].is_undecided));
+  CHECK((!verdicts[2].is_infarct && !verdicts[2].is_undecided));
+  CHECK_THAT(scar::describe(c, verdicts), Contains("from strain, not from late enhancement") &&
+                                              Contains("undecided: 8 mid anteroseptal"));
+  const scar::InfarctExtent extent = scar::infarct_extent(c, {}, wall);
+  for (int cell = 0; cell < wall.cell_count(); ++cell) {
+    const bool expected = regions.aha[cell] == 7 || regions.aha[cell] == 8;
+    CHECK(extent.part[cell] == (expected ? 1.0 : 0.0));
+    for (const int node : wall.cell(cell))
+      CHECK((!expected || extent.M[node] == 1.0));
+  }
+  CHECK(scar::strain_infarct_table(c, verdicts).words("infarct") ==
+        std::vector<std::string>{"yes", "yes", "no"});
+  c.scar_strain.threshold = 0.0;  // all of the wall shortens
+  const scar::InfarctExtent none = scar::infarct_extent(c, {}, wall);
+  CHECK(std::all_of(none.M.begin(), none.M.end(), [](double M) { return M == 0.0; }));
 }

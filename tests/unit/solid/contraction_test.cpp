@@ -56,6 +56,28 @@ TEMPLATE_TEST_CASE("relaxed muscle has the steady tension of its calcium at ever
     CHECK(T == Approx(steady).epsilon(1e-12));
 }
 
+TEST_CASE("the factor of a segment's tension is one of the law's strength", "[unit][solid]") {
+  std::vector<Vec3> nodes;
+  for (std::size_t i = 0; i < count; ++i)
+    nodes.emplace_back(2.0 * static_cast<double>(i), 0.0, 0.0);
+  const std::vector<double> volumes(count, 8.0);
+  const std::vector<double> strength(count, 1.0);
+  const std::vector<double> half(count, 0.5);
+  NiedererHunterSmith weak;
+  weak.T_scale *= 0.5;
+  Contraction by_law = row_of_nodes(weak);
+  Contraction by_factor(NiedererHunterSmith{}, {nodes, volumes, strength, half}, density, 1.5);
+  for (Contraction* muscle : {&by_law, &by_factor}) {
+    muscle->relax(0.1);
+    contract(*muscle, 0, 30);
+  }
+  CHECK(by_factor.wave_speed() == Approx(by_law.wave_speed()).epsilon(1e-10));
+  for (std::size_t i = 0; i < count; ++i)
+    CHECK(by_factor.tension()[i] == Approx(by_law.tension()[i]).epsilon(1e-10));
+  by_factor.prescribe(60.0);
+  CHECK(by_factor.tension()[1] == 30.0);
+}
+
 TEMPLATE_TEST_CASE("relaxed muscle has at every node the steady tension of its own stretch",
                    "[unit][solid]", NiedererHunterSmith, Land2017) {
   Contraction muscle = row_of_nodes(TestType{});
