@@ -30,6 +30,9 @@ struct Model {
   std::function<Outcome<std::vector<double>>(const FitParameters&, const Loads& ed,
                                              const Loads& es)>
       strains;
+  /// By how much the end-systolic surfaces lie outside of what was drawn of them, in the order of
+  /// Plan::drawn [mm]. May be empty without such.
+  std::function<Outcome<std::vector<double>>(const FitParameters&, const Loads& es)> distances = {};
 };
 
 /// The quasi-static engine as such a model. It keeps the equilibrium of every load that it was

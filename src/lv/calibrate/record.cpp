@@ -33,6 +33,8 @@ RecordedFit recorded(const Plan& plan, const Fit& fit) {
     record.klotz_pressure = plan.ed_pressure;
     record.other_pressures = fit.other_pressures;
   }
+  if (fit.regional_fit && fit.regional_fit->shape)
+    record.shape = ShapeFit{{}, fit.regional_fit->shape->before, fit.regional_fit->shape->after};
   return record;
 }
 

@@ -1,5 +1,6 @@
 #include "lv/pipeline/calibration.hpp"
 
+#include "lv/anatomy/shape_distance.hpp"
 #include "lv/base/dense.hpp"
 #include "lv/base/log.hpp"
 #include "lv/base/parallel.hpp"
@@ -52,11 +53,31 @@ Case with(Case c, const FitParameters& p) {
   return c;
 }
 
-calibrate::Plan plan(const Case& c, const std::vector<cine::StrainTarget>& targets) {
+/// What is fitted to besides volumes.
+struct Targets {
+  std::vector<cine::StrainTarget> strains;
+  std::vector<anatomy::DrawnPart> drawn;
+};
+
+Targets targets_of(const Case& c, const anatomy::MeshResult& mesh,
+                   const std::filesystem::path& folder) {
+  Targets targets{cine::strain_targets(c, mesh.regions), {}};
+  if (c.calibration.shape) {
+    const anatomy::AnatomyRecord anatomy = anatomy_beside(folder);
+    targets.drawn =
+        anatomy::drawn_parts(anatomy.frame.value(), anatomy.end_systole, c.regions.septum_angle);
+  }
+  return targets;
+}
+
+calibrate::Plan plan(const Case& c, const Targets& targets) {
   const case_file::Calibration& k = c.calibration;
   std::vector<calibrate::MeasuredStrain> strains;
-  for (const cine::StrainTarget& target : targets)
+  for (const cine::StrainTarget& target : targets.strains)
     strains.push_back(target.measured);
+  std::vector<std::string> drawn;
+  for (const anatomy::DrawnPart& part : targets.drawn)
+    drawn.push_back(part.name);
   return {k.passive,
           k.active,
           c.protocol.ed_pressure,
@@ -68,7 +89,8 @@ calibrate::Plan plan(const Case& c, const std::vector<cine::StrainTarget>& targe
           k.exponent,
           k.T_scale,
           strains,
-          k.errors};
+          k.errors,
+          drawn};
 }
 
 /// Names of the parameters that are fitted at given pressures.
@@ -168,9 +190,8 @@ struct FittedWall {
   std::optional<implicit::Unloaded> unloaded;
 };
 
-FittedWall fit_wall(const Case& c, const anatomy::MeshResult& mesh,
-                    const std::vector<cine::StrainTarget>& targets, const calibrate::Plan& task,
-                    const FitStart& start, const FitLog& kept) {
+FittedWall fit_wall(const Case& c, const anatomy::MeshResult& mesh, const Targets& targets,
+                    const calibrate::Plan& task, const FitStart& start, const FitLog& kept) {
   calibrate::Ventricle ventricle(
       mesh.mesh, [&](const FitParameters& p) { return case_file::static_model(with(c, p)); },
       c.quasi_static.solver, c.unloaded);
@@ -194,7 +215,18 @@ FittedWall fit_wall(const Case& c, const anatomy::MeshResult& mesh,
     const auto end_systole = ventricle.positions(p, es);
     if (!end_systole)
       return end_systole.why();
-    return cine::regional_strains(c, ventricle.wall(), targets, *end_diastole, *end_systole);
+    return cine::regional_strains(c, ventricle.wall(), targets.strains, *end_diastole,
+                                  *end_systole);
+  };
+  const auto distances = [&](const FitParameters& p, const Loads& es) -> Outcome<Numbers> {
+    const auto end_systole = ventricle.positions(p, es);
+    if (!end_systole)
+      return end_systole.why();
+    Numbers found(targets.drawn.size());
+    parallel::on_root(
+        [&] { found = anatomy::mean_distances(mesh.mesh, *end_systole, targets.drawn); });
+    parallel::broadcast(found);
+    return found;
   };
   const calibrate::Model model{
       [&](const FitParameters& p, const Loads& loads) {
@@ -203,6 +235,9 @@ FittedWall fit_wall(const Case& c, const anatomy::MeshResult& mesh,
       [&](const FitParameters& p) { return number([&] { return ventricle.unloaded_volume(p); }); },
       [&](const FitParameters& p, const Loads& ed, const Loads& es) {
         return record.answer([&] { return strains(p, ed, es); });
+      },
+      [&](const FitParameters& p, const Loads& es) {
+        return record.answer([&] { return distances(p, es); });
       }};
   calibrate::Fit fit = calibrate::fit(model, start.parameters, task, kept.forecast);
   ventricle.unloaded_volume(fit.parameters).value();
@@ -213,6 +248,7 @@ FittedWall fit_wall(const Case& c, const anatomy::MeshResult& mesh,
 calibrate::Plan alone(calibrate::Plan task) {
   task.parameters_alone = true;
   task.strains.clear();
+  task.drawn.clear();
   return task;
 }
 
@@ -391,7 +427,7 @@ std::vector<calibrate::FittedMesh> walls_of(const Case& c,
 void fit_muscle(const Case& c, const anatomy::MeshResult& mesh,
                 const std::optional<anatomy::MeshResult>& coarse,
                 const std::filesystem::path& folder) {
-  const std::vector<cine::StrainTarget> targets = cine::strain_targets(c, mesh.regions);
+  const Targets targets = targets_of(c, mesh, folder);
   calibrate::Plan task = plan(c, targets);
   const bool klotz = task.passive == FittedPassive::klotz;
   set_seen_volume(c, mesh, task);
@@ -562,8 +598,12 @@ FitRecord fit_record(const Case& c, const std::filesystem::path& calibration,
   for (const ConfirmedVolume& v : record.beats.back().volumes)
     all.volumes.push_back(
         {v.name, v.measured, v.quasi_static, v.beat, v.within(c.calibration.tolerance)});
-  if (c.calibration.passive == FittedPassive::klotz)
-    add_klotz(read_fit(calibration), all);
+  const calibrate::RecordedFit fit = read_fit(calibration);
+  if (fit.klotz_pressure)
+    add_klotz(fit, all);
+  if (fit.shape)
+    all.shape = report::FittedShape{fit.shape->after.rms, fit.shape->after.bias,
+                                    fit.shape->before.rms, fit.shape->before.bias};
   return all;
 }
 

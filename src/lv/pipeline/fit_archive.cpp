@@ -116,6 +116,10 @@ void store(const RecordedFit& fit, Archive& archive) {
   archive.set("klotz_pressure", fit.klotz_pressure ? std::vector<double>{*fit.klotz_pressure}
                                                    : std::vector<double>{});
   store_other_pressures(fit, archive);
+  if (fit.shape) {
+    const auto& [distances, before, after] = *fit.shape;
+    archive.set("shape", {before.rms, before.bias, after.rms, after.bias});
+  }
 }
 
 RecordedFit load_fit(const Archive& archive) {
@@ -124,6 +128,10 @@ RecordedFit load_fit(const Archive& archive) {
   if (!archive.get("klotz_pressure").empty())
     fit.klotz_pressure = archive.number("klotz_pressure");
   load_other_pressures(archive, fit);
+  if (archive.has("shape")) {
+    const auto& row = archive.get_rows("shape", 4, 1);
+    fit.shape = calibrate::ShapeFit{{}, {row[0], row[1]}, {row[2], row[3]}};
+  }
   return fit;
 }
 

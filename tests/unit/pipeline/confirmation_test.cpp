@@ -44,6 +44,7 @@ TEST_CASE("a fit is read with its derivatives and with other pressures, to the l
   written.volumes.push_back({"ESV", 13.3, 60e3, 61e3 / 7.0, {{"scale", 0.5}, {"T_scale", -7e3}}});
   written.other_pressures.push_back({5.0, {}, 0.0, "too soft at 5\u00a0mmHg"});
   written.other_pressures.push_back({13.0, {{1.0, 2.5, 1.5, 4.0}}, 55e3, ""});
+  written.shape = calibrate::ShapeFit{{}, {2.0, 0.5}, {1.0 / 3.0, -0.125}};
   heartbeat::Archive archive;
   pipeline::store(written, archive);
   archive.write(folder / "calibration.bin");
@@ -58,6 +59,8 @@ TEST_CASE("a fit is read with its derivatives and with other pressures, to the l
   CHECK_FALSE(fit.other_pressures[0].parameters);
   CHECK(fit.other_pressures[0].why_not == written.other_pressures[0].why_not);
   CHECK(fit.other_pressures[1].parameters == written.other_pressures[1].parameters);
+  CHECK(fit.shape.value().before.rms == 2.0);
+  CHECK(fit.shape->after.bias == -0.125);
   archive.set_words("fitted", {"scale", "colour"});
   CHECK_THROWS_AS(pipeline::load_fit(archive), RunError);
 }
