@@ -42,6 +42,18 @@ function klotz(c: Case, fit: any): (Node | undefined)[] {
         [shown(o.pressure_mmHg, 3), ...names.map((n) => shown(o[n], 4)), shown(o.unloaded_volume_ml, 4)])) : undefined];
 }
 
+/** How far end-systolic surfaces lie outside of the drawn ones that they were fitted to. */
+function shape(c: Case): (Node | undefined)[] {
+  const fitted = c.summary?.shape_fitted;
+  if (!fitted) return [];
+  return [
+    el("p", { class: "help" }, "Fitted to the surfaces drawn at end-systole besides: distance by which the model's lie outside of them, by the means of every loop's sectors, " +
+      "when all loops are moved along the long axis to where they fit best."),
+    table(fileName(c.name, "shape-fitted"), ["end-systolic surfaces", "mean (mm)", "rms (mm)"],
+      [["fitted to volumes alone", shown(fitted.bias_before_mm, 2), shown(fitted.rms_before_mm, 3)],
+        ["fitted to the surfaces too", shown(fitted.bias_mm, 2), shown(fitted.rms_mm, 3)]])];
+}
+
 /** Empty for a case without calibration. */
 export function calibration(c: Case): (Node | undefined)[] {
   return [...muscle(c), ...heartbeats(c)];
@@ -83,6 +95,7 @@ function muscle(c: Case): (Node | undefined)[] {
       "high by its error (to first order of the logarithms, all else equal). A parameter that moves far is little known."),
     volumesFitted ? volumes(c) : undefined,
     ...klotz(c, fit),
+    ...shape(c),
     fit?.uncertainty?.length ? sensitivity(c, fit) : missing("calibration.json is missing: how sure the fitted parameters are is not known."),
     ...(fit?.ambiguities ?? []).map((line: string) => el("p", { class: "help" }, typeset(line)))];
 }

@@ -1,6 +1,8 @@
 #include "lv/anatomy/shape_distance.hpp"
 
+#include "lv/geometry/contour_measures.hpp"
 #include "lv/mesh/distance.hpp"
+#include "lv/mesh/regions.hpp"
 
 #include <boost/math/tools/minima.hpp>
 #include <fmt/format.h>
@@ -25,89 +27,138 @@ struct Point {
   Vec3 x;
 };
 
-class Comparison {
+/// What a point at a height counts: less and less from here up to the base plane, so that no fit
+/// leaps when one passes it.
+double weight_at(double z) {
+  constexpr double fading = 5.0;  // [mm]
+  return std::clamp(-z / fading, 0.0, 1.0);
+}
+
+/// The surfaces of a model.
+class Surfaces {
  public:
-  Comparison(const mesh::Mesh& mesh, std::span<const Vec3> nodes, const geometry::Frame& frame,
-             const std::vector<geometry::Contour>& loops)
-      : endo_(nodes, mesh.endo), epi_(nodes, mesh.epi) {
-    for (const geometry::Contour& loop : loops)
-      for (const Vec3& x : loop.points)
-        points_.push_back({loop.slice, loop.side, frame.to_model(x)});
+  Surfaces(const mesh::Mesh& mesh, std::span<const Vec3> nodes)
+      : endo_(nodes, mesh.endo), epi_(nodes, mesh.epi) {}
+
+  /// By how much a surface lies outside of a point [mm]; normals point out of the wall.
+  [[nodiscard]] double outside(Side side, const Vec3& x) const {
+    return side == Side::endo ? endo_.signed_distance(x) : -epi_.signed_distance(x);
   }
 
-  /// Of a slice (0: all) with the loops shifted.
-  [[nodiscard]] DrawnDistance distance(int slice, Side side, double shift) const {
-    std::vector<double> found;
-    for (const Point& p : points_)
-      if (p.side == side && (slice == 0 || p.slice == slice) && p.x.z() + shift <= 0.0)
-        found.push_back(far(p, shift));
-    DrawnDistance d{slice, side, static_cast<int>(found.size())};
-    if (found.empty())
-      return d;
-    std::sort(found.begin(), found.end());
-    for (const double x : found) {
-      d.mean += x / static_cast<double>(found.size());
-      d.rms += x * x / static_cast<double>(found.size());
-    }
-    d.rms = std::sqrt(d.rms);
-    d.p95 = found[static_cast<std::size_t>(0.95 * static_cast<double>(found.size() - 1))];
-    d.max = found.back();
-    return d;
-  }
-
-  /// Where the mean square of all distances is smallest.
-  [[nodiscard]] double best_shift() const {
+  /// Of all points, along the long axis: where the mean square of their distances is smallest.
+  [[nodiscard]] double best_shift(const std::vector<Point>& points) const {
     const auto mean_square = [&](double shift) {
       double sum = 0.0;
-      int counted = 0;
-      for (std::size_t n = 0; n < points_.size(); n += 3) {
-        if (points_[n].x.z() + shift > 0.0)
+      double weight = 0.0;
+      for (const Point& p : points) {
+        const Vec3 x = p.x + shift * Vec3::UnitZ();
+        const double w = weight_at(x.z());
+        if (w == 0.0)
           continue;
-        const double d = far(points_[n], shift);
-        sum += d * d;
-        ++counted;
+        const double d = outside(p.side, x);
+        sum += w * d * d;
+        weight += w;
       }
-      return counted == 0 ? 1e9 : sum / counted;
+      return weight == 0.0 ? 1e9 : sum / weight;
     };
-    constexpr int bits = 12;
+    constexpr int bits = 20;
     return boost::math::tools::brent_find_minima(mean_square, -farthest_shift, farthest_shift, bits)
         .first;
   }
 
-  [[nodiscard]] std::set<int> slices() const {
-    std::set<int> all;
-    for (const Point& p : points_)
-      all.insert(p.slice);
-    return all;
-  }
-
  private:
-  [[nodiscard]] double far(const Point& p, double shift) const {
-    const Vec3 x = p.x + shift * Vec3::UnitZ();
-    return p.side == Side::endo ? endo_(x) : epi_(x);
-  }
-
   mesh::SurfaceDistance endo_, epi_;
-  std::vector<Point> points_;
 };
+
+/// Of a slice (0: all) with the loops shifted.
+DrawnDistance distance(const Surfaces& surfaces, const std::vector<Point>& points, int slice,
+                       Side side, double shift) {
+  std::vector<double> found;
+  for (const Point& p : points)
+    if (p.side == side && (slice == 0 || p.slice == slice) && p.x.z() + shift <= 0.0)
+      found.push_back(std::abs(surfaces.outside(side, p.x + shift * Vec3::UnitZ())));
+  DrawnDistance d{slice, side, static_cast<int>(found.size())};
+  if (found.empty())
+    return d;
+  std::sort(found.begin(), found.end());
+  for (const double x : found) {
+    d.mean += x / static_cast<double>(found.size());
+    d.rms += x * x / static_cast<double>(found.size());
+  }
+  d.rms = std::sqrt(d.rms);
+  d.p95 = found[static_cast<std::size_t>(0.95 * static_cast<double>(found.size() - 1))];
+  d.max = found.back();
+  return d;
+}
 
 }  // namespace
 
 ShapeDistance shape_distance(const mesh::Mesh& mesh, std::span<const Vec3> nodes,
                              const geometry::Frame& frame,
                              const std::vector<geometry::Contour>& loops) {
-  const Comparison comparison(mesh, nodes, frame, loops);
-  ShapeDistance result;
-  result.axial_shift = comparison.best_shift();
-  for (const Side side : sides) {
-    result.as_drawn.push_back(comparison.distance(0, side, 0.0));
-    result.shifted.push_back(comparison.distance(0, side, result.axial_shift));
+  const Surfaces surfaces(mesh, nodes);
+  std::vector<Point> points;
+  std::set<int> slices;
+  for (const geometry::Contour& loop : loops) {
+    slices.insert(loop.slice);
+    for (const Vec3& x : loop.points)
+      points.push_back({loop.slice, loop.side, frame.to_model(x)});
   }
-  for (const int slice : comparison.slices())
+  ShapeDistance result;
+  result.axial_shift = surfaces.best_shift(points);
+  for (const Side side : sides) {
+    result.as_drawn.push_back(distance(surfaces, points, 0, side, 0.0));
+    result.shifted.push_back(distance(surfaces, points, 0, side, result.axial_shift));
+  }
+  for (const int slice : slices)
     for (const Side side : sides)
-      if (DrawnDistance d = comparison.distance(slice, side, result.axial_shift); d.points > 0)
+      if (DrawnDistance d = distance(surfaces, points, slice, side, result.axial_shift);
+          d.points > 0)
         result.shifted.push_back(d);
   return result;
+}
+
+std::vector<DrawnPart> drawn_parts(const geometry::Frame& frame,
+                                   const std::vector<geometry::Contour>& loops,
+                                   double septum_angle) {
+  constexpr int sectors = 6;
+  std::vector<DrawnPart> all;
+  for (const geometry::Contour& loop : loops) {
+    const Vec3 centre = frame.to_model(geometry::mean_of(loop.points));
+    std::vector<DrawnPart> parts(sectors);
+    for (const Vec3& point : loop.points) {
+      const Vec3 x = frame.to_model(point);
+      const double angle = std::atan2(x.y() - centre.y(), x.x() - centre.x());
+      parts[mesh::sector_at(angle, septum_angle, sectors) - 1].points.push_back(x);
+    }
+    for (int k = 1; k <= sectors; ++k)
+      if (DrawnPart& part = parts[k - 1]; !part.points.empty()) {
+        part.name =
+            fmt::format("{} {} {}", loop.slice, geometry::name(loop.side), mesh::sector_name(1, k));
+        part.side = loop.side;
+        all.push_back(std::move(part));
+      }
+  }
+  return all;
+}
+
+std::vector<double> mean_distances(const mesh::Mesh& mesh, std::span<const Vec3> nodes,
+                                   const std::vector<DrawnPart>& parts) {
+  const Surfaces surfaces(mesh, nodes);
+  std::vector<Point> points;
+  for (const DrawnPart& part : parts)
+    for (const Vec3& x : part.points)
+      points.push_back({0, part.side, x});
+  const Vec3 shift = surfaces.best_shift(points) * Vec3::UnitZ();
+  std::vector<double> means;
+  for (const DrawnPart& part : parts) {
+    double sum = 0.0;
+    for (const Vec3& x : part.points)
+      if (const double w = weight_at(x.z() + shift.z()); w > 0.0)
+        sum += w * surfaces.outside(part.side, x + shift);
+    means.push_back(sum / static_cast<double>(part.points.size()));
+  }
+  return means;
 }
 
 Table shape_distance_table(const ShapeDistance& distance) {

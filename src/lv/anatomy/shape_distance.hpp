@@ -33,6 +33,26 @@ struct ShapeDistance {
                                            const geometry::Frame& frame,
                                            const std::vector<geometry::Contour>& loops);
 
+/// A part of a drawn loop: the points of one sector of 60 degrees about the loop's centre.
+struct DrawnPart {
+  std::string name;  ///< slice, contour and sector
+  geometry::Side side = geometry::Side::endo;
+  std::vector<Vec3> points;  ///< in the model frame [mm]
+};
+
+/// Parts of loops, with the septum at `septum_angle` about the long axis of the model [rad].
+[[nodiscard]] std::vector<DrawnPart> drawn_parts(const geometry::Frame& frame,
+                                                 const std::vector<geometry::Contour>& loops,
+                                                 double septum_angle);
+
+/// By how much the model's surface lies outside of each part, in the mean of its points, when all
+/// are moved along the long axis as `shape_distance` moves them [mm]: a smooth function of the
+/// nodes, for a fit. Points fade out over the last millimetres below the base plane, above which
+/// they do not count.
+[[nodiscard]] std::vector<double> mean_distances(const mesh::Mesh& mesh,
+                                                 std::span<const Vec3> nodes,
+                                                 const std::vector<DrawnPart>& parts);
+
 [[nodiscard]] Table shape_distance_table(const ShapeDistance& distance);
 
 /// A paragraph for a terminal.

@@ -15,6 +15,7 @@
 #include <Eigen/Core>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -42,7 +43,7 @@ constexpr double rough = 0.03;           // a first V0, as a fraction
 constexpr double rough_esv = 0.02;       // of ln(V/V_target), with a first T_scale
 constexpr double first_stiffness = 2.0;  // stiff walls are unloaded more easily
 constexpr double shortest_step = 5e-3;   // of the logarithms of scale and exponent
-constexpr double shortest_of_strains = 1e-4;
+constexpr double shortest_of_regions = 1e-4;
 constexpr double shortest_of_segments = 3e-3;
 constexpr std::array<double, 2> segment_factors{0.02, 50.0};  // within which they are sought
 constexpr double unloaded_difference = 0.05;                  // unloading leaves volumes scattered
@@ -69,6 +70,12 @@ class Fitter {
     else
       model_.strains = [this, &model](const FitParameters& p, const Loads& ed, const Loads& es) {
         return timed(Sought::contracts_again, [&] { return model.strains(p, ed, es); });
+      };
+    if (plan.drawn.empty())
+      model_.distances = {};
+    else
+      model_.distances = [this, &model](const FitParameters& p, const Loads& es) {
+        return timed(Sought::contracts_again, [&] { return model.distances(p, es); });
       };
     model_.volume = [this, &model](const FitParameters& p, const Loads& loads) {
       const auto volume = timed(sought(p, loads), [&] { return model.volume(p, loads); });
@@ -109,8 +116,8 @@ class Fitter {
       fit_passive(fitted, near);
       bracket(fitted.back(), plan_.T_scale, es_loads(), plan_.esv, near);
     }
-    if (model_.strains)
-      fit_strains(fitted);
+    if (plan_.fits_regions())
+      fit_regions(fitted);
     measure();
     if (plan_.parameters_alone)
       return std::move(fit_);
@@ -338,7 +345,7 @@ class Fitter {
     auto& list = fit_.observations;
     if (plan_.passive != FittedPassive::none && plan_.passive != FittedPassive::klotz)
       list.push_back(
-          {"EDV", ed_loads(), edv, curve && !model_.strains ? weight_of_edv : 1.0, 1.0, 1.0});
+          {"EDV", ed_loads(), edv, curve && !plan_.fits_regions() ? weight_of_edv : 1.0, 1.0, 1.0});
     if (curve)
       for (const double ratio : pressure_ratios) {
         const double filling = klotz_filling(ratio);
@@ -383,8 +390,11 @@ class Fitter {
   }
 
   /// By the logarithms of the parameters, and of the segments' factors, with their penalty.
-  void fit_strains(const std::vector<Fitted>& fitted) {
-    begin(of_strains);
+  void fit_regions(const std::vector<Fitted>& fitted) {
+    begin(of_regions);
+    std::optional<ShapeFit> shape;
+    if (model_.distances)
+      shape = ShapeFit{{}, misfit_of(distances()), {}};
     const Logarithms logs = with_segments(logarithms(fitted));
     const auto segments = static_cast<Eigen::Index>(plan_.segments.size());
     const auto residuals = [&](const Eigen::VectorXd& x) -> Outcome<Eigen::VectorXd> {
@@ -399,22 +409,23 @@ class Fitter {
         least_squares(residuals, logs.start, logs.low, logs.high,
                       {.difference = difference,
                        .longest = longest_step,
-                       .shortest = segments > 0 ? shortest_of_segments : shortest_of_strains,
+                       .shortest = segments > 0 ? shortest_of_segments : shortest_of_regions,
                        .confirms = true,
                        .linearise = [&](const auto& x) { linearise(fitted, x); }})
             .value();
     if (!minimum.is_found)
-      throw NoSolution(
-          fmt::format("The fit to strains did not come to an end in {} equilibria, |r| = {:.4g}",
-                      minimum.evaluations, minimum.r.norm()),
-          "Fit fewer parameters, or start nearer to the values that are expected");
+      throw NoSolution(fmt::format("The fit to what was measured of regions did not come to an end "
+                                   "in {} equilibria, |r| = {:.4g}",
+                                   minimum.evaluations, minimum.r.norm()),
+                       "Fit fewer parameters, or start nearer to the values that are expected");
     fit_.parameters = moved_to(fitted, minimum.x);
     posterior_ = posterior(minimum.slopes, segments);
-    StrainFit& s = fit_.strain_fit.emplace();
+    RegionalFit& f = fit_.regional_fit.emplace();
     const Eigen::Index data = minimum.r.size() - segments;
-    s.chi_squared = minimum.r.head(data).squaredNorm();
-    s.degrees_of_freedom = static_cast<double>(data) - posterior_.resolution.sum();
-    const double misfit = std::sqrt(std::max(1.0, s.chi_squared / s.degrees_of_freedom));
+    f.chi_squared = minimum.r.head(data).squaredNorm();
+    f.degrees_of_freedom = static_cast<double>(data) - posterior_.resolution.sum();
+    f.shape = std::move(shape);
+    const double misfit = std::sqrt(std::max(1.0, f.chi_squared / f.degrees_of_freedom));
     for (Eigen::Index j = 0; j < segments; ++j) {
       const Eigen::Index at = minimum.x.size() - segments + j;
       fit_.segments.push_back({plan_.segments[j], std::exp(minimum.x[at]),
@@ -450,25 +461,43 @@ class Fitter {
     s.correlation = s.covariance.cwiseQuotient(deviation * deviation.transpose());
   }
 
+  [[nodiscard]] std::vector<double> distances() const {
+    return model_.distances(fit_.parameters, es_loads()).value();
+  }
+
+  static Misfit misfit_of(const std::vector<double>& off) {
+    const Eigen::VectorXd v = dense::as_vector(off);
+    return {std::sqrt(v.squaredNorm() / static_cast<double>(v.size())), v.mean()};
+  }
+
   [[nodiscard]] const Range& range_of(const Fitted& which) const {
     if (which.member == &FitParameters::T_scale)
       return plan_.T_scale;
     return which.member == &FitParameters::exponent ? plan_.exponent : plan_.stiffness;
   }
 
-  /// Of all volumes and strains, each by its error.
+  /// Of all volumes, strains and distances, each by its error.
   Outcome<Eigen::VectorXd> weighted_residuals(const FitParameters& p) {
     const auto of_volumes = misfits(p, fit_.observations.size());
     if (!of_volumes)
       return of_volumes.why();
-    const auto strains = model_.strains(p, ed_loads(), es_loads());
-    if (!strains)
-      return strains.why();
     std::vector<double> r;
     for (const double misfit : *of_volumes)
       r.push_back(misfit / plan_.errors.volume);
-    for (std::size_t i = 0; i < strains->size(); ++i)
-      r.push_back(((*strains)[i] - plan_.strains[i].value) / plan_.errors.strain);
+    if (model_.strains) {
+      const auto strains = model_.strains(p, ed_loads(), es_loads());
+      if (!strains)
+        return strains.why();
+      for (std::size_t i = 0; i < strains->size(); ++i)
+        r.push_back(((*strains)[i] - plan_.strains[i].value) / plan_.errors.strain);
+    }
+    if (model_.distances) {
+      const auto distances = model_.distances(p, es_loads());
+      if (!distances)
+        return distances.why();
+      for (const double distance : *distances)
+        r.push_back(distance / plan_.errors.shape);
+    }
     return dense::as_vector(r);
   }
 
@@ -551,8 +580,8 @@ class Fitter {
                                              : model_.volume(fit_.parameters, o.loads).value());
     if (plan_.active)
       fit_.esv = fit_.volumes.back();
-    if (fit_.strain_fit) {
-      measure_strains(*fit_.strain_fit);
+    if (fit_.regional_fit) {
+      measure_regions(*fit_.regional_fit);
       return;  // a compromise, whose volumes are reported and need not be met
     }
     if (plan_.passive == FittedPassive::klotz)
@@ -563,15 +592,26 @@ class Fitter {
       check("end-systolic", fit_.esv, plan_.esv.volume);
   }
 
-  void measure_strains(StrainFit& s) const {
-    s.strains = model_.strains(fit_.parameters, ed_loads(), es_loads()).value();
-    double squares = 0.0;
-    for (std::size_t i = 0; i < s.strains.size(); ++i) {
-      const double off = s.strains[i] - plan_.strains[i].value;
-      s.bias += off / static_cast<double>(s.strains.size());
-      squares += off * off;
+  void measure_regions(RegionalFit& f) const {
+    if (model_.strains) {
+      f.strains = model_.strains(fit_.parameters, ed_loads(), es_loads()).value();
+      std::vector<double> off;
+      for (std::size_t i = 0; i < f.strains.size(); ++i)
+        off.push_back(f.strains[i] - plan_.strains[i].value);
+      f.strain = misfit_of(off);
     }
-    s.rms = std::sqrt(squares / static_cast<double>(s.strains.size()));
+    if (f.shape) {
+      f.shape->distances = distances();
+      // parts above the base say nothing
+      f.degrees_of_freedom -=
+          static_cast<int>(std::count(f.shape->distances.begin(), f.shape->distances.end(), 0.0));
+      f.shape->after = misfit_of(f.shape->distances);
+      log::info(
+          "end-systolic surfaces lie {:.2f} mm rms ({:+.2f} in the mean) outside of the drawn "
+          "ones, "
+          "fitted to volumes alone {:.2f} mm ({:+.2f})",
+          f.shape->after.rms, f.shape->after.bias, f.shape->before.rms, f.shape->before.bias);
+    }
   }
 
   void check(const std::string& which, double volume, double target) const {

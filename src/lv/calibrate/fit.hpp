@@ -41,11 +41,14 @@ struct Plan {
   /// standard deviation of the factors' logarithms beforehand.
   std::vector<int> segments = {};
   double spread = 0.5;
+  /// Drawn parts of the end-systolic surfaces, by their names; fitted to likewise, when any.
+  std::vector<std::string> drawn = {};
   bool starts_near = false;       ///< the start is near the end
   bool parameters_alone = false;  ///< finds no sensitivities
   /// Of a fit near by (Fit::slopes), where the one to Klotz's V0 and curve begins with them.
   std::optional<Eigen::MatrixXd> slopes = {};
 
+  [[nodiscard]] bool fits_regions() const { return !strains.empty() || !drawn.empty(); }
   [[nodiscard]] bool fits_exponent() const {
     return passive == FittedPassive::scale_and_exponent || passive == FittedPassive::klotz;
   }
@@ -59,12 +62,25 @@ struct Evaluation {
   double volume = 0.0;  ///< [mm^3]
 };
 
-/// How a model fits measured strains.
-struct StrainFit {
+/// Of many values.
+struct Misfit {
+  double rms = 0.0, bias = 0.0;
+};
+
+/// How far the model's end-systolic surfaces lie outside of what was drawn of them [mm].
+struct ShapeFit {
+  std::vector<double> distances;  ///< in the order of Plan::drawn
+  Misfit before;                  ///< of the fit to volumes, with which this one began
+  Misfit after;
+};
+
+/// How a model fits measured strains and a shape.
+struct RegionalFit {
   std::vector<double> strains;      ///< of the model, in the order of Plan::strains
-  double chi_squared = 0.0;         ///< |r|^2 of volumes and strains, each by its error
+  double chi_squared = 0.0;         ///< |r|^2 of all that is fitted to, each by its error
   double degrees_of_freedom = 0.0;  ///< data less the unknowns that they determine
-  double rms = 0.0, bias = 0.0;     ///< of model minus measured strain
+  Misfit strain;                    ///< of model minus measured
+  std::optional<ShapeFit> shape;
 };
 
 /// The factor of contractility of an AHA segment.
@@ -93,7 +109,7 @@ struct Fit {
   double edv = 0.0, esv = 0.0;   ///< of the model with these parameters [mm^3]
   std::vector<ObservedVolume> observations;
   std::vector<double> volumes;  ///< of the model at the observations [mm^3]
-  std::optional<StrainFit> strain_fit;
+  std::optional<RegionalFit> regional_fit;
   std::vector<FittedSegment> segments;  ///< empty unless they are fitted
   Sensitivity sensitivity;
   std::vector<OtherPressure> other_pressures;  ///< of an end-diastolic shape; not filled by `fit`
@@ -126,10 +142,11 @@ struct Fit {
 /// known by then: an end-systolic volume that is out of reach by more than reach_margin is refused
 /// before the fit takes its time. Every fit may start from that of a coarse wall (starts_near).
 ///
-/// With measured strains those values are the start of a least-squares fit of all fitted
-/// parameters,
+/// With measured strains E_i, or with distances d_n of the end-systolic surfaces from what was
+/// drawn of them, those values are the start of a least-squares fit of all fitted parameters,
 ///
-///   sum_k [(V_k/V_k,measured - 1)/sigma_V]^2 + sum_i [(E_i - E_i,measured)/sigma_E]^2,
+///   sum_k [(V_k/V_k,measured - 1)/sigma_V]^2 + sum_i [(E_i - E_i,measured)/sigma_E]^2
+///     + sum_n [d_n/sigma_d]^2,
 ///
 /// by Gauss-Newton steps in their logarithms (least_squares.hpp; the points of the Klotz curve
 /// count as volumes). It need not meet the volumes within the tolerance. Where factors c_j of

@@ -34,6 +34,11 @@ Equilibria of_muscle(double at_rest, bool is_anew, bool active) {
           is_anew && !rests_anew ? 0.0 : contracts};
 }
 
+/// What is asked of each end-systole besides its volume: strains, distances.
+double regional_answers(const Plan& plan) {
+  return (plan.strains.empty() ? 0.0 : 1.0) + (plan.drawn.empty() ? 0.0 : 1.0);
+}
+
 /// By pressures and parameters, from both sides.
 Equilibria of_differences(double fitted, double at_rest, const Plan& plan) {
   const Equilibria by_pressure = of_muscle(at_rest, false, plan.active);
@@ -41,7 +46,7 @@ Equilibria of_differences(double fitted, double at_rest, const Plan& plan) {
   Equilibria all{};
   for (std::size_t k = 0; k < all.size(); ++k)
     all[k] = 2.0 * (by_pressure[k] + fitted * by_parameter[k]);
-  all[3] += plan.strains.empty() ? 0.0 : 4.0 + 2.0 * fitted;
+  all[3] += regional_answers(plan) * (4.0 + 2.0 * fitted);
   return all;
 }
 
@@ -66,12 +71,11 @@ std::vector<FitPart> parts_of(const Plan& plan) {
   const double exponent = plan.fits_exponent() ? 1.0 : 0.0;
   const double fitted = passive + exponent + (plan.active ? 1.0 : 0.0);
   const double at_rest = plan.passive == FittedPassive::klotz ? 3.0 : passive + 3.0 * exponent;
-  const double strains = plan.strains.empty() ? 0.0 : 1.0;
   Equilibria trial = of_muscle(at_rest, true, plan.active);
-  trial[3] += strains;
-  if (strains > 0.0)
+  trial[3] += regional_answers(plan);
+  if (plan.fits_regions())
     parts.push_back(
-        {of_strains, trial, 3.0 * (fitted + static_cast<double>(plan.segments.size()) + 1.0)});
+        {of_regions, trial, 3.0 * (fitted + static_cast<double>(plan.segments.size()) + 1.0)});
   parts.push_back(
       {of_result, of_muscle(at_rest + (exponent > 0.0 ? 1.0 : 0.0), false, plan.active)});
   if (!plan.parameters_alone)

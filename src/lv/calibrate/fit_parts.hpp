@@ -12,7 +12,7 @@ inline constexpr const char* of_filling = "filling";
 inline constexpr const char* of_unloaded = "unloaded volume";
 inline constexpr const char* of_first_tension = "first T_scale";
 inline constexpr const char* of_curve = "fit to the Klotz curve";
-inline constexpr const char* of_strains = "least squares";
+inline constexpr const char* of_regions = "least squares";
 inline constexpr const char* of_result = "result";
 inline constexpr const char* of_sensitivity = "sensitivity";
 

@@ -33,6 +33,9 @@ struct Model {
   std::function<Outcome<std::vector<double>>(const FitParameters&, const Loads& ed,
                                              const Loads& es)>
       strains;
+  /// By how much the end-systolic surfaces lie outside of what was drawn of them, in the order of
+  /// Plan::drawn [mm]. May be empty without such.
+  std::function<Outcome<std::vector<double>>(const FitParameters&, const Loads& es)> distances = {};
   /// From now on answers for muscle that differs from this one in its factors of segments alone may
   /// be right to first order only; nothing: no more. May be empty.
   std::function<void(const std::optional<FitParameters>& about)> linearise = {};

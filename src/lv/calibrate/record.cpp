@@ -34,6 +34,8 @@ RecordedFit recorded(const Plan& plan, const Fit& fit) {
     record.other_pressures = fit.other_pressures;
   }
   record.segments = fit.segments;
+  if (fit.regional_fit && fit.regional_fit->shape)
+    record.shape = ShapeFit{{}, fit.regional_fit->shape->before, fit.regional_fit->shape->after};
   return record;
 }
 

@@ -28,6 +28,7 @@ struct RecordedFit {
   std::optional<double> klotz_pressure;        ///< of a fit to Klotz's curve [kPa]
   std::vector<OtherPressure> other_pressures;  ///< the same fit for them
   std::vector<FittedSegment> segments = {};    ///< see Fit
+  std::optional<ShapeFit> shape = {};          ///< without the single distances
 };
 
 [[nodiscard]] RecordedFit recorded(const Plan& plan, const Fit& fit);

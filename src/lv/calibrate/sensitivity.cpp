@@ -66,34 +66,37 @@ double by_pressure(const Model& model, const FitParameters& at, const ObservedVo
   return slope(above, under(-down), pressure_step, down, [&] { return under(0.0); });
 }
 
-/// Derivatives of the strains by the parameters' logarithms and by the two pressures.
-struct StrainRows {
-  Eigen::MatrixXd by_parameter;                          ///< dE_i / d ln x_j
-  Eigen::Matrix<double, Eigen::Dynamic, 2> by_pressure;  ///< dE_i/dp_ED, dE_i/dp_ES [1/kPa]
+/// Derivatives of regional values y_i, strains or distances, by the parameters' logarithms and by
+/// the two pressures.
+struct RegionalRows {
+  Eigen::MatrixXd by_parameter;                          ///< dy_i / d ln x_j
+  Eigen::Matrix<double, Eigen::Dynamic, 2> by_pressure;  ///< dy_i/dp_ED, dy_i/dp_ES [./kPa]
 };
 
-StrainRows strain_rows(const Model& model, const FitParameters& at,
-                       const std::vector<Fitted>& parameters, const solid::Loads& ed,
-                       const solid::Loads& es) {
-  const auto strains = [&](const FitParameters& p, double d_ed, double d_es) {
+using RegionalValues = std::function<Outcome<std::vector<double>>(
+    const FitParameters&, const solid::Loads& ed, const solid::Loads& es)>;
+
+RegionalRows regional_rows(const RegionalValues& model, const FitParameters& at,
+                           const std::vector<Fitted>& parameters, const solid::Loads& ed,
+                           const solid::Loads& es) {
+  const auto values = [&](const FitParameters& p, double d_ed, double d_es) {
     return dense::as_vector(
-        model.strains(p, {ed.pressure + d_ed, ed.activation}, {es.pressure + d_es, es.activation})
-            .value());
+        model(p, {ed.pressure + d_ed, ed.activation}, {es.pressure + d_es, es.activation}).value());
   };
   const auto difference = [](const Eigen::VectorXd& above, const Eigen::VectorXd& below,
                              double step) {
     return Eigen::VectorXd((above - below) / (2.0 * step));
   };
-  StrainRows rows;
+  RegionalRows rows;
   const double dp = pressure_step;
-  const Eigen::VectorXd by_ed = difference(strains(at, dp, 0.0), strains(at, -dp, 0.0), dp);
+  const Eigen::VectorXd by_ed = difference(values(at, dp, 0.0), values(at, -dp, 0.0), dp);
   rows.by_parameter.resize(by_ed.size(), static_cast<Eigen::Index>(parameters.size()));
   rows.by_pressure.resize(by_ed.size(), 2);
-  rows.by_pressure << by_ed, difference(strains(at, 0.0, dp), strains(at, 0.0, -dp), dp);
+  rows.by_pressure << by_ed, difference(values(at, 0.0, dp), values(at, 0.0, -dp), dp);
   for (std::size_t j = 0; j < parameters.size(); ++j)
     rows.by_parameter.col(static_cast<Eigen::Index>(j)) = difference(
-        strains(scaled(at, parameters[j], std::exp(parameter_step)), 0.0, 0.0),
-        strains(scaled(at, parameters[j], std::exp(-parameter_step)), 0.0, 0.0), parameter_step);
+        values(scaled(at, parameters[j], std::exp(parameter_step)), 0.0, 0.0),
+        values(scaled(at, parameters[j], std::exp(-parameter_step)), 0.0, 0.0), parameter_step);
   return rows;
 }
 
@@ -111,7 +114,7 @@ Sensitivity sensitivity(const Model& model, const FitParameters& at,
   const auto& [edv, ed, es, errors] = measured;
   const auto n = static_cast<Eigen::Index>(parameters.size());
   const auto m = static_cast<Eigen::Index>(observations.size());
-  Sensitivity s{parameters, Eigen::MatrixXd(m, n), Eigen::VectorXd(m), {}, {}, {}, {}};
+  Sensitivity s{parameters, Eigen::MatrixXd(m, n), Eigen::VectorXd(m), {}, {}, {}, {}, {}};
   Eigen::MatrixXd by_data = Eigen::MatrixXd::Zero(m, 4);  // of ln V_target - ln V, at fixed x
   Eigen::VectorXd weight(m);
   for (Eigen::Index k = 0; k < m; ++k) {
@@ -128,13 +131,24 @@ Sensitivity sensitivity(const Model& model, const FitParameters& at,
   Eigen::MatrixXd J = weight.asDiagonal() * s.by_parameter;
   by_data = weight.asDiagonal() * by_data;
   Eigen::MatrixXd of_errors = s.by_parameter;
-  if (model.strains) {
-    const StrainRows rows = strain_rows(model, at, parameters, ed, es);
-    Eigen::MatrixXd strain_by_data = Eigen::MatrixXd::Zero(rows.by_parameter.rows(), 4);
-    strain_by_data.rightCols(2) = -rows.by_pressure / errors.strain;
-    s.strain_by_parameter = rows.by_parameter;
-    J = below_each_other(J / errors.volume, rows.by_parameter / errors.strain);
-    by_data = below_each_other(by_data / errors.volume, strain_by_data);
+  const auto add_regions = [&](const RegionalValues& values, double error) {
+    const RegionalRows rows = regional_rows(values, at, parameters, ed, es);
+    Eigen::MatrixXd rows_by_data = Eigen::MatrixXd::Zero(rows.by_parameter.rows(), 4);
+    rows_by_data.rightCols(2) = -rows.by_pressure / error;
+    J = below_each_other(J, rows.by_parameter / error);
+    by_data = below_each_other(by_data, rows_by_data);
+    return rows.by_parameter;
+  };
+  if (model.strains || model.distances) {
+    J /= errors.volume;
+    by_data /= errors.volume;
+    if (model.strains)
+      s.strain_by_parameter = add_regions(model.strains, errors.strain);
+    if (model.distances)
+      s.distance_by_parameter =
+          add_regions([&](const FitParameters& p, const solid::Loads&,
+                          const solid::Loads& systole) { return model.distances(p, systole); },
+                      errors.shape);
     of_errors = J;
   }
   s.by_data = dense::least_squares(J, by_data);

@@ -31,6 +31,7 @@ struct ObservedVolume {
 struct Errors {
   double volume = 0.02;  ///< as a fraction
   double strain = 0.03;  ///< of a segment's mean
+  double shape = 2.0;    ///< of the mean distance from a drawn part of a surface [mm]
 };
 
 /// How volumes follow from parameters, and parameters from measurements, near a fit. By central
@@ -43,22 +44,23 @@ struct Sensitivity {
   /// d ln x_j by d ln EDV, d ln ESV, dp_ED and dp_ES [1/kPa], for the weighted least-squares fit.
   Eigen::Matrix<double, Eigen::Dynamic, 4> by_data;
   /// Of the errors of ln x_i and ln x_j when all volumes carry independent errors of equal size (of
-  /// the stated sizes, where strains are fitted besides); near +-1 the data cannot tell the two
-  /// apart.
+  /// the stated sizes, where strains or a shape are fitted besides); near +-1 the data cannot tell
+  /// the two apart.
   Eigen::MatrixXd correlation;
 
-  // where strains are fitted besides
-  Eigen::MatrixXd strain_by_parameter;  ///< dE_i / d ln x_j
-  /// Of the errors of ln x_i and ln x_j for the stated errors of volumes and strains; not yet
+  // where strains or a shape are fitted besides
+  Eigen::MatrixXd strain_by_parameter;    ///< dE_i / d ln x_j
+  Eigen::MatrixXd distance_by_parameter;  ///< dd_i / d ln x_j [mm]
+  /// Of the errors of ln x_i and ln x_j for the stated errors of all that is fitted to; not yet
   /// scaled by how well the model fits.
   Eigen::MatrixXd covariance;
 };
 
-/// What was measured besides the observed volumes. Without `Model::strains`, loads and errors mean
-/// nothing.
+/// What was measured besides the observed volumes. Without `Model::strains` and `distances`, loads
+/// and errors mean nothing.
 struct Measured {
   double edv = 0.0;     ///< [mm^3]
-  solid::Loads ed, es;  ///< between which strains are measured
+  solid::Loads ed, es;  ///< between which strains are measured; the second is the shape's
   Errors errors;
 };
 

@@ -90,17 +90,33 @@ std::string derivative_rows(const Fit& fit) {
 
 /// Measured and fitted strains, and how sure they leave the parameters.
 std::string strain_rows(const Plan& plan, const Fit& fit) {
-  const StrainFit& s = *fit.strain_fit;
+  const RegionalFit& f = *fit.regional_fit;
   std::string text =
       fmt::format("\n  {:<18}{:>10}{:>10}{:>10}\n", "circumf. strain", "measured", "model", "off");
-  for (std::size_t i = 0; i < s.strains.size(); ++i)
+  for (std::size_t i = 0; i < f.strains.size(); ++i)
     text += fmt::format("  {:<18}{:>10.3f}{:>10.3f}{:>10.3f}\n", plan.strains[i].region,
-                        plan.strains[i].value, s.strains[i], s.strains[i] - plan.strains[i].value);
-  text += fmt::format(
-      "  bias {:.3f}, rms {:.3f}; weights 1/{:g} of a strain and 1/{:g} of a volume's "
-      "fraction; chi^2 {:.1f} for {:.1f} degrees of freedom\n",
-      s.bias, s.rms, plan.errors.strain, plan.errors.volume, s.chi_squared, s.degrees_of_freedom);
-  return text;
+                        plan.strains[i].value, f.strains[i], f.strains[i] - plan.strains[i].value);
+  return text + fmt::format("  bias {:.3f}, rms {:.3f}; weight 1/{:g} of a strain\n", f.strain.bias,
+                            f.strain.rms, plan.errors.strain);
+}
+
+/// How far the model's end-systolic surfaces are from the drawn ones.
+std::string shape_rows(const Plan& plan, const ShapeFit& shape) {
+  return fmt::format(
+      "\n  end-systolic surfaces outside of the drawn ones, means of {} parts: bias {:.2f} mm, rms "
+      "{:.2f} mm (fitted to volumes alone: {:.2f}, {:.2f}); weight 1/({:g} mm)\n",
+      plan.drawn.size(), shape.after.bias, shape.after.rms, shape.before.bias, shape.before.rms,
+      plan.errors.shape);
+}
+
+std::string regional_rows(const Plan& plan, const Fit& fit) {
+  const RegionalFit& f = *fit.regional_fit;
+  return (f.strains.empty() ? "" : strain_rows(plan, fit)) +
+         (f.shape ? shape_rows(plan, *f.shape) : "") +
+         fmt::format(
+             "  weight 1/{:g} of a volume's fraction; chi^2 {:.1f} for {:.1f} degrees of "
+             "freedom\n",
+             plan.errors.volume, f.chi_squared, f.degrees_of_freedom);
 }
 
 /// Of a segment's factor.
@@ -135,9 +151,9 @@ std::string segment_rows(const Plan& plan, const Fit& fit) {
 
 /// (J^T J)^-1 for the stated errors, larger when the model fits worse than they allow.
 Eigen::MatrixXd covariance(const Fit& fit) {
-  const StrainFit& s = *fit.strain_fit;
+  const RegionalFit& f = *fit.regional_fit;
   const double misfit =
-      s.degrees_of_freedom > 0 ? s.chi_squared / static_cast<double>(s.degrees_of_freedom) : 1.0;
+      f.degrees_of_freedom > 0 ? f.chi_squared / static_cast<double>(f.degrees_of_freedom) : 1.0;
   return std::max(1.0, misfit) * fit.sensitivity.covariance;
 }
 
@@ -219,11 +235,11 @@ Json klotz_json(const Plan& plan, const Fit& fit) {
 /// In words, which parameters the data cannot tell apart.
 std::vector<std::string> ambiguities(const Plan& plan, const Fit& fit) {
   std::vector<std::string> words;
-  if (plan.passive == FittedPassive::C_a && !fit.strain_fit)
+  if (plan.passive == FittedPassive::C_a && !fit.regional_fit)
     words.emplace_back(
         "One volume determines one passive parameter: how a compares with a_f, a_s and a_fs, and "
         "the exponents, keep the case's values; other values with the same EDV fit as well.");
-  if (plan.passive == FittedPassive::scale && !fit.strain_fit)
+  if (plan.passive == FittedPassive::scale && !fit.regional_fit)
     words.emplace_back(
         "One volume determines one passive parameter: how a, a_f, a_s and a_fs compare, and the "
         "exponents, keep the case's values; other values with the same EDV fit as well.");
@@ -250,7 +266,7 @@ std::vector<std::string> ambiguities(const Plan& plan, const Fit& fit) {
           std::abs(r) > alike ? "these data can hardly tell them apart"
                               : "these data tell them apart"));
     }
-  if (fit.strain_fit)
+  if (fit.regional_fit)
     words.push_back(weakest_direction(fit));
   if (!fit.segments.empty())
     words.emplace_back(
@@ -276,24 +292,48 @@ Json volume_json(const RecordedVolume& volume, const Fit& fit, std::size_t k) {
   return json;
 }
 
+/// Of a region, by the logarithm of each fitted parameter.
+Json slopes_json(const Fit& fit, const Eigen::MatrixXd& by_parameter, std::size_t region) {
+  Json json;
+  const auto& parameters = fit.sensitivity.parameters;
+  for (std::size_t j = 0; j < parameters.size(); ++j)
+    json[parameters[j].name] =
+        by_parameter(static_cast<Eigen::Index>(region), static_cast<Eigen::Index>(j));
+  return json;
+}
+
 Json strains_json(const Plan& plan, const Fit& fit) {
-  const StrainFit& s = *fit.strain_fit;
-  Json json{{"error_of_strain", plan.errors.strain},
-            {"error_of_volume", plan.errors.volume},
-            {"chi_squared", s.chi_squared},
-            {"degrees_of_freedom", s.degrees_of_freedom},
-            {"bias", s.bias},
-            {"rms", s.rms}};
-  for (std::size_t i = 0; i < s.strains.size(); ++i) {
-    Json row{{"region", plan.strains[i].region},
-             {"measured", plan.strains[i].value},
-             {"model", s.strains[i]}};
-    const auto& parameters = fit.sensitivity.parameters;
-    for (std::size_t j = 0; j < parameters.size(); ++j)
-      row["d_dln_parameter"][parameters[j].name] = fit.sensitivity.strain_by_parameter(
-          static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
-    json["regions"].push_back(row);
-  }
+  const RegionalFit& f = *fit.regional_fit;
+  Json json{{"error", plan.errors.strain}, {"bias", f.strain.bias}, {"rms", f.strain.rms}};
+  for (std::size_t i = 0; i < f.strains.size(); ++i)
+    json["regions"].push_back(
+        {{"region", plan.strains[i].region},
+         {"measured", plan.strains[i].value},
+         {"model", f.strains[i]},
+         {"d_dln_parameter", slopes_json(fit, fit.sensitivity.strain_by_parameter, i)}});
+  return json;
+}
+
+Json shape_json(const Plan& plan, const Fit& fit) {
+  const ShapeFit& shape = *fit.regional_fit->shape;
+  const auto misfit = [](const Misfit& m) { return Json{{"bias_mm", m.bias}, {"rms_mm", m.rms}}; };
+  Json json{{"error_mm", plan.errors.shape},
+            {"fitted_to_volumes", misfit(shape.before)},
+            {"fitted", misfit(shape.after)}};
+  for (std::size_t i = 0; i < shape.distances.size(); ++i)
+    json["parts"].push_back(
+        {{"part", plan.drawn[i]},
+         {"distance_mm", shape.distances[i]},
+         {"d_dln_parameter_mm", slopes_json(fit, fit.sensitivity.distance_by_parameter, i)}});
+  return json;
+}
+
+/// Of a fit to more than volumes.
+Json least_squares_json(const Plan& plan, const Fit& fit) {
+  const RegionalFit& f = *fit.regional_fit;
+  Json json{{"error_of_volume", plan.errors.volume},
+            {"chi_squared", f.chi_squared},
+            {"degrees_of_freedom", f.degrees_of_freedom}};
   const Eigen::MatrixXd C = covariance(fit);
   for (Eigen::Index j = 0; j < C.rows(); ++j)
     json["covariance_of_logarithms"].push_back(
@@ -326,9 +366,9 @@ Json uncertainty_json(const Plan& plan, const Fit& fit, std::size_t j) {
 
 std::string text(const Plan& plan, const Fit& fit) {
   std::string text = "calibration with the quasi-static engine\n\n" + volume_rows(fit) +
-                     (fit.strain_fit ? strain_rows(plan, fit) : "") +
+                     (fit.regional_fit ? regional_rows(plan, fit) : "") +
                      (fit.segments.empty() ? "" : segment_rows(plan, fit)) +
-                     parameter_rows(plan, fit) + (fit.strain_fit ? deviation_rows(fit) : "") +
+                     parameter_rows(plan, fit) + (fit.regional_fit ? deviation_rows(fit) : "") +
                      derivative_rows(fit) + "\n";
   if (plan.passive == FittedPassive::scale_and_exponent) {
     const Klotz k = klotz(plan.edv.volume, plan.ed_pressure);
@@ -357,8 +397,13 @@ std::string json(const Plan& plan, const Fit& fit) {
     json["klotz"] = klotz_json(plan, fit);
     json["other_pressures"] = other_pressures_json(fit);
   }
-  if (fit.strain_fit)
-    json["strains"] = strains_json(plan, fit);
+  if (fit.regional_fit) {
+    json["least_squares"] = least_squares_json(plan, fit);
+    if (!plan.strains.empty())
+      json["strains"] = strains_json(plan, fit);
+    if (!plan.drawn.empty())
+      json["shape"] = shape_json(plan, fit);
+  }
   for (const FittedSegment& s : fit.segments)
     json["contractility"].push_back(segment_json(s));
   if (!fit.segments.empty())

@@ -187,6 +187,7 @@ struct Calibration {
   calibrate::Range factor{0.1, 10.0};  ///< of what is fitted to heartbeats, to the case's values
   std::string strains;                 ///< file of regional strains, fitted to besides; empty: none
   StrainMeasure strain_measure = StrainMeasure::green_lagrange;  ///< of that file
+  bool shape = false;        ///< the surfaces that are drawn at end-systole are fitted to besides
   calibrate::Errors errors;  ///< of what was measured, which weigh it
   FittedContractility contractility = FittedContractility::even;
   double contractility_spread = 0.5;  ///< standard deviation of ln factor over segments beforehand

@@ -252,6 +252,9 @@ LV_CONDITION(active_fit, c.calibration.active, "with calibrate.active = true")
 LV_CONDITION(strains_given, !c.calibration.strains.empty(), "with calibrate.strains")
 LV_CONDITION(segments_fitted, c.calibration.contractility == FittedContractility::segments,
              "with calibrate.contractility = \"segments\"")
+LV_CONDITION(shape_fit, c.calibration.shape, "with calibrate.shape = true")
+LV_CONDITION(fit_to_regions, c.calibration.shape || !c.calibration.strains.empty(),
+             "with calibrate.strains or calibrate.shape = true")
 LV_CONDITION(loaded, c.unloaded.pressure > 0.0, "with unloaded.pressure above 0")
 LV_CONDITION(cine, c.strain.asked(), "with the images of strain.cine")
 LV_CONDITION(measured, !c.strain.measured.empty(), "with strain.measured")

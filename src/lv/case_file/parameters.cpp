@@ -1062,6 +1062,10 @@ constexpr Group of_measurements[]{
               "CSV of circumferential strains at end-systole from end-diastole, fitted to "
               "besides the volumes, with columns slice (1 at the base to 7, or aha), segment "
               "(ant, antsept, ..., or 1 to 17) and strain; empty: none"),
+         value("calibrate.shape", LV_AT(calibration.shape),
+               "whether the surfaces that the anatomy's source shows at end-systole are fitted to "
+               "besides the volumes: the mean distance of every sector of 60 degrees of every "
+               "drawn loop, when all loops are moved along the long axis to where they fit best"),
      }},
     {Stages(Stage::calibrate),
      {&strains_given},
@@ -1072,10 +1076,22 @@ constexpr Group of_measurements[]{
          number("calibrate.strain_error", LV_AT(calibration.errors.strain), "",
                 above_up_to(0.0, 1.0),
                 "standard deviation of those strains: each weighs 1/strain_error"),
+     }},
+    {Stages(Stage::calibrate),
+     {&shape_fit},
+     {
+         number("calibrate.shape_error", LV_AT(calibration.errors.shape), "mm",
+                above_up_to(0.0, 100.0),
+                "standard deviation of those distances: each weighs 1/shape_error; the default is "
+                "about as far as borders of end-systole by two hands lie from each other"),
+     }},
+    {Stages(Stage::calibrate),
+     {&fit_to_regions},
+     {
          number("calibrate.volume_error", LV_AT(calibration.errors.volume), "",
                 above_up_to(0.0, 1.0),
                 "standard deviation of the volumes, as a fraction, where "
-                "strains are fitted besides"),
+                "strains or a shape are fitted besides"),
      }},
     {mechanics,
      {&strains_given},
@@ -1713,7 +1729,7 @@ const std::vector<Section>& sections() {
       {"pericardium", "What holds the epicardium: springs and dashpots to where it was undeformed"},
       {"unloaded", "The shape without load, when the one that was seen is a loaded one"},
       {"calibrate",
-       "Fitting of passive and active parameters to measured volumes and strains, and of "
+       "Fitting of passive and active parameters to measured volumes, strains and shape, and of "
        "heartbeats to volumes and a cuff's pressures, with the quasi-static engine"},
       {"strain", "Strain measured from cine images, and what the model's is compared with"},
       {"circulation",

@@ -77,14 +77,21 @@ class SurfaceDistance::Tree {
     boxes_ = decltype(boxes_)(entries);
   }
 
-  /// The nearest corner bounds the distance; only triangles within that bound are measured.
-  [[nodiscard]] double distance(const Vec3& x) const {
+  /// The nearest corner bounds the distance; only triangles within that bound are measured. The
+  /// sign is that of the nearest of them.
+  [[nodiscard]] double signed_distance(const Vec3& x) const {
     double nearest = squared_distance_to_corner(x);
+    bool is_behind = false;
     const Vec3 reach = Vec3::Constant(std::sqrt(nearest));
     const Box near(to_point(x - reach), to_point(x + reach));
-    for (auto entry = boxes_.qbegin(bg::index::intersects(near)); entry != boxes_.qend(); ++entry)
-      nearest = std::min(nearest, squared_distance(x, triangles_[entry->second]));
-    return std::sqrt(nearest);
+    for (auto entry = boxes_.qbegin(bg::index::intersects(near)); entry != boxes_.qend(); ++entry) {
+      const Triangle& t = triangles_[entry->second];
+      if (const double d = squared_distance(x, t); d <= nearest) {
+        nearest = d;
+        is_behind = (t[1] - t[0]).cross(t[2] - t[0]).dot(x - t[0]) < 0.0;
+      }
+    }
+    return is_behind ? -std::sqrt(nearest) : std::sqrt(nearest);
   }
 
  private:
@@ -109,7 +116,11 @@ SurfaceDistance::SurfaceDistance(SurfaceDistance&&) noexcept = default;
 SurfaceDistance& SurfaceDistance::operator=(SurfaceDistance&&) noexcept = default;
 
 double SurfaceDistance::operator()(const Vec3& x) const {
-  return tree_->distance(x);
+  return std::abs(tree_->signed_distance(x));
+}
+
+double SurfaceDistance::signed_distance(const Vec3& x) const {
+  return tree_->signed_distance(x);
 }
 
 }  // namespace lv::mesh

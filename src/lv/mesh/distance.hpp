@@ -18,6 +18,8 @@ class SurfaceDistance {
 
   /// min |x - y| over the points y of the surface [mm]
   [[nodiscard]] double operator()(const Vec3& x) const;
+  /// The same, negative where x lies behind the surface: its normals point away from x [mm].
+  [[nodiscard]] double signed_distance(const Vec3& x) const;
 
  private:
   class Tree;

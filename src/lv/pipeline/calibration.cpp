@@ -1,5 +1,6 @@
 #include "lv/pipeline/calibration.hpp"
 
+#include "lv/anatomy/shape_distance.hpp"
 #include "lv/base/dense.hpp"
 #include "lv/base/log.hpp"
 #include "lv/base/parallel.hpp"
@@ -65,12 +66,31 @@ std::vector<int> segments_of(const std::vector<strain::RegionStrain>& targets,
   return {segments.begin(), segments.end()};
 }
 
-calibrate::Plan plan(const Case& c, const std::vector<strain::RegionStrain>& targets,
-                     const mesh::Regions& regions) {
+/// What is fitted to besides volumes.
+struct Targets {
+  std::vector<strain::RegionStrain> strains;
+  std::vector<anatomy::DrawnPart> drawn;
+};
+
+Targets targets_of(const Case& c, const anatomy::MeshResult& mesh,
+                   const std::filesystem::path& folder) {
+  Targets targets{cine::strain_targets(c, mesh.regions), {}};
+  if (c.calibration.shape) {
+    const anatomy::AnatomyRecord anatomy = anatomy_beside(folder);
+    targets.drawn =
+        anatomy::drawn_parts(anatomy.frame.value(), anatomy.end_systole, c.regions.septum_angle);
+  }
+  return targets;
+}
+
+calibrate::Plan plan(const Case& c, const Targets& targets, const mesh::Regions& regions) {
   const case_file::Calibration& k = c.calibration;
   std::vector<calibrate::MeasuredStrain> strains;
-  for (const strain::RegionStrain& target : targets)
+  for (const strain::RegionStrain& target : targets.strains)
     strains.push_back({target.region, target.strain});
+  std::vector<std::string> drawn;
+  for (const anatomy::DrawnPart& part : targets.drawn)
+    drawn.push_back(part.name);
   return {k.passive,
           k.active,
           c.protocol.ed_pressure,
@@ -84,9 +104,10 @@ calibrate::Plan plan(const Case& c, const std::vector<strain::RegionStrain>& tar
           strains,
           k.errors,
           k.contractility == case_file::FittedContractility::segments
-              ? segments_of(targets, regions)
+              ? segments_of(targets.strains, regions)
               : std::vector<int>{},
-          k.contractility_spread};
+          k.contractility_spread,
+          drawn};
 }
 
 /// Names of the parameters that are fitted at given pressures.
@@ -188,9 +209,8 @@ struct FittedWall {
   std::optional<implicit::Unloaded> unloaded;
 };
 
-FittedWall fit_wall(const Case& c, const anatomy::MeshResult& mesh,
-                    const std::vector<strain::RegionStrain>& targets, const calibrate::Plan& task,
-                    const FitStart& start, const FitLog& kept) {
+FittedWall fit_wall(const Case& c, const anatomy::MeshResult& mesh, const Targets& targets,
+                    const calibrate::Plan& task, const FitStart& start, const FitLog& kept) {
   calibrate::Ventricle ventricle(
       mesh.mesh, [&](const FitParameters& p) { return case_file::static_model(with(c, p)); },
       c.quasi_static.solver, c.unloaded);
@@ -214,7 +234,18 @@ FittedWall fit_wall(const Case& c, const anatomy::MeshResult& mesh,
     const auto end_systole = ventricle.positions(p, es);
     if (!end_systole)
       return end_systole.why();
-    return cine::regional_strains(c, ventricle.wall(), targets, *end_diastole, *end_systole);
+    return cine::regional_strains(c, ventricle.wall(), targets.strains, *end_diastole,
+                                  *end_systole);
+  };
+  const auto distances = [&](const FitParameters& p, const Loads& es) -> Outcome<Numbers> {
+    const auto end_systole = ventricle.positions(p, es);
+    if (!end_systole)
+      return end_systole.why();
+    Numbers found(targets.drawn.size());
+    parallel::on_root(
+        [&] { found = anatomy::mean_distances(mesh.mesh, *end_systole, targets.drawn); });
+    parallel::broadcast(found);
+    return found;
   };
   const calibrate::Model model{
       [&](const FitParameters& p, const Loads& loads) {
@@ -224,9 +255,10 @@ FittedWall fit_wall(const Case& c, const anatomy::MeshResult& mesh,
       [&](const FitParameters& p, const Loads& ed, const Loads& es) {
         return record.answer([&] { return strains(p, ed, es); });
       },
-      [&](const std::optional<FitParameters>& about) {
-        ventricle.linearise(about, task.segments);
+      [&](const FitParameters& p, const Loads& es) {
+        return record.answer([&] { return distances(p, es); });
       },
+      [&](const std::optional<FitParameters>& about) { ventricle.linearise(about, task.segments); },
       [&] { return ventricle.folded_volume(); }};
   calibrate::Fit fit = calibrate::fit(model, start.parameters, task, kept.forecast);
   ventricle.unloaded_volume(fit.parameters).value();
@@ -238,6 +270,7 @@ calibrate::Plan alone(calibrate::Plan task) {
   task.parameters_alone = true;
   task.strains.clear();
   task.segments.clear();
+  task.drawn.clear();
   return task;
 }
 
@@ -416,7 +449,7 @@ std::vector<calibrate::FittedMesh> walls_of(const Case& c,
 void fit_muscle(const Case& c, const anatomy::MeshResult& mesh,
                 const std::optional<anatomy::MeshResult>& coarse,
                 const std::filesystem::path& folder) {
-  const std::vector<strain::RegionStrain> targets = cine::strain_targets(c, mesh.regions);
+  const Targets targets = targets_of(c, mesh, folder);
   calibrate::Plan task = plan(c, targets, mesh.regions);
   const bool klotz = task.passive == FittedPassive::klotz;
   set_seen_volume(c, mesh, task);
@@ -592,8 +625,11 @@ FitRecord fit_record(const Case& c, const std::filesystem::path& calibration,
     all.volumes.push_back(
         {v.name, v.measured, v.quasi_static, v.beat, v.within(c.calibration.tolerance)});
   const calibrate::RecordedFit fit = read_fit(calibration);
-  if (c.calibration.passive == FittedPassive::klotz)
+  if (fit.klotz_pressure)
     add_klotz(fit, all);
+  if (fit.shape)
+    all.shape = report::FittedShape{fit.shape->after.rms, fit.shape->after.bias,
+                                    fit.shape->before.rms, fit.shape->before.bias};
   all.segments = fit.segments;
   return all;
 }

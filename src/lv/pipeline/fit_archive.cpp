@@ -137,6 +137,10 @@ void store(const RecordedFit& fit, Archive& archive) {
                                                    : std::vector<double>{});
   store_other_pressures(fit, archive);
   store_segments(fit, archive);
+  if (fit.shape) {
+    const auto& [distances, before, after] = *fit.shape;
+    archive.set("shape", {before.rms, before.bias, after.rms, after.bias});
+  }
 }
 
 RecordedFit load_fit(const Archive& archive) {
@@ -146,6 +150,10 @@ RecordedFit load_fit(const Archive& archive) {
     fit.klotz_pressure = archive.number("klotz_pressure");
   load_other_pressures(archive, fit);
   load_segments(archive, fit);
+  if (archive.has("shape")) {
+    const auto& row = archive.get_rows("shape", 4, 1);
+    fit.shape = calibrate::ShapeFit{{}, {row[0], row[1]}, {row[2], row[3]}};
+  }
   return fit;
 }
 

@@ -124,6 +124,12 @@ void check_measured_volumes(const Case& c, const anatomy::Shape& shape) {
   const case_file::Calibration& k = c.calibration;
   const bool klotz = k.passive == FittedPassive::klotz;
   const bool loaded = case_file::is_loaded(c);
+  if (k.shape && shape.end_systole.empty())
+    throw InputError(case_file::place_of(c, "calibrate.shape"),
+                     "is true, and the source of the anatomy shows no surface at end-systole to "
+                     "fit to",
+                     "Give loops at end-systole (anatomy.contours.es_short_axis), or a source with "
+                     "both moments; or set calibrate.shape = false");
   if (!k.asked() || (loaded && !klotz))
     return;  // what a loaded wall holds without load is not known before, but for Klotz's curve
   const auto [cavity, wall] = volumes_of(shape);

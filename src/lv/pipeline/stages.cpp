@@ -292,12 +292,6 @@ void draw(const Case& c, const mesh::Mesh& mesh, const heartbeat::Beat& beat,
     write_cycle(*beat.cycle, report::curves_table(beat.curves), folder);
 }
 
-/// What the anatomy's stage left beside the folder of another stage.
-anatomy::AnatomyRecord anatomy_beside(const std::filesystem::path& folder) {
-  const auto stage = stage_folder(static_cast<std::size_t>(case_file::Stage::anatomy));
-  return anatomy::anatomy_record(folder.parent_path() / stage);
-}
-
 /// What the model's strains come to beside measured ones, if there are any.
 std::string beside_measured(const Case& c, const anatomy::MeshResult& mesh, const BeatResult& beat,
                             const analysis::BeatFields& fields,
@@ -365,6 +359,11 @@ std::string write_results(const Case& c, const anatomy::MeshResult& mesh, const 
 }
 
 }  // namespace
+
+anatomy::AnatomyRecord anatomy_beside(const std::filesystem::path& folder) {
+  const auto stage = stage_folder(static_cast<std::size_t>(case_file::Stage::anatomy));
+  return anatomy::anatomy_record(folder.parent_path() / stage);
+}
 
 void check_room(const Case& c, const mesh::Mesh& mesh) {
   if (c.engine != case_file::EngineChoice::immersed)
@@ -466,6 +465,7 @@ std::string make_results(const Case& c, const anatomy::MeshResult& mesh, const B
     if (!fitted.segments.empty())
       facts.contractility = calibrate::contractility_table(fitted.segments);
     facts.klotz = fitted.klotz;
+    facts.fitted_shape = fitted.shape;
     facts.fitted_beats = beside_beat(fitted.beats, beat.beat, c.calibration.tolerance);
     facts.unloaded = unloaded;
     facts.scar = scar_facts(c, mesh);

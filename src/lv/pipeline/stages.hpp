@@ -24,6 +24,9 @@ void check_room(const case_file::Case& c, const mesh::Mesh& mesh);
 void show_mesh(const anatomy::MeshResult& result, const case_file::Case& c,
                const std::filesystem::path& folder);
 
+/// What the anatomy's stage left beside the folder of another stage.
+[[nodiscard]] anatomy::AnatomyRecord anatomy_beside(const std::filesystem::path& folder);
+
 /// Runs the beat in `folder`, writing fields and curves as it goes; collective.
 [[nodiscard]] heartbeat::Beat make_beat(const case_file::Case& c, const anatomy::MeshResult& mesh,
                                         const std::filesystem::path& folder);
@@ -35,6 +38,7 @@ struct FitRecord {
   std::vector<calibrate::FittedSegment> segments;  ///< factors of contractility, if fitted
   std::vector<beating_wall::FittedDatum>
       beats;  ///< what heartbeats were fitted to; empty unless they were
+  std::optional<report::FittedShape> shape;
   std::vector<geometry::Assumption> assumed;
 };
 

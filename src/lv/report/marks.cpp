@@ -95,6 +95,7 @@ Marks marks(const RunFacts& facts, const std::vector<std::string>& moments) {
               {"klotz", Mark::assumed},
               {"klotz.model_ml", Mark::fitted},
               {"contractility", Mark::fitted},
+              {"shape_fitted", Mark::fitted},
               {"infarct", facts.scar_is_measured ? Mark::measured : Mark::assumed},
               {"infarct_segments", facts.scar_is_measured ? Mark::measured : Mark::assumed},
               {"unloaded", Mark::computed},

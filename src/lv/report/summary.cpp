@@ -239,6 +239,11 @@ void add_fits(const RunFacts& facts, Json& json) {
                              {"pressure_mmHg", number(v.pressure / mmHg)},
                              {"target_ml", number(1e-3 * v.target)},
                              {"model_ml", number(1e-3 * v.model)}});
+  if (const auto& shape = facts.fitted_shape)
+    json["shape_fitted"] = {{"rms_mm", number(shape->rms)},
+                            {"bias_mm", number(shape->bias)},
+                            {"rms_before_mm", number(shape->rms_before)},
+                            {"bias_before_mm", number(shape->bias_before)}};
 }
 
 /// The rows of contractility.csv.

@@ -40,6 +40,13 @@ struct KlotzVolume {
   double model = 0.0;     ///< [mm^3]
 };
 
+/// By how much end-systolic surfaces lie outside of the drawn ones that they were fitted to, by the
+/// means of their parts; and where they were fitted to volumes alone [mm].
+struct FittedShape {
+  double rms = 0.0, bias = 0.0;
+  double rms_before = 0.0, bias_before = 0.0;
+};
+
 /// The wall without load that was found from a loaded one, and how well.
 struct UnloadedShape {
   double pressure = 0.0;         ///< under which the wall was seen [kPa]
@@ -87,8 +94,9 @@ struct RunFacts {
   std::vector<std::string> fitted_parameters, measured_parameters;  ///< names
   std::vector<FittedVolume> fitted;                                 ///< of a calibrated case
   std::vector<KlotzVolume> klotz;                                   ///< of a fit to that curve
-  std::optional<Table> contractility;      ///< contractility.csv of a fit to strain
-  std::vector<FittedOfBeat> fitted_beats;  ///< of a case whose heartbeats were fitted
+  std::optional<Table> contractility;       ///< contractility.csv of a fit to strain
+  std::optional<FittedShape> fitted_shape;  ///< of a fit to one
+  std::vector<FittedOfBeat> fitted_beats;   ///< of a case whose heartbeats were fitted
   std::optional<UnloadedShape> unloaded;
   std::vector<SegmentScar> scar;  ///< empty without infarct
 };

@@ -104,7 +104,7 @@ void strain_twin(Findings& found) {
   const calibrate::Fit fit = calibrate::fit(model, {.C_a = 1.0, .T_scale = 3.0}, plan);
   found.add_within("C_a", fit.parameters.C_a, truth.C_a, 0.01);
   found.add_within("T_scale", fit.parameters.T_scale, truth.T_scale, 0.01);
-  found.add_error("rms misfit of 18 segments' strains", fit.strain_fit->rms, 5e-4);
+  found.add_error("rms misfit of 18 segments' strains", fit.regional_fit->strain.rms, 5e-4);
 }
 
 }  // namespace lv::verify

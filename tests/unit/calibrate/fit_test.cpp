@@ -196,9 +196,9 @@ TEST_CASE("volumes and strains of a twin give its parameters back", "[calibrate]
   const Fit found = fit(with_strains, {.C_a = 1.0, .T_scale = 3.0}, p);
   CHECK(found.parameters.C_a == Approx(truth.C_a).epsilon(1e-3));
   CHECK(found.parameters.T_scale == Approx(truth.T_scale).epsilon(1e-3));
-  REQUIRE(found.strain_fit);
-  CHECK(found.strain_fit->rms < 1e-5);
-  CHECK(found.strain_fit->degrees_of_freedom == Approx(2.0));
+  REQUIRE(found.regional_fit);
+  CHECK(found.regional_fit->strain.rms < 1e-5);
+  CHECK(found.regional_fit->degrees_of_freedom == Approx(2.0));
 }
 
 TEST_CASE("the covariance of a fit to strains is that of its linear model", "[calibrate]") {
@@ -244,7 +244,7 @@ TEST_CASE("factors of segments are drawn to 1 as far as the penalty determines t
   CHECK(found.parameters.segments[6] == found.segments[0].factor);
   CHECK(found.parameters.segments[0] == 1.0);
   CHECK(found.parameters.T_scale == Approx(4.0).epsilon(1e-3));
-  CHECK(found.strain_fit->degrees_of_freedom ==
+  CHECK(found.regional_fit->degrees_of_freedom ==
         Approx(2.0 - 2.0 * data / (data + penalty)).epsilon(1e-3));
 }
 
@@ -256,7 +256,38 @@ TEST_CASE("a fit that the strains pull off its volumes is reported, not refused"
   p.errors = {.volume = 0.02, .strain = 0.01};
   const Fit found = fit({volume, unloaded_volume, strains}, truth, p);
   CHECK(std::abs(found.esv / p.esv.volume - 1.0) > p.tolerance);
-  CHECK(found.strain_fit->chi_squared > 1.0);
+  CHECK(found.regional_fit->chi_squared > 1.0);
+}
+
+TEST_CASE(
+    "a fit to a shape weighs distances by their error, and its covariance is that of the "
+    "linear model",
+    "[calibrate]") {
+  const FitParameters truth{.C_a = 2.5, .T_scale = 4.0};
+  Plan p = plan_for(truth);
+  p.esv.volume *= 1.1;
+  p.drawn = {"1 endo ant", "1 endo inf"};
+  p.errors = {.volume = 0.02, .shape = 0.5};
+  const double es_volume = volume(truth, {p.es_pressure, 1.0});
+  const auto distances = [&](const FitParameters& q, const Loads& es) {
+    const double larger = std::log(volume(q, es) / es_volume);
+    return lv::Outcome<std::vector<double>>(std::vector<double>{20.0 * larger, 10.0 * larger});
+  };
+  const Fit found = fit({volume, unloaded_volume, {}, distances}, {.T_scale = 3.0}, p);
+  // of x = ln(V/V_truth): (x - ln 1.1)/0.02 and 20 x/0.5, 10 x/0.5, near enough
+  const double x = std::log(1.1) * 2500.0 / (2500.0 + 1600.0 + 400.0);
+  CHECK(std::log(found.esv / es_volume) == Approx(x).epsilon(0.1));
+  REQUIRE(found.regional_fit);
+  CHECK(found.regional_fit->degrees_of_freedom == 2);
+  const ShapeFit& shape = found.regional_fit->shape.value();
+  CHECK(shape.before.rms == Approx(std::sqrt(250.0) * std::log(1.1)).epsilon(1e-3));
+  CHECK(shape.after.bias == Approx(15.0 * std::log(found.esv / es_volume)));
+  const Sensitivity& s = found.sensitivity;
+  Eigen::MatrixXd J(4, 2);
+  J << s.by_parameter / 0.02, s.distance_by_parameter / 0.5;
+  const Eigen::MatrixXd C = (J.transpose() * J).inverse();
+  CHECK((s.covariance - C).norm() < 1e-6 * C.norm());
+  CHECK(s.distance_by_parameter(0, 1) == Approx(2.0 * s.distance_by_parameter(1, 1)));
 }
 
 TEST_CASE("of a volume with a maximum the stiffer root is found, and the maximum named",

@@ -22,6 +22,8 @@ TEST_CASE("distances to a triangle are those to its face, edges and corners", "[
   const mesh::SurfaceDistance distance(nodes, triangles({0, 1, 2}));
   CHECK(distance({1, 1, 2}) == Approx(2.0));
   CHECK(distance({1, 1, -2}) == Approx(2.0));
+  CHECK(distance.signed_distance({1, 1, 2}) == Approx(2.0));
+  CHECK(distance.signed_distance({1, 1, -2}) == Approx(-2.0));
   CHECK(distance({1, 1, 0}) == 0.0);
   CHECK(distance({1, -2, 0}) == Approx(2.0));
   CHECK(distance({1, -3, 4}) == Approx(5.0));

@@ -46,6 +46,7 @@ TEST_CASE("a fit is read with its derivatives and with other pressures, to the l
   written.other_pressures.push_back({13.0, {{1.0, 2.5, 1.5, 4.0}}, 55e3, ""});
   written.parameters.segments[6] = 1.0 / 7.0;
   written.segments.push_back({7, 1.0 / 7.0, 0.2, 0.4});
+  written.shape = calibrate::ShapeFit{{}, {2.0, 0.5}, {1.0 / 3.0, -0.125}};
   heartbeat::Archive archive;
   pipeline::store(written, archive);
   archive.write(folder / "calibration.bin");
@@ -65,6 +66,8 @@ TEST_CASE("a fit is read with its derivatives and with other pressures, to the l
   CHECK(fit.segments[0].factor == 1.0 / 7.0);
   CHECK(fit.segments[0].error == 0.2);
   CHECK(fit.segments[0].resolution == 0.4);
+  CHECK(fit.shape.value().before.rms == 2.0);
+  CHECK(fit.shape->after.bias == -0.125);
   archive.set_words("fitted", {"scale", "colour"});
   CHECK_THROWS_AS(pipeline::load_fit(archive), RunError);
 }
