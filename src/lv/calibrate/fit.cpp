@@ -400,7 +400,7 @@ class Fitter {
     const auto residuals = [&](const Eigen::VectorXd& x) -> Outcome<Eigen::VectorXd> {
       const auto r = weighted_residuals(moved_to(fitted, x));
       if (!r)
-        return r;
+        return r.why();
       Eigen::VectorXd all(r->size() + segments);
       all << *r, x.tail(segments) / plan_.spread;
       return all;
