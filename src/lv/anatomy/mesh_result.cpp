@@ -98,6 +98,7 @@ MeshResult read_mesh_result(const std::filesystem::path& folder, const mesh::Fib
   result.regions = {archive.get_whole("slice", cells, {1.0, mesh::slice_count}),
                     archive.get_whole("sector", cells, {1.0, mesh::sectors_of_slice(1)}),
                     archive.get_whole("aha", cells, {1.0, 17.0})};
+  m.segment = result.regions.aha;
   return result;
 }
 

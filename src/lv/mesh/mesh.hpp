@@ -59,6 +59,9 @@ struct Mesh {
   std::vector<double> transmural;  ///< per node: 0 on the endocardium, 1 on the epicardium
   std::vector<double> infarct;     ///< per node: M(X) of (2.11), 0 in healthy muscle
   Fibres fibres;
+  /// Per cell: the segment of the American Heart Association whose muscle it is, 1 to 17; empty:
+  /// the muscle is the same everywhere.
+  std::vector<int> segment;
 
   [[nodiscard]] int cell_count() const {
     return static_cast<int>(cells.size()) / nodes_per_cell(kind);

@@ -375,6 +375,7 @@ anatomy::MeshResult make_mesh(const Case& c, const anatomy::Shape& shape) {
     result.infarcted = mesh::refine_numbers(result.infarcted);
   }
   result.regions = mesh::divide(result.mesh, c.regions);
+  result.mesh.segment = result.regions.aha;
   return result;
 }
 

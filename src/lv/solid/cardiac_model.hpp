@@ -12,6 +12,9 @@ struct CardiacModel {
   material::Myocardium myocardium{};
   BasalSupport base{};
   Surroundings surroundings{};
+  /// Of the right ventricle on the septum's epicardium, as a part of the cavity's; under the
+  /// implicit engine alone.
+  double septal_pressure = 0.0;
 };
 
 }  // namespace lv::solid

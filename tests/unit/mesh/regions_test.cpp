@@ -1,5 +1,9 @@
 #include "lv/mesh/regions.hpp"
 
+#include "lv/geometry/ellipsoid.hpp"
+#include "lv/mesh/surface.hpp"
+#include "lv/mesh/wall_mesh.hpp"
+
 #include "mesh_io/mesh_files.hpp"
 #include "support/block_mesh.hpp"
 #include <Eigen/Geometry>
@@ -172,4 +176,22 @@ TEST_CASE("sectors are counted about the cavity's centre in their slice", "[unit
   for (int c = 0; c < upright.cell_count(); ++c)
     moved += regions.sector[c] != expected.sector[c] ? 1 : 0;
   CHECK(moved < upright.cell_count() / 20);  // cells at a border may change sides
+}
+
+TEST_CASE("the septum is what of the epicardium lies between the insertions", "[unit][mesh]") {
+  for (const int order : {1, 2}) {
+    Mesh wall =
+        mesh::wall_mesh([e = geometry::Ellipsoid{}](double u, double theta,
+                                                    double t) { return e.point(u, theta, t); },
+                        {.edge_length = 5.0, .layers = 2, .order = order});
+    CHECK(mesh::septum(wall).nodes.empty());  // without segments
+    wall.segment = mesh::divide(wall, {}).aha;
+    const mesh::Surface found = mesh::septum(wall);
+    CHECK(mesh::area(wall.nodes, found) ==
+          Approx(0.31 * mesh::area(wall.nodes, wall.epi)).epsilon(0.1));
+    for (int f = 0; f < found.size(); ++f) {
+      const Vec3 x = mesh::face_centre(wall.nodes, found.face(f));
+      CHECK(std::abs(std::atan2(x.y(), x.x())) < 1.3);  // 60 degrees, and half of a side
+    }
+  }
 }
