@@ -132,7 +132,7 @@ Sensitivity sensitivity(const Model& model, const FitParameters& at,
   by_data = weight.asDiagonal() * by_data;
   Eigen::MatrixXd of_errors = s.by_parameter;
   const auto add_regions = [&](const RegionalValues& values, double error) {
-    const RegionalRows rows = regional_rows(values, at, parameters, ed, es);
+    const RegionalRows rows = regional_rows(values, at, parameters, measured.ed, measured.es);
     Eigen::MatrixXd rows_by_data = Eigen::MatrixXd::Zero(rows.by_parameter.rows(), 4);
     rows_by_data.rightCols(2) = -rows.by_pressure / error;
     J = below_each_other(J, rows.by_parameter / error);

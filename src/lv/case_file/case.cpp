@@ -77,9 +77,9 @@ solid::CardiacModel cardiac_model(const Case& c) {
 }
 
 implicit::StaticModel static_model(const Case& c) {
-  implicit::StaticModel model(
-      {myocardium(c), quasi_static_support(c), c.surroundings, segment_factors(c)},
-      c.protocol.calcium, c.quasi_static.stabilisation);
+  implicit::StaticModel model({myocardium(c), quasi_static_support(c), c.surroundings,
+                               segment_factors(c), c.septal_pressure},
+                              c.protocol.calcium, c.quasi_static.stabilisation);
   if (c.bulk_modulus > 0.0)
     model.compressibility.kappa = c.bulk_modulus;
   if (c.protocol.cycle.inertia)

@@ -256,6 +256,7 @@ struct Case {
   solid::BasalSupport base;
   heartbeat::BaseMotionParameters base_motion;
   solid::Surroundings surroundings;
+  double septal_pressure = 0.0;  ///< as a part of the cavity's
   activation::ActivationParameters activation;
   EngineChoice engine = EngineChoice::immersed;
   QuasiStatic quasi_static;

@@ -60,6 +60,7 @@ LV_CONDITION(heartbeats, beats_in(c, s), "with protocol.kind = \"cycle\"")
 LV_CONDITION(of_beats, s != Stage::calibrate || c.calibration.cycle, "of the beat")
 LV_CONDITION(paper_protocol, s == Stage::calibrate ? c.calibration.fits_muscle() : !is_cycle(c),
              "with protocol.kind = \"paper\"")
+LV_CONDITION(no_beats, !is_cycle(c), "with protocol.kind = \"paper\"")
 LV_CONDITION(filled_in_time, c.engine == EngineChoice::immersed || !is_cycle(c),
              "with engine = \"immersed\" or protocol.kind = \"paper\"")
 LV_CONDITION(calcium_in_time,

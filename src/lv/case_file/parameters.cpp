@@ -963,6 +963,14 @@ constexpr Group of_blood_and_base[]{
          number("pericardium.weight_steepness", LV_AT(surroundings.epicardium.weight.steepness), "",
                 positive, "see weight; the default is that of pyansys-heart"),
      }},
+    {mechanics,
+     {&static_beat, &no_beats},
+     {
+         number("septum.pressure_share", LV_AT(septal_pressure), "", between(0.0, 1.0),
+                "pressure of the right ventricle on the septum, as a part of the cavity's: on the "
+                "epicardium of the AHA segments 2, 3, 8, 9 and 14, between the insertions; 0: none "
+                "(in healthy people about 0.2 at end-systole, 0.5 at end-diastole)"),
+     }},
 };
 
 constexpr Group of_measurements[]{
@@ -1727,6 +1735,7 @@ const std::vector<Section>& sections() {
       {"coupling", "How the wall's finite elements meet the grid"},
       {"base", "How the basal plane is held"},
       {"pericardium", "What holds the epicardium: springs and dashpots to where it was undeformed"},
+      {"septum", "What the right ventricle does to the septum"},
       {"unloaded", "The shape without load, when the one that was seen is a loaded one"},
       {"calibrate",
        "Fitting of passive and active parameters to measured volumes, strains and shape, and of "

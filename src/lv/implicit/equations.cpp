@@ -5,6 +5,7 @@
 #include "lv/implicit/constitution.hpp"
 #include "lv/implicit/element_product.hpp"
 #include "lv/material/tangent_algebra.hpp"
+#include "lv/mesh/regions.hpp"
 #include "lv/mesh/shapes.hpp"
 
 #include <algorithm>
@@ -200,6 +201,7 @@ Equations::Equations(const mesh::Mesh& mesh, const StaticModel& model)
     : mesh_(mesh),
       wall_(reference_wall(mesh)),
       endocardium_(mesh),
+      septum_(mesh, mesh::septum(mesh)),
       model_(for_order(model, mesh.order)),
       supports_(mesh, model.heart.base, model.heart.surroundings),
       contractility_(at_points(mesh::at_nodes(mesh, model.heart.contractility))),
@@ -279,7 +281,7 @@ std::vector<double> Equations::residual(const State& state, double pressure,
   if (parallel::any(inverted))
     return {};
   std::vector<Vec3> forces(state.positions.size(), Vec3::Zero());
-  endocardium_.add_gradient(pressure, state.positions, forces);
+  add_pressure(pressure, state.positions, forces);
   const std::vector<Vec3> v =
       motion != nullptr ? motion->velocities(state.positions) : std::vector<Vec3>{};
   supports_.add_forces(state.positions, v, forces, base);
@@ -298,9 +300,15 @@ std::vector<double> Equations::summed(std::span<const Vec3> of_nodes) const {
   return all;
 }
 
+void Equations::add_pressure(double pressure, std::span<const Vec3> positions,
+                             std::span<Vec3> forces) const {
+  endocardium_.add_gradient(pressure, positions, forces);
+  septum_.add_gradient(model_.heart.septal_pressure * pressure, positions, forces);
+}
+
 std::vector<double> Equations::pressure_force(const State& state) const {
   std::vector<Vec3> force(state.positions.size(), Vec3::Zero());
-  endocardium_.add_gradient(1.0, state.positions, force);
+  add_pressure(1.0, state.positions, force);
   return summed(force);
 }
 
@@ -357,6 +365,7 @@ void Equations::tangent(const State& state, double pressure, const TensionAt& te
     K.add(at, block);
   };
   endocardium_.add_hessian(-pressure, state.positions, add);
+  septum_.add_hessian(-model_.heart.septal_pressure * pressure, state.positions, add);
   const double slope = motion != nullptr ? motion->velocity_slope : 0.0;
   supports_.add_stiffness(slope, add);
   K.finish();

@@ -230,9 +230,12 @@ class Equations {
                               const Motion* motion) const;
   [[nodiscard]] std::vector<double> summed(std::span<const Vec3> of_nodes) const;
 
+  /// Adds the forces of the cavity's pressure, and of the right ventricle's on the septum.
+  void add_pressure(double pressure, std::span<const Vec3> positions, std::span<Vec3> forces) const;
+
   const mesh::Mesh& mesh_;
   ReferenceWall wall_;
-  solid::EndocardialSurface endocardium_;
+  solid::EndocardialSurface endocardium_, septum_;
   StaticModel model_;
   solid::Supports supports_;
   std::vector<double> contractility_;

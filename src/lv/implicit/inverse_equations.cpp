@@ -3,6 +3,7 @@
 #include "lv/base/parallel.hpp"
 #include "lv/implicit/element_product.hpp"
 #include "lv/material/tangent_algebra.hpp"
+#include "lv/mesh/regions.hpp"
 #include "lv/mesh/undeformed_wall.hpp"
 
 #include <Eigen/LU>
@@ -142,6 +143,8 @@ std::vector<double> InverseEquations::residual(const Reference& reference, doubl
   });
   std::vector<Vec3> forces(seen_.nodes.size(), Vec3::Zero());
   solid::EndocardialSurface(seen_).add_gradient(pressure, seen_.nodes, forces);
+  solid::EndocardialSurface(seen_, mesh::septum(seen_))
+      .add_gradient(model_.heart.septal_pressure * pressure, seen_.nodes, forces);
   solid::Supports(wall, model_.heart.base, model_.heart.surroundings)
       .add_forces(seen_.nodes, {}, forces);
   for (std::size_t a = 0; a < forces.size(); ++a)

@@ -1,5 +1,8 @@
 #include "lv/mesh/regions.hpp"
 
+#include "lv/mesh/cell.hpp"
+#include "lv/mesh/surface.hpp"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -7,6 +10,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <set>
 
 namespace lv::mesh {
 namespace {
@@ -150,6 +154,32 @@ std::string aha_name(int segment) {
   if (segment > 12)
     return "apical " + four.at(segment - 13);
   return (segment > 6 ? "mid " : "basal ") + six.at((segment - 1) % 6);
+}
+
+Surface septum(const Mesh& mesh) {
+  constexpr std::array septal{2, 3, 8, 9, 14};
+  std::set<FaceKey> of_cells;
+  for (std::size_t c = 0; c < mesh.segment.size(); ++c)
+    if (std::find(septal.begin(), septal.end(), mesh.segment[c]) != septal.end())
+      for (const auto& face : cell_faces(mesh.kind)) {
+        std::vector<int> nodes;
+        for (const int corner : face)
+          if (corner >= 0)
+            nodes.push_back(mesh.cell(static_cast<int>(c))[corner]);
+        of_cells.insert(face_key(nodes));
+      }
+  Surface surface{mesh.epi.nodes_per_face, {}};
+  const int faces_per_side = mesh.order == 2 ? 4 : 1;
+  for (int f = 0; f < mesh.epi.size(); f += faces_per_side) {
+    int count = 0;
+    for (int part = f; part < f + faces_per_side; ++part)
+      count += of_cells.contains(face_key(mesh.epi.face(part))) ? 1 : 0;
+    if (2 * count >= faces_per_side)
+      for (int part = f; part < f + faces_per_side; ++part)
+        for (const int node : mesh.epi.face(part))
+          surface.nodes.push_back(node);
+  }
+  return surface;
 }
 
 }  // namespace lv::mesh

@@ -70,4 +70,9 @@ using SegmentFactors = std::array<double, aha_count>;
 /// "basal anterior", ... of an AHA segment.
 [[nodiscard]] std::string aha_name(int segment);
 
+/// The sides of elements on the epicardium that the right ventricle's blood touches, between its
+/// insertions: those of the septal AHA segments 2, 3, 8, 9 and 14, by at least half of their faces.
+/// None of a mesh without segments.
+[[nodiscard]] Surface septum(const Mesh& mesh);
+
 }  // namespace lv::mesh

@@ -14,6 +14,9 @@ struct CardiacModel {
   BasalSupport base{};
   Surroundings surroundings{};
   mesh::SegmentFactors contractility = mesh::even_segments();  ///< of the active tension
+  /// Of the right ventricle on the septum's epicardium, as a part of the cavity's; under the
+  /// implicit engine alone.
+  double septal_pressure = 0.0;
 };
 
 }  // namespace lv::solid

@@ -5,10 +5,10 @@
 
 namespace lv::solid {
 
-EndocardialSurface::EndocardialSurface(const mesh::Mesh& mesh)
-    : sides_(mesh::sides(mesh.kind, mesh.order, mesh.endo)),
+EndocardialSurface::EndocardialSurface(const mesh::Mesh& mesh, const mesh::Surface& surface)
+    : sides_(mesh::sides(mesh.kind, mesh.order, surface)),
       shapes_(side_shapes(mesh.kind, mesh.order)) {
-  for (const auto& side : mesh::boundary_edges(mesh.endo))
+  for (const auto& side : mesh::boundary_edges(surface))
     edge_.push_back(side[0]);
 }
 

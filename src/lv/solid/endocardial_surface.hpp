@@ -25,7 +25,10 @@ namespace lv::solid {
 /// on the fan it does on blood and valves, which no part of the wall carries.
 class EndocardialSurface {
  public:
-  explicit EndocardialSurface(const mesh::Mesh& mesh);
+  explicit EndocardialSurface(const mesh::Mesh& mesh) : EndocardialSurface(mesh, mesh.endo) {}
+  /// The same of another surface of the wall, which a pressure pushes likewise; it encloses
+  /// nothing.
+  EndocardialSurface(const mesh::Mesh& mesh, const mesh::Surface& surface);
 
   /// V [mm^3].
   [[nodiscard]] double volume(std::span<const Vec3> positions) const;

@@ -1,5 +1,9 @@
 #include "lv/mesh/regions.hpp"
 
+#include "lv/geometry/ellipsoid.hpp"
+#include "lv/mesh/surface.hpp"
+#include "lv/mesh/wall_mesh.hpp"
+
 #include "mesh_io/mesh_files.hpp"
 #include "support/block_mesh.hpp"
 #include <Eigen/Geometry>
@@ -187,4 +191,22 @@ TEST_CASE("factors of segments are means of the cells around each node", "[unit]
   CHECK(nodal[mesh.cells[0]] == Approx(0.7));
   CHECK(nodal[mesh.cells[1]] == Approx(0.4));
   CHECK(nodal[mesh.cells[5]] == Approx(1.0));
+}
+
+TEST_CASE("the septum is what of the epicardium lies between the insertions", "[unit][mesh]") {
+  for (const int order : {1, 2}) {
+    Mesh wall =
+        mesh::wall_mesh([e = geometry::Ellipsoid{}](double u, double theta,
+                                                    double t) { return e.point(u, theta, t); },
+                        {.edge_length = 5.0, .layers = 2, .order = order});
+    CHECK(mesh::septum(wall).nodes.empty());  // without segments
+    wall.segment = mesh::divide(wall, {}).aha;
+    const mesh::Surface found = mesh::septum(wall);
+    CHECK(mesh::area(wall.nodes, found) ==
+          Approx(0.31 * mesh::area(wall.nodes, wall.epi)).epsilon(0.1));
+    for (int f = 0; f < found.size(); ++f) {
+      const Vec3 x = mesh::face_centre(wall.nodes, found.face(f));
+      CHECK(std::abs(std::atan2(x.y(), x.x())) < 1.3);  // 60 degrees, and half of a side
+    }
+  }
 }
