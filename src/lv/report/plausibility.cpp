@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace lv::report {
 namespace {
@@ -66,6 +67,44 @@ double apex_rotation(const JudgedBeat& beat) {
   return beat.results.rotation.back().from_end_diastole / units::degree;
 }
 
+/// Of heartbeats in a circulation. Where no beating heart can be is wide: shock, exercise and
+/// hypertensive crises lie within.
+std::vector<PlausibleRange> ranges_of_heartbeats() {
+  using circulation::BeatMeasures;
+  using enum Population;
+  constexpr const char* blood_pressure =
+      "Williams et al., Eur. Heart J. 39:3021, 2018: hypertension begins at 140/90 mmHg, measured "
+      "at the arm; below 90/60 is low";
+  const auto intervals = [](const char* mean) {
+    return fmt::format(
+        "Alhakak et al., Clin. Res. Cardiol., the Copenhagen City Heart Study: {} ms in 1969 "
+        "healthy adults, 95% of them",
+        mean);
+  };
+  return {
+      {"peak_pressure_mmHg", "peak pressure", "mmHg", nullptr, 90.0, 140.0, 40.0, 300.0,
+       healthy_ventricle, false, blood_pressure, &BeatMeasures::peak_pressure},
+      {"aortic_systolic_mmHg", "aortic systolic pressure", "mmHg", nullptr, 90.0, 140.0, 30.0,
+       300.0, healthy_ventricle, false, blood_pressure, &BeatMeasures::aortic_systolic},
+      {"aortic_diastolic_mmHg", "aortic diastolic pressure", "mmHg", nullptr, 60.0, 90.0, 10.0,
+       200.0, healthy_ventricle, false, blood_pressure, &BeatMeasures::aortic_diastolic},
+      {"dp_dt_max_mmHg_per_s", "largest dp/dt", "mmHg/s", nullptr, 841.0, 1696.0, 150.0, 8000.0,
+       healthy_ventricle, false,
+       "Gleason and Braunwald, J. Clin. Invest. 41:80, 1962: 841 to 1696 mmHg/s in patients "
+       "whose left ventricle was healthy",
+       &BeatMeasures::largest_pressure_rate},
+      {"dp_dt_min_mmHg_per_s", "least dp/dt", "mmHg/s", nullptr, -2644.0, -1084.0, -8000.0, -150.0,
+       healthy_ventricle, false,
+       "Hirota, Circulation 62:756, 1980: -1864 +- 390 mmHg/s in 18 healthy adults, +- 2 SD",
+       &BeatMeasures::least_pressure_rate},
+      {"isovolumic_contraction_ms", "isovolumic contraction", "ms", nullptr, 20.0, 59.0, 0.0, 300.0,
+       healthy_ventricle, false, intervals("40 +- 10"), &BeatMeasures::isovolumic_contraction},
+      {"ejection_time_ms", "ejection time", "ms", nullptr, 248.0, 336.0, 50.0, 600.0,
+       healthy_ventricle, false, intervals("292 +- 23"), &BeatMeasures::ejection_time},
+      {"isovolumic_relaxation_ms", "isovolumic relaxation", "ms", nullptr, 59.0, 134.0, 0.0, 400.0,
+       healthy_ventricle, false, intervals("96 +- 19"), &BeatMeasures::isovolumic_relaxation}};
+}
+
 std::vector<PlausibleRange> make_ranges() {
   using enum Population;
   const auto volumes = [](const char* men, const char* women) {
@@ -83,8 +122,8 @@ std::vector<PlausibleRange> make_ranges() {
        [](const JudgedBeat& b) { return volume(b, heartbeat::end_systole); }, 22.0, 82.0, 0.0,
        1000.0, healthy_ventricle, true, volumes("54 +- 14", "44 +- 11")},
       {"ejection_fraction_percent", "ejection fraction", "%",
-       [](const JudgedBeat& b) { return 100.0 * b.results.ejection_fraction(); }, 48.0, 77.0, 0.0,
-       100.0, healthy_ventricle, true,
+       [](const JudgedBeat& b) { return 100.0 * b.results.ejection_fraction(); }, 48.0, 77.0, 5.0,
+       90.0, healthy_ventricle, true,
        "Petersen et al., J. Cardiovasc. Magn. Reson. 19:18, 2017, papillary muscles in the cavity: "
        "men 58 +- 5, women 61 +- 5; Kawel-Boehm et al., the same journal 17:29, 2015, in the "
        "muscle: 67 +- 5; from the lowest - 2 SD to the highest + 2 SD"},
@@ -132,6 +171,11 @@ std::string why_not_applicable(const PlausibleRange& range, const JudgedBeat& be
   return "";
 }
 
+/// Of a range that the beat has, in the range's unit; not a number where it did not happen.
+double value_in(const PlausibleRange& range, const circulation::BeatMeasures& heartbeat) {
+  return heartbeat.*range.measure / units::parse_unit(range.unit).factor;
+}
+
 /// Whether the value cannot be: a volume, mass or fraction that is not positive and so on.
 bool is_impossible(const PlausibleRange& range, double value) {
   return !(value >= range.possible_low && value <= range.possible_high);
@@ -149,8 +193,13 @@ std::string why_impossible(const PlausibleRange& range, double value) {
 }
 
 Judgement judge(const PlausibleRange& range, const JudgedBeat& beat) {
-  Judgement j{&range, range.value(beat), Answer::not_applicable, why_not_applicable(range, beat),
-              false};
+  Judgement j{&range,
+              range.measure != nullptr ? value_in(range, *beat.heartbeat) : range.value(beat),
+              Answer::not_applicable, why_not_applicable(range, beat), false};
+  if (range.measure != nullptr && std::isnan(j.value)) {
+    j.reason = "it did not happen within the last beat";
+    return j;
+  }
   j.is_impossible = is_impossible(range, j.value);
   if (j.is_impossible)
     j.reason = why_impossible(range, j.value);
@@ -163,7 +212,12 @@ Judgement judge(const PlausibleRange& range, const JudgedBeat& beat) {
 }  // namespace
 
 const std::vector<PlausibleRange>& plausible_ranges() {
-  static const std::vector<PlausibleRange> all = make_ranges();
+  static const std::vector<PlausibleRange> all = [] {
+    std::vector<PlausibleRange> ranges = make_ranges();
+    for (PlausibleRange& range : ranges_of_heartbeats())
+      ranges.push_back(std::move(range));
+    return ranges;
+  }();
   return all;
 }
 
@@ -176,7 +230,8 @@ std::string name(Answer answer) {
 std::vector<Judgement> judge(const JudgedBeat& beat) {
   std::vector<Judgement> all;
   for (const PlausibleRange& range : plausible_ranges())
-    all.push_back(judge(range, beat));
+    if (range.measure == nullptr || beat.heartbeat != nullptr)
+      all.push_back(judge(range, beat));
   return all;
 }
 
@@ -199,8 +254,7 @@ const PlausibleRange& range_of(const char* quantity) {
 
 /// A number of a beat, and what patients have.
 struct OfPatients {
-  const char* label;
-  const char* unit;
+  std::string label, unit;
   double value, low, high;
 };
 
@@ -210,13 +264,16 @@ std::vector<std::string> unlike_any_patient(const circulation::BeatMeasures& bea
   constexpr double wide = 2.0;
   const PlausibleRange& edv = range_of("edv_ml");
   const PlausibleRange& fraction = range_of("ejection_fraction_percent");
-  const OfPatients all[]{
-      {"peak pressure", "mmHg", beat.peak_pressure / units::mmHg, 40.0, 300.0},
+  std::vector<OfPatients> all{
       {"end-diastolic volume", "ml", beat.end_diastolic_volume / units::ml, edv.low / wide,
        edv.high * wide},
-      {"ejection fraction", "%", 100.0 * beat.ejection_fraction, 10.0, 90.0},
+      {"ejection fraction", "%", 100.0 * beat.ejection_fraction, fraction.possible_low,
+       fraction.possible_high},
       {"stroke volume", "ml", beat.stroke_volume / units::ml, edv.low / wide * fraction.low / 100.0,
        edv.high * wide * fraction.high / 100.0}};
+  for (const PlausibleRange& r : plausible_ranges())
+    if (r.measure != nullptr)
+      all.push_back({r.label, r.unit, value_in(r, beat), r.possible_low, r.possible_high});
   std::vector<std::string> sentences;
   for (const OfPatients& m : all)
     if (m.value < m.low || m.value > m.high)

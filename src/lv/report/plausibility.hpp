@@ -18,7 +18,8 @@ struct JudgedBeat {
   double muscle_density;  ///< [kg/mm^3]
   bool is_infarcted;
   bool contraction_was_steady;
-  bool base_is_held = true;  ///< in its plane and from turning
+  bool base_is_held = true;                              ///< in its plane and from turning
+  const circulation::BeatMeasures* heartbeat = nullptr;  ///< the last one, of a circulation
 };
 
 /// Where a quantity of a beat is expected, and where no beating heart can be. An end that is not
@@ -26,12 +27,13 @@ struct JudgedBeat {
 struct PlausibleRange {
   std::string quantity;  ///< its key in summary.json
   std::string label, unit;
-  double (*value)(const JudgedBeat& beat);  ///< in that unit
+  double (*value)(const JudgedBeat& beat);  ///< in that unit; nullptr: that of `measure`
   double low, high;
   double possible_low, possible_high;
   Population population;
   bool needs_end_systole;  ///< means nothing where contraction was not steady
   std::string source;
+  double circulation::BeatMeasures::*measure = nullptr;  ///< of a heartbeat
 };
 
 /// The one list of ranges.
@@ -50,16 +52,16 @@ struct Judgement {
   bool is_impossible;
 };
 
-/// All quantities of plausible_ranges, in its order.
+/// All quantities of plausible_ranges that the beat has, in its order.
 [[nodiscard]] std::vector<Judgement> judge(const JudgedBeat& beat);
 
 /// A sentence for each value that cannot be.
 [[nodiscard]] std::vector<std::string> impossible_values(const std::vector<Judgement>& judgements);
 
-/// A sentence for each of peak pressure, end-diastolic volume, ejection fraction and stroke volume
-/// of a beat that lies where no patient's is: a volume beyond half the least and twice the largest
-/// of plausible_ranges, a stroke volume beyond those times the fractions there, a fraction below
-/// 10% or above 90%, a pressure below 40 or above 300 mmHg. What did not happen is not judged.
+/// A sentence for each measure of a heartbeat that lies where no patient's is: beyond what is
+/// possible of those of plausible_ranges and of the ejection fraction, a volume beyond half the
+/// least and twice the largest there, a stroke volume beyond those times the fractions there. What
+/// did not happen is not judged.
 [[nodiscard]] std::vector<std::string> unlike_any_patient(const circulation::BeatMeasures& beat);
 
 }  // namespace lv::report

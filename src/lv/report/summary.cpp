@@ -149,7 +149,8 @@ std::string klotz_text(const std::vector<KlotzVolume>& volumes) {
 std::vector<Judgement> judge(const RunFacts& facts, const heartbeat::Beat& beat, const Results& r) {
   const heartbeat::NamedMoment* end = beat.find(heartbeat::end_systole);
   return judge(JudgedBeat{r, facts.muscle_density, has_zones(r),
-                          end != nullptr && end->by_criterion, facts.base_is_held});
+                          end != nullptr && end->by_criterion, facts.base_is_held,
+                          beat.cycle ? &beat.cycle->beats.back() : nullptr});
 }
 
 /// The end of a range; null where it has none.
@@ -441,8 +442,10 @@ std::string summary_text(const RunFacts& facts, const heartbeat::Beat& beat, con
   text += fmt::format(
       "\n  ejection fraction {:.1f}%, mass {:.1f} g ({:g} g/ml)\n\n", 100.0 * r.ejection_fraction(),
       1e3 * facts.muscle_density * r.early_diastole.wall_volume, 1e6 * facts.muscle_density);
-  if (beat.cycle)
-    text += cycle_text(beat);
+  text += beat.cycle
+              ? cycle_text(beat)
+              : "  end-systole is where contraction ends, which need not be the least volume of "
+                "curves.csv\n\n";
   if (facts.unloaded)
     text += unloaded_text(*facts.unloaded);
   if (!facts.fitted.empty())
