@@ -67,6 +67,29 @@ def check_way(folder):
     check_outputs(case)
 
 
+# One heartbeat of some 40 steps on the coarsest wall, against an aortic pressure that its muscle does not reach.
+too_weak = """name = "too weak"
+engine = "quasi_static"
+quasi_static = {edge_length = "20 mm", layers = 1}
+protocol.kind = "cycle"
+active.law = "land2017"
+calcium = {Ca_0 = "0.1 uM", Ca_max = "0.7 uM", shape = "double_exponential", t_1 = "0.02 s", t_2 = "0.08 s"}
+circulation = {kind = "windkessel", period = "0.4 s", start.p_ar_sys = "400 mmHg"}
+cycle = {beats = 1, step = "0.01 s"}
+"""
+
+
+def check_refused_beat(folder):
+    case = folder / "weak.toml"
+    case.write_text(too_weak)
+    run = ventricle("run", case, "--ranks", 1)
+    page = folder / "weak.work" / "report.html"
+    check("heartbeats without an end-systole are refused with a page of what was reached",
+          run.returncode == 2 and "the aortic valve stays closed" in run.stderr and page.exists(), run.stderr)
+    html = page.read_text() if page.exists() else ""
+    check("which says that it is unfinished, and why", "03_beat is unfinished." in html and "the run ended early: the last beat has no end-diastole" in html)
+
+
 def check_outputs(case):
     before = case.read_bytes()
     for ask in (["draw", case, "--export", case], ["report", case.parent, "--output", case], ["compare", case.parent, case.parent, "--output", case]):
@@ -84,4 +107,5 @@ with tempfile.TemporaryDirectory() as temporary:
     check_help()
     check_parameters()
     check_way(pathlib.Path(temporary))
+    check_refused_beat(pathlib.Path(temporary))
 sys.exit(1 if failures else 0)

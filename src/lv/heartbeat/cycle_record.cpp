@@ -282,10 +282,12 @@ Beat CycleRecord::result(const Observers& observers) {
   whole_.steps = run_.beat.steps;
   whole_.retries = run_.beat.retries;
   whole_.wall_clock = run_.beat.wall_clock;
-  if (whole_.find(end_systole) == nullptr || whole_.find(end_diastole) == nullptr)
+  if (whole_.find(end_systole) == nullptr || whole_.find(end_diastole) == nullptr) {
+    show_progress(observers);
     throw NoSolution("the last beat has no end-diastole or no end-systole: " +
                          why_incomplete(circulation::samples_of(cycle_, beat_ - 1)),
                      "Look at cycle.csv");
+  }
   if (!cycle_.is_limit)
     log::warn(
         "no limit cycle after {} beat{}: the last changed the states by {:.2g} of themselves{}",

@@ -56,7 +56,10 @@ class Pipeline {
 
   void run() {
     std::optional<work::WorkLock> lock;
-    on_root([&] { lock.emplace(work_); });
+    on_root([&] {
+      lock.emplace(work_);
+      std::filesystem::remove(reached());
+    });
     on_root([&] { log::to_file(work_ / "log.txt", case_file::names_alone(case_, work_)); });
     on_root([&] { report::write_case_name(work_, case_.name); });
     log::info("{}: ventricle {} on {} rank{}, results in {}", case_.name, work::version(),
@@ -80,6 +83,14 @@ class Pipeline {
     check_before(stages);
     for (const Planned& p : stages)
       run_stage(p);
+  }
+
+  /// A page of what a case has come to whose heartbeats nature refused; its banner says why.
+  void show_reached() const {
+    if (!parallel::is_root() || !std::filesystem::exists(folder(Stage::beat).string() + ".part"))
+      return;
+    write_page({work_}, reached(), Replaces::any_page);
+    log::info("page of what was reached: {}", reached().string());
   }
 
   /// What would run and why, a line a stage; known to the root.
@@ -381,6 +392,7 @@ class Pipeline {
   }
 
   [[nodiscard]] std::filesystem::path calibration() const { return folder(Stage::calibrate); }
+  [[nodiscard]] std::filesystem::path reached() const { return work_ / "report.html"; }
 
   /// What a user looks at first.
   void show(Stage stage) const {
@@ -435,10 +447,13 @@ void run(const Case& c, const RunOptions& options) {
     return;
   }
   interrupt::install();
+  Pipeline pipeline(c, options);
   try {
-    Pipeline(c, options).run();
+    pipeline.run();
   } catch (const std::exception& failure) {
     log::keep(fmt::format("the run ended early: {}", failure.what()));  // the program tells it
+    if (dynamic_cast<const NoSolution*>(&failure) != nullptr)
+      pipeline.show_reached();
     throw;
   }
 }

@@ -322,9 +322,16 @@ TEST_CASE("why a beat has no end-systole is told by its valves", "[unit][heartbe
   const mesh::Mesh mesh = coarsest_wall();
   CycleSetup setup = quick(mesh);
   setup.cycle = {.beats = 1, .step = 1e-2};
+  double shown = 0.0;
+  heartbeat::Observers observers;
+  observers.curves = [&](const heartbeat::RunState& run) {
+    shown = run.beat.cycle->samples.back().time;
+  };
   const auto refused = [&](const std::string& why) {
-    CHECK_THROWS_WITH(heartbeat::run_cycle(setup, empty_folder("lv_cycle_incomplete"), {}),
+    shown = 0.0;
+    CHECK_THROWS_WITH(heartbeat::run_cycle(setup, empty_folder("lv_cycle_incomplete"), observers),
                       Catch::Contains("no end-systole: the aortic valve " + why));
+    CHECK(shown == Approx(setup.circuit.period));  // all of it, for cycle.csv
   };
   setup.circuit.start.p_ar_sys = 400.0 * units::mmHg;
   refused("stays closed");
