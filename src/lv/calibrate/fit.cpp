@@ -280,7 +280,8 @@ class Fitter {
           return model_.volume(p, {});
         },
         {"scale", start, plan_.stiffness, far},
-        {fit_.observations.front().target, plan_.edv.origin}, plan_.edv.volume, accuracy);
+        {fit_.observations.front().target, plan_.edv.origin}, plan_.edv.volume, accuracy,
+        model_.folded_volume);
   }
 
   /// Of the passive parameters, or of all.

@@ -36,8 +36,10 @@ void Ventricle::begin_near(std::vector<Vec3> unloaded) {
 Outcome<double> Ventricle::unloaded_volume(const FitParameters& parameters) {
   if (unloading_.pressure == 0.0 || (unloaded_ && unloaded_with_ == parameters))
     return endocardium_.volume(wall_.nodes);
-  const auto unloaded = implicit::unload(given_, model_of_(parameters), unloading_, solver_,
-                                         {unloaded_ ? &*unloaded_ : nullptr});
+  folded_volume_ = std::numeric_limits<double>::quiet_NaN();
+  const auto unloaded = implicit::unload(
+      given_, model_of_(parameters), unloading_, solver_,
+      {.start = unloaded_ ? &*unloaded_ : nullptr, .folded_volume = &folded_volume_});
   if (!unloaded)
     return unloaded.why();
   unloaded_ = *unloaded;

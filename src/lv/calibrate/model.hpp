@@ -3,6 +3,7 @@
 #include "lv/implicit/unload.hpp"
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -30,6 +31,9 @@ struct Model {
   std::function<Outcome<std::vector<double>>(const FitParameters&, const Loads& ed,
                                              const Loads& es)>
       strains;
+  /// What the wall that was sought last holds without load, if it is folded [mm^3]; else not a
+  /// number. May be empty.
+  std::function<double()> folded_volume = {};
 };
 
 /// The quasi-static engine as such a model. It keeps the equilibrium of every load that it was
@@ -61,6 +65,8 @@ class Ventricle {
   /// The same with its equilibrium under the load that it was seen with; nothing when it was given
   /// free of stress.
   [[nodiscard]] const std::optional<implicit::Unloaded>& unloaded() const { return unloaded_; }
+  /// Model::folded_volume
+  [[nodiscard]] double folded_volume() const { return folded_volume_; }
 
   struct Equilibrium {
     solid::Loads loads;
@@ -86,6 +92,7 @@ class Ventricle {
   mesh::Mesh wall_;  ///< free of stress
   solid::EndocardialSurface endocardium_;
   std::optional<implicit::Unloaded> unloaded_;
+  double folded_volume_ = std::numeric_limits<double>::quiet_NaN();
   FitParameters unloaded_with_;
   std::optional<implicit::Engine> engine_;  ///< of wall_
   std::vector<Equilibrium> known_;

@@ -25,8 +25,10 @@ struct Tried {
 class UnloadedSearch {
  public:
   UnloadedSearch(const std::function<Outcome<double>(double)>& volume, const Unknown& stiffness,
-                 const Target& target, double seen, double accuracy)
+                 const Target& target, double seen, double accuracy,
+                 const std::function<double()>& folded_volume)
       : volume_(volume),
+        folded_volume_(folded_volume),
         unknown_(stiffness),
         target_(target),
         seen_(seen),
@@ -61,6 +63,7 @@ class UnloadedSearch {
       ++without_;
       nowhere_ = std::max(log_x, nowhere_.value_or(log_x));
       reason_ = V.why().what;
+      folds_above_ = folded_volume_ && folded_volume_() > target_.volume;
       return false;
     }
     if (std::abs(*V / target_.volume - 1.0) <= accuracy_)
@@ -92,7 +95,7 @@ class UnloadedSearch {
   /// Whether there is no farther to go, in the direction that is left.
   [[nodiscard]] bool at_its_end(double next) const {
     if (!now_)
-      return *nowhere_ >= high_ || without_ >= most_without;
+      return *nowhere_ >= high_ || without_ >= most_without || folds_above_;
     if (soft_ && stiff_)
       return false;
     if (soft_)
@@ -109,11 +112,13 @@ class UnloadedSearch {
         "Check unloaded.pressure and the shape, or give calibrate.passive another value; a wall "
         "that folds or turns inside out when it is unloaded is often drawn too thin somewhere";
     if (!now_)
-      throw OutOfReach(target_.origin,
-                       fmt::format("{}: no stiffness up to {} = {:.3g} gives it a shape without "
-                                   "load: {}",
-                                   what, unknown_.name, std::exp(*nowhere_), reason_),
-                       remedy, 0.0);
+      throw OutOfReach(
+          target_.origin,
+          fmt::format("{}: no stiffness up to {} = {:.3g} gives it a shape without "
+                      "load{}: {}",
+                      what, unknown_.name, std::exp(*nowhere_),
+                      folds_above_ ? ", with which it would hold more already" : "", reason_),
+          remedy, 0.0);
     const Tried& end = soft_ ? *soft_ : *stiff_;
     const bool at_end_of_range = soft_ || !nowhere_;
     const double V = seen_ - (seen_ - target_.volume) * std::exp(end.f);
@@ -128,6 +133,7 @@ class UnloadedSearch {
   }
 
   const std::function<Outcome<double>(double)>& volume_;
+  const std::function<double()>& folded_volume_;
   const Unknown& unknown_;
   const Target& target_;
   double seen_, accuracy_, low_, high_;
@@ -136,14 +142,15 @@ class UnloadedSearch {
   std::optional<double> nowhere_;      ///< the stiffest without a wall free of load
   std::string reason_;                 ///< why there is none
   int without_ = 0;                    ///< such walls
+  bool folds_above_ = false;           ///< the last of them holds more than the target
 };
 
 }  // namespace
 
 double find_unloaded_root(const std::function<Outcome<double>(double)>& volume,
                           const Unknown& stiffness, const Target& target, double seen,
-                          double accuracy) {
-  return UnloadedSearch(volume, stiffness, target, seen, accuracy).run();
+                          double accuracy, const std::function<double()>& folded_volume) {
+  return UnloadedSearch(volume, stiffness, target, seen, accuracy, folded_volume).run();
 }
 
 }  // namespace lv::calibrate

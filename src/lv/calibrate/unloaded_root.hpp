@@ -12,9 +12,12 @@ namespace lv::calibrate {
 /// Stiff walls have a shape without load, soft ones need not: from where there is none the search
 /// goes to stiffer ones, and to softer ones again in steps that it shortens. Throws OutOfReach with
 /// the volumes at the end of what can be reached when the target is beyond; its `missing` is zero
-/// where walls without load, not the range, end there, since another mesh may have them.
+/// where walls without load, not the range, end there, since another mesh may have them. That is
+/// so too before any was found where a folded one holds more than the target
+/// (Model::folded_volume): softer muscle, which would hold less, folds more.
 [[nodiscard]] double find_unloaded_root(const std::function<Outcome<double>(double)>& volume,
                                         const Unknown& stiffness, const Target& target, double seen,
-                                        double accuracy);
+                                        double accuracy,
+                                        const std::function<double()>& folded_volume = {});
 
 }  // namespace lv::calibrate

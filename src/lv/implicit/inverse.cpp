@@ -17,6 +17,7 @@ constexpr double first_share = 1.0 / 32;  // of the pressure
 constexpr double usual_factor = 2.0;      // from one pressure to the next
 constexpr double smallest_factor = 1.1;   // before it gives up
 constexpr double least_share = 1e-4;
+constexpr int most_failures = 8;     // of steps along the pressure; usual hearts have two at most
 constexpr double on_the_way = 0.05;  // tolerance before the whole pressure [mm]
 
 constexpr int most_holds = 4;  // of directions near the axis
@@ -130,6 +131,7 @@ class ReferenceSearch {
     double reached = 0.0, last_factor = 1.0;
     double next = first_share * pressure_;
     double factor = usual_factor;
+    int failures = 0;
     while (reached < pressure_) {
       next = next > 0.99 * pressure_ ? pressure_ : next;
       Reference z =
@@ -142,6 +144,8 @@ class ReferenceSearch {
         reached = next;
         factor = std::min(usual_factor, std::pow(factor, 1.5));
         say(reached, factor);
+      } else if (++failures >= most_failures) {
+        return false;  // a path that creeps
       } else if (before) {
         before.reset();  // once more without extrapolation
         continue;

@@ -60,13 +60,14 @@ struct Trial {
 class Unloader {
  public:
   Unloader(const mesh::Mesh& given, const StaticModel& model, const UnloadParameters& parameters,
-           const SolverParameters& solver, UnloadRecord record, double afterwards)
+           const SolverParameters& solver, UnloadTask task)
       : given_(given),
         model_(model),
         parameters_(parameters),
         solver_(solver),
-        record_(std::move(record)),
-        afterwards_(afterwards),
+        record_(std::move(task.record)),
+        afterwards_(task.afterwards),
+        folded_volume_(task.folded_volume),
         endocardium_(given),
         find_folds_(given),
         target_(as_vector(given.nodes)),
@@ -187,9 +188,11 @@ class Unloader {
 
   /// What follows may take a minute.
   void warn() const {
-    const std::string why = has_wall() && is_folded(now_.step.folds)
-                                ? fmt::format("is folded ({})", words(now_.step.folds))
-                                : "was not found";
+    const bool folds = has_wall() && is_folded(now_.step.folds);
+    if (folds && folded_volume_ != nullptr)
+      *folded_volume_ = now_.step.unloaded_volume;
+    const std::string why =
+        folds ? fmt::format("is folded ({})", words(now_.step.folds)) : "was not found";
     log::warn(
         "the wall without load that becomes the seen shape at {:.2f} mmHg {}: that shape cannot be "
         "reached unless a smooth wall near by is found",
@@ -478,7 +481,8 @@ class Unloader {
   const UnloadParameters& parameters_;
   const SolverParameters& solver_;
   UnloadRecord record_;
-  double afterwards_;  ///< what the caller does then [s]
+  double afterwards_;      ///< what the caller does then [s]
+  double* folded_volume_;  ///< UnloadTask::folded_volume
   solid::EndocardialSurface endocardium_;
   mesh::FoldFinder find_folds_;
   Eigen::VectorXd target_;
@@ -500,8 +504,8 @@ class Unloader {
 Outcome<Unloaded> unload(const mesh::Mesh& given, const StaticModel& model,
                          const UnloadParameters& parameters, const SolverParameters& solver,
                          UnloadTask task) {
-  return Unloader(given, model, parameters, solver, std::move(task.record), task.afterwards)
-      .run(task.start);
+  const Unloaded* start = task.start;
+  return Unloader(given, model, parameters, solver, std::move(task)).run(start);
 }
 
 }  // namespace lv::implicit

@@ -56,6 +56,8 @@ struct UnloadTask {
   const Unloaded* start = nullptr;
   UnloadRecord record = {};
   double afterwards = 0.0;  ///< what the stage does then, for the time that is left [s]
+  /// Told what the cavity of the wall holds that the inverse problem found, if it is folded [mm^3].
+  double* folded_volume = nullptr;
 };
 
 /// The stress-free wall X whose equilibrium x(X) under the pressure on the muscle at rest is the

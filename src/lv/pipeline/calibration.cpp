@@ -203,7 +203,8 @@ FittedWall fit_wall(const Case& c, const anatomy::MeshResult& mesh,
       [&](const FitParameters& p) { return number([&] { return ventricle.unloaded_volume(p); }); },
       [&](const FitParameters& p, const Loads& ed, const Loads& es) {
         return record.answer([&] { return strains(p, ed, es); });
-      }};
+      },
+      [&] { return ventricle.folded_volume(); }};
   calibrate::Fit fit = calibrate::fit(model, start.parameters, task, kept.forecast);
   ventricle.unloaded_volume(fit.parameters).value();
   return {std::move(fit), ventricle.unloaded()};

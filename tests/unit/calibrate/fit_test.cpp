@@ -372,6 +372,18 @@ TEST_CASE("a V0 below what any wall without load holds is refused with what ther
   CHECK_THROWS_WITH(fit(seen_wall(0.01), {}, stiff), Contains("the end of its range"));
 }
 
+TEST_CASE("a wall that folds and holds more than V0 ends the search for softer ones",
+          "[calibrate]") {
+  using Catch::Matchers::Contains;
+  Model wall = seen_wall(100.0);
+  wall.folded_volume = [] { return 90e3; };
+  CHECK_THROWS_WITH(fit(wall, {}, klotz_plan()),
+                    Contains("no stiffness up to scale = 2 ") && Contains("hold more already"));
+  wall.folded_volume = [] { return 70e3; };
+  CHECK_THROWS_WITH(fit(wall, {}, klotz_plan()),
+                    Contains("no stiffness up to scale = 16") && !Contains("more already"));
+}
+
 TEST_CASE("by how much a V0 is missed is known where the range of the stiffness ends it",
           "[calibrate]") {
   const auto missing = [](const Model& wall, const Plan& p) {
