@@ -115,7 +115,7 @@ export function firstSection(cases: Case[]): HTMLElement {
     : table(name, ["", "model", ...(none ? [] : ["measured"]), "usual", "answer", "origin"], ofOne(cases[0], !none));
   return titled("summary", "Summary", {}, content,
     none ? el("p", { class: "help" }, `No measured volumes: ${several ? "neither case" : "the case"} is ${several ? "" : "not "}fitted to any.`) : undefined,
-    found && el("p", { class: "help" }, `Strain at end-systole is Green-Lagrange, from end-diastole, the mean over the wall${none ? "" : "; measured, the mean over the regions of the images"}. ` +
+    found && el("p", { class: "help" }, `Strain at end-systole is Green-Lagrange, from end-diastole, the mean over the wall${none ? "" : "; measured, the mean over the regions of the images"}. ${cases.some((c) => c.summary && !c.summary.cycle) ? "Without heartbeats end-systole is where contraction ends, which need not be the least volume of the curve. " : ""}` +
       "Origin: measured, fitted to a measurement, assumed, or computed from these. Sources of the usual ranges are below."));
 }
 

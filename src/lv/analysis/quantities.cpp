@@ -44,7 +44,9 @@ constexpr std::array<Quantity, 17> list{
         "Tension T along the fibre that the muscle makes."),
     shown_stress(
         "fibre_stress", "fibre stress", [](Cell c, Strain) { return c.fibre_stress(); },
-        "Total Cauchy stress along the deformed fibre: passive, active and pressure."),
+        "Total Cauchy stress along the deformed fibre: passive and active, less the pressure p of "
+        "the incompressible wall (in regions.csv fibre_stress = fibre_stress_passive + "
+        "fibre_stress_active - pressure)."),
     shown_stress(
         "fibre_stress_passive", "passive fibre stress",
         [](Cell c, Strain) { return c.fibre_stress_passive; },

@@ -660,6 +660,10 @@ Case parse_case(const std::string& text, const std::filesystem::path& file) {
 
 Case read_case(const std::filesystem::path& file) {
   Case c = parse_case(read_text(file), file);
+  if (c.origin.empty())
+    throw InputError(file.string(), "sets no parameter: it is empty, or no case file",
+                     "The default case, an idealised healthy ventricle, is a line such as "
+                     "name = \"healthy\"");
   require_files(c);
   return c;
 }

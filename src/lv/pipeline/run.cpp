@@ -64,8 +64,6 @@ class Pipeline {
     on_root([&] { report::write_case_name(work_, case_.name); });
     log::info("{}: ventricle {} on {} rank{}, results in {}", case_.name, work::version(),
               parallel::size(), parallel::size() == 1 ? "" : "s", work_.string());
-    if (case_.origin.empty())
-      log::warn("{}: {}", case_.file.string(), no_parameters);
     for (const std::string& what : case_.without_effect)
       log::warn("{}", what);
     for (const std::string& odd :

@@ -72,8 +72,6 @@ std::string study_beyond_beat(const Case& c) {
 
 std::vector<Warning> warnings_of(const Case& c, const anatomy::Shape& shape, double cavity) {
   std::vector<Warning> warnings;
-  if (c.origin.empty())
-    warnings.push_back({"default case", no_parameters});
   for (const std::string& text : c.without_effect)
     warnings.push_back({"no effect", text});
   if (std::string slow = slow_relaxation(c); !slow.empty())

@@ -28,10 +28,6 @@ void check_on_wall(const case_file::Case& c, const anatomy::MeshResult& wall);
 /// warnings matter and what to do next. Throws InputError as check_case.
 [[nodiscard]] std::string validate(const case_file::Case& c);
 
-/// Of a case file without parameters.
-inline constexpr const char* no_parameters =
-    "the case file sets no parameter: this is the default case, the idealised healthy ventricle";
-
 /// What is to know of a fit in a case with heartbeats, which is made outside of them; empty else.
 [[nodiscard]] std::string fit_outside_heartbeats(const case_file::Case& c);
 

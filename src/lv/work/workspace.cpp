@@ -80,8 +80,19 @@ std::map<std::string, std::uintmax_t> sizes_below(const fs::path& folder) {
   return sizes;
 }
 
+/// Whether a folder is there without a record that can be read.
+bool has_damaged_record(const fs::path& folder) {
+  return fs::exists(folder) && recorded(folder).ingredients.empty();
+}
+
+std::string damaged_record() {
+  return fmt::format("its record ({}) is gone or damaged", record_name);
+}
+
 /// What a folder lacks of a finished stage's files, in words; empty if nothing.
 std::string lack_of(const fs::path& folder, const Record& record) {
+  if (record.ingredients.empty())
+    return damaged_record();
   if (!record.sizes)
     return "it has no list of its files";
   for (const auto& [name, bytes] : *record.sizes) {
@@ -211,6 +222,10 @@ bool StageFolder::up_to_date() const {
 std::string StageFolder::reason() const {
   const Record record = recorded(folder_);
   const Ingredients& before = record.ingredients;
+  if (has_damaged_record(folder_))
+    return damaged_record();
+  if (before.empty() && has_damaged_record(unfinished()))
+    return "it was interrupted, and " + damaged_record();
   if (before.empty())
     return recorded(unfinished()).ingredients == ingredients_ ? "it was interrupted"
                                                               : "it has not run yet";
@@ -254,10 +269,13 @@ void StageFolder::set_aside(const fs::path& part) const {
   }
   const fs::path other = free_name();
   move(part, other);
+  const bool damaged = has_damaged_record(other);
   log::warn(
-      "{} held an unfinished run with other parameters, which is kept as {}: a run with its "
-      "parameters goes on from there, and it may be deleted (rm -r) when it is not wanted",
-      part.filename().string(), other.filename().string());
+      "{} held an unfinished run {}, which is kept as {}: {}it may be deleted (rm -r) when it "
+      "is not wanted",
+      part.filename().string(), damaged ? "whose record is damaged" : "with other parameters",
+      other.filename().string(),
+      damaged ? "" : "a run with its parameters goes on from there, and ");
 }
 
 void StageFolder::take_up(const fs::path& part) const {

@@ -60,10 +60,25 @@ TEST_CASE("a finished stage is believed while its files are there as recorded", 
     CHECK(folder.reason() == "its file fields/wall.vtu has 2 bytes and had 4");
     CHECK_THAT(work::state_of(work / "").at(2), Catch::Contains("03_beat is not whole: its file"));
   }
+  SECTION("a damaged record is told as one, not as a stage that has not run") {
+    write_file(folder.folder() / "stage.json", "{\"ingredients\": ");
+    CHECK_FALSE(folder.up_to_date());
+    CHECK(folder.reason() == "its record (stage.json) is gone or damaged");
+  }
   SECTION("a record without the list of files is that of an unfinished stage") {
     write_file(folder.folder() / "stage.json", R"({"ingredients": {"blood.density": "1 g/ml"}})");
     CHECK_FALSE(folder.up_to_date());
   }
+}
+
+TEST_CASE("an unfinished stage with a damaged record is said to be one, and kept", "[unit][work]") {
+  const test::TemporaryFolder work;
+  interrupted(work, "1 g/ml");
+  write_file(work / "03_beat.part/stage.json", "");
+  CHECK(stage(work, "1 g/ml").reason() ==
+        "it was interrupted, and its record (stage.json) is gone or damaged");
+  static_cast<void>(stage(work, "1 g/ml").begin());
+  CHECK(fs::exists(work / "03_beat.other/checkpoint.bin"));
 }
 
 TEST_CASE("an unfinished stage with other ingredients is kept, however many there are",
