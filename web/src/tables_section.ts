@@ -18,7 +18,7 @@ const leastOf = (name: string) => 0.1 * quantity(name).floor;
 
 const known = ["case", "program", "resolution", "early_diastole", "edv_ml", "esv_ml", "stroke_volume_ml", "mass_g",
   "ejection_fraction_percent", "strain", "whole_wall", "fibre_shortening_percent",
-  "rotation", "plausibility", "calibration", "heartbeats_fitted", "zones", "infarct", "infarct_segments", "assumptions", "warnings", "marks", "parameters", "set_in_case_file"];
+  "rotation", "plausibility", "calibration", "heartbeats_fitted", "shape_fitted", "zones", "infarct", "infarct_segments", "assumptions", "warnings", "marks", "parameters", "set_in_case_file"];
 
 /** After the name of a phase. */
 const endedSteady = "_was_steady";
