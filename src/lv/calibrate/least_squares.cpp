@@ -12,7 +12,7 @@ namespace {
 
 /// Some sets of differences, and steps.
 int most_evaluations(Eigen::Index unknowns) {
-  return 30 + 4 * static_cast<int>(unknowns);
+  return 40 + 3 * static_cast<int>(unknowns);
 }
 
 /// Forward differences, backward ones at the upper bound and where there is no residual.
