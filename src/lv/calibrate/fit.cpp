@@ -44,7 +44,7 @@ constexpr double rough_esv = 0.02;       // of ln(V/V_target), with a first T_sc
 constexpr double first_stiffness = 2.0;  // stiff walls are unloaded more easily
 constexpr double shortest_step = 5e-3;   // of the logarithms of scale and exponent
 constexpr double shortest_of_regions = 1e-4;
-constexpr double shortest_of_segments = 3e-3;
+constexpr double shortest_of_segments = 2e-2;                 // a small part of their errors
 constexpr std::array<double, 2> segment_factors{0.02, 50.0};  // within which they are sought
 constexpr double unloaded_difference = 0.05;                  // unloading leaves volumes scattered
 
@@ -426,11 +426,13 @@ class Fitter {
     f.degrees_of_freedom = static_cast<double>(data) - posterior_.resolution.sum();
     f.shape = std::move(shape);
     const double misfit = std::sqrt(std::max(1.0, f.chi_squared / f.degrees_of_freedom));
+    Eigen::MatrixXd slopes = minimum.slopes;
+    slopes.topRows(data) /= misfit;
+    const Eigen::MatrixXd covariance = posterior(slopes, segments).covariance;
     for (Eigen::Index j = 0; j < segments; ++j) {
       const Eigen::Index at = minimum.x.size() - segments + j;
       fit_.segments.push_back({plan_.segments[j], std::exp(minimum.x[at]),
-                               misfit * std::sqrt(posterior_.covariance(at, at)),
-                               posterior_.resolution[at]});
+                               std::sqrt(covariance(at, at)), posterior_.resolution[at]});
     }
   }
 

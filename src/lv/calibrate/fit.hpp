@@ -150,9 +150,9 @@ struct Fit {
 ///
 /// by Gauss-Newton steps in their logarithms (least_squares.hpp; the points of the Klotz curve
 /// count as volumes). It need not meet the volumes within the tolerance. Where factors c_j of
-/// segments are fitted besides, the penalty sum_j (ln c_j/spread)^2 is added. Errors are larger
-/// where the data are missed by more than their errors, by (chi^2/degrees of freedom)^(1/2); those
-/// of the other parameters then know that the factors move with them.
+/// segments are fitted besides, the penalty sum_j (ln c_j/spread)^2 is added. Where the data are
+/// missed by more than their errors, these count as larger by (chi^2/degrees of freedom)^(1/2); the
+/// errors of the other parameters then know that the factors move with them.
 ///
 /// Throws OutOfReach for a volume out of reach and NoSolution when a fitted model misses the
 /// measured volumes, to which alone it was fitted, by more than the tolerance.

@@ -10,9 +10,9 @@
 namespace lv::calibrate {
 namespace {
 
-/// Three sets of differences, and steps.
+/// Some sets of differences, and steps.
 int most_evaluations(Eigen::Index unknowns) {
-  return 34 + 3 * static_cast<int>(unknowns);
+  return 40 + 3 * static_cast<int>(unknowns);
 }
 
 /// Forward differences, backward ones at the upper bound and where there is no residual.

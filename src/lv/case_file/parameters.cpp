@@ -1720,6 +1720,7 @@ const std::vector<Section>& sections() {
       {"infarct.elements", "Elements of an imported mesh (source = \"elements\")"},
       {"infarct.surface", "What a closed surface encloses (source = \"surface\")"},
       {"infarct.labels", "Voxels of a segmented image (source = \"labels\")"},
+      {"infarct.strain", "Segments that hardly shorten (source = \"strain\")"},
       {"infarct.lge",
        "A late-enhancement image, with a threshold or with scar drawn on it (source = \"lge\")"},
       {"active",
@@ -1729,7 +1730,7 @@ const std::vector<Section>& sections() {
        "constants "
        "(law = \"land2017\")"},
       {"calcium", "Intracellular calcium, the same everywhere"},
-      {"muscle", "Density and viscosity of the muscle"},
+      {"muscle", "Density, viscosity and segments of the muscle"},
       {"blood", "Blood and muscle share density and viscosity"},
       {"box", "The box of blood around the ventricle and its grid"},
       {"coupling", "How the wall's finite elements meet the grid"},
