@@ -84,6 +84,7 @@ def check_refused_beat(folder):
     case.write_text(too_weak)
     run = ventricle("run", case, "--ranks", 1)
     page = folder / "weak.work" / "report.html"
+    check("times of chambers that follow the heart rate are told", "are those of 150 beats a minute, 0.595 of the usual" in run.stdout, run.stdout)
     check("heartbeats without an end-systole are refused with a page of what was reached",
           run.returncode == 2 and "the aortic valve stays closed" in run.stderr and page.exists(), run.stderr)
     html = page.read_text() if page.exists() else ""

@@ -8,7 +8,7 @@ import sys
 
 here = pathlib.Path(__file__).parent
 program = pathlib.Path(sys.argv[1]).resolve()
-of_heartbeats = ("activation", "base_motion", "cycle_begin")
+of_heartbeats = ("activation", "base_motion", "cycle_begin", "muscle_contractility")
 wrong = 0
 for case in sorted(here.glob("*.toml")):
     expected = case.read_text(errors="replace").splitlines()[0].removeprefix("# expect: ")

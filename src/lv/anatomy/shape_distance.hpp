@@ -46,8 +46,8 @@ struct DrawnPart {
                                                  double septum_angle);
 
 /// By how much the model's surface lies outside of each part, in the mean of its points, when all
-/// are moved along the long axis as `shape_distance` moves them [mm]. Points fade out over the last millimetres below the base plane, above which
-/// they do not count.
+/// are moved along the long axis as `shape_distance` moves them [mm]. Points fade out over the last
+/// millimetres below the base plane, above which they do not count.
 [[nodiscard]] std::vector<double> mean_distances(const mesh::Mesh& mesh,
                                                  std::span<const Vec3> nodes,
                                                  const std::vector<DrawnPart>& parts);

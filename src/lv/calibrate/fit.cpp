@@ -394,7 +394,7 @@ class Fitter {
     begin(of_regions);
     std::optional<ShapeFit> shape;
     if (model_.distances)
-      shape = ShapeFit{{}, misfit_of(distances()), {}};
+      shape = ShapeFit{{}, misfit_of_shape(distances()), {}};
     const Logarithms logs = with_segments(logarithms(fitted));
     const auto segments = static_cast<Eigen::Index>(plan_.segments.size());
     const auto residuals = [&](const Eigen::VectorXd& x) -> Outcome<Eigen::VectorXd> {
@@ -425,6 +425,14 @@ class Fitter {
     f.chi_squared = minimum.r.head(data).squaredNorm();
     f.degrees_of_freedom = static_cast<double>(data) - posterior_.resolution.sum();
     f.shape = std::move(shape);
+    constexpr double few = 0.25;  // of the data: nothing is left that would show a too small error
+    if (segments > 0 && f.degrees_of_freedom < few * static_cast<double>(data))
+      log::warn(
+          "{} data determine {:.1f} unknowns: the factors of segments fit their noise too, and "
+          "their intervals hang on calibrate.strain_error = {:g} alone, which followed images "
+          "hardly reach below 0.02. Give the error that the strains have, or a smaller "
+          "calibrate.contractility_spread",
+          data, posterior_.resolution.sum(), plan_.errors.strain);
     const double misfit = std::sqrt(std::max(1.0, f.chi_squared / f.degrees_of_freedom));
     Eigen::MatrixXd slopes = minimum.slopes;
     slopes.topRows(data) /= misfit;
@@ -467,9 +475,15 @@ class Fitter {
     return model_.distances(fit_.parameters, es_loads()).value();
   }
 
-  static Misfit misfit_of(const std::vector<double>& off) {
-    const Eigen::VectorXd v = dense::as_vector(off);
-    return {std::sqrt(v.squaredNorm() / static_cast<double>(v.size())), v.mean()};
+  /// Of `count` of the values; the others are zero.
+  static Misfit misfit_of(const std::vector<double>& off, std::size_t count) {
+    const Eigen::VectorXd v = dense::as_vector(off) / std::sqrt(static_cast<double>(count));
+    return {v.norm(), v.sum() / std::sqrt(static_cast<double>(count))};
+  }
+
+  /// Parts above the base say nothing, and are at no distance.
+  static Misfit misfit_of_shape(const std::vector<double>& off) {
+    return misfit_of(off, counted_parts(off));
   }
 
   [[nodiscard]] const Range& range_of(const Fitted& which) const {
@@ -600,14 +614,13 @@ class Fitter {
       std::vector<double> off;
       for (std::size_t i = 0; i < f.strains.size(); ++i)
         off.push_back(f.strains[i] - plan_.strains[i].value);
-      f.strain = misfit_of(off);
+      f.strain = misfit_of(off, off.size());
     }
     if (f.shape) {
       f.shape->distances = distances();
-      // parts above the base say nothing
-      f.degrees_of_freedom -=
-          static_cast<int>(std::count(f.shape->distances.begin(), f.shape->distances.end(), 0.0));
-      f.shape->after = misfit_of(f.shape->distances);
+      const std::size_t counted = counted_parts(f.shape->distances);
+      f.degrees_of_freedom -= static_cast<double>(f.shape->distances.size() - counted);
+      f.shape->after = misfit_of_shape(f.shape->distances);
       log::info(
           "end-systolic surfaces lie {:.2f} mm rms ({:+.2f} in the mean) outside of the drawn "
           "ones, "

@@ -5,6 +5,7 @@
 #include "lv/calibrate/model.hpp"
 #include "lv/calibrate/sensitivity.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -73,6 +74,12 @@ struct ShapeFit {
   Misfit before;                  ///< of the fit to volumes, with which this one began
   Misfit after;
 };
+
+/// Of drawn parts, those that say something: one above the model's base is at no distance.
+[[nodiscard]] inline std::size_t counted_parts(const std::vector<double>& distances) {
+  return distances.size() -
+         static_cast<std::size_t>(std::count(distances.begin(), distances.end(), 0.0));
+}
 
 /// How a model fits measured strains and a shape.
 struct RegionalFit {

@@ -39,8 +39,8 @@ struct Model {
   /// From now on answers for muscle that differs from this one in its factors of segments alone may
   /// be right to first order only; nothing: no more. May be empty.
   std::function<void(const std::optional<FitParameters>& about)> linearise = {};
-  /// What the wall that was sought last holds without load, if it is folded [mm^3]; else not a
-  /// number. May be empty.
+  /// What the smoothest wall near the one that was sought last holds without load, if that is
+  /// folded too [mm^3]; else not a number. May be empty.
   std::function<double()> folded_volume = {};
 };
 

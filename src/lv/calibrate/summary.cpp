@@ -103,10 +103,10 @@ std::string strain_rows(const Plan& plan, const Fit& fit) {
 /// How far the model's end-systolic surfaces are from the drawn ones.
 std::string shape_rows(const Plan& plan, const ShapeFit& shape) {
   return fmt::format(
-      "\n  end-systolic surfaces outside of the drawn ones, means of {} parts: bias {:.2f} mm, rms "
-      "{:.2f} mm (fitted to volumes alone: {:.2f}, {:.2f}); weight 1/({:g} mm)\n",
-      plan.drawn.size(), shape.after.bias, shape.after.rms, shape.before.bias, shape.before.rms,
-      plan.errors.shape);
+      "\n  end-systolic surfaces outside of the drawn ones, means of {} of {} parts: bias {:.2f} "
+      "mm, rms {:.2f} mm (fitted to volumes alone: {:.2f}, {:.2f}); weight 1/({:g} mm)\n",
+      counted_parts(shape.distances), plan.drawn.size(), shape.after.bias, shape.after.rms,
+      shape.before.bias, shape.before.rms, plan.errors.shape);
 }
 
 std::string regional_rows(const Plan& plan, const Fit& fit) {
@@ -321,10 +321,11 @@ Json shape_json(const Plan& plan, const Fit& fit) {
             {"fitted_to_volumes", misfit(shape.before)},
             {"fitted", misfit(shape.after)}};
   for (std::size_t i = 0; i < shape.distances.size(); ++i)
-    json["parts"].push_back(
-        {{"part", plan.drawn[i]},
-         {"distance_mm", shape.distances[i]},
-         {"d_dln_parameter_mm", slopes_json(fit, fit.sensitivity.distance_by_parameter, i)}});
+    if (shape.distances[i] != 0.0)
+      json["parts"].push_back(
+          {{"part", plan.drawn[i]},
+           {"distance_mm", shape.distances[i]},
+           {"d_dln_parameter_mm", slopes_json(fit, fit.sensitivity.distance_by_parameter, i)}});
   return json;
 }
 

@@ -188,11 +188,9 @@ class Unloader {
 
   /// What follows may take a minute.
   void warn() const {
-    const bool folds = has_wall() && is_folded(now_.step.folds);
-    if (folds && folded_volume_ != nullptr)
-      *folded_volume_ = now_.step.unloaded_volume;
-    const std::string why =
-        folds ? fmt::format("is folded ({})", words(now_.step.folds)) : "was not found";
+    const std::string why = has_wall() && is_folded(now_.step.folds)
+                                ? fmt::format("is folded ({})", words(now_.step.folds))
+                                : "was not found";
     log::warn(
         "the wall without load that becomes the seen shape at {:.2f} mmHg {}: that shape cannot be "
         "reached unless a smooth wall near by is found",
@@ -262,6 +260,7 @@ class Unloader {
 
   Outcome<Unloaded> near_enough(std::optional<Trial>& best, const Trial& exact) {
     if (!best || best->step.rms > parameters_.smooth_within) {
+      tell_folded_volume(best.has_value());
       if (is_folded(exact.step.folds))
         return folded(exact.step, best);
       now_ = exact;
@@ -271,6 +270,13 @@ class Unloader {
     now_ = std::move(*best);
     steps_.push_back(now_.step);
     return result();
+  }
+
+  /// Of the smoothest wall that was tried, where that is folded too.
+  void tell_folded_volume(bool has_smooth) const {
+    if (folded_volume_ != nullptr && !has_smooth && now_.left <= parameters_.tolerance &&
+        is_folded(now_.step.folds))
+      *folded_volume_ = now_.step.unloaded_volume;
   }
 
   /// The whole pressure from one guess; false when that has no equilibrium or does not lead to the

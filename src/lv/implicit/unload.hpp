@@ -56,7 +56,7 @@ struct UnloadTask {
   const Unloaded* start = nullptr;
   UnloadRecord record = {};
   double afterwards = 0.0;  ///< what the stage does then, for the time that is left [s]
-  /// Told what the cavity of the wall holds that the inverse problem found, if it is folded [mm^3].
+  /// Told what the smoothest wall that was tried holds without load, if it is folded too [mm^3].
   double* folded_volume = nullptr;
 };
 

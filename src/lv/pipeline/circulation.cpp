@@ -4,6 +4,7 @@
 #include "lv/base/periodic.hpp"
 #include "lv/beating_wall/base_motion.hpp"
 #include "lv/circulation/cycle.hpp"
+#include "lv/circulation/heart_rate.hpp"
 #include "lv/heartbeat/cycle.hpp"
 #include "lv/heartbeat/immersed_cycle.hpp"
 #include "lv/report/cycle_tables.hpp"
@@ -32,6 +33,17 @@ std::string words_of_what_is_to_come(const circulation::Cycle& cycle) {
                              : "";
 }
 
+/// How long the chambers contract in beats of another period than the usual one.
+std::string times_of_rate(const Case& c) {
+  const double ratio = circulation::relative_systole(c.circulation.period);
+  if (ratio == 1.0)
+    return "";
+  return fmt::format(
+      "times of chambers that the case does not set are those of {:.0f} beats a minute, {:.3f} of "
+      "the usual ones (`ventricle parameters circulation`)",
+      60.0 / c.circulation.period, ratio);
+}
+
 }  // namespace
 
 void make_circulation(const Case& c, const std::filesystem::path& folder) {
@@ -42,16 +54,20 @@ void make_circulation(const Case& c, const std::filesystem::path& folder) {
   std::vector<std::string> odd = report::unlike_any_patient(cycle.beats.back());
   if (std::string beyond = chamber_beyond_beat(c); !beyond.empty())
     odd.insert(odd.begin(), std::move(beyond));
-  std::string unlike;
+  std::string remarks;
+  if (const std::string times = times_of_rate(c); !times.empty()) {
+    log::info("circulation: {}", times);
+    remarks = times + "\n";
+  }
   for (const std::string& sentence : odd) {
     log::warn("circulation: {}", sentence);
-    unlike += fmt::format("warning: {}\n", sentence);
+    remarks += fmt::format("warning: {}\n", sentence);
   }
   write_cycle_tables(cycle, folder);
   write_cycle(cycle, {}, folder);
   write_file(folder / "circulation.txt",
              fmt::format("circulation with an elastance for the left ventricle\n{}\n{}\n{}", end,
-                         unlike, report::beat_text(cycle.beats.back())));
+                         remarks, report::beat_text(cycle.beats.back())));
 }
 
 heartbeat::Beat make_cycle(const Case& c, const mesh::Mesh& mesh,

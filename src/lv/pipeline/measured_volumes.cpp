@@ -126,8 +126,8 @@ void check_measured_volumes(const Case& c, const anatomy::Shape& shape) {
   const bool loaded = case_file::is_loaded(c);
   if (k.shape && shape.end_systole.empty())
     throw InputError(case_file::place_of(c, "calibrate.shape"),
-                     "is true, and the source of the anatomy shows no surface at end-systole to "
-                     "fit to",
+                     "calibrate.shape is true, and the source of the anatomy shows no surface at "
+                     "end-systole to fit to",
                      "Give loops at end-systole (anatomy.contours.es_short_axis), or a source with "
                      "both moments; or set calibrate.shape = false");
   if (!k.asked() || (loaded && !klotz))

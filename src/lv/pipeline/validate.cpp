@@ -240,6 +240,7 @@ std::string unlike_end_diastole(const Case& c) {
 
 void check_on_wall(const Case& c, const anatomy::MeshResult& wall) {
   check_room(c, wall.mesh);
+  static_cast<void>(case_file::segment_factors(c));            // whose table may be none
   static_cast<void>(beating_wall::activation_times(c, wall));  // which may not fit to the wall
   static_cast<void>(
       beating_wall::base_motion(c, wall.mesh));  // whose table may not fit to the beat

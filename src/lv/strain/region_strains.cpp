@@ -42,6 +42,14 @@ class StrainFile {
     }
     if (strains.empty())
       throw InputError(lines_.where(), "the file holds no strains", columns_rule);
+    constexpr std::size_t many = 6;  // a few of an infarct may lengthen
+    if (strains.size() >= many &&
+        std::all_of(strains.begin(), strains.end(), [](const auto& s) { return s.strain > 0.0; }))
+      throw InputError(lines_.where(),
+                       fmt::format("all {} strains are positive: the muscle of the whole heart "
+                                   "would lengthen while it contracts",
+                                   strains.size()),
+                       "Strain that shortens is negative; write it so");
     return strains;
   }
 

@@ -764,8 +764,9 @@ std::vector<Lines> cases_without_files() {
   return all;
 }
 
-/// Parameters of files and images, fits, tables and heartbeats, which have tests of their own; one
-/// that is a choice in effect; and two of an infarct, which change by less than a coarse element.
+/// Parameters of files and images, fits, tables, heartbeats and segments, which have tests of their
+/// own; one that is a choice in effect; and two of an infarct, which change by less than a coarse
+/// element.
 bool is_tried_elsewhere(const std::string& name) {
   static const std::vector<std::string> tables{"anatomy.contours.",
                                                "anatomy.labels.",
@@ -798,6 +799,7 @@ bool is_tried_elsewhere(const std::string& name) {
                                                "study.",
                                                "unloaded.",
                                                "muscle.contractility",
+                                               "septum.",
                                                "quasi_static.order",
                                                "infarct.described.angle",
                                                "infarct.described.bottom"};
