@@ -74,6 +74,12 @@ const Lines lge_scar{{"infarct.source", "\"lge\""},
                      {"infarct.lge.image", "\"dicom\""},
                      {"infarct.lge.in_plane", "true"}};
 
+const Lines strain_fit{{"calibrate.passive", "\"scale_and_exponent\""},
+                       {"calibrate.edv", "\"120 ml\""},
+                       {"calibrate.active", "true"},
+                       {"calibrate.esv", "\"60 ml\""},
+                       {"calibrate.strains", "\"strains.csv\""}};
+
 /// Cases of every engine, law, source and protocol.
 const std::vector<Lines>& bases() {
   static const std::vector<Lines> all{
@@ -108,18 +114,8 @@ const std::vector<Lines>& bases() {
       lge_scar,
       with(with(lge_scar, "infarct.lge.threshold", "\"fwhm\""), "infarct.lge.image", "\"a.nii\""),
       {{"calibrate.passive", "\"C_a\""}, {"calibrate.edv", "\"120 ml\""}},
-      {{"calibrate.passive", "\"scale_and_exponent\""},
-       {"calibrate.edv", "\"120 ml\""},
-       {"calibrate.active", "true"},
-       {"calibrate.esv", "\"60 ml\""},
-       {"calibrate.strains", "\"strains.csv\""}},
-      {{"calibrate.passive", "\"scale\""},
-       {"calibrate.edv", "\"120 ml\""},
-       {"calibrate.active", "true"},
-       {"calibrate.esv", "\"60 ml\""},
-       {"calibrate.strains", "\"strains.csv\""},
-       {"calibrate.contractility", "\"segments\""},
-       {"calibrate.shape", "true"}},
+      strain_fit,
+      with(with(strain_fit, "calibrate.contractility", "\"segments\""), "calibrate.shape", "true"),
       {{"calibrate.passive", "\"klotz\""}, {"unloaded.pressure", "\"8 mmHg\""}},
       {{"unloaded.pressure", "\"2 mmHg\""}},
       {{"circulation.kind", "\"windkessel\""}},
