@@ -467,8 +467,7 @@ class Fitter {
     Sensitivity& s = fit_.sensitivity;
     const Eigen::Index n = s.covariance.rows();
     s.covariance = posterior_.covariance.topLeftCorner(n, n);
-    const Eigen::VectorXd deviation = s.covariance.diagonal().cwiseSqrt();
-    s.correlation = s.covariance.cwiseQuotient(deviation * deviation.transpose());
+    s.correlation = correlation(s.covariance);
   }
 
   [[nodiscard]] std::vector<double> distances() const {
@@ -623,8 +622,7 @@ class Fitter {
       f.shape->after = misfit_of_shape(f.shape->distances);
       log::info(
           "end-systolic surfaces lie {:.2f} mm rms ({:+.2f} in the mean) outside of the drawn "
-          "ones, "
-          "fitted to volumes alone {:.2f} mm ({:+.2f})",
+          "ones, fitted to volumes alone {:.2f} mm ({:+.2f})",
           f.shape->after.rms, f.shape->after.bias, f.shape->before.rms, f.shape->before.bias);
     }
   }

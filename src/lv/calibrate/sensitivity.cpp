@@ -153,9 +153,13 @@ Sensitivity sensitivity(const Model& model, const FitParameters& at,
   }
   s.by_data = dense::least_squares(J, by_data);
   s.covariance = dense::inverse_of_normal_matrix(of_errors);
-  const Eigen::VectorXd deviation = s.covariance.diagonal().cwiseSqrt();
-  s.correlation = s.covariance.cwiseQuotient(deviation * deviation.transpose());
+  s.correlation = correlation(s.covariance);
   return s;
+}
+
+Eigen::MatrixXd correlation(const Eigen::MatrixXd& covariance) {
+  const Eigen::VectorXd deviation = covariance.diagonal().cwiseSqrt();
+  return covariance.cwiseQuotient(deviation * deviation.transpose());
 }
 
 }  // namespace lv::calibrate

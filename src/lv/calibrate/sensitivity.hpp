@@ -69,4 +69,7 @@ struct Measured {
                                       const std::vector<ObservedVolume>& observations,
                                       const Measured& measured);
 
+/// C_ij/(C_ii C_jj)^(1/2)
+[[nodiscard]] Eigen::MatrixXd correlation(const Eigen::MatrixXd& covariance);
+
 }  // namespace lv::calibrate

@@ -152,8 +152,7 @@ std::string segment_rows(const Plan& plan, const Fit& fit) {
 /// (J^T J)^-1 for the stated errors, larger when the model fits worse than they allow.
 Eigen::MatrixXd covariance(const Fit& fit) {
   const RegionalFit& f = *fit.regional_fit;
-  const double misfit =
-      f.degrees_of_freedom > 0 ? f.chi_squared / static_cast<double>(f.degrees_of_freedom) : 1.0;
+  const double misfit = f.degrees_of_freedom > 0.0 ? f.chi_squared / f.degrees_of_freedom : 1.0;
   return std::max(1.0, misfit) * fit.sensitivity.covariance;
 }
 

@@ -23,7 +23,7 @@ void store_memory(const Ventricle::Memory& memory, Archive& archive) {
     store(memory.known[n].state, equilibrium_name(n), archive);
   }
   archive.set("loads", std::move(loads));
-  archive.set("unloaded with", numbers(memory.unloaded_with));
+  store(memory.unloaded_with, archive, "unloaded with");
   if (memory.unloaded)
     store(*memory.unloaded, archive);
 }
@@ -34,8 +34,7 @@ Ventricle::Memory load_memory(const Archive& archive, std::size_t nodes) {
   for (std::size_t n = 0; 2 * n < loads.size(); ++n)
     memory.known.push_back(
         {{loads[2 * n], loads[2 * n + 1]}, load_state(archive, equilibrium_name(n), nodes)});
-  memory.unloaded_with = parameters_of(std::span<const double, parameter_count>(
-      archive.get_rows("unloaded with", parameter_count, 1).data(), parameter_count));
+  memory.unloaded_with = load_parameters(archive, "unloaded with");
   if (archive.has("unloaded.nodes"))
     memory.unloaded = load_unloaded(archive, nodes);
   return memory;

@@ -117,13 +117,13 @@ FitParameters parameters_of(std::span<const double, parameter_count> numbers) {
   return parameters;
 }
 
-void store(const FitParameters& parameters, Archive& archive) {
-  archive.set("parameters", numbers(parameters));
+void store(const FitParameters& parameters, Archive& archive, const std::string& name) {
+  archive.set(name, numbers(parameters));
 }
 
-FitParameters load_parameters(const Archive& archive) {
+FitParameters load_parameters(const Archive& archive, const std::string& name) {
   return parameters_of(std::span<const double, parameter_count>(
-      archive.get_rows("parameters", parameter_count, 1).data(), parameter_count));
+      archive.get_rows(name, parameter_count, 1).data(), parameter_count));
 }
 
 void store(const RecordedFit& fit, Archive& archive) {

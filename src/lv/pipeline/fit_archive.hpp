@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace lv::pipeline {
@@ -15,8 +16,10 @@ namespace lv::pipeline {
 }
 
 /// A fit as arrays of an archive, and back. Loading throws RunError for what no fit can be.
-void store(const calibrate::FitParameters& parameters, heartbeat::Archive& archive);
-[[nodiscard]] calibrate::FitParameters load_parameters(const heartbeat::Archive& archive);
+void store(const calibrate::FitParameters& parameters, heartbeat::Archive& archive,
+           const std::string& name = "parameters");
+[[nodiscard]] calibrate::FitParameters load_parameters(const heartbeat::Archive& archive,
+                                                       const std::string& name = "parameters");
 void store(const calibrate::RecordedFit& fit, heartbeat::Archive& archive);
 [[nodiscard]] calibrate::RecordedFit load_fit(const heartbeat::Archive& archive);
 
