@@ -362,12 +362,15 @@ std::vector<Polar> sampled(const image::CineSlice& slice, const Pixel& centre) {
   return values;
 }
 
-/// What a slice shows as coils would that receive equally, and the blood in it.
-Work begin(std::vector<Polar> values, double radius, const Polar& received) {
+void even_out(std::vector<Polar>& values, const Polar& received) {
+  for (Polar& frame : values)
+    frame /= received;
+}
+
+/// The blood that a slice shows.
+Work begin(std::vector<Polar> values, double radius) {
   Work work;
   work.values = std::move(values);
-  for (Polar& frame : work.values)
-    frame /= received;
   work.levels = guess_levels(work.values, radius, grid);
   work.inside = work.levels.blood;
   work.fullest = fullest_blood(work.values, radius, grid);
@@ -376,8 +379,9 @@ Work begin(std::vector<Polar> values, double radius, const Polar& received) {
   return work;
 }
 
-/// All slices, evened out by what the blood tells of the coils where a slice looks like the heart.
-std::vector<Work> begin_evened(const image::Cine& cine, const Heart& heart) {
+/// What all slices show as coils would that receive equally, by what the blood tells of them where
+/// a slice looks like the heart.
+std::vector<std::vector<Polar>> evened(const image::Cine& cine, const Heart& heart) {
   constexpr double like_seed = 0.5;
   std::vector<std::vector<Polar>> values;
   for (std::size_t s = 0; s < cine.slices.size(); ++s)
@@ -387,12 +391,38 @@ std::vector<Work> begin_evened(const image::Cine& cine, const Heart& heart) {
     if (heart.centres[s].likeness >= like_seed * heart.centres[heart.seed].likeness)
       pools.push_back({values[s], surely_blood * heart.centres[s].radius});
   const Polar received = sensitivity(coil_gradient(pools, grid), grid);
-  std::vector<Work> all;
-  for (std::size_t s = 0; s < values.size(); ++s) {
-    interrupt::check();
-    all.push_back(begin(std::move(values[s]), heart.centres[s].radius, received));
+  for (std::vector<Polar>& slice : values)
+    even_out(slice, received);
+  return values;
+}
+
+/// The grey values of blood and muscle that are seen in slices.
+struct SeenLevels {
+  std::vector<double> blood, muscle;
+};
+
+SeenLevels levels_of(const std::vector<Work>& all) {
+  SeenLevels seen;
+  std::vector<std::vector<double>> outside;
+  for (const Work& work : all) {
+    outside.push_back(around_blood(work.values, work.blood, grid));
+    seen.blood.push_back(work.levels.blood);
   }
-  return all;
+  seen.muscle = muscle_levels(outside, seen.blood);
+  return seen;
+}
+
+/// Slices as they would be with the usual contrast, and the blood that they show then.
+SeenLevels to_usual_contrast(std::vector<Work>& all, const std::vector<Centre>& centres) {
+  const SeenLevels seen = levels_of(all);
+  const Contrast contrast = contrast_of(seen.muscle, seen.blood);
+  for (std::size_t s = 0; s < all.size(); ++s) {
+    interrupt::check();
+    for (Polar& frame : all[s].values)
+      frame = with_usual_contrast(frame, contrast);
+    all[s] = begin(std::move(all[s].values), centres[s].radius);
+  }
+  return levels_of(all);
 }
 
 /// Finds the blood's edge again where its grey value is another one.
@@ -412,18 +442,17 @@ void learn_round(Work& work, double muscle_of_slice) {
 }
 
 std::vector<Work> begin_all(const image::Cine& cine, const Heart& heart) {
-  std::vector<Work> all = begin_evened(cine, heart);
-  std::vector<std::vector<double>> outside;
-  std::vector<double> blood;
-  for (const Work& work : all) {
-    outside.push_back(around_blood(work.values, work.blood, grid));
-    blood.push_back(work.levels.blood);
+  std::vector<std::vector<Polar>> values = evened(cine, heart);
+  std::vector<Work> all;
+  for (std::size_t s = 0; s < values.size(); ++s) {
+    interrupt::check();
+    all.push_back(begin(std::move(values[s]), heart.centres[s].radius));
   }
-  const std::vector<double> muscle = muscle_levels(outside, blood);
-  const std::vector<double> whole = whole_blood(blood, muscle);
+  const SeenLevels seen = to_usual_contrast(all, heart.centres);
+  const std::vector<double> whole = whole_blood(seen.blood, seen.muscle);
   for (std::size_t s = 0; s < all.size(); ++s) {
     find_blood(all[s], whole[s]);
-    learn_round(all[s], muscle[s]);
+    learn_round(all[s], seen.muscle[s]);
   }
   return all;
 }
@@ -561,12 +590,13 @@ Radii redrawn_epicardium(const Frame& frame, const std::optional<Radii>& endo,
 
 Radii redraw_border(const image::CineSlice& slice, const Redrawing& asked, double fall) {
   std::vector<Polar> values = sampled(slice, asked.centre.at);
-  const Polar received =
-      sensitivity(coil_gradient({{values, surely_blood * asked.centre.radius}}, grid), grid);
-  Work work = begin(std::move(values), asked.centre.radius, received);
-  learn_round(
-      work,
-      muscle_levels({around_blood(work.values, work.blood, grid)}, {work.levels.blood}).front());
+  even_out(values,
+           sensitivity(coil_gradient({{values, surely_blood * asked.centre.radius}}, grid), grid));
+  std::vector<Work> alone;
+  alone.push_back(begin(std::move(values), asked.centre.radius));
+  const SeenLevels seen = to_usual_contrast(alone, {asked.centre});
+  Work& work = alone.front();
+  learn_round(work, seen.muscle.front());
   find_middle(work);
   const Frame frame{work, asked.frame};
   const std::vector<Held> held = on_rays(asked.points);

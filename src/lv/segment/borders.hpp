@@ -31,7 +31,8 @@ struct Drawn {
 
 /// Draws endocardium and epicardium on all frames of all slices.
 ///
-/// What coils receive unequally is evened out (see coil_gradient).
+/// What coils receive unequally is evened out (see coil_gradient), and the contrast of blood and
+/// muscle made that of usual images (see with_usual_contrast).
 ///
 /// Grey levels are learnt from the study: blood as the median of the inner half of the cavity of a
 /// slice, muscle as the most frequent grey value 2 to 10 mm outside the blood of all slices, then

@@ -115,6 +115,20 @@ std::vector<double> whole_blood(const std::vector<double>& inside,
   return whole;
 }
 
+Contrast contrast_of(const std::vector<double>& muscle, const std::vector<double>& blood) {
+  return {median(blood), median(muscle)};
+}
+
+Polar with_usual_contrast(const Polar& values, const Contrast& contrast) {
+  const auto [b, m] = contrast;
+  const double usual = 0.28 * b;
+  if (m <= usual)
+    return values;
+  const double g = std::log(usual / b) / std::log(m / b);
+  return (values > m)
+      .select(usual + (values - m) * (b - usual) / (b - m), usual * (values.max(0.0) / m).pow(g));
+}
+
 Radii muscle_round(const std::vector<Polar>& frames, const std::vector<Radii>& blood,
                    double of_slice, const PolarGrid& grid) {
   constexpr double darkest = 0.3;  // of the slice's level

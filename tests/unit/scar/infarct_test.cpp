@@ -108,15 +108,15 @@ TEST_CASE("a surface and a labelled volume in image space mean the region that t
 
 TEST_CASE("a NIfTI map and the brightness of an image mean the region that they were made from",
           "[unit][scar]") {
-  const mesh::Mesh wall = test::ellipsoid_mesh({}, 4.0);
+  const mesh::Mesh wall = test::ellipsoid_mesh({}, 5.0);
   const auto box = [](const Vec3& X, double) { return in_box(frame.to_image(X)); };
   const auto expected = mesh::infarct_field(wall, mesh::infarcted_where(wall, box), 10.0);
   const test::TemporaryFolder folder;
   const Vec3 origin(40.0, -115.0, 330.0);
   const auto write = [&](const std::string& name, const std::function<int(const Vec3&)>& value) {
     test::write_bytes(folder / name,
-                      test::nifti_bytes(test::label_map({160, 160, 160}, Mat3::Identity(),
-                                                        Vec3::Ones(), origin, value)));
+                      test::nifti_bytes(test::label_map({80, 80, 80}, Mat3::Identity(),
+                                                        Vec3(2, 2, 2), origin, value)));
   };
   // a core without contrast agent in the scar; brightness of muscle between 10 and 12
   const auto core = [](const Vec3& x) { return x.z() > 380.0 && x.z() < 390.0; };
@@ -241,7 +241,7 @@ TEST_CASE("half of the brightest is taken from the grey value of no signal", "[u
   const mesh::Mesh wall = test::ellipsoid_mesh({}, 5.0);
   const test::TemporaryFolder folder;
   const auto write = [&](const std::string& name, const std::function<int(const Vec3&)>& value) {
-    test::NiftiSpec image = test::label_map({60, 60, 60}, Mat3::Identity(), Vec3(2.0, 2.0, 2.0),
+    test::NiftiSpec image = test::label_map({60, 60, 30}, Mat3::Identity(), Vec3(2.0, 2.0, 4.0),
                                             Vec3(-59.0, -59.0, -100.0), value);
     image.floating = true;  // grey values beyond a byte's
     test::write_bytes(folder / name, test::nifti_bytes(image));

@@ -24,3 +24,17 @@ TEST_CASE("how bright blood is at the tip is told while the slice holds most of 
   CHECK(segment::fullest_blood(frames, 8.0, grid) == Approx(600.0));
   CHECK(segment::guess_levels(frames, 8.0, grid).blood == Approx(500.0));
 }
+
+TEST_CASE("muscle half as bright as blood has its usual contrast afterwards", "[segment]") {
+  const segment::Contrast contrast = segment::contrast_of({50.0, 60.0, 40.0}, {100, 120, 80});
+  segment::Polar values(1, 6);
+  values << 100.0, 75.0, 50.0, 25.0, 0.0, -3.0;
+  const segment::Polar seen = segment::with_usual_contrast(values, contrast);
+  CHECK(seen(0) == Approx(100.0));
+  CHECK(seen(1) == Approx(64.0));  // half way stays half way
+  CHECK(seen(2) == Approx(28.0));
+  CHECK(seen(3) == Approx(28.0 * 0.28));  // half of the muscle's: g is ln(0.28)/ln(0.5)
+  CHECK(seen(4) == 0.0);
+  CHECK(seen(5) == 0.0);
+  CHECK(segment::with_usual_contrast(values, {100.0, 20.0})(3) == 25.0);
+}
