@@ -85,10 +85,27 @@ def check_refused_beat(folder):
     run = ventricle("run", case, "--ranks", 1)
     page = folder / "weak.work" / "report.html"
     check("times of chambers that follow the heart rate are told", "are those of 150 beats a minute, 0.595 of the usual" in run.stdout, run.stdout)
+    check("calcium that is not of the heart rate is warned of", "healthy systole lasts 0.59 times as long as at 75" in run.stdout + run.stderr, run.stdout)
     check("heartbeats without an end-systole are refused with a page of what was reached",
           run.returncode == 2 and "the aortic valve stays closed" in run.stderr and page.exists(), run.stderr)
     html = page.read_text() if page.exists() else ""
     check("which says that it is unfinished, and why", "03_beat is unfinished." in html and "the run ended early: the last beat has no end-diastole" in html)
+
+
+# A volume that no contractility reaches against this pressure.
+def check_refused_fit(folder):
+    case = folder / "fit.toml"
+    case.write_text("""name = "out of reach"
+engine = "quasi_static"
+quasi_static = {edge_length = "20 mm", layers = 1}
+calibrate = {active = true, esv = "20 ml"}
+protocol.es_pressure = "300 mmHg"
+""")
+    run = ventricle("run", case, "--ranks", 1)
+    page = folder / "fit.work" / "report.html"
+    check("a refused fit leaves a page of what was reached", run.returncode == 1 and page.exists(), run.stdout + run.stderr)
+    html = page.read_text() if page.exists() else ""
+    check("which says that it is unfinished, and why", "02b_calibrate is unfinished." in html and "the run ended early:" in html and "20.00 ml cannot be reached" in html)
 
 
 def check_outputs(case):
@@ -109,4 +126,5 @@ with tempfile.TemporaryDirectory() as temporary:
     check_parameters()
     check_way(pathlib.Path(temporary))
     check_refused_beat(pathlib.Path(temporary))
+    check_refused_fit(pathlib.Path(temporary))
 sys.exit(1 if failures else 0)

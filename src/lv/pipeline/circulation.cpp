@@ -149,6 +149,18 @@ std::string slow_relaxation(const Case& c) {
          "active.law = \"land2017\" is human";
 }
 
+std::string calcium_beside_rate(const Case& c) {
+  constexpr double worth_a_word = 0.1;
+  const double ratio = circulation::relative_systole(c.circulation.period);
+  if (!case_file::is_cycle(c) || std::abs(ratio - 1.0) < worth_a_word)
+    return "";
+  return fmt::format(
+      "calcium takes the times that the case says at every heart rate; at {:.0f} beats a minute "
+      "healthy systole lasts {:.2f} times as long as at 75: where calcium was that of 75, multiply "
+      "calcium.tau, or t_1 and t_2, by as much",
+      60.0 / c.circulation.period, ratio);
+}
+
 std::string chamber_beyond_beat(const Case& c) {
   if (c.circulation.kind != circulation::Kind::closed_loop)
     return "";

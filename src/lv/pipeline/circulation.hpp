@@ -46,6 +46,10 @@ void write_cycle(const circulation::Cycle& cycle, const std::optional<Table>& cu
 /// Of Niederer's law in a cycle; empty of other laws and protocols.
 [[nodiscard]] std::string slow_relaxation(const case_file::Case& c);
 
+/// Of heartbeats in which healthy systole lasts a tenth shorter or longer than at the usual rate,
+/// where a wall's calcium stays what the case says; empty of others.
+[[nodiscard]] std::string calcium_beside_rate(const case_file::Case& c);
+
 /// Of chambers of a closed loop whose contraction is said to begin after the beat's end, and so
 /// begins as much earlier in every beat; empty: there is none.
 [[nodiscard]] std::string chamber_beyond_beat(const case_file::Case& c);

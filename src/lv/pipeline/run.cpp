@@ -68,7 +68,7 @@ class Pipeline {
       log::warn("{}", what);
     for (const std::string& odd :
          {fit_outside_heartbeats(case_), left_handed_fibres(case_), high_filling_pressure(case_),
-          high_calcium(case_), unlike_end_diastole(case_),
+          high_calcium(case_), calcium_beside_rate(case_), unlike_end_diastole(case_),
           beating_wall::base_away_from_apex(case_)})
       if (!odd.empty())
         log::warn("{}", odd);
@@ -83,9 +83,9 @@ class Pipeline {
       run_stage(p);
   }
 
-  /// A page of what a case has come to whose heartbeats nature refused; its banner says why.
+  /// A page of what a case has come to whose fit or beat was refused; its banner says why.
   void show_reached() const {
-    if (!parallel::is_root() || !std::filesystem::exists(folder(Stage::beat).string() + ".part"))
+    if (!parallel::is_root() || !underway_ || *underway_ < Stage::calibrate)
       return;
     write_page({work_}, reached(), Replaces::any_page);
     log::info("page of what was reached: {}", reached().string());
@@ -222,8 +222,10 @@ class Pipeline {
     Case seen = work::stage_view(case_, s);
     if (takes_base_of_cine(s))
       seen = beating_wall::with_base_of_cine(std::move(seen), folder(Stage::strain));
+    underway_ = s;
     make(s, seen, stage.unfinished());
     on_root([&] { stage.finish(); });
+    underway_.reset();
     show(s);
   }
 
@@ -425,7 +427,8 @@ class Pipeline {
   std::string text_;
   std::optional<anatomy::Shape> shape_;
   std::optional<anatomy::MeshResult> wall_;  ///< where a check has made it
-  double seconds_of_pictures_ = 0.0;         ///< of the seen mesh; 0 where another run made it
+  std::optional<Stage> underway_;
+  double seconds_of_pictures_ = 0.0;  ///< of the seen mesh; 0 where another run made it
   static constexpr const char* coarse_name = "coarse";  ///< folder of the mesh for a first fit
   static constexpr const char* elements_name = "quasi_static";  ///< folder of the mesh for fits
 };
@@ -450,7 +453,8 @@ void run(const Case& c, const RunOptions& options) {
     pipeline.run();
   } catch (const std::exception& failure) {
     log::keep(fmt::format("the run ended early: {}", failure.what()));  // the program tells it
-    if (dynamic_cast<const NoSolution*>(&failure) != nullptr)
+    if (dynamic_cast<const NoSolution*>(&failure) != nullptr ||
+        dynamic_cast<const InputError*>(&failure) != nullptr)
       pipeline.show_reached();
     throw;
   }

@@ -86,6 +86,8 @@ std::vector<Warning> warnings_of(const Case& c, const anatomy::Shape& shape, dou
     warnings.push_back({"high filling pressure", std::move(high)});
   if (std::string high = high_calcium(c); !high.empty())
     warnings.push_back({"high calcium", std::move(high)});
+  if (std::string other = calcium_beside_rate(c); !other.empty())
+    warnings.push_back({"calcium of another rate", std::move(other)});
   if (std::string unlike = unlike_end_diastole(c); !unlike.empty())
     warnings.push_back({"another end-diastole", std::move(unlike)});
   if (std::string away = beating_wall::base_away_from_apex(c); !away.empty())

@@ -2,6 +2,7 @@
 
 #include "lv/analysis/quantities.hpp"
 #include "lv/base/units.hpp"
+#include "lv/circulation/heart_rate.hpp"
 
 #include <fmt/format.h>
 
@@ -75,11 +76,11 @@ std::vector<PlausibleRange> ranges_of_heartbeats() {
   constexpr const char* blood_pressure =
       "Williams et al., Eur. Heart J. 39:3021, 2018: hypertension begins at 140/90 mmHg, measured "
       "at the arm; below 90/60 is low";
-  const auto intervals = [](const char* mean) {
+  const auto intervals = [](const char* mean, const char* rate = "") {
     return fmt::format(
-        "Alhakak et al., Clin. Res. Cardiol., the Copenhagen City Heart Study: {} ms in 1969 "
-        "healthy adults, 95% of them",
-        mean);
+        "Alhakak et al., Clin. Res. Cardiol., 2023, the Copenhagen City Heart Study: {} ms in "
+        "1969 healthy adults, 95% of them{}",
+        mean, rate);
   };
   return {
       {"peak_pressure_mmHg", "peak pressure", "mmHg", nullptr, 90.0, 140.0, 40.0, 300.0,
@@ -100,7 +101,11 @@ std::vector<PlausibleRange> ranges_of_heartbeats() {
       {"isovolumic_contraction_ms", "isovolumic contraction", "ms", nullptr, 20.0, 59.0, 0.0, 300.0,
        healthy_ventricle, false, intervals("40 +- 10"), &BeatMeasures::isovolumic_contraction},
       {"ejection_time_ms", "ejection time", "ms", nullptr, 248.0, 336.0, 50.0, 600.0,
-       healthy_ventricle, false, intervals("292 +- 23"), &BeatMeasures::ejection_time},
+       healthy_ventricle, false,
+       intervals("292 +- 23",
+                 ", taken for those at 75 beats a minute; at other rates as much "
+                 "shorter or longer as systole"),
+       &BeatMeasures::ejection_time},
       {"isovolumic_relaxation_ms", "isovolumic relaxation", "ms", nullptr, 59.0, 134.0, 0.0, 400.0,
        healthy_ventricle, false, intervals("96 +- 19"), &BeatMeasures::isovolumic_relaxation}};
 }
@@ -193,9 +198,16 @@ std::string why_impossible(const PlausibleRange& range, double value) {
 }
 
 Judgement judge(const PlausibleRange& range, const JudgedBeat& beat) {
+  const double at_rate = range.measure == &circulation::BeatMeasures::ejection_time
+                             ? circulation::relative_systole(beat.period)
+                             : 1.0;
   Judgement j{&range,
+              at_rate * range.low,
+              at_rate * range.high,
               range.measure != nullptr ? value_in(range, *beat.heartbeat) : range.value(beat),
-              Answer::not_applicable, why_not_applicable(range, beat), false};
+              Answer::not_applicable,
+              why_not_applicable(range, beat),
+              false};
   if (range.measure != nullptr && std::isnan(j.value)) {
     j.reason = "it did not happen within the last beat";
     return j;
@@ -205,7 +217,7 @@ Judgement judge(const PlausibleRange& range, const JudgedBeat& beat) {
     j.reason = why_impossible(range, j.value);
   else if (!j.reason.empty())
     return j;
-  j.answer = j.value >= range.low && j.value <= range.high ? Answer::within : Answer::outside;
+  j.answer = j.value >= j.low && j.value <= j.high ? Answer::within : Answer::outside;
   return j;
 }
 

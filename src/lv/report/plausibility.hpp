@@ -2,6 +2,7 @@
 
 #include "lv/analysis/results.hpp"
 #include "lv/circulation/beat_measures.hpp"
+#include "lv/circulation/parameters.hpp"
 
 #include <string>
 #include <vector>
@@ -18,8 +19,9 @@ struct JudgedBeat {
   double muscle_density;  ///< [kg/mm^3]
   bool is_infarcted;
   bool contraction_was_steady;
-  bool base_is_held = true;                              ///< in its plane and from turning
-  const circulation::BeatMeasures* heartbeat = nullptr;  ///< the last one, of a circulation
+  bool base_is_held = true;                                 ///< in its plane and from turning
+  const circulation::BeatMeasures* heartbeat = nullptr;     ///< the last one, of a circulation
+  double period = circulation::CircuitParameters{}.period;  ///< of it [s]
 };
 
 /// Where a quantity of a beat is expected, and where no beating heart can be. An end that is not
@@ -28,7 +30,7 @@ struct PlausibleRange {
   std::string quantity;  ///< its key in summary.json
   std::string label, unit;
   double (*value)(const JudgedBeat& beat);  ///< in that unit; nullptr: that of `measure`
-  double low, high;
+  double low, high;                         ///< of an ejection time: at the usual heart rate
   double possible_low, possible_high;
   Population population;
   bool needs_end_systole;  ///< means nothing where contraction was not steady
@@ -43,9 +45,10 @@ enum class Answer { within, outside, not_applicable };
 
 [[nodiscard]] std::string name(Answer answer);
 
-/// A number beside its range.
+/// A number beside its range, whose ends an ejection time's heart rate moves as it does systole's.
 struct Judgement {
   const PlausibleRange* range;
+  double low, high;
   double value;
   Answer answer;
   std::string reason;  ///< why the range does not apply, or why the value cannot be

@@ -150,7 +150,8 @@ std::vector<Judgement> judge(const RunFacts& facts, const heartbeat::Beat& beat,
   const heartbeat::NamedMoment* end = beat.find(heartbeat::end_systole);
   return judge(JudgedBeat{r, facts.muscle_density, has_zones(r),
                           end != nullptr && end->by_criterion, facts.base_is_held,
-                          beat.cycle ? &beat.cycle->beats.back() : nullptr});
+                          beat.cycle ? &beat.cycle->beats.back() : nullptr,
+                          beat.cycle ? beat.cycle->period : 0.0});
 }
 
 /// The end of a range; null where it has none.
@@ -164,8 +165,8 @@ Json judgement_json(const Judgement& j) {
           {"label", range.label},
           {"value", number(j.value)},
           {"unit", range.unit},
-          {"low", bound(range.low)},
-          {"high", bound(range.high)},
+          {"low", bound(j.low)},
+          {"high", bound(j.high)},
           {"source", range.source},
           {"answer", name(j.answer)},
           {"reason", j.reason},
@@ -182,7 +183,7 @@ std::string plausibility_text(const std::vector<Judgement>& judgements) {
     const PlausibleRange& range = *j.range;
     text += fmt::format("  {:<56}{:>10.3f} {:<4}{:>16}  {}\n", range.label, j.value,
                         range.unit == "1" ? "" : range.unit,
-                        fmt::format("{:g} to {:g}", range.low, range.high),
+                        fmt::format("{:.4g} to {:.4g}", j.low, j.high),
                         j.is_impossible                      ? "IMPOSSIBLE"
                         : j.answer == Answer::not_applicable ? "not applicable: " + j.reason
                                                              : name(j.answer));

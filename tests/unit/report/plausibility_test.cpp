@@ -91,6 +91,12 @@ TEST_CASE("a wall's heartbeat is held against what people have", "[report]") {
   CHECK_FALSE(judged(beat, "dp_dt_min_mmHg_per_s").is_impossible);
   CHECK(judged(beat, "dp_dt_max_mmHg_per_s").is_impossible);
   CHECK(judged(beat, "isovolumic_contraction_ms").is_impossible);
+  measures.ejection_time = 0.24;
+  CHECK(judged(beat, "ejection_time_ms").answer == Answer::outside);
+  beat.period = 0.6;  // QS2 = 336 ms instead of 388.5
+  CHECK(judged(beat, "ejection_time_ms").answer == Answer::within);
+  CHECK(judged(beat, "ejection_time_ms").low == Approx(248.0 * 336.0 / 388.5));
+  CHECK(judged(beat, "isovolumic_contraction_ms").low == 20.0);
   CHECK(judged(beat, "isovolumic_relaxation_ms").answer == Answer::not_applicable);
   CHECK_FALSE(judged(beat, "isovolumic_relaxation_ms").is_impossible);
 }
