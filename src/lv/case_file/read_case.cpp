@@ -100,8 +100,9 @@ class CaseReader {
 
   void set(const Parameter& parameter, const toml::node& node, const std::string& line) {
     if (node.is_string() && fmt::format("\"{}\"", *node.value<std::string>()) == fill_in) {
-      mistakes_.emplace_back(line, fmt::format("{} is to be filled in: {}; {}", parameter.name,
-                                               parameter.help, parameter.rule()));
+      const std::string rule = parameter.rule();
+      mistakes_.emplace_back(line, fmt::format("{} is to be filled in: {}{}", parameter.name,
+                                               parameter.help, rule == "any" ? "" : "; " + rule));
       return;
     }
     try {

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
+#include <ctime>
 
 namespace lv::pipeline {
 namespace {
@@ -25,12 +25,12 @@ constexpr double steps_of_time_step = 0.04;  // in a heartbeat, which keeps its 
 constexpr double beats_of_fit = 30.0;        // with sensitivities
 constexpr int many_unknowns = 100'000;       // whose load step takes longer than some seconds
 
+/// Of processor time, as other programs may be at work beside it and not in the run.
 template <class Work>
 double seconds(const Work& work) {
-  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t start = std::clock();
   work();
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  return elapsed.count();
+  return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
 /// How long one engine takes, or why it cannot.

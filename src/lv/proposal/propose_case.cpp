@@ -108,24 +108,37 @@ void append(std::vector<CaseLine>& lines, const std::vector<CaseLine>& more) {
   lines.insert(lines.end(), more.begin(), more.end());
 }
 
-/// Grey values show no wall: it must be drawn first.
+/// A cine on which nothing is drawn yet, in which the program draws the borders.
+std::vector<CaseLine> cine_lines(const std::string& name) {
+  return {source_line("cine",
+                      "borders drawn by the program: look at them with `ventricle segment`, "
+                      "correct them with `ventricle draw`; or name what was drawn elsewhere"),
+          {"segment.cine", case_file::quoted(name), ""}};
+}
+
+/// Strain from images, to be uncommented.
+std::vector<CaseLine> strain_lines(const std::string& name) {
+  return {{"strain.cine", case_file::quoted(name), "strain from these images", false},
+          {"strain.contours", case_file::fill_in, "loops drawn at end-diastole", false}};
+}
+
+/// Grey values of one moment show no wall: it must be drawn first.
 Proposal of_grey_image(const image::Volume& image, const std::string& name) {
-  Proposal p{fmt::format("{}: an image, no labels", image.file), {}};
-  p.lines = {
-      source_line("labels", "or contours, guide_points, mesh: what was drawn on the images"),
-      {"anatomy.labels.file", case_file::fill_in, "the label map, drawn on these images elsewhere"},
-      {"anatomy.labels.cavity", case_file::fill_in, "its labels of the left ventricle's blood"},
-      {"anatomy.labels.muscle", case_file::fill_in, "its labels of the left ventricle's muscle"}};
-  if (image.frames > 1)
-    append(p.lines,
-           {{"strain.cine", case_file::quoted(name), "strain from these images", false},
-            {"strain.contours", case_file::fill_in, "loops drawn at end-diastole", false}});
-  else
-    append(p.lines,
-           {{"infarct.source", case_file::quoted("lge"), "if it is late enhancement", false},
-            {"infarct.lge.image", case_file::quoted(name), "", false},
-            {"infarct.lge.remote", case_file::fill_in, "AHA segments of healthy muscle", false}});
-  return p;
+  if (image.frames > 1) {
+    Proposal p{fmt::format("{}: an image over time, no labels", image.file), cine_lines(name)};
+    append(p.lines, strain_lines(name));
+    return p;
+  }
+  return {
+      fmt::format("{}: an image, no labels", image.file),
+      {source_line("labels", "or contours, guide_points, mesh: what was drawn on the images"),
+       {"anatomy.labels.file", case_file::fill_in,
+        "the label map, drawn on these images elsewhere"},
+       {"anatomy.labels.cavity", case_file::fill_in, "its labels of the left ventricle's blood"},
+       {"anatomy.labels.muscle", case_file::fill_in, "its labels of the left ventricle's muscle"},
+       {"infarct.source", case_file::quoted("lge"), "if it is late enhancement", false},
+       {"infarct.lge.image", case_file::quoted(name), "", false},
+       {"infarct.lge.remote", case_file::fill_in, "AHA segments of healthy muscle", false}}};
 }
 
 Proposal of_volume(const fs::path& source, const std::string& name) {
@@ -254,20 +267,26 @@ const image::DicomStack* late_enhancement(const image::DicomStudy& study) {
   return nullptr;
 }
 
-std::vector<CaseLine> lines_without_contours(const image::DicomStudy& study) {
-  std::vector<CaseLine> lines;
-  if (const image::DicomStack* cine = anatomy::short_axis_cine(study); cine != nullptr)
-    lines.push_back({"anatomy.sunnybrook.series", fmt::format("[{}]", case_file::quoted(cine->key)),
-                     "seems the short-axis cine"});
-  append(lines,
-         {{"anatomy.sunnybrook.contours", case_file::fill_in, "the folder of contours drawn on it"},
-          {"anatomy.sunnybrook.phase", "0", "0: `ventricle validate` lists what there is"}});
+std::vector<CaseLine> lines_without_contours(const std::string& name,
+                                             const image::DicomStack* cine) {
+  if (cine == nullptr)
+    return {
+        source_line("sunnybrook", "or what else was drawn on the images"),
+        {"anatomy.sunnybrook.dicom", case_file::quoted(name), ""},
+        {"anatomy.sunnybrook.contours", case_file::fill_in, "the folder of contours drawn on it"},
+        {"anatomy.sunnybrook.phase", "0", "0: `ventricle validate` lists what there is"}};
+  std::vector<CaseLine> lines = cine_lines(name);
+  lines.push_back({"segment.series", case_file::quoted(cine->key), "seems the short-axis cine"});
   return lines;
 }
 
-std::vector<CaseLine> lines_with_contours(const image::DicomStudy& study, const fs::path& contours,
-                                          const std::string& name) {
-  std::vector<CaseLine> lines{{"anatomy.sunnybrook.contours", case_file::quoted(name), ""}};
+std::vector<CaseLine> lines_with_contours(const image::DicomStudy& study, const std::string& name,
+                                          const fs::path& contours,
+                                          const std::string& contours_name) {
+  std::vector<CaseLine> lines{
+      source_line("sunnybrook"),
+      {"anatomy.sunnybrook.dicom", case_file::quoted(name), ""},
+      {"anatomy.sunnybrook.contours", case_file::quoted(contours_name), ""}};
   const anatomy::SunnybrookChoice chosen = anatomy::sunnybrook_choice(contours, study, {});
   append(lines, chosen.lines);
   append(lines, lines_of_moment(anatomy::moments_of(chosen.read.phases)));
@@ -368,19 +387,15 @@ SourceKind kind_of(const fs::path& source) {
 
 Proposal propose(const image::DicomStudy& study, const std::string& name, const fs::path& contours,
                  const std::string& contours_name) {
+  const image::DicomStack* cine = anatomy::short_axis_cine(study);
   Proposal p{image::describe(study),
-             {source_line("sunnybrook",
-                          "contours in pixels; or labels, contours, guide_points, mesh: what was "
-                          "drawn on the images"),
-              {"anatomy.sunnybrook.dicom", case_file::quoted(name), ""}}};
-  append(p.lines, contours.empty() ? lines_without_contours(study)
-                                   : lines_with_contours(study, contours, contours_name));
+             contours.empty() ? lines_without_contours(name, cine)
+                              : lines_with_contours(study, name, contours, contours_name)};
   p.lines.push_back(septum_line());
-  if (const image::DicomStack* cine = anatomy::short_axis_cine(study); cine != nullptr)
-    append(p.lines,
-           {{"strain.cine", case_file::quoted(name), "strain from these images", false},
-            {"strain.series", case_file::quoted(cine->key), "", false},
-            {"strain.contours", case_file::fill_in, "loops drawn at end-diastole", false}});
+  if (cine != nullptr) {
+    append(p.lines, strain_lines(name));
+    p.lines.push_back({"strain.series", case_file::quoted(cine->key), "", false});
+  }
   if (const image::DicomStack* scar = late_enhancement(study); scar != nullptr)
     append(p.lines,
            {{"infarct.source", case_file::quoted("lge"), "", false},

@@ -40,7 +40,8 @@ TEST_CASE("a case with lines to fill in is refused, naming all of them", "[unit]
   CHECK_THROWS_WITH(case_file::parse_case(
                         "[strain]\ncine = \"FILL IN\"\n[unloaded]\npressure = \"FILL IN\"\n", "c"),
                     Contains("c:2: strain.cine is to be filled in: ") &&
-                        Contains("c:4: unloaded.pressure is to be filled in: "));
+                        Contains("c:4: unloaded.pressure is to be filled in: ") &&
+                        !Contains("; any"));
 }
 
 TEST_CASE("parameters are found by a part of their name or meaning", "[unit][case_file]") {

@@ -169,17 +169,48 @@ TEST_CASE("a case from a mesh finds its unit and, without tags, its sides", "[un
   CHECK(c.anatomy.mesh.import.sides == mesh::SideSource::geometry);
 }
 
-TEST_CASE("a case from images alone is refused until it names what was drawn on them",
+/// A DICOM short-axis stack of three slices over time.
+void write_dicom_stack(const std::filesystem::path& folder, int images) {
+  std::filesystem::create_directory(folder);
+  for (int slice = 0; slice < 3; ++slice)
+    for (int image = 0; image < images; ++image) {
+      test::DicomSpec spec;
+      spec.plane.columns = 4;
+      spec.plane.rows = 4;
+      spec.plane.origin.z() = 10.0 * slice;
+      spec.pixels.assign(16, 7);
+      spec.instance = images * slice + image + 1;
+      spec.instance_uid = "1.2.3.4." + std::to_string(spec.instance);
+      spec.trigger_ms = 30.0 * image;
+      test::write_bytes(folder / std::to_string(spec.instance), test::dicom_bytes(spec));
+    }
+}
+
+TEST_CASE("a case from images of one moment is refused until it names what was drawn on them",
           "[unit][proposal]") {
   const test::TemporaryFolder folder;
-  std::filesystem::create_directory(folder / "dicom");
-  test::DicomSpec spec;
-  spec.plane.columns = 4;
-  spec.plane.rows = 4;
-  spec.pixels.assign(16, 7);
-  test::write_bytes(folder / "dicom" / "a", test::dicom_bytes(spec));
+  write_dicom_stack(folder / "dicom", 1);
   CHECK_THROWS_WITH(parsed(folder / "dicom", folder / "case.toml"),
                     Contains("anatomy.sunnybrook.contours is to be filled in"));
+}
+
+TEST_CASE("a case from a cine on which nothing is drawn has its borders drawn",
+          "[unit][proposal]") {
+  const test::TemporaryFolder folder;
+  write_dicom_stack(folder / "dicom", 6);
+  const case_file::Case c = parsed(folder / "dicom", folder / "case.toml");
+  CHECK(c.anatomy.source == case_file::AnatomySource::cine);
+  CHECK(c.anatomy.cine.images == "dicom");
+  CHECK(c.anatomy.cine.series == "1");
+  test::NiftiSpec spec;
+  spec.size = {30, 30, 3, 6};
+  spec.sform = {{{-1.5, 0.0, 0.0, 0.0}, {0.0, -1.5, 0.0, 0.0}, {0.0, 0.0, 8.0, 0.0}}};
+  for (int value = 0; value < 30 * 30 * 3 * 6; ++value)
+    spec.values.push_back(value);
+  test::write_bytes(folder / "cine.nii", test::nifti_bytes(spec));
+  const case_file::Case n = parsed(folder / "cine.nii", folder / "other.toml");
+  CHECK(n.anatomy.source == case_file::AnatomySource::cine);
+  CHECK(n.anatomy.cine.images == "cine.nii");
 }
 
 TEST_CASE("what is nothing that is read is refused with a list of what is", "[unit][proposal]") {
