@@ -26,7 +26,7 @@ except ImportError as missing:
     sys.exit(77)
 
 program = pathlib.Path(sys.argv[1]).resolve()
-persons = [int(n) for n in sys.argv[2:]] or [7, 5, 2]
+persons = [int(n) for n in sys.argv[2:]] or [7, 5, 2, 3, 4]
 
 # Meshes: of the truth, and other ones of the fit. Coarse, for tests only: one layer of quadratic elements.
 meshes = {"same": "13 mm", "other": "11 mm"}

@@ -45,24 +45,19 @@ class Surfaces {
     return side == Side::endo ? endo_.signed_distance(x) : -epi_.signed_distance(x);
   }
 
-  /// Of all points, along the long axis: where the mean square of their distances is smallest.
+  /// Of all points, along the long axis: where the sum of their squared distances is smallest.
+  /// Points that pass the base plane are held against the base's edge: a sum from which they
+  /// dropped out would have a minimum wherever a loop has just passed.
   [[nodiscard]] double best_shift(const std::vector<Point>& points) const {
-    const auto mean_square = [&](double shift) {
+    const auto sum_of_squares = [&](double shift) {
       double sum = 0.0;
-      double weight = 0.0;
-      for (const Point& p : points) {
-        const Vec3 x = p.x + shift * Vec3::UnitZ();
-        const double w = weight_at(x.z());
-        if (w == 0.0)
-          continue;
-        const double d = outside(p.side, x);
-        sum += w * d * d;
-        weight += w;
-      }
-      return weight == 0.0 ? 1e9 : sum / weight;
+      for (const Point& p : points)
+        sum += std::pow(outside(p.side, {p.x.x(), p.x.y(), std::min(0.0, p.x.z() + shift)}), 2);
+      return sum;
     };
     constexpr int bits = 20;
-    return boost::math::tools::brent_find_minima(mean_square, -farthest_shift, farthest_shift, bits)
+    return boost::math::tools::brent_find_minima(sum_of_squares, -farthest_shift, farthest_shift,
+                                                 bits)
         .first;
   }
 

@@ -44,7 +44,7 @@ constexpr double rough_esv = 0.02;       // of ln(V/V_target), with a first T_sc
 constexpr double first_stiffness = 2.0;  // stiff walls are unloaded more easily
 constexpr double shortest_step = 5e-3;   // of the logarithms of scale and exponent
 constexpr double shortest_of_regions = 1e-4;
-constexpr double shortest_of_segments = 2e-2;                 // a small part of their errors
+constexpr double negligible_of_segments = 1e-2;               // decrease of |r|^2
 constexpr std::array<double, 2> segment_factors{0.02, 50.0};  // within which they are sought
 constexpr double unloaded_difference = 0.05;                  // unloading leaves volumes scattered
 
@@ -409,7 +409,8 @@ class Fitter {
         least_squares(residuals, logs.start, logs.low, logs.high,
                       {.difference = difference,
                        .longest = longest_step,
-                       .shortest = segments > 0 ? shortest_of_segments : shortest_of_regions,
+                       .shortest = shortest_of_regions,
+                       .negligible = segments > 0 ? negligible_of_segments : 0.0,
                        .confirms = true,
                        .linearise = [&](const auto& x) { linearise(fitted, x); }})
             .value();
@@ -421,8 +422,9 @@ class Fitter {
     fit_.parameters = moved_to(fitted, minimum.x);
     posterior_ = posterior(minimum.slopes, segments);
     RegionalFit& f = fit_.regional_fit.emplace();
-    const Eigen::Index data = minimum.r.size() - segments;
-    f.chi_squared = minimum.r.head(data).squaredNorm();
+    const Eigen::Index rows = minimum.r.size() - segments;
+    const Eigen::Index data = rows - count_silent(minimum.r.head(rows));
+    f.chi_squared = minimum.r.head(rows).squaredNorm();
     f.degrees_of_freedom = static_cast<double>(data) - posterior_.resolution.sum();
     f.shape = std::move(shape);
     constexpr double few = 0.25;  // of the data: nothing is left that would show a too small error
@@ -435,7 +437,7 @@ class Fitter {
           data, posterior_.resolution.sum(), plan_.errors.strain);
     const double misfit = std::sqrt(std::max(1.0, f.chi_squared / f.degrees_of_freedom));
     Eigen::MatrixXd slopes = minimum.slopes;
-    slopes.topRows(data) /= misfit;
+    slopes.topRows(rows) /= misfit;
     const Eigen::MatrixXd covariance = posterior(slopes, segments).covariance;
     for (Eigen::Index j = 0; j < segments; ++j) {
       const Eigen::Index at = minimum.x.size() - segments + j;
@@ -483,6 +485,11 @@ class Fitter {
   /// Parts above the base say nothing, and are at no distance.
   static Misfit misfit_of_shape(const std::vector<double>& off) {
     return misfit_of(off, counted_parts(off));
+  }
+
+  /// Of all residuals but the penalties, those of drawn parts above the base; distances are last.
+  [[nodiscard]] Eigen::Index count_silent(const Eigen::VectorXd& r) const {
+    return (r.tail(static_cast<Eigen::Index>(plan_.drawn.size())).array() == 0.0).count();
   }
 
   [[nodiscard]] const Range& range_of(const Fitted& which) const {
@@ -617,8 +624,6 @@ class Fitter {
     }
     if (f.shape) {
       f.shape->distances = distances();
-      const std::size_t counted = counted_parts(f.shape->distances);
-      f.degrees_of_freedom -= static_cast<double>(f.shape->distances.size() - counted);
       f.shape->after = misfit_of_shape(f.shape->distances);
       log::info(
           "end-systolic surfaces lie {:.2f} mm rms ({:+.2f} in the mean) outside of the drawn "

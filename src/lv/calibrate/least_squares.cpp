@@ -83,7 +83,8 @@ Outcome<Minimum> least_squares(const Residuals& residuals, const Eigen::VectorXd
     const double length = step.cwiseAbs().maxCoeff();
     if (search.expect)
       search.expect(steps_left(full.cwiseAbs().maxCoeff(), search));
-    if (length < search.shortest) {
+    const double promised = best.r.squaredNorm() - (best.r + *J * full).squaredNorm();
+    if (length < search.shortest || promised < search.negligible) {
       best.is_found = fresh || (!search.confirms && longest == search.longest);
       if (best.is_found)
         break;

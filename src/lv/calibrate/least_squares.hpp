@@ -13,7 +13,7 @@ namespace lv::calibrate {
 struct Minimum {
   Eigen::VectorXd x, r;
   int evaluations = 0;          ///< of r
-  bool is_found = false;        ///< whether the steps became short before there were too many
+  bool is_found = false;        ///< whether it ended before there were too many evaluations
   Eigen::MatrixXd slopes = {};  ///< dr/dx there, as it was learnt
 };
 
@@ -28,6 +28,9 @@ struct LeastSquaresSearch {
   std::optional<Eigen::MatrixXd> slopes = {};  ///< dr/dx from near by save the first differences
   /// Told how many evaluations are still to come, as it looks; may be empty.
   std::function<void(double)> expect = {};
+  /// Decrease of |r|^2 that a whole step promises, with which it ends too: where residuals are in
+  /// units of their errors, such a step is sqrt(negligible) standard errors long at most.
+  double negligible = 0.0;
   /// Whether the last step is one by fresh differences: the minimum of residuals that stay large
   /// is where these say, not where Broyden's updates do.
   bool confirms = false;

@@ -25,12 +25,18 @@ constexpr double steps_of_time_step = 0.04;  // in a heartbeat, which keeps its 
 constexpr double beats_of_fit = 30.0;        // with sensitivities
 constexpr int many_unknowns = 100'000;       // whose load step takes longer than some seconds
 
-/// Of processor time, as other programs may be at work beside it and not in the run.
+/// Processor time of this thread, as other programs at work take none of it.
+double processor_seconds() {
+  std::timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
 template <class Work>
 double seconds(const Work& work) {
-  const std::clock_t start = std::clock();
+  const double start = processor_seconds();
   work();
-  return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  return processor_seconds() - start;
 }
 
 /// How long one engine takes, or why it cannot.

@@ -58,6 +58,13 @@ mesh::Mesh coarse_ventricle() {
   return verify::ideal_mesh({.edge_length = 14.0, .layers = 1, .order = 2});
 }
 
+/// Wider by a factor, as high.
+std::vector<Vec3> widened(std::vector<Vec3> nodes, double factor) {
+  for (Vec3& x : nodes)
+    x = Vec3(factor * x.x(), factor * x.y(), x.z());
+  return nodes;
+}
+
 }  // namespace
 
 TEST_CASE("the drawn surfaces themselves are found at no distance, wherever they lie on the axis",
@@ -81,6 +88,21 @@ TEST_CASE("a part that is drawn too far out lies alone inside of the model's sur
   const auto d = anatomy::mean_distances(mesh, mesh.nodes, parts);
   for (std::size_t n = 0; n < d.size(); ++n)
     CHECK(d[n] == Approx(n == 24 || n == 30 ? -1.0 : 0.0).margin(0.1));
+}
+
+TEST_CASE("distances do not leap as a wall grows narrower than loops near its base",
+          "[unit][anatomy]") {
+  const mesh::Mesh mesh = coarse_ventricle();
+  const auto parts = anatomy::drawn_parts({}, loops_of(mesh, mesh.nodes, {0.0, 0.0, 6.0}), 0.0);
+  std::vector<double> before;
+  for (int step = 0; step <= 30; ++step) {
+    const std::vector<Vec3> nodes = widened(mesh.nodes, 1.0 - 0.002 * step);
+    const std::vector<double> now = anatomy::mean_distances(mesh, nodes, parts);
+    for (std::size_t n = 0; n < before.size(); ++n)  // 0.06 mm of the epicardium's radius
+      CHECK(now[n] == Approx(before[n]).margin(0.1));
+    before = now;
+  }
+  CHECK(*std::min_element(before.begin(), before.end()) < -0.5);
 }
 
 TEST_CASE("the end-systolic surfaces of a twin give its contractility back, whatever its volume",

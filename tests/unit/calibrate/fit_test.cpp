@@ -228,17 +228,22 @@ TEST_CASE("factors of segments are drawn to 1 as far as the penalty determines t
   Plan p = plan_for(truth);
   const std::vector<double> seen = of_segments(truth, {}, {});
   p.strains = {{"7", seen[0]}, {"9", seen[1]}};
-  p.errors = {.volume = 1e-5, .strain = 0.03};  // the volumes determine the other parameters
+  p.errors = {.volume = 1e-5, .strain = 0.03, .shape = 0.1};  // volumes determine the others
   p.segments = {7, 9};
   p.spread = 0.5;
-  const Fit found = fit({volume, unloaded_volume, of_segments}, {.C_a = 1.0, .T_scale = 3.0}, p);
+  p.drawn = {"1 endo ant", "1 endo inf", "2 endo ant"};  // the first two above the base
+  const auto distances = [](const FitParameters&, const Loads&) {
+    return lv::Outcome<std::vector<double>>(std::vector<double>{0.0, 0.0, 0.3});
+  };
+  const Fit found =
+      fit({volume, unloaded_volume, of_segments, distances}, {.C_a = 1.0, .T_scale = 3.0}, p);
   const double data = std::pow(slope / p.errors.strain, 2);
   const double penalty = 1.0 / (p.spread * p.spread);
   REQUIRE(found.segments.size() == 2);
   CHECK(found.segments[0].segment == 7);
   CHECK(found.segments[0].resolution == Approx(data / (data + penalty)).epsilon(1e-3));
   const RegionalFit& f = found.regional_fit.value();
-  CHECK(f.degrees_of_freedom == Approx(2.0 - 2.0 * data / (data + penalty)).epsilon(1e-3));
+  CHECK(f.degrees_of_freedom == Approx(3.0 - 2.0 * data / (data + penalty)).epsilon(1e-3));
   const double misfit = f.chi_squared / f.degrees_of_freedom;
   CHECK(misfit > 1.0);
   CHECK(found.segments[0].error ==

@@ -71,3 +71,19 @@ TEST_CASE("a step to where there are no residuals is shortened", "[unit][calibra
                                   far_below, far_above, confirmed);
   CHECK((minimum->x - free->x).norm() < 1e-3);
 }
+
+TEST_CASE("a search that creeps along a flat valley ends where whole steps promise little",
+          "[unit][calibrate]") {
+  const auto valley = [](const VectorXd& x) -> Outcome<VectorXd> {
+    VectorXd r(2);
+    r << 0.1 * x[0], 5.0 - 9e-4 * x[0] * x[0];  // steps lead a tenth of the way
+    return r;
+  };
+  LeastSquaresSearch search{.difference = 1e-2, .longest = 1.0, .shortest = 1e-4, .confirms = true};
+  const VectorXd start = VectorXd::Constant(1, 20.0), high = VectorXd::Constant(1, 50.0);
+  CHECK_FALSE(least_squares(valley, start, -high, high, search)->is_found);
+  search.negligible = 1e-2;
+  const auto minimum = least_squares(valley, start, -high, high, search);
+  CHECK(minimum->is_found);
+  CHECK(std::abs(minimum->x[0]) < 10.0);  // one standard error
+}

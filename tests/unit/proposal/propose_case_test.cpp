@@ -205,8 +205,9 @@ TEST_CASE("a case from a cine on which nothing is drawn has its borders drawn",
   test::NiftiSpec spec;
   spec.size = {30, 30, 3, 6};
   spec.sform = {{{-1.5, 0.0, 0.0, 0.0}, {0.0, -1.5, 0.0, 0.0}, {0.0, 0.0, 8.0, 0.0}}};
+  spec.floating = true;
   for (int value = 0; value < 30 * 30 * 3 * 6; ++value)
-    spec.values.push_back(value);
+    spec.values.push_back(0.5 + value);
   test::write_bytes(folder / "cine.nii", test::nifti_bytes(spec));
   const case_file::Case n = parsed(folder / "cine.nii", folder / "other.toml");
   CHECK(n.anatomy.source == case_file::AnatomySource::cine);
