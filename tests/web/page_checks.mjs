@@ -54,7 +54,7 @@ async function checkDrawn(page) {
   for (const id of ["outlines", "strain"])
     check(`a case without images says so in ${id}`, (await page.locator(`#${id} .missing`).count()) === 1 && (await page.locator(`#${id} svg`).count()) === 0);
   check("a case without measured volumes says so", /No measured volumes/.test(await page.locator("#summary").innerText()));
-  check("all charts have their lines", charts.length === 7 && charts.every((length) => length > 40), charts);
+  check("all charts have their lines", charts.length === 10 && charts.every((length) => length > 40), charts);
   const regions = await page.locator("svg.bullseye").evaluateAll((all) => all.map((one) => one.querySelectorAll("[data-index]").length));
   check("bull's-eyes have 38 and 17 regions at both states", regions.join() === "17,38,17,38", regions);
   const text = await page.locator("body").innerText();
@@ -90,6 +90,32 @@ async function checkControls(page) {
   await page.selectOption("#wall select >> nth=0", "circumferential_strain");
   await page.getByRole("button", { name: "4-chamber", exact: true }).click();
   await settled(page);
+}
+
+/** What the charts of segments say: their axis, the points of each curve, their names and where the time stands. */
+const segmentCharts = (page) => page.locator("#segments svg.chart").evaluateAll((all) => all.map((one) => ({ label: one.getAttribute("aria-label"),
+  points: [...one.querySelectorAll("g.line path")].map((path) => path.getAttribute("d").split(/[ML]/).length - 1), names: [...one.querySelectorAll("g.line title")].map((title) => title.textContent),
+  time: Number(one.querySelector("line.live").getAttribute("x1")), last: Math.max(...one.querySelector("g.line path").getAttribute("d").split(/[ML]/).map((p) => Number(p.split(" ")[0]))) })));
+
+async function checkSegments(page) {
+  const rows = csv(join(work, "04_results/segments_over_time.csv"));
+  await page.selectOption("#wall select >> nth=0", "fibre_stress");
+  await setSlider(page, "#time", 0);
+  const [first] = await segmentCharts(page);
+  await setSlider(page, "#time", 1000);
+  const charts = await segmentCharts(page);
+  const all = charts.flatMap(({ points }) => points);
+  check("segments have a curve each, in charts of three rings, with a point for every frame", charts.length === 3 && all.length === 17 && all.every((count) => 17 * count === rows.length), JSON.stringify(charts));
+  check("under their names", charts.flatMap(({ names }) => names).every((name, i) => name.replace("*", "") === `${rows[i].segment} ${rows[i].name}`), JSON.stringify(charts));
+  check("the time on them moves with the slider, to their end", first.time < charts[0].time && charts.every(({ time, last }) => Math.abs(time - last) < 0.1), JSON.stringify([first, ...charts]));
+  await page.locator("#segments g.line > text").nth(7).hover();
+  const chosen = await page.locator("#segments g.line").evaluateAll((lines) => lines.findIndex((line) => line.classList.contains("chosen")));
+  check("a curve that is pointed at is marked, with its segment in the bull's-eyes", chosen === 7 && (await page.locator("#regions .read").innerText()).includes("8 mid anteroseptal"), chosen);
+  await page.mouse.move(5, 5);
+  await page.selectOption("#wall select >> nth=0", "infarct");
+  check("what has no curves is said to have none", /strains and stresses alone/.test(await page.locator("#segments").innerText()));
+  await page.selectOption("#wall select >> nth=0", "circumferential_strain");
+  check("and the quantity is that of the 3-D view", (await segmentCharts(page)).every(({ label }) => label.startsWith("circumferential strain against")), JSON.stringify(charts));
 }
 
 async function checkPicking(page) {
@@ -331,6 +357,7 @@ export async function checkPage() {
   await checkDrawn(page);
   await checkControls(page);
   await checkPicking(page);
+  await checkSegments(page);
   await checkNumbers(page);
   await checkFloor(page);
   await checkSavedWall(page);

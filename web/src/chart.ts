@@ -2,7 +2,7 @@
 import { ink, svg } from "./dom.ts";
 import { shown } from "./quantities.ts";
 
-export interface Line { label: string; colour: string; dashed?: boolean; x: number[]; y: number[]; dots?: boolean; bare?: boolean /* dots alone */; ofPaper?: boolean; behind?: boolean /* drawn before the others */ }
+export interface Line { label: string; colour: string; dashed?: boolean; x: number[]; y: number[]; dots?: boolean; bare?: boolean /* dots alone */; ofPaper?: boolean; behind?: boolean /* drawn before the others */; pick?: (isOver: boolean) => void /* it is pointed at, or no more */ }
 export interface Mark { x: number; label: string }
 export interface Chart {
   x: string;
@@ -11,6 +11,7 @@ export interface Chart {
   marks?: Mark[];
   points?: { x: number; y: number; label: string }[];
   zero?: boolean;  // the y axis reaches 0
+  also?: number[];  // values that the y axis reaches besides
   reach?: [number, number];  // of the x axis; without: that of the lines
   width?: number;
   height?: number;
@@ -56,7 +57,7 @@ export function drawChart(chart: Chart): DrawnChart {
   const height = chart.height ?? 300;
   const box = { left: 58, right: width - 14, top: 14 + 16 * Math.ceil(chart.lines.length / 2), bottom: height - (chart.x ? 44 : 22) };
   const xs = chart.reach ?? finite(chart.lines.flatMap((line) => line.x));
-  const ys = finite(chart.lines.flatMap((line) => line.y)).concat(chart.zero ? [0] : []);
+  const ys = finite(chart.lines.flatMap((line) => line.y)).concat(chart.zero ? [0] : [], chart.also ?? []);
   const reach = (values: number[]) => {
     const min = values.reduce((a, b) => Math.min(a, b), Infinity);
     const max = values.reduce((a, b) => Math.max(a, b), -Infinity);
@@ -89,7 +90,8 @@ export function drawChart(chart: Chart): DrawnChart {
       svg("text", { x: px(mark.x) + (late ? -4 : 4), y: box.bottom - (close ? 19 : 6), "text-anchor": late ? "end" : "start", fill: ink.soft, "font-size": 11 }, mark.label));
   }
   chart.lines.forEach((line, i) => {
-    const group = svg("g", line.ofPaper ? { class: "of-paper" } : {});
+    const group = svg("g", { class: line.ofPaper ? "of-paper" : "line",
+      ...(line.pick && { pointerenter: () => line.pick!(true), pointerleave: () => line.pick!(false) }) }, line.pick && svg("title", {}, line.label));
     const points = line.x.map((x, k): [number, number] => [px(x), py(line.y[k])]);
     const { d, alone } = pathOf(points);
     if (!line.bare) group.append(svg("path", { d, fill: "none", stroke: line.colour, "stroke-width": 1.8,

@@ -8,6 +8,7 @@ import { flowSection } from "./flow_section.ts";
 import { heartbeatSection } from "./heartbeat_section.ts";
 import { outlinesSection } from "./outlines_section.ts";
 import { Shared, timeline } from "./shared.ts";
+import { segmentsSection } from "./segments_section.ts";
 import { strainSection } from "./strain_section.ts";
 import { assumedSentence, firstSection, remarks, sentence } from "./first_section.ts";
 import { openingLook } from "./orientation.ts";
@@ -69,7 +70,7 @@ async function main(): Promise<void> {
   await painted();
   document.body.dataset.wall = performance.now().toFixed(0);
 
-  const all = [bullsEyeSection(cases, shared, wall.scale), zoneSection(cases, shared), heartbeatSection(cases, shared, time), curvesSection(cases, shared, time), detailsSection(cases),
+  const all = [bullsEyeSection(cases, shared, wall.scale), zoneSection(cases, shared), heartbeatSection(cases, shared, time), segmentsSection(cases, shared, time), curvesSection(cases, shared, time), detailsSection(cases),
     rotationSection(cases), flowSection(cases), outlinesSection(cases), strainSection(cases), normalSection(cases), muscleSection(cases),
     inputSection(cases), parameterSection(cases)];
   const isFolded = (part: HTMLElement) => part.classList.contains("folded");

@@ -242,9 +242,10 @@ struct PageFile {
   const char* name;
 };
 
-constexpr std::array<PageFile, 22> page_files{{
+constexpr std::array<PageFile, 23> page_files{{
     {"results", "summary.json", "summary.json"},
     {"results", "regions.csv", "regions.csv"},
+    {"results", "segments_over_time.csv", "segments_over_time.csv"},
     {"results", "rotation.csv", "rotation.csv"},
     {"results", "infarct.csv", "infarct.csv"},
     {"results", "stress_stretch.csv", "stress_stretch.csv"},

@@ -4,6 +4,7 @@
 #include "lv/base/check.hpp"
 #include "lv/base/interrupt.hpp"
 #include "lv/base/table.hpp"
+#include "lv/mesh/regions.hpp"
 #include "lv/mesh_io/vtk_file.hpp"
 
 #include <fmt/format.h>
@@ -28,6 +29,12 @@ namespace {
 /// The state that a frame's strains are from.
 const char* strained_from(bool from_end_diastole) {
   return from_end_diastole ? "end_diastole" : "early_diastole";
+}
+
+/// Whether a frame comes after the end of diastole.
+bool is_after(const TimedFrame& frame, double end_diastole) {
+  constexpr double rounding = 1e-5;  // of times in a series [s]
+  return frame.time > end_diastole + rounding;
 }
 
 [[noreturn]] void fail(const std::filesystem::path& file) {
@@ -160,6 +167,63 @@ void add_frame(WallSeries& wall, const TimedFrame& timed, bool from_end_diastole
         wall.quantities[q.name].push_back(to_nodes(array, wall));
 }
 
+/// Strains and stresses that the page shows and a frame has.
+std::vector<const analysis::Quantity*> strains_and_stresses(const TimedFrame& first) {
+  const WrittenFrame frame(first.file, moving_arrays(false));
+  std::vector<const analysis::Quantity*> found;
+  for (const analysis::Quantity& q : analysis::quantities())
+    if (q.is_shown && (q.is_strain || std::string_view(q.unit) == "kPa") &&
+        frame.cells(q.field_name(strained_from(false))) != nullptr)
+      found.push_back(&q);
+  return found;
+}
+
+/// The array of an element's numbers that every frame must have.
+vtkDataArray* needed(const WrittenFrame& frame, const std::string& name) {
+  vtkDataArray* array = frame.cells(name);
+  if (array == nullptr)
+    fail(frame.file());
+  return array;
+}
+
+/// The mean over every AHA segment; not a number where a segment has no elements.
+std::vector<double> segment_means(vtkDataArray* values, const std::vector<int>& segment,
+                                  vtkDataArray* volume) {
+  std::vector<double> sum(mesh::aha_count + 1, 0.0);
+  std::vector<double> whole(sum.size(), 0.0);
+  for (std::size_t c = 0; c < segment.size(); ++c) {
+    const double part = volume->GetComponent(static_cast<vtkIdType>(c), 0);
+    sum.at(segment[c]) += part * values->GetComponent(static_cast<vtkIdType>(c), 0);
+    whole.at(segment[c]) += part;
+  }
+  for (std::size_t s = 0; s < sum.size(); ++s)
+    sum[s] /= whole[s];
+  return sum;
+}
+
+void add_segments(Table& table, const TimedFrame& timed,
+                  const std::vector<const analysis::Quantity*>& quantities,
+                  bool from_end_diastole) {
+  std::vector<std::string> arrays = moving_arrays(from_end_diastole);
+  arrays.insert(arrays.end(), {"aha17", "reference_volume"});
+  const WrittenFrame frame(timed.file, arrays);
+  const std::vector<int> segment = whole_numbers(needed(frame, "aha17"));
+  if (std::any_of(segment.begin(), segment.end(),
+                  [](int s) { return s < 1 || s > mesh::aha_count; }))
+    fail(timed.file);
+  std::vector<std::vector<double>> means;
+  for (const analysis::Quantity* q : quantities)
+    means.push_back(segment_means(needed(frame, q->field_name(strained_from(from_end_diastole))),
+                                  segment, needed(frame, "reference_volume")));
+  constexpr int digits = 6;  // fields have single precision
+  for (int s = 1; s <= mesh::aha_count; ++s) {
+    std::vector<std::string> row{Table::number(timed.time), std::to_string(s), mesh::aha_name(s)};
+    for (const auto& mean : means)
+      row.push_back(Table::number(mean[s], digits));
+    table.add_row(row);
+  }
+}
+
 Skin skin_of(const WallSeries& wall) {
   const int per_cell = mesh::nodes_per_cell(wall.kind);
   const int per_face = wall.kind == mesh::CellKind::hexahedron ? 4 : 3;
@@ -260,14 +324,26 @@ std::vector<TimedFrame> frames_of(const std::filesystem::path& pvd) {
 WallSeries read_wall_series(const std::vector<TimedFrame>& frames, double end_diastole) {
   WallSeries wall =
       fixed_part(WrittenFrame(frames.front().file, {"f0", "infarct", "slice", "sector", "aha17"}));
-  constexpr double rounding = 1e-5;  // of times in a series [s]
   for (const TimedFrame& frame : frames) {
     interrupt::check();
-    add_frame(wall, frame, frame.time > end_diastole + rounding);
+    add_frame(wall, frame, is_after(frame, end_diastole));
   }
   wall.skin = skin_of(wall);
   wall.reach = reach_of(wall);
   return wall;
+}
+
+Table segments_over_time(const std::vector<TimedFrame>& frames, double end_diastole) {
+  const auto quantities = strains_and_stresses(frames.front());
+  std::vector<std::string> columns{"time_s", "segment", "name"};
+  for (const analysis::Quantity* q : quantities)
+    columns.push_back(q->is_strain ? q->name : fmt::format("{}_{}", q->name, q->unit));
+  Table table(columns);
+  for (const TimedFrame& frame : frames) {
+    interrupt::check();
+    add_segments(table, frame, quantities, is_after(frame, end_diastole));
+  }
+  return table;
 }
 
 }  // namespace lv::page

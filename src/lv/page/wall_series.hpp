@@ -1,5 +1,6 @@
 #pragma once
 
+#include "lv/base/table.hpp"
 #include "lv/mesh/mesh.hpp"
 
 #include <filesystem>
@@ -62,5 +63,11 @@ struct TimedFrame {
 /// naming a file that cannot be read.
 [[nodiscard]] WallSeries read_wall_series(const std::vector<TimedFrame>& frames,
                                           double end_diastole);
+
+/// segments_over_time.csv: the mean of every strain and stress that the page shows over each AHA
+/// segment at each frame, weighted by undeformed volume. Frames have strains from early diastole up
+/// to `end_diastole`, from end-diastole after it, as above. Throws RunError naming a file that
+/// cannot be read.
+[[nodiscard]] Table segments_over_time(const std::vector<TimedFrame>& frames, double end_diastole);
 
 }  // namespace lv::page

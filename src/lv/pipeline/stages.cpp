@@ -19,6 +19,7 @@
 #include "lv/mesh/quadratic.hpp"
 #include "lv/mesh/quality.hpp"
 #include "lv/mesh/refine.hpp"
+#include "lv/page/wall_series.hpp"
 #include "lv/pipeline/calibration.hpp"
 #include "lv/pipeline/circulation.hpp"
 #include "lv/report/fields_vtk.hpp"
@@ -336,6 +337,10 @@ std::string write_results(const Case& c, const anatomy::MeshResult& mesh, const 
   if (!scar::describe_infarct(c, mesh).empty())
     scar::infarct_table(c, mesh).write_csv(folder / "infarct.csv");
   report::regions_table(results).write_csv(folder / "regions.csv");
+  const auto frames = page::frames_of(report::file_of(folder.parent_path(), "beat", "wall.pvd"));
+  if (!frames.empty())
+    page::segments_over_time(frames, beat.beat.at(heartbeat::end_diastole).time)
+        .write_csv(folder / "segments_over_time.csv");
   report::rotation_table(results).write_csv(folder / "rotation.csv");
   report::stress_stretch_table(muscles(c)).write_csv(folder / "stress_stretch.csv");
   report::curves_table(beat.beat.curves).write_csv(folder / "curves.csv");
