@@ -78,8 +78,8 @@ def judge(seed, fit):
         (weak if known < 1 else others).append(math.log(s["factor"]))
         print(f"  {s['segment']:2} {s['name']:20} known {known:.1f}, found {strength * s['factor']:.2f}, error of ln "
               f"{s['standard_error_of_logarithm']:.2f}, resolution {s['resolution']:.2f}")
-    check(f"seed {seed}: chi^2 is about the number of data", fit["strains"]["chi_squared"] < 2 * len(off),
-          f"{fit['strains']['chi_squared']:.1f} of {len(off) + 2} data, {fit['strains']['degrees_of_freedom']:.1f} degrees of freedom")
+    check(f"seed {seed}: chi^2 is about the number of data", fit["least_squares"]["chi_squared"] < 2 * len(off),
+          f"{fit['least_squares']['chi_squared']:.1f} of {len(off) + 2} data, {fit['least_squares']['degrees_of_freedom']:.1f} degrees of freedom")
     mean = [math.exp(sum(group) / len(group)) for group in (weak, others)]
     check(f"seed {seed}: the weak group is weaker than the rest", mean[0] < 0.75 * mean[1], f"factors {mean[0]:.2f} and {mean[1]:.2f} in the mean")
     return off

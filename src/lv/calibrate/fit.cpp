@@ -78,7 +78,7 @@ class Fitter {
         return timed(Sought::contracts_again, [&] { return model.distances(p, es); });
       };
     model_.volume = [this, &model](const FitParameters& p, const Loads& loads) {
-      const auto volume = timed(sought(p, loads), [&] { return model.volume(p, loads); });
+      auto volume = timed(sought(p, loads), [&] { return model.volume(p, loads); });
       last_ = p;
       if (!volume)
         return volume;
@@ -244,8 +244,7 @@ class Fitter {
       return found;
     };
     try {
-      const auto root =
-          find_root(volume, {which.name, start, range, first_factor}, target, accuracy);
+      auto root = find_root(volume, {which.name, start, range, first_factor}, target, accuracy);
       if (root)
         p.*which.member = *root;
       return root;

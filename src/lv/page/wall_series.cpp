@@ -4,6 +4,7 @@
 #include "lv/base/check.hpp"
 #include "lv/base/interrupt.hpp"
 #include "lv/base/table.hpp"
+#include "lv/mesh/cell.hpp"
 #include "lv/mesh/regions.hpp"
 #include "lv/mesh_io/vtk_file.hpp"
 
@@ -121,7 +122,7 @@ WallSeries fixed_part(const WrittenFrame& frame) {
   wall.kind =
       frame->GetCellType(0) == VTK_TETRA ? mesh::CellKind::tetrahedron : mesh::CellKind::hexahedron;
   for (vtkIdType a = 0; a < frame->GetNumberOfPoints(); ++a)
-    wall.undeformed.push_back(Vec3(frame->GetPoint(a)) - displacement(frame, a));
+    wall.undeformed.emplace_back(Vec3(frame->GetPoint(a)) - displacement(frame, a));
   for (vtkIdType c = 0; c < frame->GetNumberOfCells(); ++c) {
     vtkIdType count = 0;
     const vtkIdType* nodes = nullptr;

@@ -28,6 +28,7 @@
 #include "lv/report/summary.hpp"
 #include "lv/report/table_figures.hpp"
 #include "lv/report/tables_csv.hpp"
+#include "lv/report/work_folder.hpp"
 #include "lv/scar/infarct.hpp"
 #include "lv/scar/strain_infarct.hpp"
 #include "lv/work/ingredients.hpp"

@@ -32,7 +32,7 @@ double most_frequent(const std::vector<double>& values, double low, double high)
       continue;
     for (int d = -9; d <= 9; ++d)
       if (bin + d >= 0 && bin + d < bins)
-        density[static_cast<std::size_t>(bin + d)] += weights.at(d + 9);
+        density.at(bin + d) += weights.at(d + 9);
   }
   const auto peak = std::max_element(density.begin(), density.end()) - density.begin();
   return low + (static_cast<double>(peak) + 0.5) / bins * (high - low);
