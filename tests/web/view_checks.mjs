@@ -213,6 +213,11 @@ export async function checkBeats() {
     words: [...one.querySelectorAll("text")].map((text) => text.textContent), panels: one.querySelectorAll("svg").length, live: one.querySelectorAll("line.live").length })));
   check("heartbeats: both loops, and the valve events of the last", loop.lines.length === 2 && ["MC", "AO", "AC", "MO"].every((name) => loop.words.includes(name)), loop.words);
   check("the Wiggers diagram has pressures, volume and flows, and a line in each for the time", wiggers.panels === 3 && wiggers.lines.length === 6 && wiggers.live === 3, JSON.stringify(wiggers.words));
+  const begins = csv(join(folder, "beats.work/03_beat/cycle.csv")).findLast((row) => row.beat === "1").time_s;
+  const caption = await page.locator("#wall svg.overlay text").nth(1).textContent();
+  const [, shownTime] = caption.match(/, (-?[0-9.]+) s of beat 2/) ?? [];
+  const ejectionEnds = csv(join(folder, "beats.work/03_beat/moments.csv")).at(-1).time_s;
+  check("times of heartbeats are from their beat's beginning", close(Number(shownTime), ejectionEnds - begins, 1e-2), `${caption} ${ejectionEnds} ${begins}`);
   const rows = await measured(page);
   check("all measures of a beat stand there with a definition", rows.length === Object.keys(last).length - 1 && rows.every((row) => row.at(-1).length > 3), rows.length);
   check("they are beats.csv's", close(number(ofMeasure(rows, "stroke work")[1]), Number(last.stroke_work_mmHg_ml), 1e-3) &&

@@ -229,6 +229,7 @@ export class Case {
   readonly moments: Moment[];
   private readonly phases: { name: string; end: number }[] = [];  // as far as curves.csv goes
   private readonly tables = new Map<string, Row[]>();  // that have been read
+  private lastBeat?: { number: number; begin: number };
   private readonly regional = new Map<string, Row>();  // rows of regions.csv by what they are of
   name: string;
   readonly wall?: Wall;
@@ -267,6 +268,25 @@ export class Case {
 
   /** Heartbeats of a circulation: the frames are those of the last. */
   get isBeating(): boolean { return this.table("cycle.csv").length > 0; }
+
+  /** The beat of the frames, the last of heartbeats: its number and when it begins [s]; beat 0 from 0 s where there is none. */
+  private get beat(): { number: number; begin: number } {
+    if (!this.lastBeat) {
+      const rows = this.table("cycle.csv");
+      const number = value(rows.at(-1)?.beat ?? "0");
+      this.lastBeat = { number, begin: number > 0 ? value(rows[rows.findIndex((row) => value(row.beat) === number) - 1].time_s) : 0 };
+    }
+    return this.lastBeat;
+  }
+
+  /** When the beat of the frames begins [s]. */
+  get begin(): number { return this.beat.begin; }
+
+  /** A time in words: "0.212 s of beat 9", "0.850 s"; empty where steps are loads. */
+  clock(t: number): string {
+    if (this.isLoaded || Number.isNaN(t)) return "";
+    return `${(t - this.begin).toFixed(3)} s${this.beat.number > 0 ? ` of beat ${this.beat.number}` : ""}`;
+  }
 
   /** What was taken for granted of the anatomy. */
   get assumptions(): { part: string; text: string }[] {

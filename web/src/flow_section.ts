@@ -55,7 +55,7 @@ async function fill(cases: Case[], place: HTMLElement): Promise<void> {
     const scale = flowScale(found.map(({ c, data }) => ({ flow: c.flow!, frame: data })), what);
     for (const { c, frame, data, view } of found) {
       const t = c.flow!.times[frame];
-      const captions = [`${c.name}, ${c.words(t)}, ${t.toFixed(3)} s`, `${planeName(c)}${heartOf(c).assumed ? " (* the septum is assumed)" : ""}`];
+      const captions = [`${c.name}, ${c.words(t)}, ${c.clock(t)}`, `${planeName(c)}${heartOf(c).assumed ? " (* the septum is assumed)" : ""}`];
       view.show(data, what, scale, captions);
       view.canvas.setAttribute("aria-label", `${what} and velocity: ${captions.join("; ")}`);
     }

@@ -31,7 +31,6 @@ interface Heartbeats {
   number: number;  // of the case
   before: Row[][];
   last: Row[];
-  begin: number;
   count: number;
   measures: Row[];  // of every whole beat
   muscle: Row[];    // rows of curves.csv in the last beat
@@ -41,12 +40,11 @@ function heartbeatsOf(c: Case, number: number): Heartbeats | undefined {
   const beats = beatsOf(c.table("cycle.csv"));
   const last = beats.at(-1);
   if (!last) return undefined;
-  const [begin, end] = [value(last[0].time_s), value(last.at(-1)!.time_s)];
-  const inside = (row: Row) => value(row.time_s) >= begin - 1e-9 && value(row.time_s) <= end + 1e-9;
-  return { c, number, before: beats.slice(0, -1), last, begin, count: beats.length, measures: c.table("beats.csv"), muscle: c.table("curves.csv").filter(inside) };
+  const inside = (row: Row) => value(row.time_s) >= c.begin - 1e-9 && value(row.time_s) <= value(last.at(-1)!.time_s) + 1e-9;
+  return { c, number, before: beats.slice(0, -1), last, count: beats.length, measures: c.table("beats.csv"), muscle: c.table("curves.csv").filter(inside) };
 }
 
-const timesIn = (h: Heartbeats, rows: Row[]) => column(rows, "time_s").map((t) => t - h.begin);
+const timesIn = (h: Heartbeats, rows: Row[]) => column(rows, "time_s").map((t) => t - h.c.begin);
 
 /** A column of the last beat at a time from its beginning, between its samples. */
 function at(h: Heartbeats, name: string, time: number): number {
@@ -60,7 +58,7 @@ function at(h: Heartbeats, name: string, time: number): number {
 /** Valve events of the last beat, if it is a whole one. */
 function valveEvents(h: Heartbeats): { time: number; label: string }[] {
   const row = h.measures[h.count - 1];
-  const period = value(h.last.at(-1)!.time_s) - h.begin;
+  const period = value(h.last.at(-1)!.time_s) - h.c.begin;
   const after = (time: number) => (time < 0 ? time + period : time);  // one before the beat, as at its end
   return events.map(([name, words]) => ({ time: after(value(row?.[name]) / 1000), label: words })).filter(({ time }) => Number.isFinite(time));
 }
@@ -117,7 +115,7 @@ const allBeats = (h: Heartbeats) => el("details", { class: "more" }, el("summary
 function follow(all: Heartbeats[], loop: DrawnChart, diagrams: DrawnChart[], shared: Shared, time: Timeline): void {
   const times = all.map((h) => timesIn(h, h.last));
   const mark = () => all.forEach((h, i) => {
-    const t = time.time(h.number, shared.state.step) - h.begin;
+    const t = time.time(h.number, shared.state.step) - h.c.begin;
     const row = rowBetween(h.last, times[i], t);
     loop.dot(i, Number.isFinite(t) ? value(row?.volume_ml) : NaN, value(row?.pressure_mmHg));
     diagrams[i].cursor(t);

@@ -11,38 +11,38 @@ import type { Shared, Timeline } from "./shared.ts";
 const rings = [{ name: "base", first: 1, last: 6, colours: [0, 1, 2, 3, 4, 5] }, { name: "middle", first: 7, last: 12, colours: [0, 1, 2, 3, 4, 5] },
   { name: "apex", first: 13, last: 17, colours: [0, 2, 3, 5, 4] }];
 
-/** A case's rows of every segment, and when its beat begins. */
-interface Courses { c: Case; number: number; segments: Row[][]; begin: number }
+/** A case's rows of every segment. */
+interface Courses { c: Case; number: number; segments: Row[][] }
 
 function coursesOf(c: Case, number: number): Courses {
   const rows = c.table("segments_over_time.csv");
   const segments = Array.from({ length: rings.at(-1)!.last }, (_, i) => rows.filter((row) => Number(row.segment) === i + 1));
-  return { c, number, segments, begin: c.isBeating ? value(rows[0]?.time_s) : 0 };
+  return { c, number, segments };
 }
 
 const columnOf = (q: Quantity) => (q.unit === "1" ? q.name : `${q.name}_${q.unit}`);
 
 /** Strains begin anew, from nothing, at end-diastole. A heartbeat comes to it soon after its beginning, and its strains are drawn from there on. */
-function points({ c, begin }: Courses, rows: Row[], q: Quantity): { x: number[]; y: number[] } {
+function points(c: Case, rows: Row[], q: Quantity): { x: number[]; y: number[] } {
   const end = q.name.endsWith("_strain") ? c.timeOf("end_diastole") ?? Infinity : Infinity;
   const all = rows.map((row) => [value(row.time_s), value(row[columnOf(q)])]);
   const [until, after] = [all.filter(([t]) => t <= end + 1e-5), all.filter(([t]) => t > end + 1e-5)];
   const drawn = after.length ? [...(c.isBeating ? [] : [...until, [end, NaN]]), [end, 0], ...after] : until;
-  return { x: drawn.map(([t]) => t - begin), y: drawn.map(([, y]) => y) };
+  return { x: drawn.map(([t]) => t - c.begin), y: drawn.map(([, y]) => y) };
 }
 
 /** The charts of a case, one per ring, over one range of values. */
 function drawCourses(courses: Courses, q: Quantity, shared: Shared): { chart: DrawnChart; element: HTMLElement }[] {
-  const { c, begin, segments } = courses;
+  const { c, segments } = courses;
   const heart = heartOf(c);
-  const all = segments.map((rows) => points(courses, rows, q));
+  const all = segments.map((rows) => points(c, rows, q));
   const high = all.flatMap(({ y }) => y).filter(Number.isFinite);
   return rings.map(({ name, first, last, colours }) => {
     const lines = all.slice(first - 1, last).map((course, i): Line => ({ ...course, colour: lineColours[colours[i]],
       label: `${first + i} ${marked(segments[first + i - 1][0]?.name ?? "", heart.assumed)}`,
       pick: (isOver) => shared.pick(isOver ? { scheme: "aha17", index: first + i - 1 } : undefined, false) }));
     const chart = drawChart({ x: c.isBeating ? "time in the beat (s)" : c.isLoaded ? "load (sequence of equilibria, no time)" : "time (s)", y: label(q), lines, zero: true,
-      also: [Math.min(...high), Math.max(...high)], marks: c.moments.map((m) => ({ x: m.time - begin, label: stateMark(m.name).label })) });
+      also: [Math.min(...high), Math.max(...high)], marks: c.moments.map((m) => ({ x: m.time - c.begin, label: stateMark(m.name).label })) });
     const caption = [`${c.name}: ${q.title} of the segments of the ${marked(name, heart.ends.includes(name))}`, starNote(heart)].filter(Boolean).join("; ");
     return { chart, element: figure(caption, fileName(c.name, q.name, "segments", name), chart.figure) };
   });
@@ -58,7 +58,7 @@ export function segmentsSection(cases: Case[], shared: Shared, time: Timeline): 
   if (!found.length) return folded("segments", title, "segments_over_time.csv is missing: the run has no results, or its frames are gone.");
   const place = el("div", { class: "figures" });
   let drawn: { chart: DrawnChart; courses: Courses }[] = [];
-  const mark = () => drawn.forEach(({ chart, courses }) => chart.cursor(time.time(courses.number, shared.state.step) - courses.begin));
+  const mark = () => drawn.forEach(({ chart, courses }) => chart.cursor(time.time(courses.number, shared.state.step) - courses.c.begin));
   const draw = () => {
     const q = quantity(shared.state.quantity);
     const has = found.filter(({ segments }) => columnOf(q) in segments[0][0]);

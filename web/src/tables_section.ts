@@ -144,7 +144,7 @@ export function zoneSection(cases: Case[], shared: Shared): HTMLElement {
       return [transmurality(c, shared), table(fileName(c.name, "zones"), ["quantity, zone", "volume (ml)", "mean ± sd", "1%", "median", "99%", "paper's patient"],
         names.flatMap((name) => zones.map((zone) => {
           const row = c.row("end_systole", "zone", zone, name);
-          return [`${label(quantity(name))}, ${zone}`, shown(value(row?.volume_ml)), ...cells(row, leastOf(name)),
+          return [marked(`${label(quantity(name))}, ${zone}`, c.assumesInfarct), shown(value(row?.volume_ml)), ...cells(row, leastOf(name)),
             printed(patient[zone as "remote"]?.[name])];
         })), [6]), scarTable(c)];
     }));

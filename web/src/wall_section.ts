@@ -117,7 +117,7 @@ class Panel {
   moment(step: number): string {
     const t = this.time.time(this.number, step);
     const row = rowAt(this.c.table("curves.csv"), t);
-    return [this.c.words(t), this.c.isLoaded || Number.isNaN(t) ? "" : `${t.toFixed(3)} s`, row && `${shown(value(row.pressure_mmHg))} mmHg`,
+    return [this.c.words(t), this.c.clock(t), row && `${shown(value(row.pressure_mmHg))} mmHg`,
       row && `${shown(value(row.cavity_volume_ml))} ml`].filter(Boolean).join(", ");
   }
 

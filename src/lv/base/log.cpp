@@ -113,8 +113,10 @@ std::string duration(double seconds) {
   const auto s = static_cast<int>(std::lround(seconds));
   if (s < 60)
     return fmt::format("{} s", s);
-  if (s < 3600)
+  if (s < 600)
     return fmt::format("{} min {} s", s / 60, s % 60);
+  if (s < 3600)
+    return fmt::format("{} min", std::lround(seconds / 60.0));
   return fmt::format("{} h {} min", s / 3600, s % 3600 / 60);
 }
 

@@ -1,5 +1,7 @@
 #include "lv/base/time_left.hpp"
 
+#include "lv/base/log.hpp"
+
 #include <catch2/catch.hpp>
 
 #include <chrono>
@@ -36,4 +38,11 @@ TEST_CASE("the time left follows work that becomes slower", "[unit][base]") {
       CHECK(left.seconds(25.0) == Approx(100.0).epsilon(0.3));
   }
   CHECK(left.seconds(0.0) == 0.0);
+}
+
+TEST_CASE("a duration is told no more exactly than it is known", "[unit][base]") {
+  CHECK(lv::log::duration(59.4) == "59 s");
+  CHECK(lv::log::duration(200.0) == "3 min 20 s");
+  CHECK(lv::log::duration(1608.0) == "27 min");
+  CHECK(lv::log::duration(3900.0) == "1 h 5 min");
 }
