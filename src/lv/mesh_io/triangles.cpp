@@ -14,6 +14,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <map>
 
 namespace lv::mesh_io {
@@ -44,7 +45,7 @@ class PointNumbers {
 
  private:
   static constexpr double side = 1e-4;  // of a box [mm]
-  using Box = std::array<long long, 3>;
+  using Box = std::array<std::int64_t, 3>;
   std::map<Box, std::vector<int>> boxes_;
 
   static Box box_of(const Vec3& x) {

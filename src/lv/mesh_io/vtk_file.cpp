@@ -93,7 +93,7 @@ void check_legacy_cells(const std::string& file) {
     }
 }
 
-void check_cells(const std::string& file, vtkCellArray* cells, long long points) {
+void check_cells(const std::string& file, vtkCellArray* cells, std::int64_t points) {
   if (cells == nullptr)
     return;
   if (!cells->IsValid())

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <string>
 
 class vtkCellArray;
@@ -32,6 +33,6 @@ auto read_by_vtk(const std::string& file, const Read& read) {
 void check_legacy_cells(const std::string& file);
 
 /// Throws InputError unless all cells stand on points that there are: VTK does not ask.
-void check_cells(const std::string& file, vtkCellArray* cells, long long points);
+void check_cells(const std::string& file, vtkCellArray* cells, std::int64_t points);
 
 }  // namespace lv::mesh_io

@@ -54,7 +54,7 @@ vtkSmartPointer<vtkUnstructuredGrid> read_xml_grid(const std::string& file) {
 
 vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::string& file) {
   require_readable(file, "Check its name");
-  const auto grid = read_by_vtk(
+  auto grid = read_by_vtk(
       file, [&] { return is_legacy(file) ? read_legacy_grid(file) : read_xml_grid(file); });
   const vtkUnsignedCharArray* types = grid->GetCellTypesArray();
   if (types != nullptr && types->GetNumberOfTuples() != grid->GetNumberOfCells())
@@ -115,7 +115,7 @@ VtkShape shape_of(int cell_type) {
   }
 }
 
-std::vector<int> corners_of(const std::string& file, vtkUnstructuredGrid& grid, long long cell) {
+std::vector<int> corners_of(const std::string& file, vtkUnstructuredGrid& grid, std::int64_t cell) {
   const VtkShape shape = shape_of(grid.GetCellType(cell));
   vtkNew<vtkIdList> points;
   grid.GetCellPoints(cell, points);
@@ -138,7 +138,7 @@ std::vector<std::string> array_names(vtkFieldData& data) {
   return names;
 }
 
-vtkDataArray& find_array(const std::string& file, vtkFieldData& data, long long count,
+vtkDataArray& find_array(const std::string& file, vtkFieldData& data, std::int64_t count,
                          int components, const std::string& what, const std::string& name) {
   vtkDataArray* array = data.GetArray(name.c_str());
   if (array == nullptr)

@@ -2,6 +2,7 @@
 
 #include <vtkSmartPointer.h>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -28,14 +29,14 @@ struct VtkShape {
 
 /// The corners of a cell. Throws InputError when it has too few points, or too many.
 [[nodiscard]] std::vector<int> corners_of(const std::string& file, vtkUnstructuredGrid& grid,
-                                          long long cell);
+                                          std::int64_t cell);
 
 [[nodiscard]] std::vector<std::string> array_names(vtkFieldData& data);
 
 /// The array of that name with so many components for each of `count` points or cells; `what` says
 /// what it is ("point array"). Throws InputError when there is none.
-[[nodiscard]] vtkDataArray& find_array(const std::string& file, vtkFieldData& data, long long count,
-                                       int components, const std::string& what,
+[[nodiscard]] vtkDataArray& find_array(const std::string& file, vtkFieldData& data,
+                                       std::int64_t count, int components, const std::string& what,
                                        const std::string& name);
 
 }  // namespace lv::mesh_io

@@ -18,6 +18,7 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <unordered_map>
 
@@ -139,7 +140,7 @@ class SurfaceNodes {
   std::string file_;
   vtkPolyData& surface_;
   vtkDataArray* numbers_ = nullptr;  ///< of the surface's points; none if either file has none
-  std::unordered_map<long long, int> nodes_;  ///< by number
+  std::unordered_map<std::int64_t, int> nodes_;  ///< by number
   vtkNew<vtkStaticPointLocator> locator_;
   double tolerance_ = 0.0;
 };

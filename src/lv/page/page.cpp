@@ -74,7 +74,7 @@ class PagedArrays {
 
   template <class Number>
   std::string add(const std::vector<Number>& values) {
-    const std::string id = fmt::format("{}-{}", prefix_, count_++);
+    std::string id = fmt::format("{}-{}", prefix_, count_++);
     (is_first ? data.wall : data.more) += element(id, "text/plain", packed(values));
     return id;
   }
@@ -299,7 +299,7 @@ std::vector<std::string> state_of(const PageCase& shown) {
   std::vector<std::string> state = shown.state;
   if (!report::file_of(shown.work, "beat", "wall.pvd").empty() &&
       report::file_of(shown.work, "beat", "moments.csv").empty())
-    state.push_back(
+    state.emplace_back(
         "03_beat has no moments.csv: strains are from early diastole at all times, and no moment "
         "has a name.");
   for (std::string& sentence : report::missing_facts(shown.work))
