@@ -133,10 +133,11 @@ Polar not_less_behind(Polar values, const Radii& line) {
 Polar epicardial_cost(const Polar& values, const Radii& middle, const Levels& levels) {
   constexpr double region = 0.5;
   constexpr double strongest = 0.6;  // edge that counts
+  constexpr double thickest = 28.0;  // from the wall's middle: hypertrophic hearts at end-systole
   const Polar sum = integral(not_less_behind(unlikeness(values, levels, to_lung), middle) - 0.5);
   const Polar away = unlikeness(values, levels, 1.0, 1.0);
   const Polar edge = mean_at(away, 1, 3) - mean_at(away, -3, -1);
-  return region * sum - edge.max(0.0).min(strongest) + forbid(distance_from(middle), 1.0, 14.0);
+  return region * sum - edge.max(0.0).min(strongest) + forbid(distance_from(middle), 1.0, thickest);
 }
 
 constexpr PathRule epicardial_rule{.reach = 1, .stiffness = 0.15};

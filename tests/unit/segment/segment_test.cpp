@@ -113,6 +113,20 @@ image::Picture open_ring() {
   return picture;
 }
 
+/// A wall as thick as that of a hypertrophic ventricle at end-systole, 26 mm, between blood and
+/// lung.
+image::Picture thick_ring() {
+  image::Picture picture = ring_beside_liver(0.5, segment::CoilGradient::Zero());
+  for (int j = 0; j < picture.plane.rows; ++j)
+    for (int i = 0; i < picture.plane.columns; ++i) {
+      const double r = 1.4 * std::hypot(i - 50, j - 50);
+      picture.values[static_cast<std::size_t>(j) * picture.plane.columns + i] = r < 14.0   ? 1000.0F
+                                                                                : r < 40.0 ? 200.0F
+                                                                                           : 40.0F;
+    }
+  return picture;
+}
+
 /// The borders that are drawn round the middle of a picture that three slices show.
 segment::FrameBorders borders_of(const image::Picture& shown) {
   image::Cine cine;
@@ -279,6 +293,13 @@ TEST_CASE("it is the dark line that leaves liver out", "[segment]") {
   };
   CHECK(liver(borders_beside_liver(0.5).epi) == Approx(34.0).margin(0.7));
   CHECK(liver(borders_beside_liver(1.0).epi) > 38.0);
+}
+
+TEST_CASE("the epicardium of a thick wall is its outer edge", "[segment]") {
+  const segment::FrameBorders borders = borders_of(thick_ring());
+  CHECK(borders.endo.mean() == Approx(14.0).margin(0.7));
+  CHECK(borders.epi.minCoeff() > 39.0);
+  CHECK(borders.epi.maxCoeff() < 41.0);
 }
 
 TEST_CASE("an outflow tract is closed straight from one end of the muscle to the other",
