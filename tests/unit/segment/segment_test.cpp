@@ -3,6 +3,7 @@
 #include "lv/base/check.hpp"
 #include "lv/geometry/contour_measures.hpp"
 #include "lv/geometry/contour_table.hpp"
+#include "lv/phantom/random.hpp"
 #include "lv/segment/borders.hpp"
 #include "lv/segment/coils.hpp"
 #include "lv/segment/redraw.hpp"
@@ -350,6 +351,28 @@ TEST_CASE("a heart has the same borders however its images are stored or receive
       CHECK(endo.dice > 0.94);
     }
   }
+}
+
+TEST_CASE("grey values that change by a millionth move no border", "[segment]") {
+  phantom::Scan scan = test::noisy_scan(1);
+  scan.phases = 5;
+  image::Cine cine = test::phantom_study("phantom", scan, 0.0).cine;
+  const segment::Segmentation found = segment::segment(cine, {}, "phantom");
+  phantom::Random random(3);
+  for (image::CineSlice& slice : cine.slices)
+    for (image::Picture& picture : slice.frames)
+      for (float& value : picture.values)
+        value *= static_cast<float>(1.0 + 1e-6 * random.normal());
+  const segment::Segmentation again = segment::segment(cine, {}, "phantom");
+  CHECK(again.shows == found.shows);
+  for (std::size_t s = 0; s < found.borders.size(); ++s)
+    for (std::size_t t = 0; t < found.borders[s].frames.size(); ++t) {
+      CAPTURE(s, t);
+      const segment::FrameBorders& before = found.borders[s].frames[t];
+      const segment::FrameBorders& now = again.borders[s].frames[t];
+      CHECK(segment::area(now.endo) == Approx(segment::area(before.endo)).epsilon(1e-4));
+      CHECK(segment::area(now.epi) == Approx(segment::area(before.epi)).epsilon(1e-4));
+    }
 }
 
 TEST_CASE("trabeculae of a phantom are taken into the cavity", "[segment]") {
