@@ -144,6 +144,16 @@ segment::FrameBorders borders_beside_liver(
   return borders_of(ring_beside_liver(line, g));
 }
 
+/// A phantom of five phases, made once.
+const test::KnownCine& five_phases() {
+  static const test::KnownCine known = [] {
+    phantom::Scan scan = test::noisy_scan(1);
+    scan.phases = 5;
+    return test::phantom_study("phantom", scan, 0.0);
+  }();
+  return known;
+}
+
 /// What a segmentation finds of the phantom at end-diastole and end-systole.
 void try_phantom(std::uint32_t seed) {
   const test::KnownCine known = test::phantom_study("phantom", test::noisy_scan(seed), 0.0);
@@ -243,9 +253,7 @@ TEST_CASE("end-systole that one of few frames shows is as small as in many", "[s
 }
 
 TEST_CASE("a slice is left out for the reason that decided", "[segment]") {
-  phantom::Scan scan = test::noisy_scan(1);
-  scan.phases = 5;
-  image::Cine cine = test::phantom_study("phantom", scan, 0.0).cine;
+  image::Cine cine = five_phases().cine;
   const segment::Segmentation whole = segment::segment(cine, {}, "phantom");
   // the slice at an end loses most of its contrast
   std::size_t end = 0;
@@ -327,9 +335,6 @@ TEST_CASE("coils that receive two or three times as much on one side move no bor
 
 TEST_CASE("a heart has the same borders however its images are stored or received, and bright",
           "[segment]") {
-  phantom::Scan scan = test::noisy_scan(1);
-  scan.phases = 5;
-  const test::KnownCine known = test::phantom_study("phantom", scan, 0.0);
   std::vector<test::Variation> variations = test::other_storage();
   for (test::Variation& variation : test::other_images())
     if (variation.name == "coil of 150 mm, side 1" || variation.name.starts_with("padded") ||
@@ -339,7 +344,7 @@ TEST_CASE("a heart has the same borders however its images are stored or receive
   CHECK(variations.size() == 12);
   for (const test::Variation& variation : variations) {
     CAPTURE(variation.name);
-    test::KnownCine changed = known;
+    test::KnownCine changed = five_phases();
     variation.apply(changed);
     const segment::Segmentation found = segment::segment(changed.cine, {}, "phantom");
     for (const int frame : {changed.end_diastole, changed.end_systole}) {
@@ -354,9 +359,7 @@ TEST_CASE("a heart has the same borders however its images are stored or receive
 }
 
 TEST_CASE("grey values that change by a millionth move no border", "[segment]") {
-  phantom::Scan scan = test::noisy_scan(1);
-  scan.phases = 5;
-  image::Cine cine = test::phantom_study("phantom", scan, 0.0).cine;
+  image::Cine cine = five_phases().cine;
   const segment::Segmentation found = segment::segment(cine, {}, "phantom");
   phantom::Random random(3);
   for (image::CineSlice& slice : cine.slices)
