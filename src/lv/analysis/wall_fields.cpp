@@ -115,7 +115,7 @@ std::vector<CellFields> cell_fields(const solid::Wall& wall, const heartbeat::Sn
 namespace {
 
 material::Myocardium without_penalty(material::Myocardium material) {
-  material.volumetric.beta_s = 0.0;
+  material.volumetric.beta_s = material.stabilisation.beta_s = 0.0;
   return material;
 }
 
