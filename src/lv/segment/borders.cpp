@@ -368,6 +368,15 @@ void even_out(std::vector<Polar>& values, const Polar& received) {
     frame /= received;
 }
 
+/// Finds the blood's edge, given its grey value.
+void find_blood(Work& work, double level) {
+  work.levels.muscle *= level / work.levels.blood;
+  work.levels.blood = level;
+  work.blood.clear();
+  for (const Polar& frame : work.values)
+    work.blood.push_back(blood_edge(frame, work.levels));
+}
+
 /// The blood that a slice shows.
 Work begin(std::vector<Polar> values, double radius) {
   Work work;
@@ -375,8 +384,7 @@ Work begin(std::vector<Polar> values, double radius) {
   work.levels = guess_levels(work.values, radius, grid);
   work.inside = work.levels.blood;
   work.fullest = fullest_blood(work.values, radius, grid);
-  for (const Polar& frame : work.values)
-    work.blood.push_back(blood_edge(frame, work.levels));
+  find_blood(work, work.inside);
   return work;
 }
 
@@ -397,7 +405,7 @@ std::vector<std::vector<Polar>> evened(const image::Cine& cine, const Heart& hea
   return values;
 }
 
-/// The grey values of blood and muscle that are seen in slices.
+/// The grey values of blood and muscle in slices.
 struct SeenLevels {
   std::vector<double> blood, muscle;
 };
@@ -407,33 +415,25 @@ SeenLevels levels_of(const std::vector<Work>& all) {
   std::vector<std::vector<double>> outside;
   for (const Work& work : all) {
     outside.push_back(around_blood(work.values, work.blood, grid));
-    seen.blood.push_back(work.levels.blood);
+    seen.blood.push_back(work.inside);
   }
   seen.muscle = muscle_levels(outside, seen.blood);
   return seen;
 }
 
-/// Slices as they would be with the usual contrast, and the blood that they show then.
-SeenLevels to_usual_contrast(std::vector<Work>& all, const std::vector<Centre>& centres) {
-  const SeenLevels seen = levels_of(all);
+/// Slices as they would be with the usual contrast, and the levels that they have then.
+SeenLevels to_usual_contrast(std::vector<Work>& all) {
+  SeenLevels seen = levels_of(all);
   const Contrast contrast = contrast_of(seen.muscle, seen.blood);
+  const auto usual = [&](double v) { return with_usual_contrast(v, contrast); };
   for (std::size_t s = 0; s < all.size(); ++s) {
     interrupt::check();
     for (Polar& frame : all[s].values)
-      frame = with_usual_contrast(frame, contrast);
-    all[s] = begin(std::move(all[s].values), centres[s].radius);
+      frame = frame.unaryExpr(usual).eval();
+    for (double* level : {&all[s].inside, &all[s].fullest, &seen.blood[s], &seen.muscle[s]})
+      *level = usual(*level);
   }
-  return levels_of(all);
-}
-
-/// Finds the blood's edge again where its grey value is another one.
-void find_blood(Work& work, double level) {
-  if (level == work.levels.blood)
-    return;
-  work.levels.muscle *= level / work.levels.blood;
-  work.levels.blood = level;
-  for (std::size_t t = 0; t < work.values.size(); ++t)
-    work.blood[t] = blood_edge(work.values[t], work.levels);
+  return seen;
 }
 
 /// Learns the muscle's level along each ray from that of the slice.
@@ -449,7 +449,7 @@ std::vector<Work> begin_all(const image::Cine& cine, const Heart& heart) {
     interrupt::check();
     all.push_back(begin(std::move(values[s]), heart.centres[s].radius));
   }
-  const SeenLevels seen = to_usual_contrast(all, heart.centres);
+  const SeenLevels seen = to_usual_contrast(all);
   const std::vector<double> whole = whole_blood(seen.blood, seen.muscle);
   for (std::size_t s = 0; s < all.size(); ++s) {
     find_blood(all[s], whole[s]);
@@ -595,8 +595,9 @@ Radii redraw_border(const image::CineSlice& slice, const Redrawing& asked, doubl
            sensitivity(coil_gradient({{values, surely_blood * asked.centre.radius}}, grid), grid));
   std::vector<Work> alone;
   alone.push_back(begin(std::move(values), asked.centre.radius));
-  const SeenLevels seen = to_usual_contrast(alone, {asked.centre});
+  const SeenLevels seen = to_usual_contrast(alone);
   Work& work = alone.front();
+  find_blood(work, seen.blood.front());
   learn_round(work, seen.muscle.front());
   find_middle(work);
   const Frame frame{work, asked.frame};

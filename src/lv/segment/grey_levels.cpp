@@ -21,21 +21,37 @@ std::array<double, 19> gaussian() {
   return weights;
 }
 
-/// The most frequent value between two, from a histogram of 60 bins smoothed over three.
-double most_frequent(const std::vector<double>& values, double low, double high) {
+/// How many values lie near each of 61 between two; one between neighbours is shared by both.
+std::vector<double> histogram(const std::vector<double>& values, double low, double high) {
   constexpr int bins = 60;
-  const std::array<double, 19> weights = gaussian();
-  std::vector<double> density(bins, 0.0);
+  std::vector<double> counts(bins + 1, 0.0);
   for (const double v : values) {
-    const int bin = static_cast<int>(std::floor((v - low) / (high - low) * bins));
-    if (v < low || bin >= bins)
+    if (v < low || v >= high)
       continue;
-    for (int d = -9; d <= 9; ++d)
-      if (bin + d >= 0 && bin + d < bins)
-        density.at(bin + d) += weights.at(d + 9);
+    const double at = (v - low) / (high - low) * bins;
+    const int before = std::min(static_cast<int>(at), bins - 1);
+    const double part = at - before;
+    counts.at(before) += 1.0 - part;
+    counts.at(before + 1) += part;
   }
-  const auto peak = std::max_element(density.begin(), density.end()) - density.begin();
-  return low + (static_cast<double>(peak) + 0.5) / bins * (high - low);
+  return counts;
+}
+
+/// The most frequent value between two, from a histogram smoothed over three bins; its top is that
+/// of a parabola, so that it moves as smoothly as the values do.
+double most_frequent(const std::vector<double>& values, double low, double high) {
+  const std::vector<double> counts = histogram(values, low, high);
+  const int n = static_cast<int>(counts.size());
+  const std::array<double, 19> weights = gaussian();
+  std::vector<double> density(counts.size(), 0.0);
+  for (int bin = 0; bin < n; ++bin)
+    for (int d = std::max(-9, -bin); d <= std::min(9, n - 1 - bin); ++d)
+      density.at(bin + d) += weights.at(d + 9) * counts.at(bin);
+  const auto peak = std::max_element(density.begin() + 1, density.end() - 1);
+  const double bend = peak[-1] - 2.0 * peak[0] + peak[1];
+  const double beside = bend < 0.0 ? 0.5 * (peak[-1] - peak[1]) / bend : 0.0;
+  const double top = static_cast<double>(peak - density.begin()) + std::clamp(beside, -0.5, 0.5);
+  return low + top / (n - 1) * (high - low);
 }
 
 /// The grey values 2 to 10 mm outside the blood on a ray.
@@ -119,14 +135,14 @@ Contrast contrast_of(const std::vector<double>& muscle, const std::vector<double
   return {median(blood), median(muscle)};
 }
 
-Polar with_usual_contrast(const Polar& values, const Contrast& contrast) {
+double with_usual_contrast(double value, const Contrast& contrast) {
   const auto [b, m] = contrast;
   const double usual = 0.28 * b;
   if (m <= usual)
-    return values;
+    return value;
   const double g = std::log(usual / b) / std::log(m / b);
-  return (values > m)
-      .select(usual + (values - m) * (b - usual) / (b - m), usual * (values.max(0.0) / m).pow(g));
+  return value > m ? usual + (value - m) * (b - usual) / (b - m)
+                   : usual * std::pow(std::max(value, 0.0) / m, g);
 }
 
 Radii muscle_round(const std::vector<Polar>& frames, const std::vector<Radii>& blood,

@@ -53,13 +53,13 @@ struct Contrast {
 [[nodiscard]] Contrast contrast_of(const std::vector<double>& muscle,
                                    const std::vector<double>& blood);
 
-/// What a frame would show if muscle were m' = 0.28 of the blood, as in the patients' images with
-/// which the numbers of this room were chosen (0.28 and 0.30): sequences, and scanners that raise
-/// the dark end, make it up to half as bright. Above m the way to blood stays as it is, since an
-/// edge in a voxel mixes signals: v -> m' + (v - m)(b - m')/(b - m); below, where lung and the
-/// lines between organs are, v -> m' (v/m)^g, g = ln(m'/b)/ln(m/b). Darker muscle is left as it is:
-/// dark lines would become fainter.
-[[nodiscard]] Polar with_usual_contrast(const Polar& values, const Contrast& contrast);
+/// What an image would show where it shows v if muscle were m' = 0.28 of the blood, as in the
+/// patients' images with which the numbers of this room were chosen (0.28 and 0.30): sequences, and
+/// scanners that raise the dark end, make it up to half as bright. Above m the way to blood stays
+/// as it is, since an edge in a voxel mixes signals: v -> m' + (v - m)(b - m')/(b - m); below,
+/// where lung and the lines between organs are, v -> m' (v/m)^g, g = ln(m'/b)/ln(m/b). Darker
+/// muscle is left as it is: dark lines would become fainter.
+[[nodiscard]] double with_usual_contrast(double value, const Contrast& contrast);
 
 /// The muscle's grey value along each ray before the wall is known: the most frequent one outside
 /// the blood within 30 degrees, over all frames, between 0.4 and 1.6 of the slice's own, which

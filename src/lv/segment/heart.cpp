@@ -21,13 +21,14 @@ constexpr double seed_step = 6.0;    // between places that are tried first [mm]
 constexpr double follow_step = 4.0;  // between places tried near the slice before [mm]
 constexpr double follow_reach = 12.0;
 
-/// Fall of the grey value over 4 mm outwards, as a part of the blood's; half of it counts as all.
+/// Fall of the grey value over 4 mm outwards, as a part of the blood's; beyond half of it more
+/// hardly counts. It grows everywhere: among equal edges rounding would choose the path.
 Polar steepness(const Polar& values) {
   constexpr double whole = 0.5;
   const auto n = values.cols();
   Polar fall = Polar::Zero(values.rows(), n);
   fall.middleCols(1, n - 2) = 2.0 * (values.leftCols(n - 2) - values.rightCols(n - 2));
-  return fall.max(0.0).min(whole) / whole;
+  return (fall / whole).tanh();
 }
 
 /// The parts of likeness that a closed path round a place has.
