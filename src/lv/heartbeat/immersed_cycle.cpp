@@ -135,7 +135,8 @@ class ImmersedCycleRun {
   std::optional<Place> kept_;  ///< to go back to when a step fails
 
   Timer checkpoint_timer_;
-  Timer progress_timer_{5.0};
+  static constexpr double report_interval = 5.0;  // [s]
+  Timer progress_timer_{report_interval};
   TimeLeft left_;
   double counted_until_ = wall_clock();
   double begun_time_ = 0.0;  ///< simulated time at which this process took over [s]
@@ -150,6 +151,7 @@ Beat ImmersedCycleRun::run() {
     begin_beat();
     begun_time_ = state().time;
     left_ = TimeLeft();  // of the beats alone
+    progress_timer_ = Timer(report_interval);
   }
   while (!record_.done()) {
     step();
