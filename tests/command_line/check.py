@@ -81,6 +81,9 @@ cycle = {beats = 1, step = "0.01 s"}
 
 def check_refused_beat(folder):
     case = folder / "weak.toml"
+    case.write_text(too_weak.replace("0.7 uM", "700 uM"))
+    dry = ventricle("run", case, "--dry-run")
+    check("a dry run warns of units as validate does", dry.returncode == 0 and "calcium.Ca_max is 700 uM" in dry.stdout + dry.stderr, dry.stdout)
     case.write_text(too_weak)
     run = ventricle("run", case, "--ranks", 1)
     page = folder / "weak.work" / "report.html"

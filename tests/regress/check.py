@@ -214,11 +214,10 @@ def wait_for_another(file, written, seconds=120):
     return False
 
 
-def check_stops_and_resume(reference, work, stops, ranks=1):
+def check_stops_and_resume(reference, work, stops, whole=here / "small.toml", ranks=1):
     """Stops a run in its middle, once for each (signal, exit code), resumes it to its end, and compares with an undisturbed one."""
     case = work.parent / "often.toml"
-    case.write_text((here / "small.toml").read_text().replace('checkpoint_interval = "1 s"',
-                                                              'checkpoint_interval = "0.1 s"'))
+    case.write_text(whole.read_text().replace('checkpoint_interval = "1 s"', 'checkpoint_interval = "0.1 s"'))
     checkpoint = work / "03_beat.part" / "checkpoint.bin"
     resumes = "resumed from the checkpoint"
     for n, (stop, code) in enumerate(stops):
@@ -239,8 +238,8 @@ def check_stops_and_resume(reference, work, stops, ranks=1):
     check_outputs(work)
 
 
-def check_ranks(reference, work):
-    done = run(work, 2)
+def check_ranks(reference, work, case):
+    done = run(work, 2, case)
     check("two ranks finish", done.returncode == 0, done.stderr)
     a, b = summary(reference), summary(work)
     for volume in ("edv_ml", "esv_ml"):
@@ -289,15 +288,18 @@ def check_one(folder):
 
 
 def check_two(folder):
-    """What two ranks do, beside one."""
+    """What two ranks do, beside one, with a beat that does not wait for rest."""
     undisturbed = folder / "undisturbed"
-    on_one = subprocess.Popen(command(undisturbed, 1, here / "small.toml"), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    case = folder / "short.toml"
+    case.write_text((here / "small.toml").read_text().replace(
+        "[protocol]\n", '[protocol]\nfilling_longest = "0.2 s"\ncontraction_longest = "0.26 s"\n'))
+    on_one = subprocess.Popen(command(undisturbed, 1, case), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     check_one_rank(folder)  # on the other processor meanwhile
     told = on_one.communicate()[0]
     check("a beat runs", on_one.returncode == 0, told)
     if on_one.returncode == 0:
-        check_ranks(undisturbed, folder / "two_ranks")
-        check_stops_and_resume(folder / "two_ranks", folder / "stopped_on_two", [(signal.SIGINT, 130)], ranks=2)
+        check_ranks(undisturbed, folder / "two_ranks", case)
+        check_stops_and_resume(folder / "two_ranks", folder / "stopped_on_two", [(signal.SIGINT, 130)], case, ranks=2)
     check_same_bits(folder)
 
 

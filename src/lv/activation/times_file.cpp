@@ -31,6 +31,14 @@ std::vector<std::string> single_numbers(vtkFieldData& data) {
   return names;
 }
 
+/// `what` says which of the file's times it is.
+void check_time(double time, const std::string& where, const std::string& what) {
+  if (!(time >= 0.0 && std::isfinite(time)))
+    throw InputError(where, fmt::format("{} is {:g}, which is no time from 0 on", what, time),
+                     "Give all muscle a time from 0 on, after which its calcium begins; a time "
+                     "below 0 usually means that the front never came");
+}
+
 vtkDataArray& times_of(const TimesFile& source, vtkUnstructuredGrid& grid) {
   vtkFieldData& points = *grid.GetPointData();
   vtkFieldData& cells = *grid.GetCellData();
@@ -55,9 +63,14 @@ vtkDataArray& times_of(const TimesFile& source, vtkUnstructuredGrid& grid) {
 std::vector<double> read_vtk(const TimesFile& source) {
   const auto grid = mesh_io::read_grid(source.file);
   vtkDataArray& array = times_of(source, *grid);
+  const bool is_at_points = grid->GetPointData()->HasArray(array.GetName()) != 0;
   std::vector<double> numbers;
-  for (vtkIdType i = 0; i < array.GetNumberOfTuples(); ++i)
+  for (vtkIdType i = 0; i < array.GetNumberOfTuples(); ++i) {
     numbers.push_back(array.GetComponent(i, 0));
+    check_time(numbers.back(), source.file,
+               fmt::format("{} of {} {} (counted from 0, as ParaView does)", array.GetName(),
+                           is_at_points ? "point" : "cell", i));
+  }
   return numbers;
 }
 
@@ -73,6 +86,7 @@ std::vector<double> read_lines(const std::string& file) {
     const auto number = number_of<double>(text);
     if (!number)
       throw InputError(lines.where(), why_no_number(text, "is no number"), "Write one time a line");
+    check_time(*number, lines.where(), "the time");
     numbers.push_back(*number);
   }
   return numbers;
@@ -188,11 +202,6 @@ std::vector<double> read_times(const TimesFile& source, const mesh::Mesh& mesh) 
   const std::string end = ending_of(source.file);
   std::vector<double> times =
       end == ".vtu" || end == ".vtk" ? read_vtk(source) : read_lines(source.file);
-  for (std::size_t i = 0; i < times.size(); ++i)
-    if (!(times[i] >= 0.0 && std::isfinite(times[i])))
-      throw InputError(source.file, fmt::format("number {} of its times is {:g}", i, times[i]),
-                       "Give all muscle a time from 0 on, after which its calcium begins; a time "
-                       "below 0 usually means that the front never came");
   for (double& time : times)
     time *= source.unit;
   return on_nodes(source, mesh, times);

@@ -2,6 +2,7 @@
 
 #include "lv/analysis/wall_pressure.hpp"
 #include "lv/base/parallel.hpp"
+#include "lv/mesh/quadratic.hpp"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -55,7 +56,6 @@ void add(CellFields& cell, const solid::PointSample& p) {
 void finish(CellFields& cell) {
   const double volume = cell.volume;
   for_numbers(cell, [&](double& number) { number /= volume; });
-  cell.volume = volume;
   Vec3 f = cell.fibre_frame.col(0).normalized();
   Vec3 s = cell.fibre_frame.col(1);
   s = (s - s.dot(f) * f).normalized();
@@ -82,6 +82,7 @@ CellStrain strain_in(const Mat3& F, const Vec3& f, const mesh::WallAxes& axes) {
 }  // namespace
 
 std::vector<CellFields> cell_fields(const solid::Wall& wall, const heartbeat::Snapshot& snapshot,
+                                    std::span<const double> volumes,
                                     std::span<const double> pressure) {
   std::vector<double> numbers;
   CellFields cell = zero_fields();
@@ -103,11 +104,12 @@ std::vector<CellFields> cell_fields(const solid::Wall& wall, const heartbeat::Sn
   flush();
 
   const std::vector<double> all = parallel::gather(numbers);
-  std::vector<CellFields> cells(parallel::is_root() ? pressure.size() : 0);
+  std::vector<CellFields> cells(parallel::is_root() ? volumes.size() : 0);
   const double* next = all.data();
   for (std::size_t c = 0; c < cells.size(); ++c) {
     for_numbers(cells[c], [&](double& number) { number = *next++; });
-    cells[c].pressure = pressure[c];
+    cells[c].volume = volumes[c];
+    cells[c].pressure = pressure.empty() ? 0.0 : pressure[c];
   }
   return cells;
 }
@@ -115,7 +117,7 @@ std::vector<CellFields> cell_fields(const solid::Wall& wall, const heartbeat::Sn
 namespace {
 
 material::Myocardium without_penalty(material::Myocardium material) {
-  material.volumetric.beta_s = 0.0;
+  material.volumetric.beta_s = material.stabilisation.beta_s = 0.0;
   return material;
 }
 
@@ -126,21 +128,22 @@ FieldAnalysis::FieldAnalysis(const mesh::Mesh& mesh, const solid::CardiacModel& 
     : mesh_(mesh),
       activation_times_(std::move(activation_times)),
       contractility_(mesh::at_nodes(mesh, model.contractility)),
+      volumes_(mesh::cell_volumes(mesh)),
       wall_(mesh, without_penalty(model.myocardium)),
       supports_(mesh, model.base, model.surroundings) {}
 
 std::vector<CellFields> FieldAnalysis::fields(const heartbeat::Snapshot& snapshot) const {
   if (snapshot.stress.empty())
     return completed(
-        cell_fields(wall_, snapshot, wall_pressure(mesh_, wall_, supports_, snapshot)));
-  std::vector<CellFields> cells = shape_fields(wall_, mesh_, snapshot.positions);
+        cell_fields(wall_, snapshot, volumes_, wall_pressure(mesh_, wall_, supports_, snapshot)));
+  std::vector<CellFields> cells = shape_fields(wall_, volumes_, snapshot.positions);
   for (std::size_t c = 0; c < cells.size(); ++c)
     static_cast<solid::CellStress&>(cells[c]) = snapshot.stress[c];
   return completed(std::move(cells));
 }
 
 std::vector<CellFields> FieldAnalysis::at_rest() const {
-  return completed(shape_fields(wall_, mesh_, mesh_.nodes));
+  return completed(shape_fields(wall_, volumes_, mesh_.nodes));
 }
 
 std::vector<CellFields> FieldAnalysis::completed(std::vector<CellFields> cells) const {
@@ -157,12 +160,12 @@ std::vector<CellFields> FieldAnalysis::completed(std::vector<CellFields> cells) 
   return cells;
 }
 
-std::vector<CellFields> shape_fields(const solid::Wall& wall, const mesh::Mesh& mesh,
+std::vector<CellFields> shape_fields(const solid::Wall& wall, std::span<const double> volumes,
                                      const std::vector<Vec3>& positions) {
   heartbeat::Snapshot s;
   s.positions = positions;
   s.tension.assign(positions.size(), 0.0);
-  return cell_fields(wall, s, std::vector<double>(mesh.cell_count(), 0.0));
+  return cell_fields(wall, s, volumes, {});
 }
 
 void set_work_density(std::span<const double> of_elements, std::vector<CellFields>& cells) {

@@ -14,7 +14,7 @@ namespace lv::analysis {
 /// stress is not what the mean tensors and f0 give: fibres turn by tens of degrees within a large
 /// element.
 struct CellFields : solid::CellStress {
-  double volume = 0.0;            ///< of the undeformed element [mm^3]
+  double volume = 0.0;            ///< of the undeformed element, with its curve [mm^3]
   Vec3 reference = Vec3::Zero();  ///< centre, undeformed [mm]
   Vec3 position = Vec3::Zero();   ///< centre, deformed [mm]
   double transmural = 0.0;
@@ -43,14 +43,17 @@ struct CellFields : solid::CellStress {
   }
 };
 
-/// All elements of a snapshot on the root, in the mesh's order; empty on other ranks. `pressure` is
-/// p per element on the root. Collective.
+/// All elements of a snapshot on the root, in the mesh's order; empty on other ranks. Of each
+/// element, `volumes` are those of mesh::cell_volumes, `pressure` is p on the root; empty: 0.
+/// Collective.
 [[nodiscard]] std::vector<CellFields> cell_fields(const solid::Wall& wall,
                                                   const heartbeat::Snapshot& snapshot,
+                                                  std::span<const double> volumes,
                                                   std::span<const double> pressure);
 
 /// The fields of a shape without tension and pressure: enough for strains. Collective.
-[[nodiscard]] std::vector<CellFields> shape_fields(const solid::Wall& wall, const mesh::Mesh& mesh,
+[[nodiscard]] std::vector<CellFields> shape_fields(const solid::Wall& wall,
+                                                   std::span<const double> volumes,
                                                    const std::vector<Vec3>& positions);
 
 /// Turns a wall's snapshots into fields, with the stresses and p that the snapshot brings or else
@@ -74,6 +77,7 @@ class FieldAnalysis {
   const mesh::Mesh& mesh_;
   std::vector<double> activation_times_;
   std::vector<double> contractility_;  ///< per node; may be empty
+  std::vector<double> volumes_;        ///< undeformed, per element [mm^3]
   solid::Wall wall_;                   ///< without volumetric penalty: p stands for it
   solid::Supports supports_;
 };

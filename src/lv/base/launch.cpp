@@ -82,7 +82,6 @@ void allow_mpirun(int ranks) {
   forget_launcher();
   setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 0);
   setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 0);
-  setenv("OPENBLAS_NUM_THREADS", "1", 0);  // one rank per core is the model
   // shared memory without ptrace rights, which containers withhold
   setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 0);
   if (ranks > processors())

@@ -4,6 +4,7 @@
 #include "lv/base/interrupt.hpp"
 #include "lv/base/launch.hpp"
 
+#include <dlfcn.h>
 #include <mpi.h>
 
 #include <algorithm>
@@ -37,9 +38,20 @@ Layout layout_of(std::size_t count) {
   return layout;
 }
 
+/// One thread of BLAS: with more, sums take another order on every number of processors, and a run
+/// that goes on elsewhere would end with other bits (docs/verification.md has what that costs).
+/// Other libraries than OpenBLAS have no such function.
+void keep_blas_to_one_thread() {
+  using SetThreads = void (*)(int);
+  if (const auto set =
+          reinterpret_cast<SetThreads>(dlsym(RTLD_DEFAULT, "openblas_set_num_threads")))
+    set(1);
+}
+
 }  // namespace
 
 Session::Session(int* argc, char*** argv) {
+  keep_blas_to_one_thread();
   launch::prepare();
   MPI_Init(argc, argv);
 }

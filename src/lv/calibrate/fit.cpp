@@ -477,8 +477,9 @@ class Fitter {
 
   /// Of `count` of the values; the others are zero.
   static Misfit misfit_of(const std::vector<double>& off, std::size_t count) {
-    const Eigen::VectorXd v = dense::as_vector(off) / std::sqrt(static_cast<double>(count));
-    return {v.norm(), v.sum() / std::sqrt(static_cast<double>(count))};
+    const Eigen::VectorXd v = dense::as_vector(off);
+    const auto n = static_cast<double>(count);
+    return {v.norm() / std::sqrt(n), v.sum() / n};
   }
 
   /// Parts above the base say nothing, and are at no distance.

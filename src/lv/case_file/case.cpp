@@ -55,6 +55,8 @@ material::Myocardium myocardium(const Case& c) {
   }
   material.volumetric = c.volumetric;
   material.volumetric_points = c.volumetric_points;
+  if (is_cycle(c))
+    material.stabilisation = c.stabilisation;
   material.infarct = c.infarct;
   material.viscosity = c.viscosity;
   set_active(c, material);

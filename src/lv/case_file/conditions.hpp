@@ -56,6 +56,8 @@ LV_CONDITION(iterative,
              "with quasi_static.linear_solver = \"iterative\"")
 LV_CONDITION(quadrature, c.coupling.kind == immersed::CouplingKind::quadrature,
              "with coupling.kind = \"quadrature\"")
+LV_CONDITION(mean_dilatations, c.volumetric_points == material::VolumetricPoints::mean,
+             "with volumetric.points = \"mean\"")
 LV_CONDITION(heartbeats, beats_in(c, s), "with protocol.kind = \"cycle\"")
 LV_CONDITION(of_beats, s != Stage::calibrate || c.calibration.cycle, "of the beat")
 LV_CONDITION(paper_protocol, s == Stage::calibrate ? c.calibration.fits_muscle() : !is_cycle(c),

@@ -646,6 +646,14 @@ constexpr Group of_muscle[]{
                 "dilatations (of a hexahedron, around a node of tetrahedra), which do not lock",
                 "2.20"),
      }},
+    {Stages(Stage::beat),
+     {&immersed_engine, &heartbeats, &mean_dilatations},
+     {
+         number("volumetric.stabilisation", LV_AT(stabilisation.beta_s), "kPa", not_negative,
+                "penalty at every quadrature point besides, which keeps elements from bending "
+                "under beat after beat; zero at J = 1. A tetrahedron keeps at least a tenth of "
+                "beta_s to itself"),
+     }},
     {mechanics,
      {},
      {

@@ -2,6 +2,7 @@
 
 #include "lv/analysis/regional.hpp"
 #include "lv/base/parallel.hpp"
+#include "lv/mesh/quadratic.hpp"
 
 #include <cmath>
 
@@ -27,8 +28,9 @@ std::vector<double> regional_strains(const Case& c, const mesh::Mesh& wall,
                                      const std::vector<Vec3>& end_diastole,
                                      const std::vector<Vec3>& end_systole) {
   const solid::Wall elements(wall, case_file::myocardium(c));
-  const auto then = analysis::shape_fields(elements, wall, end_diastole);
-  const auto now = analysis::shape_fields(elements, wall, end_systole);
+  const std::vector<double> volumes = mesh::cell_volumes(wall);
+  const auto then = analysis::shape_fields(elements, volumes, end_diastole);
+  const auto now = analysis::shape_fields(elements, volumes, end_systole);
   std::vector<double> E_cc;
   for (std::size_t i = 0; i < now.size(); ++i)
     E_cc.push_back(analysis::strain(now[i], then[i]).circumferential);

@@ -154,6 +154,19 @@ double relaxation(Beat beat, double from, double to) {
   return slope < 0.0 ? -1.0 / slope : none;
 }
 
+/// Whether the aortic valve that is open as the beat begins is so until ejection is over: then the
+/// ejection that ends with its closing is the beat's, and a later opening the next beat's.
+bool begins_in_ejection(Beat beat, const Crossing& closes) {
+  return closes.found && beat.front().signals.aortic_gradient > 0.0 &&
+         least(beat.first(closes.before + 1), &Signals::mitral_gradient) < 0.0;
+}
+
+/// From the closing of one valve to the opening of the other; none where that opens before this
+/// one has closed [s].
+double isovolumic(Beat beat, double closes, const Crossing& opens, Value closed_gradient) {
+  return opens.of(beat, closed_gradient) < 0.0 ? opens.time(beat) - closes : none;
+}
+
 /// The last closing of the mitral valve before ejection: in a closed loop it may close and open
 /// again before the atrium contracts. A beat that begins with a closed one, which does not open
 /// again, begins with that.
@@ -182,12 +195,16 @@ double closed_before(Beat beat, const Crossing& opens) {
 }  // namespace
 
 BeatMeasures measure_beat(Beat beat, double atrium) {
-  const Crossing aortic_opens = crossing(beat, &Signals::aortic_gradient, true);
+  const Crossing first_closing = crossing(beat, &Signals::aortic_gradient, false);
+  const bool in_ejection = begins_in_ejection(beat, first_closing);
+  const Crossing aortic_opens =
+      in_ejection ? Crossing{} : crossing(beat, &Signals::aortic_gradient, true);
   const Crossing mitral_closes = end_diastole(beat, aortic_opens);
   const Crossing aortic_closes =
-      crossing(beat, &Signals::aortic_gradient, false, aortic_opens.before);
-  const Crossing mitral_opens =
-      crossing(beat, &Signals::mitral_gradient, true, aortic_closes.before);
+      in_ejection ? first_closing
+                  : crossing(beat, &Signals::aortic_gradient, false, aortic_opens.before);
+  const Crossing mitral_opens = crossing(beat, &Signals::mitral_gradient, true,
+                                         aortic_closes.found ? aortic_opens.before : 0);
   std::size_t fastest_rise = 0;
   std::size_t steepest_fall = 0;
   for (std::size_t i = 0; i + 1 < beat.size(); ++i) {
@@ -214,9 +231,11 @@ BeatMeasures measure_beat(Beat beat, double atrium) {
   m.aortic_opens = aortic_opens.time(beat);
   m.aortic_closes = aortic_closes.time(beat);
   m.mitral_opens = mitral_opens.time(beat);
-  m.isovolumic_contraction = m.aortic_opens - m.mitral_closes;
+  m.isovolumic_contraction =
+      isovolumic(beat, m.mitral_closes, aortic_opens, &Signals::mitral_gradient);
   m.ejection_time = m.aortic_closes - m.aortic_opens;
-  m.isovolumic_relaxation = m.mitral_opens - m.aortic_closes;
+  m.isovolumic_relaxation =
+      isovolumic(beat, m.aortic_closes, mitral_opens, &Signals::aortic_gradient);
   const double filled = std::isnan(m.mitral_closes) ? mitral_closes.time(beat) : m.mitral_closes;
   const Inflow early = inflow(beat, m.mitral_opens, std::isnan(atrium) ? filled : atrium);
   const Inflow late = inflow(beat, atrium, filled);

@@ -404,9 +404,10 @@ void CycleRun::stop_early(const std::string& why) {
   }
   const NoSolution error(
       what,
-      "Look at cycle.csv up to there: a circuit that empties the heart, or overfills it, has other "
-      "resistances, pressures or contractility than meant; a thin or scarred wall may need what "
-      "holds muscle back (muscle.viscosity = \"100 Pa s\"); else try a finer mesh");
+      "Look at cycle.csv in 03_beat.part up to there: a circuit that empties the heart, or "
+      "overfills it, has other resistances, pressures or contractility than meant; a thin or "
+      "scarred wall may need what holds muscle back (muscle.viscosity = \"100 Pa s\"); else try a "
+      "finer mesh");
   record_.stop_early(error, what, observers_);
 }
 

@@ -286,7 +286,7 @@ Beat CycleRecord::result(const Observers& observers) {
     show_progress(observers);
     throw NoSolution("the last beat has no end-diastole or no end-systole: " +
                          why_incomplete(circulation::samples_of(cycle_, beat_ - 1)),
-                     "Look at cycle.csv");
+                     "Look at cycle.csv in 03_beat.part");
   }
   if (!cycle_.is_limit)
     log::warn(

@@ -8,6 +8,7 @@
 #include "lv/base/units.hpp"
 #include "lv/heartbeat/checkpoint.hpp"
 #include "lv/heartbeat/immersed_steps.hpp"
+#include "lv/heartbeat/settling.hpp"
 #include "lv/heartbeat/timer.hpp"
 
 #include <cmath>
@@ -96,7 +97,7 @@ class ImmersedCycleRun {
   void housekeeping();
   [[nodiscard]] std::string place() const;
   void report_progress();
-  void report_filling() const;
+  void report_filling();
   void count_time();
   void keep() { kept_ = {model_.state(), record_}; }
   void keep_sometimes();
@@ -134,7 +135,8 @@ class ImmersedCycleRun {
   std::optional<Place> kept_;  ///< to go back to when a step fails
 
   Timer checkpoint_timer_;
-  Timer progress_timer_{5.0};
+  static constexpr double report_interval = 5.0;  // [s]
+  Timer progress_timer_{report_interval};
   TimeLeft left_;
   double counted_until_ = wall_clock();
   double begun_time_ = 0.0;  ///< simulated time at which this process took over [s]
@@ -143,11 +145,14 @@ class ImmersedCycleRun {
 Beat ImmersedCycleRun::run() {
   if (!resume())
     begin_filling();
+  begun_time_ = state().time;
   if (is_filling()) {
     fill();
     begin_beat();
+    begun_time_ = state().time;
+    left_ = TimeLeft();  // of the beats alone
+    progress_timer_ = Timer(report_interval);
   }
-  begun_time_ = state().time;
   while (!record_.done()) {
     step();
     if (!record_.done())
@@ -353,9 +358,13 @@ std::string ImmersedCycleRun::place() const {
                       : fmt::format("{:.4f} s of beat {}", record_.since(), record_.beat() + 1);
 }
 
-void ImmersedCycleRun::report_filling() const {
-  log::info("filling {:.3f} s  {:.1f} mmHg  {:.1f} ml", state().time,
-            filling_.loads(state().time).pressure / mmHg, 1e-3 * model_.cavity_volume());
+void ImmersedCycleRun::report_filling() {
+  left_.record(state().time - begun_time_);
+  const double left = settling_time_left(filling_, state().time, state().steady) +
+                      setup_.protocol.cycle.beats * record_.period();
+  log::info("filling {:.3f} s  {:.1f} mmHg  {:.1f} ml{}", state().time,
+            filling_.loads(state().time).pressure / mmHg, 1e-3 * model_.cavity_volume(),
+            left_.words(left));
 }
 
 void ImmersedCycleRun::report_progress() {

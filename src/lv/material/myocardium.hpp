@@ -19,6 +19,9 @@ struct Myocardium {
   ActiveLaw active = NiedererHunterSmith{};
   Volumetric volumetric;  ///< of the immersed engine
   VolumetricPoints volumetric_points = VolumetricPoints::mean;
+  /// Besides the means, at every point of a hexahedron, which bends without changing them, and what
+  /// a tetrahedron keeps to itself at least; zero at J = 1.
+  Volumetric stabilisation{.beta_s = 0.0};
   InfarctScaling infarct;
   ActiveForm active_form = ActiveForm::niederer;  ///< what the tension means
   Viscosity viscosity;  ///< of motions of the implicit engine; the immersed engine's is the blood's

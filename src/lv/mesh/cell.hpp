@@ -20,7 +20,8 @@ using LocalFace = std::array<int, 4>;
 /// Mean of the cell's nodes [mm].
 [[nodiscard]] Vec3 cell_centre(const Mesh& mesh, int cell);
 
-/// int dX over the cell [mm^3]. Exact: det dX/dxi of a trilinear hexahedron is of degree two in
+/// int dX over the cell with its straight edges [mm^3]; cell_volumes (quadratic.hpp) has those of
+/// curved parts. Exact: det dX/dxi of a trilinear hexahedron is of degree two in
 /// each coordinate, which the 2 x 2 x 2 Gauss rule integrates.
 [[nodiscard]] double cell_volume(const Mesh& mesh, int cell);
 

@@ -3,6 +3,7 @@
 #include "lv/base/check.hpp"
 #include "lv/mesh/cell.hpp"
 #include "lv/mesh/distance.hpp"
+#include "lv/mesh/quadratic.hpp"
 #include "lv/mesh/spread_points.hpp"
 #include "lv/mesh/surface.hpp"
 
@@ -248,13 +249,14 @@ std::vector<SegmentInfarct> infarct_by_segment(const Mesh& mesh, const std::vect
   constexpr double usual_radius = 30.0;  // of the wall [mm]
   const double width = size / usual_radius;
   const auto axis = cavity_axis(mesh, parameters);
+  const std::vector<double> volumes = cell_volumes(mesh);
   std::map<std::array<int, 3>, Column> columns;
   for (int c = 0; c < mesh.cell_count(); ++c) {
     const Vec3 X = cell_centre(mesh, c);
     const Vec3 r = X - axis(X.z());
     Column& column = columns[{regions.aha[c], static_cast<int>(std::floor(X.z() / size)),
                               static_cast<int>(std::floor(std::atan2(r.y(), r.x()) / width))}];
-    const double V = cell_volume(mesh, c);
+    const double V = volumes[c];
     const std::size_t layer = layer_of(mesh, c);
     column.wall.at(layer) += V;
     column.infarct.at(layer) += part[c] * V;
@@ -286,9 +288,10 @@ std::vector<SegmentInfarct> infarct_by_segment(const Mesh& mesh, const std::vect
 
 InfarctVolumes infarct_volumes(const Mesh& mesh, const std::vector<double>& part) {
   InfarctVolumes volumes;
+  const std::vector<double> of_cells = cell_volumes(mesh);
   for (int c = 0; c < mesh.cell_count(); ++c) {
     const auto nodes = mesh.cell(c);
-    const double V = cell_volume(mesh, c);
+    const double V = of_cells[c];
     volumes.wall += V;
     volumes.infarct += part[c] * V;
     if (std::any_of(nodes.begin(), nodes.end(), [&](int a) { return mesh.infarct[a] > 0.0; }))

@@ -1,8 +1,14 @@
 #include "lv/mesh/quadratic.hpp"
 
+#include "lv/mesh/cell.hpp"
+#include "lv/mesh/gauss.hpp"
 #include "lv/mesh/shapes.hpp"
 
+#include <Eigen/LU>
+
+#include <algorithm>
 #include <array>
+#include <map>
 
 namespace lv::mesh {
 namespace {
@@ -59,6 +65,70 @@ ElementNodes gather(std::span<const int> nodes, int nodes_per_part, int parts,
   return result;
 }
 
+/// A cell's corners as those of a hexahedron: a tetrahedron is one with an edge of its bottom and
+/// its whole top drawn together.
+std::array<int, 8> as_hexahedron(CellKind kind) {
+  return kind == CellKind::hexahedron ? std::array{0, 1, 2, 3, 4, 5, 6, 7}
+                                      : std::array{0, 1, 2, 2, 3, 3, 3, 3};
+}
+
+/// Weights and d phi_a/d xi_d at points of a quadratic element.
+using Rule = std::vector<std::pair<double, Eigen::MatrixXd>>;
+
+/// Over the part with these corners. Three points each way are exact: det(dX/dxi) is of degree 5 in
+/// each coordinate of a hexahedron; in a tetrahedron it is of degree 3, and drawing the hexahedron
+/// together adds 2.
+Rule rule_of_part(CellKind kind, const std::array<Vec3, 8>& corners) {
+  Rule rule;
+  for (const LinePoint& x : gauss<3>())
+    for (const LinePoint& y : gauss<3>())
+      for (const LinePoint& z : gauss<3>()) {
+        const auto shape = hexahedron_shapes({x.x, y.x, z.x});
+        Vec3 xi = Vec3::Zero();
+        Mat3 jacobian = Mat3::Zero();
+        for (int a = 0; a < 8; ++a) {
+          xi += shape.value[a] * corners[a];
+          jacobian += corners[a] * Vec3(shape.gradient[a].data()).transpose();
+        }
+        rule.emplace_back(x.weight * y.weight * z.weight * jacobian.determinant(),
+                          shapes<3>(kind, 2, {xi.x(), xi.y(), xi.z()}).gradient);
+      }
+  return rule;
+}
+
+double integral(const Rule& rule, const Eigen::Matrix3Xd& X) {
+  double volume = 0.0;
+  for (const auto& [weight, gradient] : rule)
+    volume += weight * Mat3(X * gradient.transpose()).determinant();
+  return volume;
+}
+
+/// The volumes of the parts of quadratic elements.
+std::vector<double> part_volumes(const Mesh& mesh) {
+  const ElementNodes all = elements(mesh);
+  const std::vector<Vec3> places = node_places(mesh.kind, 2);
+  std::map<std::array<int, 8>, Rule> rules;  // by the places of a part's corners
+  std::vector<double> volumes;
+  for (int c = 0; c < mesh.cell_count(); ++c) {
+    const auto element = all.element(c / cells_per_element(2));
+    Eigen::Matrix3Xd X(3, all.nodes_per_element);
+    for (std::size_t a = 0; a < element.size(); ++a)
+      X.col(static_cast<Eigen::Index>(a)) = mesh.nodes[element[a]];
+    std::array<int, 8> at = as_hexahedron(mesh.kind);
+    std::array<Vec3, 8> corners;
+    for (int i = 0; i < 8; ++i) {
+      const auto node = std::find(element.begin(), element.end(), mesh.cell(c)[at[i]]);
+      at[i] = static_cast<int>(node - element.begin());
+      corners[i] = places.at(at[i]);
+    }
+    const auto [entry, added] = rules.try_emplace(at);
+    if (added)
+      entry->second = rule_of_part(mesh.kind, corners);
+    volumes.push_back(integral(entry->second, X));
+  }
+  return volumes;
+}
+
 }  // namespace
 
 ElementNodes elements(const Mesh& mesh) {
@@ -69,6 +139,15 @@ ElementNodes elements(const Mesh& mesh) {
 ElementNodes sides(CellKind kind, int order, const Surface& surface) {
   return gather(surface.nodes, surface.nodes_per_face, order == 2 ? 4 : 1,
                 side_places(kind, order));
+}
+
+std::vector<double> cell_volumes(const Mesh& mesh) {
+  if (mesh.order == 2)
+    return part_volumes(mesh);
+  std::vector<double> volumes;
+  for (int c = 0; c < mesh.cell_count(); ++c)
+    volumes.push_back(cell_volume(mesh, c));
+  return volumes;
 }
 
 }  // namespace lv::mesh

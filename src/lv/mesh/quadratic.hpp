@@ -37,4 +37,9 @@ struct ElementNodes {
 ///   triangles:      the three corners, then the middles of the edges 01 12 20 (order 2).
 [[nodiscard]] ElementNodes sides(CellKind kind, int order, const Surface& surface);
 
+/// Volume of every cell as the finite elements have it, int dX [mm^3]: of a part of a quadratic
+/// element int det(dX/dxi) dxi over its share of the reference element, with the element's own
+/// shape functions, so that the parts of a curved element add up to it. Exact.
+[[nodiscard]] std::vector<double> cell_volumes(const Mesh& mesh);
+
 }  // namespace lv::mesh

@@ -1,6 +1,7 @@
 #include "lv/mesh/quality.hpp"
 
 #include "lv/mesh/cell.hpp"
+#include "lv/mesh/quadratic.hpp"
 #include "lv/mesh/surface.hpp"
 
 #include <fmt/format.h>
@@ -52,8 +53,9 @@ Quality quality(const Mesh& mesh) {
   for (int c = 0; c < q.cells; ++c) {
     scaled.push_back(scaled_jacobian(mesh, c));
     aspect.push_back(aspect_ratio(mesh, c));
-    q.wall_volume += cell_volume(mesh, c);
   }
+  for (const double volume : cell_volumes(mesh))
+    q.wall_volume += volume;
   q.scaled_jacobian = spread(scaled);
   q.aspect_ratio = spread(aspect);
   q.edge_length = spread(edge_lengths(mesh));

@@ -137,6 +137,8 @@ std::vector<std::string> cycle_warnings(const Case& c, const circulation::Cycle&
   for (std::string odd : {slow_relaxation(c), chamber_beyond_beat(c)})
     if (!odd.empty())
       warnings.push_back(std::move(odd));
+  for (std::string& open : report::open_aortic_valve(cycle.beats.back()))
+    warnings.push_back(std::move(open));
   return warnings;
 }
 

@@ -21,9 +21,10 @@ constexpr double steps_of_beat = 45.0;
 constexpr double steps_of_unloading = 4.0;
 constexpr double steps_of_fit = 45.0;
 constexpr double steps_of_walls_of_fit = 10.0;
-constexpr double steps_of_time_step = 0.04;  // in a heartbeat, which keeps its tangents
-constexpr double beats_of_fit = 30.0;        // with sensitivities
-constexpr int many_unknowns = 100'000;       // whose load step takes longer than some seconds
+constexpr double steps_of_heartbeat = 13.0;   // of its tangents, which longer time steps share
+constexpr double steps_of_time_step = 0.067;  // and of each of its time steps besides
+constexpr double beats_of_fit = 30.0;         // with sensitivities
+constexpr int many_unknowns = 100'000;        // whose load step takes longer than some seconds
 
 /// Processor time of this thread, as other programs at work take none of it.
 double processor_seconds() {
@@ -78,13 +79,17 @@ Estimate of_immersed(const Case& c, const mesh::Mesh& mesh) {
       beat_of_immersed(c, step), step};
 }
 
+/// Of the quasi-static engine [s].
+double heartbeat_of(const Case& c, double load_step) {
+  const double time_steps = c.circulation.period / c.protocol.cycle.step;
+  return load_step * (steps_of_heartbeat + time_steps * steps_of_time_step);
+}
+
 std::string beat_in_words(const Case& c, double load_step) {
   if (!case_file::is_cycle(c))
     return fmt::format("about {}", log::duration(steps_of_beat * load_step));
-  const heartbeat::CycleParameters& cycle = c.protocol.cycle;
-  const double time_steps = c.circulation.period / cycle.step;
   return fmt::format("about {} a beat, of which {} at most",
-                     log::duration(time_steps * steps_of_time_step * load_step), cycle.beats);
+                     log::duration(heartbeat_of(c, load_step)), c.protocol.cycle.beats);
 }
 
 Estimate of_quasi_static(const Case& c, const mesh::Mesh& mesh) {
@@ -128,9 +133,7 @@ std::string preparation(const Case& c, double step) {
   const bool is_loaded = case_file::is_loaded(c);
   const double unloading = is_loaded ? steps_of_unloading * step : 0.0;
   const double walls = is_loaded ? steps_of_walls_of_fit * step : 0.0;
-  const double beats = k.cycle ? beats_of_fit * c.circulation.period / c.protocol.cycle.step *
-                                     steps_of_time_step * step
-                               : 0.0;
+  const double beats = k.cycle ? beats_of_fit * heartbeat_of(c, step) : 0.0;
   const double fit = fitted * (steps_of_fit * step + walls) + beats;
   if (unloading + fit == 0.0)
     return "";

@@ -64,14 +64,7 @@ class Pipeline {
     on_root([&] { report::write_case_name(work_, case_.name); });
     log::info("{}: ventricle {} on {} rank{}, results in {}", case_.name, work::version(),
               parallel::size(), parallel::size() == 1 ? "" : "s", work_.string());
-    for (const std::string& what : case_.without_effect)
-      log::warn("{}", what);
-    for (const std::string& odd :
-         {fit_outside_heartbeats(case_), left_handed_fibres(case_), high_filling_pressure(case_),
-          high_calcium(case_), calcium_beside_rate(case_), unlike_end_diastole(case_),
-          beating_wall::base_away_from_apex(case_)})
-      if (!odd.empty())
-        log::warn("{}", odd);
+    warn_of(case_);
     if (const int members = check_study(case_); members > 0)
       log::info("this is the case of [study] as it stands; ventricle study runs its {} cases",
                 members);
@@ -94,6 +87,7 @@ class Pipeline {
   /// What would run and why, a line a stage; known to the root.
   [[nodiscard]] std::string describe() {
     std::string text;
+    warn_of(case_);
     const std::vector<Planned> stages = plan();
     check_before(stages);
     for (const Planned& p : stages) {

@@ -14,6 +14,7 @@
 #include "lv/heartbeat/cycle.hpp"
 #include "lv/pipeline/beat_result.hpp"
 #include "lv/pipeline/calibration.hpp"
+#include "lv/pipeline/validate.hpp"
 #include "lv/report/study_tables.hpp"
 #include "lv/work/workspace.hpp"
 
@@ -225,6 +226,7 @@ void run_study(const Case& c, const RunOptions& options) {
   if (!options.dry_run)
     study.run();
   else if (parallel::is_root()) {
+    warn_of(c);
     static_cast<void>(check_case(c));
     print(study.describe());
   }

@@ -175,6 +175,16 @@ std::string describe_beat_fit(const Case& c) {
 
 }  // namespace
 
+void warn_of(const Case& c) {
+  for (const std::string& what : c.without_effect)
+    log::warn("{}", what);
+  for (const std::string& odd :
+       {fit_outside_heartbeats(c), left_handed_fibres(c), high_filling_pressure(c), high_calcium(c),
+        calcium_beside_rate(c), unlike_end_diastole(c), beating_wall::base_away_from_apex(c)})
+    if (!odd.empty())
+      log::warn("{}", odd);
+}
+
 std::string fit_outside_heartbeats(const Case& c) {
   if (!case_file::is_cycle(c) || !c.calibration.fits_muscle() || c.calibration.cycle)
     return "";

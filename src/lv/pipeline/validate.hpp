@@ -28,6 +28,9 @@ void check_on_wall(const case_file::Case& c, const anatomy::MeshResult& wall);
 /// warnings matter and what to do next. Throws InputError as check_case.
 [[nodiscard]] std::string validate(const case_file::Case& c);
 
+/// Warns of what is odd in a case as a run begins, or would begin.
+void warn_of(const case_file::Case& c);
+
 /// What is to know of a fit in a case with heartbeats, which is made outside of them; empty else.
 [[nodiscard]] std::string fit_outside_heartbeats(const case_file::Case& c);
 

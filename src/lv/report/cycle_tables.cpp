@@ -2,6 +2,7 @@
 
 #include "lv/base/units.hpp"
 #include "lv/heartbeat/cycle_record.hpp"
+#include "lv/report/plausibility.hpp"
 
 #include <fmt/format.h>
 
@@ -93,6 +94,7 @@ const char* why_unseen(double BeatMeasures::*measure, const BeatMeasures& beat) 
   const bool begins_in_ejection = std::isnan(beat.aortic_opens) && !std::isnan(beat.aortic_closes);
   const bool begins_closed =
       std::isnan(beat.mitral_closes) && !std::isnan(beat.end_diastolic_volume);
+  const bool contracts = !is_open_in_diastole(beat);
   if (measure == &BeatMeasures::aortic_opens && begins_in_ejection)
     return "is open when the beat begins";
   if (measure == &BeatMeasures::mitral_closes && begins_closed)
@@ -100,7 +102,8 @@ const char* why_unseen(double BeatMeasures::*measure, const BeatMeasures& beat) 
   if (measure == &BeatMeasures::mitral_opens && !std::isnan(beat.mitral_closes))
     return "not again in this beat";
   if ((measure == &BeatMeasures::ejection_time && begins_in_ejection) ||
-      (measure == &BeatMeasures::isovolumic_contraction && (begins_in_ejection || begins_closed)))
+      (measure == &BeatMeasures::isovolumic_contraction && contracts &&
+       (begins_in_ejection || begins_closed)))
     return "began before the beat";
   return "did not happen";
 }

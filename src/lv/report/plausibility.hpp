@@ -61,10 +61,17 @@ struct Judgement {
 /// A sentence for each value that cannot be.
 [[nodiscard]] std::vector<std::string> impossible_values(const std::vector<Judgement>& judgements);
 
-/// A sentence for each measure of a heartbeat that lies where no patient's is: beyond what is
-/// possible of those of plausible_ranges and of the ejection fraction, a volume beyond half the
-/// least and twice the largest there, a stroke volume beyond those times the fractions there. What
-/// did not happen is not judged.
+/// Whether the aortic valve is open as the mitral valve closes: the pressure of the arteries has
+/// fallen below that which fills the ventricle.
+[[nodiscard]] bool is_open_in_diastole(const circulation::BeatMeasures& beat);
+
+/// A sentence of such an aortic valve; none of others.
+[[nodiscard]] std::vector<std::string> open_aortic_valve(const circulation::BeatMeasures& beat);
+
+/// That sentence, and one for each measure of a heartbeat that lies where no patient's is: beyond
+/// what is possible of those of plausible_ranges and of the ejection fraction, a volume beyond half
+/// the least and twice the largest there, a stroke volume beyond those times the fractions there.
+/// What did not happen is not judged.
 [[nodiscard]] std::vector<std::string> unlike_any_patient(const circulation::BeatMeasures& beat);
 
 }  // namespace lv::report

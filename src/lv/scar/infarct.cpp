@@ -9,6 +9,7 @@
 #include "lv/image/volume_file.hpp"
 #include "lv/mesh/cell.hpp"
 #include "lv/mesh/infarct.hpp"
+#include "lv/mesh/quadratic.hpp"
 #include "lv/mesh/surface.hpp"
 #include "lv/mesh_io/closed_surface.hpp"
 #include "lv/mesh_io/label_volume.hpp"
@@ -570,11 +571,11 @@ case_file::Missing missing_of_labels(const Case& c) {
 double unseen_part(const Mesh& mesh, const std::function<bool(int)>& shows) {
   double wall = 0.0;
   double unseen = 0.0;
+  const std::vector<double> volumes = mesh::cell_volumes(mesh);
   for (int cell = 0; cell < mesh.cell_count(); ++cell) {
-    const double volume = mesh::cell_volume(mesh, cell);
-    wall += volume;
+    wall += volumes[cell];
     if (!shows(cell))
-      unseen += volume;
+      unseen += volumes[cell];
   }
   return unseen / wall;
 }

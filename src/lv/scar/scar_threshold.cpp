@@ -3,7 +3,7 @@
 #include "lv/base/check.hpp"
 #include "lv/base/log.hpp"
 #include "lv/case_file/parameters.hpp"
-#include "lv/mesh/cell.hpp"
+#include "lv/mesh/quadratic.hpp"
 #include "lv/mesh/regions.hpp"
 
 #include <fmt/format.h>
@@ -27,10 +27,7 @@ struct Elements {
 };
 
 Elements elements_of(const Case& c, const mesh::Mesh& mesh, const std::vector<double>& greys) {
-  Elements all{{greys, {}}, mesh::divide(mesh, c.regions).aha};
-  for (int cell = 0; cell < mesh.cell_count(); ++cell)
-    all.wall.volumes.push_back(mesh::cell_volume(mesh, cell));
-  return all;
+  return {{greys, mesh::cell_volumes(mesh)}, mesh::divide(mesh, c.regions).aha};
 }
 
 std::optional<double> threshold_of(const Elements& all, const std::vector<int>& remote,

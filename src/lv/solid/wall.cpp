@@ -87,6 +87,9 @@ class PackedElements final : public Wall::Elements {
   /// J. Solberg, Int. J. Numer. Meth. Engng 67:841, 2006). Of the default 1000 kPa, the paper's
   /// 100.
   static constexpr double own_share = 0.1;
+  [[nodiscard]] static double own_stiffness(const material::Myocardium& m) {
+    return std::max(own_share * m.volumetric.beta_s, m.stabilisation.beta_s);
+  }
 
   /// F' = (sum_a x_a (x) d phi_a/d xi) K with K = (d xi/dX) [f0 s0 n0]: F with its second index in
   /// the fibre frame.
@@ -323,9 +326,10 @@ template <class E>
 VolumeRange PackedElements<E>::add_elastic_forces(std::span<const Vec3> positions,
                                                   std::span<const double> tension,
                                                   std::span<Vec3> forces) const {
-  const bool at_points = material_.volumetric_points == material::VolumetricPoints::full;
+  const bool is_mean = material_.volumetric_points == material::VolumetricPoints::mean;
+  const material::Volumetric beside{E::nodes == 4 ? 0.0 : material_.stabilisation.beta_s};
   return material::with_point_law(
-      material_, at_points ? material_.volumetric : material::Volumetric{0.0},
+      material_, is_mean ? beside : material_.volumetric,
       [&](const auto& law) { return add_forces(law, positions, tension, forces).over_lanes(); });
 }
 
@@ -416,7 +420,7 @@ void PackedElements<E>::volumetric_forces(const Group& group, const Nodal& x,
   Tensor<Pack> P;
   if constexpr (E::nodes == 4)
     P = cofactor(F) * (0.25 * (pressure[0] + pressure[1] + pressure[2] + pressure[3])) +
-        material_.volumetric.stress(F) * Pack(own_share);
+        material::Volumetric{own_stiffness(material_)}.stress(F);
   else
     P = material_.volumetric.stress(F);
   P *= group.volume;

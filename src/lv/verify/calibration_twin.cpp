@@ -2,6 +2,7 @@
 #include "lv/base/parallel.hpp"
 #include "lv/base/units.hpp"
 #include "lv/calibrate/fit.hpp"
+#include "lv/mesh/quadratic.hpp"
 #include "lv/verify/problems.hpp"
 #include "lv/verify/small_ventricle.hpp"
 
@@ -43,8 +44,9 @@ calibrate::Plan both_parameters() {
 std::vector<double> segment_strains(const mesh::Mesh& mesh, const mesh::Regions& regions,
                                     const std::vector<Vec3>& ed, const std::vector<Vec3>& es) {
   const solid::Wall wall(mesh, {});
-  const auto then = analysis::shape_fields(wall, mesh, ed);
-  const auto now = analysis::shape_fields(wall, mesh, es);
+  const std::vector<double> volumes = mesh::cell_volumes(mesh);
+  const auto then = analysis::shape_fields(wall, volumes, ed);
+  const auto now = analysis::shape_fields(wall, volumes, es);
   std::vector<double> E_cc;
   for (std::size_t c = 0; c < now.size(); ++c)
     E_cc.push_back(analysis::strain(now[c], then[c]).circumferential);

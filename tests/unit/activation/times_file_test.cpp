@@ -79,7 +79,9 @@ TEST_CASE("times of another mesh, and muscle that is never activated, are refuse
              Catch::Contains("has 3 times, but the wall has 27 nodes and 8 cells, of 1 quadratic "
                              "elements with 8 corners"));
   CHECK_THAT(refused(lines_of({0, 1, 2, 3, -1, 5, 6, 7})),
-             Catch::Contains("number 4 of its times is -1"));
+             Catch::Contains("lv_times.dat:5") && Catch::Contains("the time is -1, which is no"));
+  CHECK_THAT(refused("# ms\n1.0\n\nnan\n"),
+             Catch::Contains("lv_times.dat:4") && Catch::Contains("the time is nan"));
   CHECK_THAT(refused("1.0\nsoon\n"),
              Catch::Contains("lv_times.dat:2") && Catch::Contains("\"soon\" is no number"));
 }
@@ -95,6 +97,11 @@ TEST_CASE("times are read from an array of a VTK file", "[unit][activation]") {
       "default\n0 1 2 3 4 5 6 7\n",
       fmt::join(m.cells, " "));
   const auto file = written("lv_times.vtk", text);
+  std::string negative = text;
+  negative.replace(text.rfind("6 7"), 1, "-6");
+  const auto bad = written("lv_times_bad.vtk", negative);
+  CHECK_THROWS_WITH(read_times({bad.string(), "act", 1e-3}, m),
+                    Catch::Contains("act of point 6 (counted from 0, as ParaView does) is -6"));
   CHECK(read_times({file.string(), "act", 1e-3}, m)[5] == Approx(5e-3));
   CHECK(read_times({file.string(), "", 1e-3}, m)[5] == Approx(5e-3));
   CHECK_THROWS_WITH(read_times({file.string(), "lat", 1e-3}, m), Catch::Contains("lat"));

@@ -1,6 +1,7 @@
 #include "lv/analysis/wall_fields.hpp"
 
 #include "lv/mesh/cell.hpp"
+#include "lv/mesh/quadratic.hpp"
 
 #include "support/block_mesh.hpp"
 #include "support/cell_kinds.hpp"
@@ -47,7 +48,7 @@ std::vector<CellFields> uniform(CellKind kind, const Mat3& F) {
   mesh.fibres.rule = parallel_fibres;
   const solid::Wall wall(mesh, {});
   return analysis::cell_fields(wall, snapshot(mesh, test::moved(mesh.nodes, F, {1, 2, 3})),
-                               pressures(mesh));
+                               mesh::cell_volumes(mesh), pressures(mesh));
 }
 
 Mat3 sheared() {
@@ -102,10 +103,9 @@ TEST_CASE("a cell's J is its deformed over its undeformed volume, whatever the d
     const solid::Wall wall(mesh, {});
     const auto positions =
         test::displaced(mesh.nodes, test::RandomValues(1).vectors(mesh.nodes.size(), 0.3), 1.0);
-    const auto cells = analysis::cell_fields(wall, snapshot(mesh, positions), pressures(mesh));
-    std::vector<double> undeformed;
-    for (int c = 0; c < mesh.cell_count(); ++c)
-      undeformed.push_back(mesh::cell_volume(mesh, c));
+    const std::vector<double> undeformed = mesh::cell_volumes(mesh);
+    const auto cells =
+        analysis::cell_fields(wall, snapshot(mesh, positions), undeformed, pressures(mesh));
     mesh.nodes = positions;
     for (int c = 0; c < mesh.cell_count(); ++c)
       CHECK(cells[c].J == Approx(mesh::cell_volume(mesh, c) / undeformed[c]).epsilon(1e-12));

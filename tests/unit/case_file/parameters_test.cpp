@@ -637,7 +637,8 @@ Numbers fitted_beats_of(const Case& c) {
 Numbers immersed_beat_of(const Case& c) {
   Numbers numbers;
   add_muscle(c, numbers);
-  numbers.push_back(case_file::myocardium(c).volumetric.beta_s);
+  const material::Myocardium wall = case_file::myocardium(c);
+  numbers.insert(numbers.end(), {wall.volumetric.beta_s, wall.stabilisation.beta_s});
   const heartbeat::Protocol& p = c.protocol;
   for (const heartbeat::Phase& phase : heartbeat::phases(p)) {
     numbers.insert(numbers.end(), {phase.drag, phase.settled});

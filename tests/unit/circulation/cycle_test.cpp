@@ -99,6 +99,23 @@ TEST_CASE("the last closing of the mitral valve before ejection ends diastole",
   CHECK(m.mitral_closes == Approx(0.25));
 }
 
+TEST_CASE("arteries that fall below the filling pressure leave ejection and no isovolumic time",
+          "[unit][circulation]") {
+  CircuitParameters p = quick(Kind::windkessel);
+  for (const double R_p : {0.05, 0.2}) {
+    p.windkessel.R_p = R_p * mmHg / ml;
+    const BeatMeasures m = run_alone(p).beats.back();
+    INFO("R_p " << R_p);
+    CHECK(std::isnan(m.aortic_opens));  // in the beat before
+    CHECK(m.aortic_closes > m.mitral_closes);
+    CHECK(m.stroke_volume == Approx(m.end_diastolic_volume - m.end_systolic_volume));
+    CHECK(m.ejection_fraction > 0.5);
+    CHECK(std::isnan(m.isovolumic_contraction));
+    CHECK(std::isnan(m.ejection_time));
+    CHECK(std::isnan(m.isovolumic_relaxation) == (m.mitral_opens < m.aortic_closes));
+  }
+}
+
 TEST_CASE("the relaxation constant does not hang on where the steps lie", "[unit][circulation]") {
   // a logistic fall, an exponential one from some 50 ms after its steepest on, until 10 mmHg
   constexpr double tau = 0.05;

@@ -1,5 +1,8 @@
 #include "lv/mesh/quality.hpp"
 
+#include "lv/geometry/ellipsoid.hpp"
+#include "lv/mesh/wall_mesh.hpp"
+
 #include "mesh_io/mesh_files.hpp"
 #include <catch2/catch.hpp>
 
@@ -39,6 +42,16 @@ TEST_CASE("quality counts and measures the whole wall", "[unit][mesh]") {
     CHECK(q.edge_length.mean <= q.edge_length.max);
     const auto& counts = q.scaled_jacobians.counts;
     CHECK(std::accumulate(counts.begin(), counts.end(), 0) == q.cells);
+  }
+}
+
+TEST_CASE("a wall of few quadratic elements has the volume of its curved shape", "[unit][mesh]") {
+  const geometry::Ellipsoid ellipsoid;
+  const auto wall = [&](double u, double theta, double t) { return ellipsoid.point(u, theta, t); };
+  for (const double edge_length : {14.0, 16.0, 18.0}) {
+    const mesh::Mesh mesh = mesh::wall_mesh(
+        wall, {.edge_length = 0.5 * edge_length, .order = 2, .apex = 0.3, .endocardium = 0.5});
+    CHECK(mesh::quality(mesh).wall_volume / 1000.0 == Approx(114.24).epsilon(2e-3));
   }
 }
 

@@ -1,6 +1,7 @@
 #include "lv/mesh/refine.hpp"
 
 #include "lv/mesh/cell.hpp"
+#include "lv/mesh/quadratic.hpp"
 #include "lv/mesh/quality.hpp"
 #include "lv/mesh/split.hpp"
 #include "lv/mesh/surface.hpp"
@@ -10,6 +11,7 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace {
 
@@ -46,6 +48,22 @@ TEST_CASE("refining keeps the wall and multiplies its cells by eight", "[unit][m
           Approx(mesh::quality(coarse).wall_volume).epsilon(1e-12));
     CHECK(solid::EndocardialSurface(fine).volume(fine.nodes) ==
           Approx(solid::EndocardialSurface(coarse).volume(coarse.nodes)).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("the parts of bent quadratic elements share the elements' volume", "[unit][mesh]") {
+  for (const auto kind : {CellKind::hexahedron, CellKind::tetrahedron}) {
+    Mesh mesh = mesh::refine(test::coarse_mesh(kind));
+    const std::vector<double> straight = mesh::cell_volumes(mesh);
+    for (Vec3& X : mesh.nodes)  // which quadratic elements follow exactly, and keeps volumes
+      X.z() += 0.1 * X.x() * X.x();
+    const std::vector<double> bent = mesh::cell_volumes(mesh);
+    double off = 0.0;
+    for (int c = 0; c < mesh.cell_count(); ++c) {
+      CHECK(bent[c] == Approx(straight[c]).epsilon(1e-10));
+      off = std::max(off, std::abs(mesh::cell_volume(mesh, c) / straight[c] - 1.0));
+    }
+    CHECK(off > 0.01);  // of the parts with straight edges
   }
 }
 

@@ -56,6 +56,17 @@ TEST_CASE("a circulation's beat that no patient has is said to be one", "[unit][
   CHECK_THAT(all, !Catch::Contains("isovolumic"));
 }
 
+TEST_CASE("an aortic valve that is open in diastole is said to be", "[unit][report]") {
+  circulation::CircuitParameters p;
+  p.kind = circulation::Kind::windkessel;
+  p.step = 2e-3;
+  p.windkessel.R_p = 0.05 * units::mmHg / units::ml;
+  const auto said = report::unlike_any_patient(circulation::run_alone(p).beats.back());
+  CHECK_THAT(said.front(), Catch::StartsWith("the aortic valve is open in diastole"));
+  for (const std::string& sentence : said)
+    CHECK_THAT(sentence, !Catch::Contains("isovolumic contraction is"));
+}
+
 TEST_CASE("every range is a range, lies in what is possible and has a source", "[report]") {
   for (const report::PlausibleRange& range : report::plausible_ranges()) {
     CHECK(range.low < range.high);

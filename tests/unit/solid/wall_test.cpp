@@ -50,6 +50,7 @@ Myocardium material_of(const material::AnyPassiveLaw& passive, VolumetricPoints 
   Myocardium material;
   material.passive = passive;
   material.volumetric_points = points;
+  material.stabilisation.beta_s = 150.0;  // more than a tetrahedron's own share
   return material;
 }
 
@@ -60,20 +61,26 @@ std::vector<Vec3> elastic_forces(const Wall& wall, std::span<const Vec3> positio
   return forces;
 }
 
+/// The penalty at the points of an element: tetrahedra with mean dilatations have none.
+material::Volumetric at_points(const Myocardium& material, CellKind kind) {
+  if (material.volumetric_points == VolumetricPoints::full)
+    return material.volumetric;
+  return kind == CellKind::hexahedron ? material.stabilisation : material::Volumetric{0.0};
+}
+
 /// Strain energy of a point, in the model frame.
-double energy_at(const Myocardium& material, const solid::PointSample& p) {
+double energy_at(const Myocardium& material, CellKind kind, const solid::PointSample& p) {
   const Mat3 F = p.F * p.fibre_frame;
   const double passive =
       std::visit([&](const auto& law) { return law.energy(F); }, material.passive);
-  const double volumetric =
-      material.volumetric_points == VolumetricPoints::full ? material.volumetric.energy(F) : 0.0;
-  return material.infarct.passive(p.infarct) * passive + volumetric;
+  return material.infarct.passive(p.infarct) * passive + at_points(material, kind).energy(F);
 }
 
 /// The volumetric part from one J per cell, that of its mean deformation, or around each node of
 /// tetrahedra.
-double mean_volumetric_energy(const Mesh& mesh, const material::Volumetric& law,
+double mean_volumetric_energy(const Mesh& mesh, const Myocardium& material,
                               const std::vector<Mat3>& mean_F, const std::vector<double>& volume) {
+  const material::Volumetric& law = material.volumetric;
   double sum = 0.0;
   if (mesh.kind == CellKind::hexahedron) {
     for (int c = 0; c < mesh.cell_count(); ++c)
@@ -88,11 +95,12 @@ double mean_volumetric_energy(const Mesh& mesh, const material::Volumetric& law,
       now[a] += determinant(mean_F[c]) * volume[c] / 4.0;
     }
   constexpr double own_share = 0.1;
+  const material::Volumetric own{std::max(own_share * law.beta_s, material.stabilisation.beta_s)};
   for (std::size_t a = 0; a < now.size(); ++a)
     sum += (1.0 - own_share) * before[a] *
            law.energy(Mat3(std::cbrt(now[a] / before[a]) * Mat3::Identity()));
   for (int c = 0; c < mesh.cell_count(); ++c)
-    sum += own_share * volume[c] * law.energy(mean_F[c]);
+    sum += volume[c] * own.energy(mean_F[c]);
   return sum;
 }
 
@@ -104,14 +112,14 @@ double energy(const Mesh& mesh, const Wall& wall, const Myocardium& material,
   std::vector<Mat3> mean_F(mesh.cell_count(), Mat3::Zero());
   std::vector<double> cell_volume(mesh.cell_count(), 0.0);
   for (const solid::PointSample& p : wall.sample(positions, no_tension)) {
-    sum += p.volume * energy_at(material, p);
+    sum += p.volume * energy_at(material, mesh.kind, p);
     mean_F[p.cell] += p.volume * p.F;
     cell_volume[p.cell] += p.volume;
   }
   for (int c = 0; c < mesh.cell_count(); ++c)
     mean_F[c] /= cell_volume[c];
   if (material.volumetric_points == VolumetricPoints::mean)
-    sum += mean_volumetric_energy(mesh, material.volumetric, mean_F, cell_volume);
+    sum += mean_volumetric_energy(mesh, material, mean_F, cell_volume);
   return sum;
 }
 
@@ -129,6 +137,15 @@ double work_of_stresses(const Wall& wall, std::span<const Vec3> positions,
     sum -= now[q].volume * P.cwiseProduct(plus[q].F - minus[q].F).sum();
   }
   return sum;
+}
+
+/// [kPa], of a wall that has the same J everywhere. A tetrahedron's own share is less than its
+/// stabilisation here.
+double whole_penalty(const Myocardium& material, CellKind kind) {
+  const double beta_s = material.volumetric.beta_s;
+  if (material.volumetric_points == VolumetricPoints::full)
+    return beta_s;
+  return material.stabilisation.beta_s + (kind == CellKind::tetrahedron ? 0.9 : 1.0) * beta_s;
 }
 
 std::vector<double> uneven_tension(const Mesh& mesh) {
@@ -158,7 +175,8 @@ TEST_CASE("a uniform deformation is in equilibrium inside a distorted wall", "[u
 
       Mat3 P_fibre = 5.9 * material::HolzapfelOgden{}.stress(F_fibre);  // 1 + 49 M
       P_fibre.col(0) += material::active_stress_column(F_fibre, determinant(F), 27.0);
-      const Mat3 P = P_fibre * parallel_frame().transpose() + material.volumetric.stress(F);
+      const material::Volumetric all{whole_penalty(material, kind)};
+      const Mat3 P = P_fibre * parallel_frame().transpose() + all.stress(F);
       // -int P grad phi_a dX = -P int phi_a N dA over the boundary: zero at nodes inside
       std::vector<Vec3> minus_area(positions.size(), Vec3::Zero());
       mesh.endo = mesh::boundary(mesh);
