@@ -137,8 +137,9 @@ std::vector<std::string> cycle_warnings(const Case& c, const circulation::Cycle&
   for (std::string odd : {slow_relaxation(c), chamber_beyond_beat(c)})
     if (!odd.empty())
       warnings.push_back(std::move(odd));
-  for (std::string& open : report::open_aortic_valve(cycle.beats.back()))
-    warnings.push_back(std::move(open));
+  if (!cycle.beats.empty())
+    for (std::string& open : report::open_aortic_valve(cycle.beats.back()))
+      warnings.push_back(std::move(open));
   return warnings;
 }
 

@@ -79,7 +79,7 @@ TEST_CASE("times of another mesh, and muscle that is never activated, are refuse
              Catch::Contains("has 3 times, but the wall has 27 nodes and 8 cells, of 1 quadratic "
                              "elements with 8 corners"));
   CHECK_THAT(refused(lines_of({0, 1, 2, 3, -1, 5, 6, 7})),
-             Catch::Contains("lv_times.dat:5") && Catch::Contains("the time is -1, which is no"));
+             Catch::Contains("lv_times.dat:6") && Catch::Contains("the time is -1, which is no"));
   CHECK_THAT(refused("# ms\n1.0\n\nnan\n"),
              Catch::Contains("lv_times.dat:4") && Catch::Contains("the time is nan"));
   CHECK_THAT(refused("1.0\nsoon\n"),
