@@ -238,7 +238,7 @@ struct Case {
   Passive passive;
   material::Volumetric volumetric;
   material::VolumetricPoints volumetric_points = material::VolumetricPoints::mean;
-  material::Volumetric stabilisation{.beta_s = 100.0};  ///< of the immersed engine's heartbeats
+  material::Volumetric stabilisation = material::Myocardium::stabilisation_of_heartbeats;
   ActiveChoice active_law = ActiveChoice::niederer;
   double prescribed_tension = 60.0;  ///< of second_piola and cauchy [kPa]
   material::NiedererHunterSmith active;

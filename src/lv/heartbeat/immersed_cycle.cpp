@@ -99,6 +99,7 @@ class ImmersedCycleRun {
   void report_progress();
   void report_filling();
   void count_time();
+  void begin_counting();
   void keep() { kept_ = {model_.state(), record_}; }
   void keep_sometimes();
   void save();
@@ -139,19 +140,17 @@ class ImmersedCycleRun {
   Timer progress_timer_{report_interval};
   TimeLeft left_;
   double counted_until_ = wall_clock();
-  double begun_time_ = 0.0;  ///< simulated time at which this process took over [s]
+  double begun_time_ = 0.0;  ///< simulated time from which the time left is counted [s]
 };
 
 Beat ImmersedCycleRun::run() {
   if (!resume())
     begin_filling();
-  begun_time_ = state().time;
+  begin_counting();
   if (is_filling()) {
     fill();
     begin_beat();
-    begun_time_ = state().time;
-    left_ = TimeLeft();  // of the beats alone
-    progress_timer_ = Timer(report_interval);
+    begin_counting();
   }
   while (!record_.done()) {
     step();
@@ -162,6 +161,13 @@ Beat ImmersedCycleRun::run() {
   Beat beat = record_.result(observers_);
   beat.activation_times = setup_.activation_times;
   return beat;
+}
+
+/// Of the filling, or of the beats: what came before says nothing of the time left.
+void ImmersedCycleRun::begin_counting() {
+  begun_time_ = state().time;
+  left_ = TimeLeft();
+  progress_timer_ = Timer(report_interval);
 }
 
 void ImmersedCycleRun::begin_filling() {

@@ -22,6 +22,7 @@ struct Myocardium {
   /// Besides the means, at every point of a hexahedron, which bends without changing them, and what
   /// a tetrahedron keeps to itself at least; zero at J = 1.
   Volumetric stabilisation{.beta_s = 0.0};
+  static constexpr Volumetric stabilisation_of_heartbeats{.beta_s = 100.0};
   InfarctScaling infarct;
   ActiveForm active_form = ActiveForm::niederer;  ///< what the tension means
   Viscosity viscosity;  ///< of motions of the implicit engine; the immersed engine's is the blood's

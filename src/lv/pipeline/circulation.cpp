@@ -134,12 +134,10 @@ std::vector<std::string> cycle_warnings(const Case& c, const circulation::Cycle&
                     cycle.gave_way, cycle.gave_way == 1 ? "" : "s"));
   if (!cycle.is_limit)
     warnings.push_back(cycle_end(cycle));
-  for (std::string odd : {slow_relaxation(c), chamber_beyond_beat(c)})
+  const std::string open = cycle.beats.empty() ? "" : report::open_aortic_valve(cycle.beats.back());
+  for (const std::string& odd : {slow_relaxation(c), chamber_beyond_beat(c), open})
     if (!odd.empty())
-      warnings.push_back(std::move(odd));
-  if (!cycle.beats.empty())
-    for (std::string& open : report::open_aortic_valve(cycle.beats.back()))
-      warnings.push_back(std::move(open));
+      warnings.push_back(odd);
   return warnings;
 }
 

@@ -70,6 +70,20 @@ std::string study_beyond_beat(const Case& c) {
   return "";
 }
 
+/// What a run says of the case as it begins.
+std::vector<Warning> odd_in(const Case& c) {
+  std::vector<Warning> odd{{"fit outside heartbeats", fit_outside_heartbeats(c)},
+                           {"left-handed fibres", left_handed_fibres(c)},
+                           {"high filling pressure", high_filling_pressure(c)},
+                           {"high calcium", high_calcium(c)},
+                           {"calcium of another rate", calcium_beside_rate(c)},
+                           {"another end-diastole", unlike_end_diastole(c)},
+                           {"base away from apex", beating_wall::base_away_from_apex(c)}};
+  odd.erase(std::remove_if(odd.begin(), odd.end(), [](const Warning& w) { return w.text.empty(); }),
+            odd.end());
+  return odd;
+}
+
 std::vector<Warning> warnings_of(const Case& c, const anatomy::Shape& shape, double cavity) {
   std::vector<Warning> warnings;
   for (const std::string& text : c.without_effect)
@@ -78,20 +92,8 @@ std::vector<Warning> warnings_of(const Case& c, const anatomy::Shape& shape, dou
     warnings.push_back({"slow relaxation", std::move(slow)});
   if (std::string beyond = study_beyond_beat(c); !beyond.empty())
     warnings.push_back({"contraction beyond the beat", std::move(beyond)});
-  if (std::string outside = fit_outside_heartbeats(c); !outside.empty())
-    warnings.push_back({"fit outside heartbeats", std::move(outside)});
-  if (std::string turned = left_handed_fibres(c); !turned.empty())
-    warnings.push_back({"left-handed fibres", std::move(turned)});
-  if (std::string high = high_filling_pressure(c); !high.empty())
-    warnings.push_back({"high filling pressure", std::move(high)});
-  if (std::string high = high_calcium(c); !high.empty())
-    warnings.push_back({"high calcium", std::move(high)});
-  if (std::string other = calcium_beside_rate(c); !other.empty())
-    warnings.push_back({"calcium of another rate", std::move(other)});
-  if (std::string unlike = unlike_end_diastole(c); !unlike.empty())
-    warnings.push_back({"another end-diastole", std::move(unlike)});
-  if (std::string away = beating_wall::base_away_from_apex(c); !away.empty())
-    warnings.push_back({"base away from apex", std::move(away)});
+  for (Warning& odd : odd_in(c))
+    warnings.push_back(std::move(odd));
   for (const geometry::Assumption& a : shape.warnings)
     warnings.push_back({name_of(a), a.text});
   const double edv = c.calibration.edv;
@@ -178,11 +180,8 @@ std::string describe_beat_fit(const Case& c) {
 void warn_of(const Case& c) {
   for (const std::string& what : c.without_effect)
     log::warn("{}", what);
-  for (const std::string& odd :
-       {fit_outside_heartbeats(c), left_handed_fibres(c), high_filling_pressure(c), high_calcium(c),
-        calcium_beside_rate(c), unlike_end_diastole(c), beating_wall::base_away_from_apex(c)})
-    if (!odd.empty())
-      log::warn("{}", odd);
+  for (const Warning& odd : odd_in(c))
+    log::warn("{}", odd.text);
 }
 
 std::string fit_outside_heartbeats(const Case& c) {

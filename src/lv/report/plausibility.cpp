@@ -277,13 +277,12 @@ bool is_open_in_diastole(const circulation::BeatMeasures& beat) {
   return beat.mitral_closes >= opens && beat.mitral_closes < beat.aortic_closes;
 }
 
-std::vector<std::string> open_aortic_valve(const circulation::BeatMeasures& beat) {
+std::string open_aortic_valve(const circulation::BeatMeasures& beat) {
   if (!is_open_in_diastole(beat))
-    return {};
-  return {
-      "the aortic valve is open in diastole: the arteries' pressure falls below that which fills "
-      "the ventricle, so that their resistance or compliance is too small, and there is no "
-      "isovolumic contraction"};
+    return "";
+  return "the aortic valve is open in diastole: the arteries' pressure falls below that which "
+         "fills the ventricle, so that their resistance or compliance is too small, and there is "
+         "no isovolumic contraction";
 }
 
 std::vector<std::string> unlike_any_patient(const circulation::BeatMeasures& beat) {
@@ -300,7 +299,9 @@ std::vector<std::string> unlike_any_patient(const circulation::BeatMeasures& bea
   for (const PlausibleRange& r : plausible_ranges())
     if (r.measure != nullptr)
       all.push_back({r.label, r.unit, value_in(r, beat), r.possible_low, r.possible_high});
-  std::vector<std::string> sentences = open_aortic_valve(beat);
+  std::vector<std::string> sentences;
+  if (std::string open = open_aortic_valve(beat); !open.empty())
+    sentences.push_back(std::move(open));
   for (const OfPatients& m : all)
     if (m.value < m.low || m.value > m.high)
       sentences.push_back(fmt::format(

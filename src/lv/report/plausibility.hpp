@@ -65,8 +65,8 @@ struct Judgement {
 /// fallen below that which fills the ventricle.
 [[nodiscard]] bool is_open_in_diastole(const circulation::BeatMeasures& beat);
 
-/// A sentence of such an aortic valve; none of others.
-[[nodiscard]] std::vector<std::string> open_aortic_valve(const circulation::BeatMeasures& beat);
+/// A sentence of such an aortic valve; empty else.
+[[nodiscard]] std::string open_aortic_valve(const circulation::BeatMeasures& beat);
 
 /// That sentence, and one for each measure of a heartbeat that lies where no patient's is: beyond
 /// what is possible of those of plausible_ranges and of the ejection fraction, a volume beyond half

@@ -107,7 +107,7 @@ namespace {
 heartbeat::BeatSetup immersed_cycle(const heartbeat::CycleSetup& setup, const mesh::Mesh& mesh) {
   heartbeat::BeatSetup immersed = default_beat(mesh, {48, 48, 64}, 2e-4);
   immersed.heart = setup.model.heart;
-  immersed.heart.myocardium.stabilisation.beta_s = 100.0;  // as a case has it
+  immersed.heart.myocardium.stabilisation = material::Myocardium::stabilisation_of_heartbeats;
   immersed.protocol.calcium = setup.calcium;
   immersed.protocol.cycle = setup.cycle;
   return immersed;
