@@ -60,6 +60,21 @@ ed_pressure = "16 mmHg"
 es_pressure = "110 mmHg"
 """
 
+smaller_infarct = """
+[infarct]
+source = "described"
+[infarct.described]
+angle = "-60 deg"
+width = "90 deg"
+top = 0.6
+apex = 0.3
+[active]
+T_scale = 5.0
+[protocol]
+ed_pressure = "12 mmHg"
+es_pressure = "120 mmHg"
+"""
+
 glasgow = data / "glasgow_HV01/text_export"
 hv01 = f"""
 [anatomy]
@@ -138,7 +153,9 @@ cases = {
     "fit of T_scale, unloaded, 14 mm": (quasi_static + elements(14) + seen(4) + 'protocol.ed_pressure = "4 mmHg"\n' + fit("", "", 40), "calibrate", True),
     "fit of T_scale, unloaded, 9 mm": (quasi_static + elements(9) + seen(6) + 'protocol.ed_pressure = "6 mmHg"\n' + fit("", "", 38), "calibrate", False),
     "immersed beat": (small, "beat", True),
-    "immersed beat, infarct": (small.replace("[protocol]\n", infarct.strip() + "\n"), "beat", False),
+    "immersed beat, infarct": (small.replace("[protocol]\n", infarct.strip() + "\n"), "beat", True),
+    "immersed beat, smaller infarct": (small.replace("[protocol]\n", smaller_infarct.strip() + "\n"), "beat", False),
+    "immersed beat, stiff": (small.replace("[protocol]\n", "[passive]\nC_a = 2.5\n[protocol]\n"), "beat", False),
 }
 if glasgow.exists():
     cases["fit of scale and beat, HV01, default mesh"] = (quasi_static + fit("scale", 142.6) + hv01, "beat", False)

@@ -294,12 +294,10 @@ void ImmersedRun::housekeeping() {
 
 /// Simulated time that the run will probably still take.
 double ImmersedRun::time_left() {
-  Phase now = phase();
-  if (const NamedMoment* filled = run_.beat.find(end_diastole))
-    now.usual = usual_after_filling(now, phases_.front(), filled->wall.time);
-  double left = settling_time_left(now, time_in_phase(), run_.steady);
-  for (std::size_t next = run_.phase + 1; next < phases_.size(); ++next)
-    left += phases_[next].usual;
+  const std::vector<Phase> expected = phases_of_wall(phases_, run_.beat);
+  double left = settling_time_left(expected[run_.phase], time_in_phase(), run_.steady);
+  for (std::size_t next = run_.phase + 1; next < expected.size(); ++next)
+    left += expected[next].usual;
   return left;
 }
 

@@ -37,6 +37,22 @@ double while_it_falls(const Phase& phase, Samples samples, double variation) {
   return 0.5 * phase.window * std::log(variation / phase.tolerance) / std::log(before / after);
 }
 
+/// Of the usual time to come to rest: what the stiffest walls that were tried took.
+constexpr double least_share = 1.0 / 3.0;
+
+double at_least(const Phase& phase) {
+  return phase.ramp + phase.window;
+}
+
+/// Whether the volume has fallen by more than it rings.
+bool swings_back(const std::vector<CurveRow>& curves) {
+  constexpr double rings = 1e-3;  // of the volume
+  double largest = 0.0;
+  for (const CurveRow& row : curves)
+    largest = std::max(largest, row.volume);
+  return !curves.empty() && curves.back().volume < (1.0 - rings) * largest;
+}
+
 }  // namespace
 
 double settling_time_left(const Phase& phase, double time, const SteadyVolume& volume) {
@@ -50,10 +66,19 @@ double settling_time_left(const Phase& phase, double time, const SteadyVolume& v
   return std::min(std::max(left, least), phase.longest - time);
 }
 
-double usual_after_filling(const Phase& phase, const Phase& filling, double took) {
-  const auto at_least = [](const Phase& p) { return p.ramp + p.window; };
-  const double sooner = (took - at_least(filling)) / (filling.usual - at_least(filling));
-  return std::lerp(at_least(phase), phase.usual, std::clamp(sooner, 0.0, 1.0));
+std::vector<Phase> phases_of_wall(std::vector<Phase> phases, const Beat& beat) {
+  const Phase& filling = phases.front();
+  double share = 1.0;
+  if (const NamedMoment* filled = beat.find(filling.marks)) {
+    const double took =
+        (filled->wall.time - at_least(filling)) / (filling.usual - at_least(filling));
+    share = std::clamp(2.0 * took - least_share, least_share, 1.0);
+  } else if (swings_back(beat.curves)) {
+    share = least_share;
+  }
+  for (Phase& phase : phases)
+    phase.usual = std::lerp(at_least(phase), phase.usual, share);
+  return phases;
 }
 
 }  // namespace lv::heartbeat

@@ -1,6 +1,9 @@
 #pragma once
 
+#include "lv/heartbeat/beat.hpp"
 #include "lv/heartbeat/protocol.hpp"
+
+#include <vector>
 
 namespace lv::heartbeat {
 
@@ -12,9 +15,12 @@ namespace lv::heartbeat {
 [[nodiscard]] double settling_time_left(const Phase& phase, double time,
                                         const SteadyVolume& volume);
 
-/// How long a phase usually takes after the filling of the same wall took so long [s]: muscle that
-/// came to rest sooner than usual under a pressure does so under tension, since it is stiffer. One
-/// that came later says nothing.
-[[nodiscard]] double usual_after_filling(const Phase& phase, const Phase& filling, double took);
+/// The phases with the time that this wall, of which `beat` has the curves so far, will probably
+/// take in each: ramp, window, and a share of the usual time to come to rest. A wall whose volume
+/// swings back while it is filled is stiff for the blood that it moves; until it is filled the
+/// share is a third. Afterwards a filling that took a third of its usual time to come to rest
+/// foretells as much of contraction, two thirds or more all of it, and what lies between in
+/// proportion (docs/verification.md, Time left).
+[[nodiscard]] std::vector<Phase> phases_of_wall(std::vector<Phase> phases, const Beat& beat);
 
 }  // namespace lv::heartbeat

@@ -64,16 +64,37 @@ TEST_CASE("a volume that was elsewhere within the window has to stay for the res
           Approx(contraction.window - since).margin(2e-3));
 }
 
-TEST_CASE("a wall that was filled sooner than usual is expected to contract sooner",
+TEST_CASE("a wall that swings back while it is filled, or rests soon, is expected to rest sooner",
           "[unit][heartbeat]") {
   const auto all = phases({});
-  const Phase& filling = all.front();
-  const Phase& contraction = all.back();
-  const auto after = [&](double took) { return usual_after_filling(contraction, filling, took); };
-  CHECK(after(filling.usual) == Approx(contraction.usual));
-  CHECK(after(2.0 * filling.usual) == Approx(contraction.usual));
-  const double least = contraction.ramp + contraction.window;
-  CHECK(after(0.5 * (filling.usual + filling.ramp + filling.window)) ==
-        Approx(0.5 * (contraction.usual + least)));
-  CHECK(after(0.1) == Approx(least));
+  const auto least = [](const Phase& phase) { return phase.ramp + phase.window; };
+  const auto expected_shares = [&](const Beat& beat) {
+    std::vector<double> shares;
+    const auto expected = phases_of_wall(all, beat);
+    for (std::size_t i = 0; i < all.size(); ++i)
+      shares.push_back((expected[i].usual - least(all[i])) / (all[i].usual - least(all[i])));
+    return shares;
+  };
+  const auto while_filled = [&](std::vector<double> volumes) {
+    Beat beat;
+    for (const double volume : volumes)
+      beat.curves.push_back({.volume = volume});
+    return expected_shares(beat);
+  };
+  const auto filled_in = [&](double share) {
+    Beat beat;
+    beat.moments.push_back({.name = all.front().marks});
+    beat.moments.back().wall.time = std::lerp(least(all.front()), all.front().usual, share);
+    return expected_shares(beat).back();
+  };
+  for (const std::size_t i : {0u, 1u}) {
+    CHECK(while_filled({})[i] == Approx(1.0));
+    CHECK(while_filled({70.0, 80.0, 90.0, 89.95})[i] == Approx(1.0));
+    CHECK(while_filled({70.0, 80.0, 79.0})[i] == Approx(1.0 / 3.0));
+  }
+  CHECK(filled_in(0.2) == Approx(1.0 / 3.0));
+  CHECK(filled_in(1.0 / 3.0) == Approx(1.0 / 3.0));
+  CHECK(filled_in(0.5) == Approx(2.0 / 3.0));
+  CHECK(filled_in(0.7) == Approx(1.0));
+  CHECK(filled_in(2.0) == Approx(1.0));
 }
