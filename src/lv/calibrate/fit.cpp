@@ -259,7 +259,8 @@ class Fitter {
     begin(of_unloaded);
     FitParameters& p = fit_.parameters;
     if (first || (plan_.starts_near && !model_.volume(p, {}))) {
-      reach_unloaded_volume(first_stiffness * p.scale, rough);
+      p.scale *= first_stiffness;
+      reach_unloaded_volume(p.scale * stiffer_by(), rough);
       try_contraction();
     }
     begin(of_curve);
@@ -280,6 +281,15 @@ class Fitter {
     // where no exponent brings the curve near, V0 must not pay for it
     if (std::abs(minimum->r[0]) > 0.5 * plan_.tolerance * weight_of_unloaded)
       reach_unloaded_volume(p.scale, 0.25 * plan_.tolerance);
+  }
+
+  /// What the scale has to grow by for the wall without load, folded or not, to hold V0, where that
+  /// is more than one: no smooth one is sought where softer muscle folds in vain.
+  [[nodiscard]] double stiffer_by() const {
+    if (!model_.share_that_leaves)
+      return 1.0;
+    const auto share = model_.share_that_leaves(fit_.parameters, fit_.observations.front().target);
+    return share ? 1.0 / *share : 1.0;
   }
 
   /// By the scale alone.

@@ -1,6 +1,7 @@
 #include "lv/calibrate/model.hpp"
 
 #include "lv/base/units.hpp"
+#include "lv/implicit/inverse.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -103,6 +104,16 @@ Outcome<double> Ventricle::unloaded_volume(const FitParameters& parameters) {
   if (known_.empty())
     known_.push_back({{unloading_.pressure, 0.0}, unloaded_->loaded});
   return endocardium_.volume(wall_.nodes);
+}
+
+Outcome<double> Ventricle::share_that_leaves(const FitParameters& parameters, double volume) const {
+  std::optional<double> share;
+  if (unloading_.pressure > 0.0 && solver_.newton.linear.method == implicit::LinearMethod::direct)
+    share = implicit::share_that_leaves(volume, given_, model_of_(parameters), unloading_.pressure,
+                                        solver_.newton);
+  if (!share)
+    return Unsolved{"No part of the pressure leaves that volume", ""};
+  return *share;
 }
 
 void Ventricle::restore(Memory memory) {

@@ -42,6 +42,9 @@ struct Model {
   /// What the smoothest wall near the one that was sought last holds without load, if that is
   /// folded too [mm^3]; else not a number. May be empty.
   std::function<double()> folded_volume = {};
+  /// The share of the pressure of the seen shape under which its wall without load, folded or not,
+  /// would hold a volume [mm^3]. May be empty.
+  std::function<Outcome<double>(const FitParameters&, double volume)> share_that_leaves = {};
 };
 
 /// The quasi-static engine as such a model. It keeps the equilibrium of every load that it was
@@ -64,6 +67,8 @@ class Ventricle {
   /// Of the cavity [mm^3].
   Outcome<double> volume(const FitParameters& parameters, const solid::Loads& loads);
   Outcome<double> unloaded_volume(const FitParameters& parameters);
+  /// Model::share_that_leaves
+  Outcome<double> share_that_leaves(const FitParameters& parameters, double volume) const;
 
   /// From now on muscle that differs from `about` in its factors c_j of these segments alone is
   /// taken to move the wall to first order, under loads and with the wall without load held,

@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace lv::implicit {
 namespace {
@@ -118,6 +119,12 @@ class ReferenceSearch {
     return settled();
   }
 
+  std::optional<double> share_that_leaves(double volume) {
+    sought_volume_ = volume;
+    follows_pressure();
+    return share_;
+  }
+
  private:
   bool starts_from(Reference guess) {
     guess.pressures.resize(now_.pressures.size(), 0.0);
@@ -125,7 +132,7 @@ class ReferenceSearch {
     return solves(now_, pressure_);
   }
 
-  /// Whether the whole pressure is reached.
+  /// Whether the whole pressure is reached, or the volume that is sought.
   bool follows_pressure() {
     std::optional<Reference> before;
     double reached = 0.0, last_factor = 1.0;
@@ -144,6 +151,8 @@ class ReferenceSearch {
         reached = next;
         factor = std::min(usual_factor, std::pow(factor, 1.5));
         say(reached, factor);
+        if (passes(reached))
+          return true;
       } else if (++failures >= most_failures) {
         return false;  // a path that creeps
       } else if (before) {
@@ -159,6 +168,21 @@ class ReferenceSearch {
         return false;
     }
     return true;
+  }
+
+  /// Whether the wall under this pressure, the next of the path, holds no more than is sought.
+  bool passes(double pressure) {
+    const double volume = endocardium_.volume(now_.nodes);
+    const double ln_share = std::log(pressure / pressure_);
+    if (volume <= sought_volume_) {
+      const auto [last_volume, last_ln_share] = last_passed_.value_or(std::pair(volume, ln_share));
+      const double back =
+          volume < last_volume ? (sought_volume_ - volume) / (last_volume - volume) : 0.0;
+      share_ = std::exp(ln_share + back * (last_ln_share - ln_share));
+      return true;
+    }
+    last_passed_ = {volume, ln_share};
+    return false;
   }
 
   bool solves(Reference& z, double pressure) {
@@ -206,6 +230,9 @@ class ReferenceSearch {
   double pressure_, tolerance_, afterwards_;
   PathForecast forecast_;
   Reference now_;
+  double sought_volume_ = 0.0;  ///< where the path ends before the whole pressure [mm^3]
+  std::optional<std::pair<double, double>> last_passed_;  ///< volume and ln(share) on the path
+  std::optional<double> share_;                           ///< where that volume is left
 };
 
 }  // namespace
@@ -214,6 +241,12 @@ std::optional<Reference> find_reference(const mesh::Mesh& seen, const StaticMode
                                         double pressure, const NewtonParameters& parameters,
                                         const Reference* guess, double afterwards) {
   return ReferenceSearch(seen, model, pressure, parameters, afterwards).run(guess);
+}
+
+std::optional<double> share_that_leaves(double volume, const mesh::Mesh& seen,
+                                        const StaticModel& model, double pressure,
+                                        const NewtonParameters& parameters) {
+  return ReferenceSearch(seen, model, pressure, parameters, 0.0).share_that_leaves(volume);
 }
 
 }  // namespace lv::implicit

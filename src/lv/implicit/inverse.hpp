@@ -43,4 +43,15 @@ class InverseNewton {
                                                       const Reference* guess = nullptr,
                                                       double afterwards = 0.0);
 
+/// The share of a pressure [kPa] under which the wall that the seen shape comes from holds `volume`
+/// without load [mm^3], along the same path, interpolated in the pressure's logarithm. Muscle that
+/// is stiffer by 1/share holds it under the whole pressure, but for springs around the wall, for
+/// the inverse problem knows the ratio of pressure and stiffness alone. The wall may be folded.
+///
+/// Nothing where the path ends before, or the whole pressure leaves more. Throws Interrupted.
+/// Collective.
+[[nodiscard]] std::optional<double> share_that_leaves(double volume, const mesh::Mesh& seen,
+                                                      const StaticModel& model, double pressure,
+                                                      const NewtonParameters& parameters);
+
 }  // namespace lv::implicit

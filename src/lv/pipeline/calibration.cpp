@@ -259,7 +259,10 @@ FittedWall fit_wall(const Case& c, const anatomy::MeshResult& mesh, const Target
         return record.answer([&] { return distances(p, es); });
       },
       [&](const std::optional<FitParameters>& about) { ventricle.linearise(about, task.segments); },
-      [&] { return ventricle.folded_volume(); }};
+      [&] { return ventricle.folded_volume(); },
+      [&](const FitParameters& p, double volume) {
+        return number([&] { return ventricle.share_that_leaves(p, volume); });
+      }};
   calibrate::Fit fit = calibrate::fit(model, start.parameters, task, kept.forecast);
   ventricle.unloaded_volume(fit.parameters).value();
   return {std::move(fit), ventricle.unloaded()};

@@ -455,6 +455,18 @@ TEST_CASE("a wall that folds and holds more than V0 ends the search for softer o
                     Contains("no stiffness up to scale = 16") && !Contains("more already"));
 }
 
+TEST_CASE("a fit to the Klotz curve begins where the wall along the pressure holds V0",
+          "[calibrate]") {
+  using Catch::Matchers::Contains;
+  Model wall = seen_wall(100.0);
+  wall.share_that_leaves = [](const FitParameters& p, double volume) -> lv::Outcome<double> {
+    CHECK(volume == Approx(klotz(V_seen, 8.0 * mmHg).V0));
+    return p.scale / 11.0;
+  };
+  wall.folded_volume = [] { return 90e3; };
+  CHECK_THROWS_WITH(fit(wall, {}, klotz_plan()), Contains("no stiffness up to scale = 11 "));
+}
+
 TEST_CASE("by how much a V0 is missed is known where the range of the stiffness ends it",
           "[calibrate]") {
   const auto missing = [](const Model& wall, const Plan& p) {

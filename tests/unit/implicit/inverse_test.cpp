@@ -133,6 +133,24 @@ TEST_CASE("a wall is found again from its filled shape", "[implicit]") {
   CHECK(distance(*again) < 1e-3);
 }
 
+TEST_CASE("muscle that is stiffer by the inverse share leaves as much under the whole pressure",
+          "[implicit]") {
+  const mesh::Mesh seen = coarse_wall(9.0, 1);
+  solid::CardiacModel heart{.base = {.stiffness = implicit::rigid_base}};
+  const solid::EndocardialSurface endocardium(seen);
+  const double volume = 0.85 * endocardium.volume(seen.nodes);
+  const double pressure = 8.0 * mmHg;
+  const auto share = implicit::share_that_leaves(volume, seen, heart, pressure, {});
+  REQUIRE(share);
+  CHECK(*share > 1.0 / 32);
+  CHECK(*share < 1.0);
+  heart.myocardium.passive = material::HolzapfelOgden{}.scaled(1.0 / *share);
+  const auto found = implicit::find_reference(seen, heart, pressure, {});
+  REQUIRE(found);
+  CHECK(endocardium.volume(found->nodes) == Approx(volume).epsilon(0.02));
+  CHECK_FALSE(implicit::share_that_leaves(1e-3 * volume, seen, heart, pressure, {}));
+}
+
 TEST_CASE("a pressure that no wall bears has no inverse", "[implicit]") {
   solid::CardiacModel heart{.base = {.stiffness = implicit::rigid_base}};
   heart.myocardium.passive = material::HolzapfelOgden{}.scaled(1e-4);
