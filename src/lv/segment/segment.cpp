@@ -3,6 +3,7 @@
 #include "lv/base/check.hpp"
 #include "lv/base/median.hpp"
 #include "lv/image/volume.hpp"
+#include "lv/segment/doubts.hpp"
 
 #include <fmt/format.h>
 
@@ -184,21 +185,6 @@ image::Phases phases_of(const Segmentation& found) {
   return image::propose_phases(core.front() > 0.0 ? core : found.volumes);
 }
 
-/// "2, 5 to 7" of numbers in ascending order.
-std::string ranges(const std::vector<std::size_t>& numbers) {
-  std::string text;
-  for (std::size_t a = 0; a < numbers.size();) {
-    std::size_t b = a;
-    while (b + 1 < numbers.size() && numbers[b + 1] == numbers[b] + 1)
-      ++b;
-    text += fmt::format("{}{}", text.empty() ? "" : ", ", numbers[a]);
-    if (b > a)
-      text += fmt::format(" to {}", numbers[b]);
-    a = b + 1;
-  }
-  return text;
-}
-
 /// Why a slice is left out: by itself, or for where it lies.
 std::string why_left_out(const std::vector<SliceBorders>& borders, const Run& run, std::size_t s) {
   if (s >= run.first && s <= run.last)
@@ -218,50 +204,6 @@ void doubt_ends(const Run& run, const std::vector<std::size_t>& slices, Segmenta
       "slice {} is taken for the most basal one and slice {} for the most apical one, by rule: "
       "look whether a valve, an atrium or the tip is missed or taken in",
       slices.front() + 1, slices.back() + 1));
-}
-
-void doubt_borders(Segmentation& found) {
-  for (std::size_t s = 0; s < found.borders.size(); ++s)
-    for (const auto side : {&FrameBorders::endo_agrees, &FrameBorders::epi_agrees}) {
-      std::vector<std::size_t> frames;
-      double least = 1.0;
-      for (std::size_t t = 0; t < found.shows[s].size(); ++t)
-        if (const double sure = found.borders[s].frames[t].*side;
-            found.shows[s][t] != 0 && sure < doubtful) {
-          frames.push_back(t + 1);
-          least = std::min(least, sure);
-        }
-      if (!frames.empty())
-        found.doubts.push_back(
-            fmt::format("slice {}: the {} is doubtful in phase{} {} (confidence {:.2f} and more)",
-                        s + 1, side == &FrameBorders::endo_agrees ? "endocardium" : "epicardium",
-                        frames.size() == 1 ? "" : "s", ranges(frames), least));
-    }
-}
-
-void doubt_volumes(Segmentation& found) {
-  for (const auto& [name, frame] : {std::pair("end-diastole", found.phases.end_diastole),
-                                    {"end-systole", found.phases.end_systole}})
-    if (const double part = doubtful_part(found, static_cast<std::size_t>(frame)); part > 0.0)
-      found.doubts.push_back(fmt::format(
-          "{:.0f}% of the cavity at {} (phase {}) lies in slices whose endocardium is doubtful: so "
-          "are its volume and the ejection fraction",
-          100.0 * part, name, frame + 1));
-}
-
-void doubt_places(const Cine& cine, const std::vector<std::size_t>& slices, Segmentation& found) {
-  constexpr double farthest = 8.0;  // from the middle between the slices beside it [mm]
-  const auto middle = [&](std::size_t s) {
-    const Pixel& at = found.borders[s].centre;
-    return cine.slices[s].frames.front().plane.point(at.x(), at.y());
-  };
-  for (std::size_t n = 1; n + 1 < slices.size(); ++n) {
-    const Vec3 between = 0.5 * (middle(slices[n - 1]) + middle(slices[n + 1]));
-    if (const double away = (middle(slices[n]) - between).norm(); away > farthest)
-      found.doubts.push_back(fmt::format(
-          "slice {} lies {:.0f} mm off the slices beside it: another breath, or not the ventricle",
-          slices[n] + 1, away));
-  }
 }
 
 Contour loop_of(const Cine& cine, const Segmentation& found, std::size_t s, std::size_t frame,
@@ -324,9 +266,8 @@ Segmentation segment(const Cine& cine, const SegmentParameters& parameters,
       volumes_of(found, [&](std::size_t s, std::size_t t) { return found.shows[s][t] != 0; });
   found.phases = phases_of(found);
   doubt_ends(run, slices, found);
-  doubt_places(cine, slices, found);
-  doubt_borders(found);
-  doubt_volumes(found);
+  for (std::string& doubt : doubts_of_drawn(cine, slices, found))
+    found.doubts.push_back(std::move(doubt));
   return found;
 }
 
