@@ -195,6 +195,7 @@ Shape from_drawn(const Case& c) {
   for (const auto& notes : {wall->report().notes, found.notes})
     shape.notes.insert(shape.notes.end(), notes.begin(), notes.end());
   shape.segmentation = std::move(drawn.segmentation);
+  shape.warnings = std::move(found.warnings);
   if (!fit.frame.septum && !case_file::is_set(c, "regions.septum_angle", case_file::Stage::anatomy))
     shape.warnings.push_back({"septum", assumed_septum});
   check_septum_point(c, shape);

@@ -370,6 +370,8 @@ Drawn from_cine(const Case& c) {
   drawn.source = fmt::format("borders drawn by the program in a cine, phase {}", frame + 1);
   drawn.usual_base = geometry::BaseAt::slab;
   drawn.notes = found->cine.notes;
+  for (const std::string& warning : found->found.warnings)
+    drawn.warnings.push_back({"borders", warning});
   for (const auto* doubts : {&found->found.doubts, &found->ends.doubts})
     drawn.notes.insert(drawn.notes.end(), doubts->begin(), doubts->end());
   drawn.moment_is_known = true;

@@ -94,8 +94,8 @@ std::string end_diastole_note(const case_file::Case& c, const Moments& m, int ch
   if (m.numbers.size() < 2 || chosen != m.end_diastole)
     return "";
   return end_diastole_note(
-      c, fmt::format("{} seems to be end-diastole ({:.1f} ml, the largest of {})", chosen,
-                     1e-3 * m.volume(chosen), m.numbers.size()));
+      c, fmt::format("number {} of {} seems to be end-diastole ({:.1f} ml, the largest)", chosen,
+                     m.numbers.size(), 1e-3 * m.volume(chosen)));
 }
 
 }  // namespace lv::anatomy

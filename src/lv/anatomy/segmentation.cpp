@@ -296,7 +296,8 @@ std::string describe(const CineSegmentation& segmentation) {
       moment("end-systole", found.phases.end_systole) +
       moment("early diastole", found.phases.early_diastole) +
       fmt::format("segment.fall: {:.3f} of the way from blood to muscle\n", found.fall);
-  for (const auto* notes : {&segmentation.cine.notes, &found.doubts, &segmentation.ends.doubts})
+  for (const auto* notes :
+       {&segmentation.cine.notes, &found.warnings, &found.doubts, &segmentation.ends.doubts})
     for (const std::string& note : *notes)
       text += fmt::format("note: {}\n", note);
   return text;

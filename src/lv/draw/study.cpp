@@ -133,7 +133,8 @@ Proposal proposal_of(const anatomy::CineSegmentation& made, case_file::ShapeMome
         proposal.confidence.push_back(
             {static_cast<int>(s) + 1, static_cast<int>(t) + 1, sure.endo_agrees, sure.epi_agrees});
       }
-  proposal.doubts = found.doubts;
+  proposal.doubts = found.warnings;
+  proposal.doubts.insert(proposal.doubts.end(), found.doubts.begin(), found.doubts.end());
   proposal.doubts.insert(proposal.doubts.end(), made.ends.doubts.begin(), made.ends.doubts.end());
   proposal.fall = found.fall;
   proposal.landmark_frame = frame_of(moment, proposal.lines, found.spacing);

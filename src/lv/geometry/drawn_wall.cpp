@@ -162,6 +162,7 @@ DrawnWall fit_drawn_wall(const Contours& contours, const SplineFitParameters& pa
   SplineFitParameters used = parameters;
   Contours drawn = contours;
   std::vector<std::string> notes;
+  std::vector<Assumption> warnings;
   std::string base = words(used.frame.base_at);
   const bool base_may_move = may_move.base && used.frame.base_at == BaseAt::annulus;
   if (const auto end = base_may_move ? end_of_muscle(contours) : std::nullopt) {
@@ -182,15 +183,17 @@ DrawnWall fit_drawn_wall(const Contours& contours, const SplineFitParameters& pa
     Attempt moved = aligned(drawn, used);
     if (!moved.wall || !may_move.slices)
       refuse(drawn, used, found, moved);
-    notes.push_back(fmt::format(
-        "the slices are moved to each other: as the scanner put them there is no wall ({}); {} {}",
-        reason(found), align, says(misfit_of(moved.wall->report()))));
+    warnings.push_back(
+        {"moved slices",
+         fmt::format("the slices are moved to each other: as the scanner put them there is no wall "
+                     "({}); {} {}",
+                     reason(found), align, says(misfit_of(moved.wall->report())))});
     used.align_slices = true;
     found = std::move(moved);
   }
   if (const std::string note = alignment_note(drawn, used, found.wall->report()); !note.empty())
     notes.push_back(note);
-  return {std::move(*found.wall), std::move(base), std::move(notes)};
+  return {std::move(*found.wall), std::move(base), std::move(notes), std::move(warnings)};
 }
 
 }  // namespace lv::geometry

@@ -12,6 +12,7 @@ struct DrawnWall {
   SplineWall wall;
   std::string base;
   std::vector<std::string> notes;
+  std::vector<Assumption> warnings;  ///< slices that had to be moved
 };
 
 /// What of the parameters a fit may choose differently where there is no wall with them: a case
@@ -32,7 +33,7 @@ struct MayMove {
 ///   curves, it is laid at the end of the most basal slice's slab, with a note, if it may move;
 ///   else the error names it.
 /// - If there is no wall with the slices as the scanner put them, but one with align_slices, that
-///   one is taken, with a note, if they may move; else the error names it.
+///   one is taken, with a warning, if they may move; else the error names it.
 /// - Slices that lie as the scanner put them and whose contours are farther than 3 mm from the wall
 ///   are fitted again with align_slices. If that halves the distances (root mean square), a note
 ///   says so, with the numbers.

@@ -268,6 +268,14 @@ bool append_as(const gdcm::PixelFormat& format, const std::vector<char>& bytes,
   }
 }
 
+/// Makes values brighter the larger they are (PS3.3 C.7.6.3.1.2: MONOCHROME1 shows the least as
+/// white), within the range of what the pixels can store, so that all images of a study agree.
+void turn_over(const gdcm::PixelFormat& format, std::vector<float>& values) {
+  const auto ends = static_cast<float>(format.GetMin() + format.GetMax());
+  for (float& value : values)
+    value = ends - value;
+}
+
 [[noreturn]] void fail_pixels(const fs::path& file, const std::string& what) {
   throw InputError(file.string(), what,
                    "Copy or export the file again; if it is broken at its source, leave its series "
@@ -292,6 +300,8 @@ std::vector<float> decoded_values(const fs::path& file) {
     if (image.GetPixelFormat().GetSamplesPerPixel() != 1 ||
         !append_as(image.GetPixelFormat(), bytes, values))
       fail_pixels(file, "is no image of grey values");
+    if (image.GetPhotometricInterpretation() == gdcm::PhotometricInterpretation::MONOCHROME1)
+      turn_over(image.GetPixelFormat(), values);
   } catch (const InputError&) {
     throw;
   } catch (const std::bad_alloc&) {

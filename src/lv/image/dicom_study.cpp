@@ -296,6 +296,22 @@ std::optional<Clash> clash_in(const DicomSlice& slice) {
   return std::nullopt;
 }
 
+std::string remedy_of(const Clash& clash, const DicomSlice& slice, const std::string& parameter) {
+  if (clash.untimed)
+    return "Export the images with their times or InstanceNumbers, or give one image of each slice "
+           "in a folder of their own";
+  const bool is_one_series = std::all_of(
+      slice.images.begin(), slice.images.end(),
+      [&](const DicomImage& i) { return i.series_uid == slice.images.front().series_uid; });
+  return is_one_series
+             ? "They are of one series: leave out the files of the acquisition that is not "
+               "meant"
+             : fmt::format(
+                   "Choose one of the acquisitions with {}, or give the files of "
+                   "one in a folder of their own",
+                   parameter);
+}
+
 /// How many patients the images of a stack name: by their identifiers, or by their names where
 /// these are more.
 std::size_t patients_of(const DicomStack& stack) {
@@ -549,14 +565,7 @@ DicomStack choose_stack(const DicomStudy& study, std::span<const std::string> se
   joined.slices = slices_of(std::move(images), joined.normal);
   for (const DicomSlice& slice : joined.slices)
     if (const auto wrong = clash_in(slice))
-      throw InputError(
-          where, wrong->what,
-          wrong->untimed
-              ? "Export the images with their times or InstanceNumbers, or give one image of each "
-                "slice in a folder of their own"
-              : fmt::format("Choose one of the acquisitions with {}, or give the files of one "
-                            "in a folder of their own",
-                            parameter));
+      throw InputError(where, wrong->what, remedy_of(*wrong, slice, parameter));
   joined.notes = study.notes;
   joined.lost = study.lost;
   for (std::string& sentence : summary(study.skipped))

@@ -52,6 +52,8 @@ std::string name_of(const geometry::Assumption& warning) {
                                                         {"size", "size of no human heart"},
                                                         {"cut cavity", "cavity cut off"},
                                                         {"slices", "slices alike"},
+                                                        {"moved slices", "slices moved"},
+                                                        {"borders", "borders doubtful"},
                                                         {"scar", "scar taken as healthy"},
                                                         {"early diastole", "end-diastolic shape"}};
   return names.at(warning.part);

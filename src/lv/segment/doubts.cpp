@@ -63,12 +63,12 @@ double area_at_its_largest(const SliceBorders& slice) {
   return largest;
 }
 
-void doubt_ends(const std::vector<std::size_t>& slices, const Segmentation& found,
-                Sentences& doubts) {
+void warn_of_ends(const std::vector<std::size_t>& slices, const Segmentation& found,
+                  Sentences& warnings) {
   constexpr double tip = 0.4;  // of the largest slice's area: more is no tip
   const auto ends_stack = [&](std::size_t s) { return s == 0 || s + 1 == found.borders.size(); };
   if (ends_stack(slices.front()))
-    doubts.push_back(fmt::format(
+    warnings.push_back(fmt::format(
         "slice {} is the last image towards the base and shows the ventricle: whether more of it "
         "lies beyond is not seen, and volumes and masses would lack that",
         slices.front() + 1));
@@ -77,7 +77,7 @@ void doubt_ends(const std::vector<std::size_t>& slices, const Segmentation& foun
     largest = std::max(largest, area_at_its_largest(found.borders[s]));
   const double last = area_at_its_largest(found.borders[slices.back()]);
   if (ends_stack(slices.back()) && last > tip * largest)
-    doubts.push_back(fmt::format(
+    warnings.push_back(fmt::format(
         "slice {} is the last image towards the tip, and its cavity has {:.0f}% of the largest "
         "slice's area: the tip is not shown, and volumes and masses lack it",
         slices.back() + 1, 100.0 * last / largest));
@@ -96,26 +96,27 @@ double part_at_edge(const image::Plane& plane, const Pixel& centre, const Radii&
          static_cast<double>(points.size());
 }
 
-void doubt_image_edges(const Cine& cine, const Segmentation& found, Sentences& doubts) {
+void warn_of_image_edges(const Cine& cine, const Segmentation& found, Sentences& warnings) {
   constexpr double seen = 0.02;  // of the circumference
+  std::vector<std::size_t> cut;
+  double most = 0.0;
   for (std::size_t s = 0; s < found.borders.size(); ++s) {
-    std::vector<std::size_t> frames;
-    double most = 0.0;
-    for (std::size_t t = 0; t < found.shows[s].size(); ++t) {
-      const double part = part_at_edge(cine.slices[s].frames[t].plane, found.borders[s].centre,
-                                       found.borders[s].frames[t].epi);
-      if (found.shows[s][t] == 0 || part < seen)
-        continue;
-      frames.push_back(t);
-      most = std::max(most, part);
-    }
-    if (!frames.empty())
-      doubts.push_back(
-          fmt::format("slice {}: up to {:.0f}% of the epicardium lies at the edge of the image or "
-                      "beyond in {}: "
-                      "the image cuts the ventricle off",
-                      s + 1, 100.0 * most, phases_in_words(frames)));
+    double part = 0.0;
+    for (std::size_t t = 0; t < found.shows[s].size(); ++t)
+      if (found.shows[s][t] != 0)
+        part = std::max(part, part_at_edge(cine.slices[s].frames[t].plane, found.borders[s].centre,
+                                           found.borders[s].frames[t].epi));
+    if (part < seen)
+      continue;
+    cut.push_back(s + 1);
+    most = std::max(most, part);
   }
+  if (!cut.empty())
+    warnings.push_back(
+        fmt::format("slice{} {}: up to {:.0f}% of the epicardium lies at the edge of the image or "
+                    "beyond, where "
+                    "nothing is seen: the image cuts the ventricle off",
+                    cut.size() == 1 ? "" : "s", ranges(cut), 100.0 * most));
 }
 
 void doubt_borders(const Segmentation& found, Sentences& doubts) {
@@ -157,14 +158,14 @@ double muscle_at(const Segmentation& found, std::size_t t) {
 
 constexpr double muscle_may_change = 0.15;  // by what observers miss the epicardium, and its base
 
-void doubt_muscle_of_moments(const std::vector<double>& muscle, const image::Phases& phases,
-                             Sentences& doubts) {
+void warn_of_muscle_of_moments(const std::vector<double>& muscle, const image::Phases& phases,
+                               Sentences& warnings) {
   const double diastolic = muscle[static_cast<std::size_t>(phases.end_diastole)];
   for (const auto& [name, frame] :
        {std::pair("end-systole", phases.end_systole), {"early diastole", phases.early_diastole}}) {
     const double change = muscle[static_cast<std::size_t>(frame)] / diastolic - 1.0;
     if (std::abs(change) > muscle_may_change)
-      doubts.push_back(fmt::format(
+      warnings.push_back(fmt::format(
           "the borders hold {:.0f} ml of muscle at {} (phase {}) and {:.0f} ml at end-diastole "
           "(phase {}), {:+.0f}%, where muscle keeps its volume and mass hangs on it: look at the "
           "epicardium of both, and whether the most basal slice still shows the ventricle",
@@ -173,7 +174,7 @@ void doubt_muscle_of_moments(const std::vector<double>& muscle, const image::Pha
   }
 }
 
-void doubt_muscle(const Segmentation& found, Sentences& doubts) {
+void warn_of_muscle(const Segmentation& found, Sentences& warnings) {
   std::vector<double> muscle;
   for (std::size_t t = 0; t < found.volumes.size(); ++t)
     muscle.push_back(muscle_at(found, t));
@@ -186,27 +187,27 @@ void doubt_muscle(const Segmentation& found, Sentences& doubts) {
       frames.push_back(t);
   if (!frames.empty()) {
     const auto [least, most] = std::minmax_element(muscle.begin(), muscle.end());
-    doubts.push_back(fmt::format(
+    warnings.push_back(fmt::format(
         "the borders hold {:.0f} to {:.0f} ml of muscle, where muscle keeps its volume; more than "
         "{:.0f}% off the median of {:.0f} ml in {}",
         1e-3 * *least, 1e-3 * *most, 100.0 * muscle_may_change, 1e-3 * usual,
         phases_in_words(frames)));
   }
-  doubt_muscle_of_moments(muscle, found.phases, doubts);
+  warn_of_muscle_of_moments(muscle, found.phases, warnings);
 }
 
-void doubt_motion(const Segmentation& found, Sentences& doubts) {
+void warn_of_motion(const Segmentation& found, Sentences& warnings) {
   constexpr double beats = 0.05;  // the least ejection fraction that tells end-systole
   const auto [least, most] = std::minmax_element(found.volumes.begin(), found.volumes.end());
   if (*least > (1.0 - beats) * *most) {
-    doubts.push_back(fmt::format(
+    warnings.push_back(fmt::format(
         "the cavity's volume changes by {:.1f}% over the cine: nothing is seen to beat, "
         "and end-diastole and end-systole are not told apart",
         100.0 * (1.0 - *least / *most)));
     return;
   }
   if (found.phases.early_diastole == found.phases.end_systole)
-    doubts.push_back(fmt::format(
+    warnings.push_back(fmt::format(
         "after end-systole (phase {}) no phase holds a tenth of the stroke volume more: the cine "
         "ends before the ventricle fills, and end-systole is taken for early diastole too",
         found.phases.end_systole + 1));
@@ -217,14 +218,20 @@ void doubt_motion(const Segmentation& found, Sentences& doubts) {
 std::vector<std::string> doubts_of_drawn(const Cine& cine, const std::vector<std::size_t>& slices,
                                          const Segmentation& found) {
   Sentences doubts;
-  doubt_ends(slices, found, doubts);
   doubt_places(cine, slices, found, doubts);
-  doubt_image_edges(cine, found, doubts);
   doubt_borders(found, doubts);
   doubt_volumes(found, doubts);
-  doubt_muscle(found, doubts);
-  doubt_motion(found, doubts);
   return doubts;
+}
+
+std::vector<std::string> warnings_of_drawn(const Cine& cine, const std::vector<std::size_t>& slices,
+                                           const Segmentation& found) {
+  Sentences warnings;
+  warn_of_ends(slices, found, warnings);
+  warn_of_image_edges(cine, found, warnings);
+  warn_of_muscle(found, warnings);
+  warn_of_motion(found, warnings);
+  return warnings;
 }
 
 }  // namespace lv::segment

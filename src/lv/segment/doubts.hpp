@@ -7,21 +7,23 @@
 
 namespace lv::segment {
 
-/// What an observer should look at in borders that were drawn, in sentences; `slices` are those
-/// that show the ventricle, from its base to its tip:
-///
-/// - places: a slice that lies 8 mm off those beside it;
-/// - ends: a stack of images that ends at the most basal slice, or at a most apical one whose
-/// cavity
-///   is no tip's;
-/// - the image's edge: a border that runs along it or beyond;
-/// - confidence: of borders, and of the volumes that hang on them;
-/// - muscle, which keeps its volume over a beat (a few per cent of blood apart): phases, and
-/// moments
-///   that differ from end-diastole, by more than 15%;
-/// - motion: a volume that changes by less than 5%; a cine that ends with end-systole.
+/// What an observer should look at in borders that were drawn, in sentences: a slice that lies 8 mm
+/// off those beside it, borders of little confidence, and volumes that hang on them. `slices` are
+/// those that show the ventricle, from its base to its tip.
 [[nodiscard]] std::vector<std::string> doubts_of_drawn(const image::Cine& cine,
                                                        const std::vector<std::size_t>& slices,
                                                        const Segmentation& found);
+
+/// What makes volumes, masses or moments wrong, however sure the borders are:
+///
+/// - ends: a stack of images that ends at the most basal slice, or at a most apical one whose
+///   cavity is no tip's;
+/// - the image's edge: a border that runs along it or beyond;
+/// - muscle, which keeps its volume over a beat (a few per cent of blood apart): phases, and
+///   moments that differ from end-diastole, by more than 15%;
+/// - motion: a volume that changes by less than 5%; a cine that ends with end-systole.
+[[nodiscard]] std::vector<std::string> warnings_of_drawn(const image::Cine& cine,
+                                                         const std::vector<std::size_t>& slices,
+                                                         const Segmentation& found);
 
 }  // namespace lv::segment

@@ -206,6 +206,38 @@ void doubt_ends(const Run& run, const std::vector<std::size_t>& slices, Segmenta
       slices.front() + 1, slices.back() + 1));
 }
 
+/// Of too few slices that show the ventricle, with why the next one beside them does not.
+[[noreturn]] void refuse_few(const std::vector<SliceBorders>& borders, const Run& run,
+                             std::size_t shown, bool centre_is_given, const std::string& where) {
+  std::string why;
+  if (const std::size_t next = run.first > 0 ? run.first - 1 : run.last + 1; next < borders.size())
+    why = fmt::format("; in slice {}, {}", next + 1, why_left_out(borders, run, next));
+  throw InputError(
+      where,
+      fmt::format("only {} slice{} a ring of muscle round blood{}", shown,
+                  shown == 1 ? " shows" : "s show", why),
+      fmt::format("{}raw the contours and take anatomy.source = \"contours\", if the images show "
+                  "the ventricle across its axis",
+                  centre_is_given ? "D"
+                                  : "Set segment.centre to a point in the left ventricle's blood, "
+                                    "or d"));
+}
+
+/// Throws InputError for a slice whose images show nothing: all of their grey values are one.
+void require_signal(const Cine& cine, const std::string& where) {
+  for (const image::CineSlice& slice : cine.slices) {
+    const float first = slice.frames.front().values.front();
+    const auto is_first = [&](float value) { return value == first; };
+    if (std::all_of(slice.frames.begin(), slice.frames.end(), [&](const image::Picture& picture) {
+          return std::all_of(picture.values.begin(), picture.values.end(), is_first);
+        }))
+      throw InputError(
+          where,
+          fmt::format("the images of {} show nothing: every grey value is {:g}", slice.name, first),
+          "Export the images again, or leave that slice out");
+  }
+}
+
 Contour loop_of(const Cine& cine, const Segmentation& found, std::size_t s, std::size_t frame,
                 Side side) {
   const FrameBorders& borders = found.borders[s].frames[frame];
@@ -242,6 +274,7 @@ void require_cine(const Cine& cine, const std::string& where) {
 Segmentation segment(const Cine& cine, const SegmentParameters& parameters,
                      const std::string& where) {
   require_cine(cine, where);
+  require_signal(cine, where);
   std::optional<Vec3> given;
   if (parameters.centre)
     given = Vec3(parameters.centre->data());
@@ -257,10 +290,7 @@ Segmentation segment(const Cine& cine, const SegmentParameters& parameters,
   std::vector<std::size_t> slices = from_base(run, base_is_first(found.borders, run));
   drop_atrium(found.borders, slices);
   if (slices.size() < fewest_slices)
-    throw InputError(where,
-                     fmt::format("only {} slices show a ring of muscle round blood", slices.size()),
-                     "Set segment.centre to a point in the left ventricle's blood, or draw the "
-                     "contours and take anatomy.source = \"contours\"");
+    refuse_few(found.borders, run, slices.size(), parameters.centre.has_value(), where);
   mark(slices, found);
   found.volumes =
       volumes_of(found, [&](std::size_t s, std::size_t t) { return found.shows[s][t] != 0; });
@@ -268,6 +298,7 @@ Segmentation segment(const Cine& cine, const SegmentParameters& parameters,
   doubt_ends(run, slices, found);
   for (std::string& doubt : doubts_of_drawn(cine, slices, found))
     found.doubts.push_back(std::move(doubt));
+  found.warnings = warnings_of_drawn(cine, slices, found);
   return found;
 }
 

@@ -26,7 +26,8 @@ struct Segmentation {
   double spacing = 0.0;                  ///< between slices [mm]
   std::vector<double> volumes;           ///< of the cavity per frame, areas x spacing [mm^3]
   image::Phases phases;
-  std::vector<std::string> doubts;  ///< what an observer should look at, in sentences
+  std::vector<std::string> doubts;    ///< what an observer should look at, in sentences
+  std::vector<std::string> warnings;  ///< what makes volumes, masses or moments wrong, likewise
 };
 
 /// A contour whose border agrees with the image along a smaller part (FrameBorders) is doubtful.
@@ -49,8 +50,8 @@ void require_cine(const image::Cine& cine, const std::string& where);
 /// - Phases are proposed from the volume of the slices that show the ventricle in all frames.
 ///
 /// Throws InputError, with `where` naming the images, if slices have different numbers of images or
-/// fewer than five, pixels do not lie above each other within a slice, or fewer than three slices
-/// show a ring of muscle round blood.
+/// fewer than five, pixels do not lie above each other within a slice, a slice shows nothing, or
+/// fewer than three slices show a ring of muscle round blood.
 [[nodiscard]] Segmentation segment(const image::Cine& cine, const SegmentParameters& parameters,
                                    const std::string& where);
 

@@ -113,7 +113,10 @@ TEST_CASE("slices that make no wall as they lie are moved, or refused with what 
                     Contains("slice 8") && Contains("There is a wall with "
                                                     "anatomy.contours.align_slices = true"));
   const DrawnWall wall = fit_drawn_wall(contours, {}, {.slices = true});
-  CHECK_THAT(notes(wall), Contains("the slices are moved to each other") && Contains("slice 8"));
+  REQUIRE(wall.warnings.size() == 1);
+  CHECK(wall.warnings.front().part == "moved slices");
+  CHECK_THAT(wall.warnings.front().text,
+             Contains("the slices are moved to each other") && Contains("slice 8"));
   const auto& images = wall.wall.report().short_axis;
   CHECK(std::any_of(images.begin(), images.end(), [](const ImageReport& image) {
     return image.slice == 8 && image.shift.norm() > 8.0;

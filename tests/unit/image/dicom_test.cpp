@@ -93,6 +93,18 @@ TEST_CASE("slices and phases are sorted by the headers, whatever the files are c
   CHECK_THAT(fmt::format("{}", fmt::join(cine.notes, "|")), Contains("RR 700 to 800 ms"));
 }
 
+TEST_CASE("images stored with white as the least value are as bright as others", "[unit][image]") {
+  const test::TemporaryFolder folder;
+  for (int s = 0; s < 3; ++s) {
+    DicomSpec spec = oblique(s, 0);
+    spec.photometric = "MONOCHROME1";
+    test::write_bytes(folder / fmt::format("{}", s), test::dicom_bytes(spec));
+  }
+  const Cine cine = read(folder);
+  const DicomSpec spec = oblique(1, 0);
+  CHECK(cine.slices[1].frames[0].at(5, 2) == 2.0F * (65535 - spec.pixels[2 * columns + 5]) - 5.0F);
+}
+
 TEST_CASE("a missing phase, a gap and a copy of a file are told", "[unit][image]") {
   const test::TemporaryFolder folder;
   for (const int s : {0, 1, 3})

@@ -413,7 +413,17 @@ TEST_CASE("images without a ring of muscle round blood are refused", "[segment]"
     cine.slices[s] = {fmt::format("slice {}", s + 1), {5, picture}, {}, 0.0};
   }
   CHECK_THROWS_WITH(segment::segment(cine, {}, "noise"),
-                    Catch::Contains("show a ring of muscle round blood"));
+                    Catch::Contains("a ring of muscle round blood; in slice") &&
+                        Catch::Contains("Set segment.centre"));
+  segment::SegmentParameters parameters;
+  parameters.centre = {60.0, 60.0, 10.0};
+  CHECK_THROWS_WITH(
+      segment::segment(cine, parameters, "noise"),
+      Catch::Contains("a ring of muscle round blood") && !Catch::Contains("segment.centre"));
+  for (image::Picture& picture : cine.slices[2].frames)
+    picture.values.assign(3600, 7.0F);
+  CHECK_THROWS_WITH(segment::segment(cine, {}, "noise"),
+                    Catch::Contains("the images of slice 3 show nothing: every grey value is 7"));
 }
 
 TEST_CASE("written contours are read back as contours", "[segment]") {

@@ -164,7 +164,7 @@ std::string classic_elements(const DicomSpec& s) {
   position(bytes, s.plane);
   orientation(bytes, s.plane);
   number(bytes, 0x28, 2, 1);
-  text(bytes, 0x28, 4, "CS", "MONOCHROME2");
+  text(bytes, 0x28, 4, "CS", s.photometric);
   number(bytes, 0x28, 0x10, s.plane.rows);
   number(bytes, 0x28, 0x11, s.plane.columns);
   spacing(bytes, s.plane);

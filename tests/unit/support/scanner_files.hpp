@@ -29,6 +29,7 @@ struct DicomSpec {
   std::optional<double> trigger_ms;
   int rr_ms = 800;
   double slope = 1.0, intercept = 0.0;
+  std::string photometric = "MONOCHROME2";
 };
 
 [[nodiscard]] std::string dicom_bytes(const DicomSpec& spec);
