@@ -89,6 +89,33 @@ void tell_row(const test::KnownCine& known) {
   }
 }
 
+int seeds() {
+  const char* set = std::getenv("VENTRICLE_SEEDS");
+  return set != nullptr ? std::atoi(set) : 3;
+}
+
+void tell_hypertrophic() {
+  struct Kind {
+    double wall, papillary, trabeculae;
+  };
+  for (int seed = 1; seed <= seeds(); ++seed)
+    for (const auto& [wall, papillary, trabeculae] :
+         {Kind{16.0, 5.0, 0.0}, Kind{18.0, 6.0, 0.0}, Kind{16.0, 5.0, 2.0}, Kind{18.0, 6.0, 3.0}}) {
+      phantom::Scan scan = test::noisy_scan(static_cast<std::uint32_t>(seed));
+      scan.field_of_view = 180;
+      tell_row(test::phantom_study(
+          fmt::format("wall {}, papillary {}, rim {}, seed {}", wall, papillary, trabeculae, seed),
+          scan, test::hypertrophic(wall, papillary, trabeculae)));
+    }
+}
+
+void tell_patients() {
+  for (const auto& known : {test::patient("sunnybrook_SC-HF-I-1", "cine", 19, 8),
+                            test::patient("sunnybrook_SC-HF-I-4", "dicom", 20, 7)})
+    if (known)
+      tell_row(*known);
+}
+
 /// A study as it is, and as another scanner would show it.
 void tell_variations(const test::KnownCine& known) {
   tell_row(known);
@@ -99,11 +126,6 @@ void tell_variations(const test::KnownCine& known) {
       changed.name = variation.name;
       tell_row(changed);
     }
-}
-
-int seeds() {
-  const char* set = std::getenv("VENTRICLE_SEEDS");
-  return set != nullptr ? std::atoi(set) : 3;
 }
 
 void tell_header() {
@@ -132,10 +154,18 @@ TEST_CASE("a table of what segmentation makes of phantoms and patients", "[.][se
       blur(known.cine, deviation);
       tell_row(known);
     }
-  for (const auto& known : {test::patient("sunnybrook_SC-HF-I-1", "cine", 19, 8),
-                            test::patient("sunnybrook_SC-HF-I-4", "dicom", 20, 7)})
-    if (known)
-      tell_row(*known);
+  tell_patients();
+}
+
+TEST_CASE("a table of what segmentation makes of hypertrophic phantoms",
+          "[.][segment_hypertrophic]") {
+  tell_header();
+  tell_hypertrophic();
+}
+
+TEST_CASE("a table of what segmentation makes of patients", "[.][segment_patients]") {
+  tell_header();
+  tell_patients();
 }
 
 TEST_CASE("a table of what segmentation makes of other scanners' images",

@@ -80,11 +80,8 @@ phantom::Scan noisy_scan(std::uint32_t seed) {
   return scan;
 }
 
-KnownCine phantom_study(const std::string& name, const phantom::Scan& scan, double trabeculae) {
-  phantom::Ventricle v;
-  v.papillary = 4.0;
-  v.trabeculae = trabeculae;
-  v.scar.transmurality = 0.0;
+KnownCine phantom_study(const std::string& name, const phantom::Scan& scan,
+                        const phantom::Ventricle& v) {
   const phantom::ScanPlanes planes = phantom::planes(v, scan);
   const std::vector<double> times = phantom::phase_times(scan);
   KnownCine known{name, phantom::short_axis_cine(v, scan, planes), 0, 0, {}};
@@ -96,6 +93,27 @@ KnownCine phantom_study(const std::string& name, const phantom::Scan& scan, doub
   for (const int frame : {known.end_diastole, known.end_systole})
     known.truth[frame] = phantom::contours(v, scan, planes, times[static_cast<std::size_t>(frame)]);
   return known;
+}
+
+KnownCine phantom_study(const std::string& name, const phantom::Scan& scan, double trabeculae) {
+  phantom::Ventricle v;
+  v.papillary = 4.0;
+  v.trabeculae = trabeculae;
+  v.scar.transmurality = 0.0;
+  return phantom_study(name, scan, v);
+}
+
+phantom::Ventricle hypertrophic(double wall, double papillary, double trabeculae) {
+  phantom::Ventricle v;
+  v.shape = {.endo_radius = 22.0,
+             .endo_length = 62.0,
+             .epi_radius = 22.0 + wall,
+             .epi_length = 62.0 + wall};
+  v.squeeze = 0.65;
+  v.papillary = papillary;
+  v.trabeculae = trabeculae;
+  v.scar.transmurality = 0.0;
+  return v;
 }
 
 std::optional<KnownCine> patient(const std::string& name, const std::string& images, int diastole,

@@ -41,10 +41,18 @@ struct KnownCine {
 /// Eight phases with noise (SNR 20) and slices that breath-holds shift by 3 mm.
 [[nodiscard]] phantom::Scan noisy_scan(std::uint32_t seed);
 
+/// A phantom of a ventricle, its largest and its smallest phase known.
+[[nodiscard]] KnownCine phantom_study(const std::string& name, const phantom::Scan& scan,
+                                      const phantom::Ventricle& ventricle);
+
 /// A phantom with papillary muscles of 4 mm and without scar, of eight phases; `trabeculae`: the
 /// depth of a rim [mm].
 [[nodiscard]] KnownCine phantom_study(const std::string& name, const phantom::Scan& scan,
                                       double trabeculae);
+
+/// A hypertrophic ventricle: a narrow cavity in a wall of this thickness, papillary muscles of this
+/// radius and a rim of trabeculae of this depth [mm].
+[[nodiscard]] phantom::Ventricle hypertrophic(double wall, double papillary, double trabeculae);
 
 /// A study of the Sunnybrook data with phases in its observers' count; none where it is not there.
 [[nodiscard]] std::optional<KnownCine> patient(const std::string& name, const std::string& images,
