@@ -166,7 +166,8 @@ std::vector<Radii> epicardium(const std::vector<Polar>& costs, const std::vector
 /// How much a grey value speaks for muscle, -1 (blood) to a part of 1. Bright is blood; dark may be
 /// a papillary muscle or a trabecula, which belong to the cavity.
 Polar evidence_of_muscle(const Polar& values, const Levels& levels, double fall) {
-  constexpr double of_dark = 0.25;  // darkness in the cavity is not rare, brightness in the wall is
+  // darkness in the cavity is not rare, brightness in the wall is
+  constexpr double of_dark = 0.125;
   const Polar beyond = darkness(values, levels) - fall;
   return (beyond > 0.0).select(of_dark / (1.0 - fall) * beyond, beyond / fall);
 }
@@ -176,7 +177,7 @@ Polar evidence_of_muscle(const Polar& values, const Levels& levels, double fall)
 Radii endocardium(const Polar& values, const Radii& outside, const Levels& levels, double fall,
                   const Fixes& fixed = {}) {
   constexpr double band = 2.0;  // [mm]
-  constexpr PathRule rule{.reach = 1, .stiffness = 0.2};
+  constexpr PathRule rule{.reach = 2, .stiffness = 0.2};
   const Polar within = wall_of_cost * (distance_from(outside) > -2.0).cast<double>();
   const Polar exact = integral(darkness(values, levels) - fall) + within;
   const Radii behind = closed_path(
@@ -305,7 +306,8 @@ BorderFit endocardial_fit(const Radii& seen, const Radii& sees, const Radii& exp
           .expected = expected,
           .trust = sees * trust + (1.0 - sees) * unseen_trust,
           .harmonics = 3,
-          .within = 0.1};
+          .within = 0.1,
+          .stiffness = 0.3};
 }
 
 /// Along which rays muscle is seen outside the endocardium of a frame, 1 or 0. On its way to the

@@ -22,6 +22,15 @@ Eigen::MatrixXd basis(Eigen::Index rays, int harmonics) {
   return A;
 }
 
+/// Of the harmonics' squared amplitudes, (n^2 - 1)^2: the square of what each adds to the curvature
+/// of a circle. Circles, wherever they lie, cost nothing.
+Eigen::VectorXd bending(int harmonics) {
+  Eigen::VectorXd cost = Eigen::VectorXd::Zero(2 * harmonics + 1);
+  for (int n = 1; n <= harmonics; ++n)
+    cost.segment(2 * n - 1, 2).setConstant(std::pow(n * n - 1.0, 2));
+  return cost;
+}
+
 }  // namespace
 
 Radii fit_border(const BorderFit& fit) {
@@ -31,7 +40,8 @@ Radii fit_border(const BorderFit& fit) {
   Radii weight = fit.weight;
   Radii r;
   for (int round = 0; round < rounds; ++round) {
-    const Eigen::MatrixXd M = A.transpose() * (weight + fit.trust).matrix().asDiagonal() * A;
+    Eigen::MatrixXd M = A.transpose() * (weight + fit.trust).matrix().asDiagonal() * A;
+    M.diagonal() += fit.stiffness * bending(fit.harmonics);
     const Eigen::VectorXd v =
         A.transpose() * (weight * fit.seen + fit.trust * fit.expected).matrix();
     r = (A * dense::solve_symmetric(M, v)).array();
@@ -42,7 +52,7 @@ Radii fit_border(const BorderFit& fit) {
 
 Radii harmonics_of(const Radii& radii, int harmonics) {
   const Radii one = Radii::Ones(radii.size());
-  return fit_border({radii, one, radii, Radii::Zero(radii.size()), harmonics, 1.0});
+  return fit_border({radii, one, radii, Radii::Zero(radii.size()), harmonics, 1.0, 0.0});
 }
 
 double chord(double r1, double r2, double angle, double whole) {

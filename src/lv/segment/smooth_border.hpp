@@ -13,14 +13,17 @@ struct BorderFit {
   int harmonics = 3;  ///< of the angle
   double within =
       1.0;  ///< part of its weight that a ray keeps where what was seen lies inside the fit
+  double stiffness = 0.0;  ///< of the line against bending out of a circle
 };
 
 /// The sum of harmonics r(theta) that makes
 ///
-///   sum w_i (r(theta_i) - seen_i)^2 + trust_i (r(theta_i) - expected_i)^2
+///   sum_i w_i (r(theta_i) - seen_i)^2 + trust_i (r(theta_i) - expected_i)^2
+///     + stiffness sum_n (n^2 - 1)^2 (a_n^2 + b_n^2)
 ///
-/// least, w_i = weight_i, times `within` where seen_i < r(theta_i): papillary muscles, which push
-/// the border inwards, then count little.
+/// least, a_n and b_n the harmonics' amplitudes, w_i = weight_i, times `within` where
+/// seen_i < r(theta_i): papillary muscles, which push the border inwards, then count little, and
+/// the line runs round on where they hide it.
 [[nodiscard]] Radii fit_border(const BorderFit& fit);
 
 /// The sum of as many harmonics nearest to a line.

@@ -35,3 +35,18 @@ TEST_CASE("a border behind which muscle is seen over less than half a turn is no
   sees.head(30).setOnes();
   CHECK((segment::closed_straight(circle, circle, sees) == circle).all());
 }
+
+TEST_CASE("a stiff border is still a circle, and bends less towards papillary muscles",
+          "[segment]") {
+  const Radii one = Radii::Ones(72);
+  Radii seen = 20.0 * one;
+  const auto fitted = [&](double stiffness) {
+    return segment::fit_border({seen, one, seen, 0.0 * one, 3, 0.1, stiffness});
+  };
+  CHECK((fitted(10.0) - 20.0).abs().maxCoeff() < 1e-9);
+  for (const int ray : {0, 24, 48})  // three columns over 50 degrees each
+    for (int d = 0; d < 10; ++d)
+      seen(ray + d) = 14.0;
+  CHECK(fitted(0.3).minCoeff() > fitted(0.0).minCoeff());
+  CHECK(fitted(10.0).minCoeff() > fitted(0.3).minCoeff());
+}
