@@ -1,6 +1,7 @@
 #include "lv/draw/enhancement.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/base/table.hpp"
 #include "lv/geometry/contour_table.hpp"
 #include "lv/scar/late_enhancement.hpp"
 #include "lv/scar/scar_threshold.hpp"
@@ -42,7 +43,7 @@ void write_walls(const Walls& walls, const image::Cine& image, const fs::path& f
           lines.push_back(
               {static_cast<int>(s) + 1, side, in_space(*line, plane_of(image, s)), {}, {}, {}});
   if (lines.empty())
-    fs::remove(file);
+    write_file(file, "");  // none: see whole_save
   else
     geometry::contour_table(lines).write_csv(file);
 }
@@ -213,11 +214,13 @@ ScarMap propose_scar(const case_file::Case& c, const image::Cine& image, const S
   return map;
 }
 
-void save_scar(Enhancement& enhancement, ScarDrawing scar, const fs::path& folder) {
-  fs::create_directories(folder);
+void write_scar(const Enhancement& enhancement, const ScarDrawing& scar, const fs::path& folder) {
   table_of(scar.proposed, enhancement.image).write_csv(folder / proposed_scar_file);
   write_walls(scar.walls, enhancement.image, folder / scar_walls_file);
   table_of(scar.drawn, enhancement.image).write_csv(folder / scar_file);
+}
+
+void keep(Enhancement& enhancement, ScarDrawing scar) {
   enhancement.scar = std::move(scar);
   enhancement.saved = true;
   enhancement.note.clear();

@@ -66,7 +66,7 @@ struct ScarWish {
 [[nodiscard]] scar::ScarMap propose_scar(const case_file::Case& c, const image::Cine& image,
                                          const ScarWish& wish);
 
-// what save_scar writes
+// what write_scar writes
 inline constexpr const char* scar_file = "scar.csv";
 inline constexpr const char* proposed_scar_file = "scar_proposed.csv";
 inline constexpr const char* scar_walls_file = "scar_wall.csv";
@@ -77,7 +77,11 @@ inline constexpr const char* scar_walls_file = "scar_wall.csv";
 ///   scar_proposed.csv  the same of what the threshold proposed
 ///   scar_wall.csv      the wall's outlines on the enhanced slices, in the form of contours
 ///
-/// and takes them for the image's. Throws RunError when a file cannot be written.
-void save_scar(Enhancement& enhancement, ScarDrawing scar, const std::filesystem::path& folder);
+/// Throws RunError when a file cannot be written.
+void write_scar(const Enhancement& enhancement, const ScarDrawing& scar,
+                const std::filesystem::path& folder);
+
+/// Takes a scar that was written for the image's.
+void keep(Enhancement& enhancement, ScarDrawing scar);
 
 }  // namespace lv::draw

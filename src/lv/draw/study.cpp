@@ -3,6 +3,7 @@
 #include "lv/anatomy/segmentation.hpp"
 #include "lv/base/check.hpp"
 #include "lv/base/table.hpp"
+#include "lv/draw/whole_save.hpp"
 #include "lv/geometry/contour_checks.hpp"
 #include "lv/geometry/contour_measures.hpp"
 #include "lv/geometry/contour_table.hpp"
@@ -220,11 +221,12 @@ Proposal find_proposal(const Study& study) {
   return kept;
 }
 
+/// An empty file where there is no line (see whole_save).
 void write_phase(const fs::path& file, const std::vector<Contour>& lines) {
   if (!lines.empty())
     geometry::contour_table(lines).write_csv(file);
   else
-    fs::remove(file);
+    write_file(file, "");
 }
 
 void write_marks(const Drawing& drawing, const fs::path& folder) {
@@ -261,13 +263,13 @@ void write_volumes(const Drawing& drawing, double spacing, const fs::path& folde
   table.write_csv(folder / "volumes.csv");
 }
 
-void write_drawing(const Study& study, const Drawing& drawing) {
-  fs::create_directories(study.folder / "contours");
+void write_drawing(const Drawing& drawing, double spacing, const fs::path& folder) {
+  fs::create_directories(folder / "contours");
   for (std::size_t t = 0; t < drawing.lines.size(); ++t)
-    write_phase(phase_file(study.folder, t), drawing.lines[t]);
-  write_marks(drawing, study.folder);
-  write_quality(drawing, study.folder);
-  write_volumes(drawing, study.spacing, study.folder);
+    write_phase(phase_file(folder, t), drawing.lines[t]);
+  write_marks(drawing, folder);
+  write_quality(drawing, folder);
+  write_volumes(drawing, spacing, folder);
 }
 
 /// Fingerprints of the files that save replaces, of those that are there.
@@ -368,8 +370,11 @@ Study open_study(const case_file::Case& c, const fs::path& folder) {
     study.long_axis.push_back({std::move(view), greys});
   }
   study.proposal = find_proposal(study);
+  const bool is_writable = may_write(folder);
+  if (is_writable)
+    finish_interrupted_save(folder);
   read_folder(study);
-  if (!may_write(folder))
+  if (!is_writable)
     study.hindrance = fmt::format("{} may not be written", folder.filename().string());
   return study;
 }
@@ -391,15 +396,21 @@ void save(Study& study, Drawing drawing, std::optional<ScarDrawing> scar) {
     throw RunError(fmt::format("{} may not be written", study.folder.filename().string()),
                    "Allow it, or download the drawing");
   try {
-    write_drawing(study, drawing);
+    const fs::path written = begin_save(study.folder);
+    write_drawing(drawing, study.spacing, written);
     if (scar && study.enhancement)
-      save_scar(*study.enhancement, std::move(*scar), study.folder);
-  } catch (...) {
-    study.files = fingerprints(study);  // a part may be written, by no other program
-    throw;
+      write_scar(*study.enhancement, *scar, written);
+    finish_save(study.folder);
+  } catch (const fs::filesystem_error& error) {
+    study.files = fingerprints(study);  // a part may have been moved, by no other program
+    throw RunError(fmt::format("the drawing cannot be moved to its place in {}: {}",
+                               study.folder.filename().string(), error.code().message()),
+                   "Save it again when the folder can be written, or download it");
   }
   study.files = fingerprints(study);
   study.drawing = std::move(drawing);
+  if (scar && study.enhancement)
+    keep(*study.enhancement, std::move(*scar));
   study.saved = true;
   ++study.revision;
 }

@@ -108,8 +108,9 @@ void catch_up(Study& study);
 ///   quality.csv            confidence of the proposal that the drawing started from
 ///   volumes.csv            cavity and muscle per phase, areas times spacing
 ///
-/// and the scar, if there is one to keep (see save_scar), and takes them for the study's, whatever
-/// changed_elsewhere says. Throws RunError when a file cannot be written.
+/// and the scar, if there is one to keep (see write_scar), all at once (see whole_save), and takes
+/// them for the study's, whatever changed_elsewhere says. Throws RunError when a file cannot be
+/// written; then nothing has changed.
 void save(Study& study, Drawing drawing, std::optional<ScarDrawing> scar = {});
 
 }  // namespace lv::draw

@@ -4,6 +4,7 @@
 #include "lv/base/check.hpp"
 #include "lv/base/table.hpp"
 #include "lv/draw/study_json.hpp"
+#include "lv/draw/whole_save.hpp"
 #include "lv/geometry/contours.hpp"
 
 #include "support/temporary_folder.hpp"
@@ -145,6 +146,31 @@ TEST_CASE("a drawing is kept as contours that the program reads", "[draw]") {
   CHECK(volumes.numbers("cavity_volume_ml")[0] ==
         Approx(1e-3 * 4.0 * spacing * polygon).epsilon(1e-4));
   CHECK(volumes.numbers("cavity_volume_ml")[5] == 0.0);
+}
+
+TEST_CASE(
+    "a save that was cut off while files were moved is finished when the folder is opened next",
+    "[draw]") {
+  const test::TemporaryFolder folder;
+  write_file(folder / "a.csv", "old");
+  write_file(folder / "b.csv", "old");
+  const auto written = draw::begin_save(folder / "");
+  CHECK(written.filename() == "saving");
+  std::filesystem::create_directories(written / "contours");
+  write_file(written / "a.csv", "new");
+  write_file(written / "contours" / "c.csv", "new");
+  write_file(written / "b.csv", "");  // to be removed
+  draw::finish_interrupted_save(folder / "");
+  CHECK(read_file(folder / "a.csv") == "old");  // it was cut off while it was written
+  std::filesystem::rename(written, folder / "saved");
+  std::filesystem::rename(folder / "saved" / "a.csv", folder / "a.csv");  // one was moved already
+  draw::finish_interrupted_save(folder / "");
+  CHECK(read_file(folder / "a.csv") == "new");
+  CHECK(read_file(folder / "contours" / "c.csv") == "new");
+  CHECK_FALSE(std::filesystem::exists(folder / "b.csv"));
+  CHECK_FALSE(std::filesystem::exists(folder / "saved"));
+  write_file(folder / "saving", "in the way");
+  CHECK(std::filesystem::is_empty(draw::begin_save(folder / "")));
 }
 
 TEST_CASE("a phase without borders loses its file", "[draw]") {
