@@ -206,6 +206,23 @@ void doubt_ends(const Run& run, const std::vector<std::size_t>& slices, Segmenta
       slices.front() + 1, slices.back() + 1));
 }
 
+/// Slices whose blood grows while that of all others shrinks.
+void doubt_times(const std::vector<std::size_t>& slices, Segmentation& found) {
+  for (const std::size_t s : slices) {
+    std::vector<double> others(found.volumes.size(), 0.0);
+    for (const std::size_t other : slices) {
+      const std::vector<double> areas = areas_of(found.borders[other]);
+      for (std::size_t t = 0; t < areas.size() && other != s; ++t)
+        others[t] += areas[t];
+    }
+    if (shared_change(areas_of(found.borders[s]), others) < 0.0)
+      found.doubts.push_back(
+          fmt::format("slice {}: its blood grows while that of the other slices shrinks: its wall "
+                      "bulges, or its images begin at another time of the cycle",
+                      s + 1));
+  }
+}
+
 /// Of too few slices that show the ventricle, with why the next one beside them does not.
 [[noreturn]] void refuse_few(const std::vector<SliceBorders>& borders, const Run& run,
                              std::size_t shown, bool centre_is_given, const std::string& where) {
@@ -296,6 +313,7 @@ Segmentation segment(const Cine& cine, const SegmentParameters& parameters,
       volumes_of(found, [&](std::size_t s, std::size_t t) { return found.shows[s][t] != 0; });
   found.phases = phases_of(found);
   doubt_ends(run, slices, found);
+  doubt_times(slices, found);
   for (std::string& doubt : doubts_of_drawn(cine, slices, found))
     found.doubts.push_back(std::move(doubt));
   found.warnings = warnings_of_drawn(cine, slices, found);

@@ -270,6 +270,21 @@ TEST_CASE("a slice is left out for the reason that decided", "[segment]") {
   CHECK_THAT(*doubt, Catch::Contains("of what they do in most slices"));
 }
 
+TEST_CASE("a slice that begins at another time of the cycle is doubted", "[segment]") {
+  image::Cine cine = five_phases().cine;
+  const auto doubted = [&] {
+    std::string slices;
+    for (const std::string& doubt : segment::segment(cine, {}, "phantom").doubts)
+      if (doubt.find("another time of the cycle") != std::string::npos)
+        slices += doubt.substr(0, doubt.find(':'));
+    return slices;
+  };
+  CHECK(doubted().empty());
+  auto& frames = cine.slices[cine.slices.size() / 2].frames;
+  std::rotate(frames.begin(), frames.begin() + 2, frames.end());
+  CHECK(doubted() == fmt::format("slice {}", cine.slices.size() / 2 + 1));
+}
+
 TEST_CASE("volumes that rest on doubtful borders say so", "[segment]") {
   segment::Segmentation found;
   found.spacing = 8.0;
