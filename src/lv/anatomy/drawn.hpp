@@ -28,7 +28,7 @@ struct Drawn {
   std::optional<geometry::Contours> end_systole;
   bool moment_is_known = false;  ///< it was chosen among several
   /// Of an end-diastolic shape that is taken as free of stress, a base that cuts the cavity, slices
-  /// that are alike.
+  /// that are alike, borders that the program drew (segment::warnings_of_drawn).
   std::vector<geometry::Assumption> warnings;
 };
 

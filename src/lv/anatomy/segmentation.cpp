@@ -83,15 +83,12 @@ Table quality_table(const Segmentation& found) {
 Table volumes_table(const Segmentation& found) {
   Table table({"phase", "cavity_volume_ml", "wall_volume_ml", "slices", "doubtful_part"});
   for (std::size_t t = 0; t < found.volumes.size(); ++t) {
-    double whole = 0.0;
-    int slices = 0;
-    for (std::size_t s = 0; s < found.borders.size(); ++s)
-      if (found.shows[s][t] != 0) {
-        whole += found.spacing * whole_area(found, s, t);
-        ++slices;
-      }
+    const auto slices =
+        std::count_if(found.shows.begin(), found.shows.end(),
+                      [&](const std::vector<char>& shows) { return shows[t] != 0; });
     table.add_row({std::to_string(t + 1), Table::number(1e-3 * found.volumes[t], 5),
-                   Table::number(1e-3 * (whole - found.volumes[t]), 5), std::to_string(slices),
+                   Table::number(1e-3 * segment::muscle_volume(found, t), 5),
+                   std::to_string(slices),
                    fmt::format("{:.2f}", segment::doubtful_part(found, t))});
   }
   return table;

@@ -110,7 +110,8 @@ void catch_up(Study& study);
 ///
 /// and the scar, if there is one to keep (see write_scar), all at once (see whole_save), and takes
 /// them for the study's, whatever changed_elsewhere says. Throws RunError when a file cannot be
-/// written; then nothing has changed.
+/// written; then nothing has changed, or, if a written one cannot be moved to its place, the next
+/// save or start goes on with that.
 void save(Study& study, Drawing drawing, std::optional<ScarDrawing> scar = {});
 
 }  // namespace lv::draw

@@ -147,15 +147,6 @@ void doubt_volumes(const Segmentation& found, Sentences& doubts) {
           100.0 * part, name, frame + 1));
 }
 
-/// The muscle between the borders of a frame [mm^3].
-double muscle_at(const Segmentation& found, std::size_t t) {
-  double area_of_wall = 0.0;
-  for (std::size_t s = 0; s < found.borders.size(); ++s)
-    if (found.shows[s][t] != 0)
-      area_of_wall += area(found.borders[s].frames[t].epi) - area(found.borders[s].frames[t].endo);
-  return found.spacing * area_of_wall;
-}
-
 constexpr double muscle_may_change = 0.15;  // by what observers miss the epicardium, and its base
 
 void warn_of_muscle_of_moments(const std::vector<double>& muscle, const image::Phases& phases,
@@ -177,7 +168,7 @@ void warn_of_muscle_of_moments(const std::vector<double>& muscle, const image::P
 void warn_of_muscle(const Segmentation& found, Sentences& warnings) {
   std::vector<double> muscle;
   for (std::size_t t = 0; t < found.volumes.size(); ++t)
-    muscle.push_back(muscle_at(found, t));
+    muscle.push_back(muscle_volume(found, t));
   const double usual = median(muscle);
   if (!(usual > 0.0))
     return;

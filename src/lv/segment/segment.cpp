@@ -75,6 +75,12 @@ std::vector<double> areas_of(const SliceBorders& slice) {
   return areas;
 }
 
+/// Adds a multiple of values to a sum of equally many.
+void add(const std::vector<double>& values, double factor, std::vector<double>& sum) {
+  for (std::size_t i = 0; i < values.size(); ++i)
+    sum[i] += factor * values[i];
+}
+
 double mean(const std::vector<double>& values) {
   double sum = 0.0;
   for (const double v : values)
@@ -124,11 +130,8 @@ std::vector<std::size_t> from_base(const Run& run, bool base_first) {
 void drop_atrium(const std::vector<SliceBorders>& borders, std::vector<std::size_t>& slices) {
   constexpr double ventricle = 0.5;  // part of the others' relative change
   std::vector<double> lower(borders.front().frames.size(), 0.0);
-  for (std::size_t n = slices.size() / 2; n < slices.size(); ++n) {
-    const std::vector<double> areas = areas_of(borders[slices[n]]);
-    for (std::size_t t = 0; t < areas.size(); ++t)
-      lower[t] += areas[t];
-  }
+  for (std::size_t n = slices.size() / 2; n < slices.size(); ++n)
+    add(areas_of(borders[slices[n]]), 1.0, lower);
   std::size_t drop = 0;
   while (drop < slices.size() / 2 &&
          shared_change(areas_of(borders[slices[drop]]), lower) < ventricle)
@@ -208,14 +211,14 @@ void doubt_ends(const Run& run, const std::vector<std::size_t>& slices, Segmenta
 
 /// Slices whose blood grows while that of all others shrinks.
 void doubt_times(const std::vector<std::size_t>& slices, Segmentation& found) {
+  std::vector<double> all(found.volumes.size(), 0.0);
+  for (const std::size_t s : slices)
+    add(areas_of(found.borders[s]), 1.0, all);
   for (const std::size_t s : slices) {
-    std::vector<double> others(found.volumes.size(), 0.0);
-    for (const std::size_t other : slices) {
-      const std::vector<double> areas = areas_of(found.borders[other]);
-      for (std::size_t t = 0; t < areas.size() && other != s; ++t)
-        others[t] += areas[t];
-    }
-    if (shared_change(areas_of(found.borders[s]), others) < 0.0)
+    const std::vector<double> own = areas_of(found.borders[s]);
+    std::vector<double> others = all;
+    add(own, -1.0, others);
+    if (shared_change(own, others) < 0.0)
       found.doubts.push_back(
           fmt::format("slice {}: its blood grows while that of the other slices shrinks: its wall "
                       "bulges, or its images begin at another time of the cycle",
@@ -318,6 +321,15 @@ Segmentation segment(const Cine& cine, const SegmentParameters& parameters,
     found.doubts.push_back(std::move(doubt));
   found.warnings = warnings_of_drawn(cine, slices, found);
   return found;
+}
+
+double muscle_volume(const Segmentation& found, std::size_t frame) {
+  double area_of_wall = 0.0;
+  for (std::size_t s = 0; s < found.borders.size(); ++s)
+    if (found.shows[s][frame] != 0)
+      area_of_wall +=
+          area(found.borders[s].frames[frame].epi) - area(found.borders[s].frames[frame].endo);
+  return found.spacing * area_of_wall;
 }
 
 double doubtful_part(const Segmentation& found, std::size_t frame) {

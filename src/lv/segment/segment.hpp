@@ -55,6 +55,9 @@ void require_cine(const image::Cine& cine, const std::string& where);
 [[nodiscard]] Segmentation segment(const image::Cine& cine, const SegmentParameters& parameters,
                                    const std::string& where);
 
+/// The muscle between the borders of a frame, areas x spacing [mm^3].
+[[nodiscard]] double muscle_volume(const Segmentation& found, std::size_t frame);
+
 /// The part of a frame's cavity volume that lies in slices whose endocardium is doubtful, 0 to 1.
 [[nodiscard]] double doubtful_part(const Segmentation& found, std::size_t frame);
 
