@@ -234,7 +234,7 @@ class Fitter {
     const auto volume = [&](double x) {
       p.*which.member = x;
       sought_ = {target.volume, accuracy};
-      const auto found = model_.volume(p, loads);
+      auto found = model_.volume(p, loads);
       sought_.reset();
       const double misfit = found ? std::abs(std::log(*found / target.volume)) : least;
       if (misfit < least) {

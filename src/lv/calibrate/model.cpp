@@ -125,14 +125,14 @@ void Ventricle::restore(Memory memory) {
 }
 
 Outcome<double> Ventricle::volume(const FitParameters& parameters, const Loads& loads) {
-  const auto unloaded = unloaded_volume(parameters);
+  auto unloaded = unloaded_volume(parameters);
   if (!unloaded || distance(loads, {}) == 0.0)  // undeformed, as implicit::Engine::set_model says
     return unloaded;
   if (is_linear(parameters)) {
     const auto positions = moved(parameters, loads);
     return positions ? Outcome<double>(endocardium_.volume(*positions)) : positions.why();
   }
-  const auto volume = approach(model_of_(parameters), loads);
+  auto volume = approach(model_of_(parameters), loads);
   if (!volume)
     return volume;
   if (known_.empty() || distance(nearest(loads).loads, loads) > 0.0)

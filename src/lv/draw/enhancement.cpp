@@ -29,7 +29,7 @@ const image::Plane& plane_of(const image::Cine& image, std::size_t slice) {
 std::vector<Vec3> in_space(const geometry::Polygon& line, const image::Plane& plane) {
   std::vector<Vec3> points;
   for (const Eigen::Vector2d& x : line)
-    points.push_back(plane.origin + x.x() * plane.along_row + x.y() * plane.along_column);
+    points.emplace_back(plane.origin + x.x() * plane.along_row + x.y() * plane.along_column);
   return points;
 }
 
