@@ -83,9 +83,9 @@ MeshResult read_mesh_result(const std::filesystem::path& folder, const mesh::Fib
   m.order = archive.whole_number(archive.number("order"), {1.0, 2.0});
   m.nodes = heartbeat::vectors(archive.get_rows("nodes", 3));
   const std::size_t nodes = m.nodes.size();
-  const int of_element = m.order == 1 ? 1 : 8;  // its parts, see mesh.hpp
+  const std::size_t of_element = m.order == 1 ? 1 : 8;  // its parts, see mesh.hpp
   m.cells = load_nodes(archive, "cells",
-                       static_cast<std::size_t>(mesh::nodes_per_cell(m.kind) * of_element), nodes);
+                       static_cast<std::size_t>(mesh::nodes_per_cell(m.kind)) * of_element, nodes);
   constexpr heartbeat::Range part{-1e-6, 1.0 + 1e-6};
   m.transmural = archive.get_rows("transmural", 1, nodes, part);
   m.infarct = archive.get_rows("infarct", 1, nodes, part);

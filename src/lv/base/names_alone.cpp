@@ -35,11 +35,10 @@ bool stands_alone(const std::string& text, const std::string& folder, std::size_
 std::string without(std::string text, const std::string& folder) {
   for (std::size_t at = text.find(folder); at != std::string::npos; at = text.find(folder, at)) {
     const std::size_t after = at + folder.size();
-    if (at > 0 && continues_name(text[at - 1]))
-      ++at;
-    else if (after < text.size() && text[after] == '/' && !ends_name(text, after + 1))
+    const bool begins_name = at == 0 || !continues_name(text[at - 1]);
+    if (begins_name && after < text.size() && text[after] == '/' && !ends_name(text, after + 1))
       text.erase(at, folder.size() + 1);
-    else if (stands_alone(text, folder, at))
+    else if (begins_name && stands_alone(text, folder, at))
       text.replace(at, folder.size(), "(folder)");
     else
       ++at;

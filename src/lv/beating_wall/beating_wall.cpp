@@ -268,7 +268,7 @@ circulation::CycleAlone BeatingWall::beats_alone(const HeartbeatsAt& from,
 circulation::StandIn BeatingWall::stand_in(const HeartbeatsAt& from, const VectorXd& x) const {
   const double V = from.last().end_diastolic_volume;
   const double p = std::max(from.last().end_diastolic_pressure, least_filling);
-  const circulation::StandIn wall(
+  circulation::StandIn wall(
       circulation::samples_of(from.cycle, static_cast<int>(from.cycle.beats.size()) - 1), V,
       {p, calibrate::klotz(V, p).beta});
   for (Index j = 0; j < x.size(); ++j)

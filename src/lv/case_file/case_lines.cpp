@@ -95,9 +95,9 @@ std::string case_lines(const std::vector<CaseLine>& lines) {
 std::string lines_to_add(const Case& c, const std::vector<CaseLine>& lines) {
   std::string text;
   for (const auto& [table, of_table] : by_table(lines)) {
-    const bool is_there = std::any_of(c.origin.begin(), c.origin.end(), [&](const auto& entry) {
-      return table_of(entry.first) == table;
-    });
+    const bool is_there =
+        std::any_of(c.origin.begin(), c.origin.end(),
+                    [&name = table](const auto& entry) { return table_of(entry.first) == name; });
     text += is_there ? fmt::format("\nAdd under [{}]:\n", table)
                      : fmt::format("\nAdd:\n{}", heading(table, of_table));
     text += text_of(of_table);

@@ -86,9 +86,9 @@ std::vector<Member> family(const Study& study) {
 
 Case under(const Factors& factors, Case c) {
   if (factors.preload != 1.0)
-    c = with_blood_around(c.circulation.start.V_lv, std::move(c));
-  c.circulation = circulation::with_times_at(c.circulation.period / factors.heart_rate,
-                                             std::move(c.circulation));
+    c = with_blood_around(c.circulation.start.V_lv, c);
+  c.circulation =
+      circulation::with_times_at(c.circulation.period / factors.heart_rate, c.circulation);
   std::vector<Change> changes;
   for (const Lever& lever : {preload, afterload, contractility, heart_rate}) {
     if (factors.*lever.factor == 1.0)

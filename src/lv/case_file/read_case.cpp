@@ -164,8 +164,7 @@ class CaseReader {
   /// Times of chambers that the case does not set are those of its heart rate.
   void follow_heart_rate() {
     Case usual;
-    usual.circulation =
-        circulation::with_times_at(case_.circulation.period, std::move(usual.circulation));
+    usual.circulation = circulation::with_times_at(case_.circulation.period, usual.circulation);
     for (const char* chamber : {"left_ventricle", "closed_loop.left_atrium",
                                 "closed_loop.right_atrium", "closed_loop.right_ventricle"})
       for (const char* time : {"T_C", "T_R", "t_C"}) {

@@ -101,7 +101,7 @@ void for_pixels(const json& runs, const image::Plane& plane, const Use& use) {
     if (row < 0 || row >= plane.rows || first < 0 || first > last || last >= plane.columns)
       throw InputError(what_page, "a pixel lies outside the enhanced image", reload);
     for (int i = first; i <= last; ++i)
-      use(static_cast<std::size_t>(row * plane.columns + i));
+      use(static_cast<std::size_t>(row) * plane.columns + i);
   }
 }
 
@@ -110,7 +110,7 @@ SliceMap said_slice(const json& said, const image::Plane& plane) {
       std::vector<Tissue>(static_cast<std::size_t>(plane.rows) * plane.columns, Tissue::outside),
       said_provenance(said)};
   for (const auto& [tissue, name] : tissues)
-    for_pixels(said.at(name), plane, [&](std::size_t n) {
+    for_pixels(said.at(name), plane, [&, tissue = tissue](std::size_t n) {
       if (slice.pixels[n] != Tissue::outside)
         throw InputError(what_page, "a pixel is there twice", reload);
       slice.pixels[n] = tissue;

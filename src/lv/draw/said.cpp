@@ -33,7 +33,7 @@ json planes_json(const image::Cine& cine) {
 Vec3 said_point(const json& x) {
   if (!x.is_array() || x.size() != 3)
     throw InputError(what_page, "a point has not three coordinates", reload);
-  const Vec3 p(x[0].get<double>(), x[1].get<double>(), x[2].get<double>());
+  Vec3 p(x[0].get<double>(), x[1].get<double>(), x[2].get<double>());
   if (!p.allFinite())
     throw InputError(what_page, "a coordinate is no number", reload);
   return p;

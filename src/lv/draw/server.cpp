@@ -214,7 +214,7 @@ class Connection {
       co_await stream_.async_read_some(net::buffer(nothing), noting(error));
   }
 
-  Request asked(const Header& request) const {
+  [[nodiscard]] Request asked(const Header& request) const {
     return {std::string(view(request.method_string())), rules_.place(view(request.target())),
             request.body()};
   }

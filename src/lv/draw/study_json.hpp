@@ -25,10 +25,10 @@ struct Kept {
 
 /// Reads and checks it: slices and phases of this study, lines in their planes, of three to 2000
 /// points. Throws InputError.
-[[nodiscard]] Kept read_kept(const std::string& json, const Study& study);
+[[nodiscard]] Kept read_kept(const std::string& text, const Study& study);
 
 /// The point {"centre": [x, y, z]} [mm]. Throws InputError.
-[[nodiscard]] Vec3 read_centre(const std::string& json);
+[[nodiscard]] Vec3 read_centre(const std::string& text);
 
 /// A border that a page wants drawn again: {"slice": 3, "phase": 1, "side": "endo", "points":
 /// [...], "endo": [...], "epi": [...]}, lines that are not there empty.
@@ -38,7 +38,7 @@ struct Redrawn {
 };
 
 /// Reads and checks it: one to 100 points, lines as read_kept takes them. Throws InputError.
-[[nodiscard]] Redrawn read_wish(const std::string& json, const Study& study);
+[[nodiscard]] Redrawn read_wish(const std::string& text, const Study& study);
 
 /// {"points": [...]}
 [[nodiscard]] std::string points_json(const std::vector<Vec3>& points);

@@ -82,13 +82,16 @@ void write_overlays(const std::vector<Overlay>& overlays, const std::string& foo
   const int rows = (static_cast<int>(overlays.size()) + columns - 1) / columns;
   const double width = columns * (tile + gap) + gap;
   const double height = rows * (tile + head + gap) + gap + head;
-  write_file(file, png(width, height, 1.5, [&](Canvas& canvas) {
-               canvas.fill({0.0, 0.0, width, height}, white);
-               for (int n = 0; n < static_cast<int>(overlays.size()); ++n)
-                 draw(canvas, overlays[n],
-                      {gap + (n % columns) * (tile + gap), (n / columns) * (tile + head + gap)});
-               canvas.text(footnote, {gap, height - 0.5 * head - 2.0}, {.size = 9.0});
-             }));
+  write_file(
+      file, png(width, height, 1.5, [&](Canvas& canvas) {
+        canvas.fill({0.0, 0.0, width, height}, white);
+        for (int n = 0; n < static_cast<int>(overlays.size()); ++n) {
+          const int column = n % columns;
+          const int row = n / columns;
+          draw(canvas, overlays[n], {gap + column * (tile + gap), row * (tile + head + gap)});
+        }
+        canvas.text(footnote, {gap, height - 0.5 * head - 2.0}, {.size = 9.0});
+      }));
 }
 
 }  // namespace lv::drawing

@@ -67,7 +67,7 @@ Vec3 vector_at(const Table& table, const std::string& name, const std::string& e
                std::size_t row) {
   Vec3 v;
   for (int d = 0; d < 3; ++d)
-    v[d] = table.numbers(name + axes.at(d) + end)[row];
+    v[d] = table.numbers(fmt::format("{}{}{}", name, axes.at(d), end))[row];
   return v;
 }
 
@@ -99,7 +99,8 @@ image::Picture cut_around(const image::Picture& picture, const std::vector<Vec3>
 
 std::vector<unsigned char> grey_levels(const image::Picture& picture) {
   std::vector<float> sorted = picture.values;
-  const auto bright = sorted.begin() + static_cast<std::ptrdiff_t>(0.99 * (sorted.size() - 1.0));
+  const auto bright =
+      sorted.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(sorted.size() - 1));
   std::nth_element(sorted.begin(), bright, sorted.end());
   const float high = *bright;
   const float low = *std::min_element(sorted.begin(), sorted.end());

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <span>
 
 namespace lv::fluid {
 namespace {
@@ -144,17 +146,13 @@ void scatter(std::span<const double> values, Component& component) {
 Motion motion(const FaceField& velocity, const Grid& grid, double density) {
   double squares = 0.0;
   double largest = 0.0;
-  for (const Component& u : velocity.component) {
-    for (int k = 0; k < u.nz(); ++k) {
-      for (int j = 0; j < u.ny(); ++j) {
-        const double* row = u.row(j, k);
-        for (int i = 0; i < u.nx(); ++i) {
-          squares += row[i] * row[i];
-          largest = std::max(largest, std::abs(row[i]));
+  for (const Component& u : velocity.component)
+    for (int k = 0; k < u.nz(); ++k)
+      for (int j = 0; j < u.ny(); ++j)
+        for (const double v : std::span(u.row(j, k), static_cast<std::size_t>(u.nx()))) {
+          squares += v * v;
+          largest = std::max(largest, std::abs(v));
         }
-      }
-    }
-  }
   return {0.5 * density * grid.cell_volume() * parallel::sum(squares), parallel::max(largest)};
 }
 

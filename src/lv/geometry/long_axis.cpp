@@ -145,7 +145,7 @@ Vec3 x_direction(const Contour& basal, const Vec3& origin, const Vec3& z,
   if (!parameters.septum)
     return across(basal.points.front() - mean_of(basal.points), z);
   const auto& septum = *parameters.septum;
-  const Vec3 x = across(Vec3(septum[0], septum[1], septum[2]) - origin, z);
+  Vec3 x = across(Vec3(septum[0], septum[1], septum[2]) - origin, z);
   if (x.norm() < 1.0)
     throw InputError("septum point",
                      fmt::format("the point ({:.1f}, {:.1f}, {:.1f}) mm lies on the long axis",
@@ -228,7 +228,7 @@ double extrapolated_depth(const Contours& contours, Side side) {
 
 LongAxis long_axis(const Contours& contours) {
   const std::vector<Centre> centres = centres_of(contours);
-  const LongAxis even = line_through(centres, [](const Centre&) { return 1.0; });
+  LongAxis even = line_through(centres, [](const Centre&) { return 1.0; });
   if (passes_within(even, contours))
     return even;
   return line_through(centres, [](const Centre& c) { return 1.0 / (c.radius * c.radius); });

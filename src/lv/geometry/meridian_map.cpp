@@ -98,8 +98,8 @@ Crossings crossings(const MeanMeridian& endo, const MeanMeridian& epi, const Vec
   for (int i = 0; i <= steps; ++i) {
     const Vec2 inner = endo.at(static_cast<double>(i) / steps);
     const Vec2 outer = epi.at(c.epi_lengths[i]);
-    across.push_back(outer - inner);
-    c.middle.push_back(0.5 * (outer + inner));
+    across.emplace_back(outer - inner);
+    c.middle.emplace_back(0.5 * (outer + inner));
   }
   for (int i = 0; i < steps; ++i) {
     const Vec2 along = c.middle[i + 1] - c.middle[i];

@@ -150,8 +150,8 @@ std::vector<std::string> Archive::get_words(const std::string& name) const {
 }
 
 void Archive::add(const std::string& part, Archive other) {
-  for (auto& [name, values] : other.arrays_)
-    arrays_[part + "." + name] = std::move(values);
+  for (auto& array : other.arrays_)
+    arrays_[fmt::format("{}.{}", part, array.first)] = std::move(array.second);
 }
 
 Archive Archive::take(const std::string& part) {

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cstring>
 
 namespace lv::heartbeat {
 namespace {
@@ -25,9 +24,10 @@ void store(const Snapshot& s, const std::string& name, Archive& archive) {
   archive.set(name + ".numbers", {s.time, s.pressure, s.volume});
   archive.set(name + ".positions", flat(s.positions));
   archive.set(name + ".tension", s.tension);
-  std::vector<double> stress(solid::CellStress::numbers * s.stress.size());
-  if (!stress.empty())
-    std::memcpy(stress.data(), s.stress.data(), sizeof(double) * stress.size());
+  std::vector<double> stress;
+  stress.reserve(solid::CellStress::numbers * s.stress.size());
+  for (solid::CellStress cell : s.stress)
+    stress.insert(stress.end(), cell.as_numbers().begin(), cell.as_numbers().end());
   archive.set(name + ".stress", std::move(stress));
 }
 
@@ -38,8 +38,10 @@ Snapshot load_snapshot(const Archive& archive, const std::string& name,
   const std::string tension = name + ".tension";
   const auto& numbers = archive.get_rows(name + ".stress", solid::CellStress::numbers);
   std::vector<solid::CellStress> stress(numbers.size() / solid::CellStress::numbers);
-  if (!stress.empty())
-    std::memcpy(static_cast<void*>(stress.data()), numbers.data(), sizeof(double) * numbers.size());
+  auto next = numbers.begin();
+  for (solid::CellStress& cell : stress)
+    for (double& number : cell.as_numbers())
+      number = *next++;
   return {n[0],
           n[1],
           n[2],

@@ -145,7 +145,7 @@ void renumber(GuidePoints& found) {
                    [&](int a, int b) { return heights[a] < heights[b]; });
   if (std::is_sorted(order.begin(), order.end()) || std::is_sorted(order.rbegin(), order.rend()))
     return;
-  found.notes.push_back("the slices are not numbered in order: counted anew along their normal");
+  found.notes.emplace_back("the slices are not numbered in order: counted anew along their normal");
   for (Contour& loop : loops)
     loop.slice =
         static_cast<int>(std::find(order.begin(), order.end(), loop.slice) - order.begin()) + 1;
@@ -222,7 +222,7 @@ std::size_t drop_in_valve(std::vector<GuidePoint>& rows, const std::vector<Vec3>
   const Vec3 out = (angle.up - angle.up.dot(along) * along).normalized();
   const double first = angle(left);
   const double last = angle(right);
-  return std::erase_if(rows, [&](const GuidePoint& p) {
+  return std::erase_if(rows, [&, left = left](const GuidePoint& p) {
     const double at = angle(p.x);
     return (at > first || at < last) && (p.x - left).dot(out) > -sag;
   });

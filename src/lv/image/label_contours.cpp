@@ -152,7 +152,7 @@ class Tracer {
   }
 
   PlaneMask trace_cavity(const Picture& picture, Slice& slice) {
-    const PlaneMask labelled = mask_of(picture, meaning_.cavity);
+    PlaneMask labelled = mask_of(picture, meaning_.cavity);
     if (labelled.count() == 0)
       return labelled;
     const PlaneMask part = largest(labelled, slice, "the cavity");

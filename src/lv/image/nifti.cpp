@@ -263,7 +263,7 @@ void read_values(const fs::path& file, const NiftiHeader& header, const Type& ty
     if (got < block.size())
       break;
   }
-  if (volume.values.size() < voxels)
+  if (static_cast<double>(volume.values.size()) < voxels)
     fail_damaged(file,
                  fmt::format("it ends after {} of {:.0f} bytes", stream.bytes_read(), needed));
   if (stream.is_packed() && !lower_case(file.string()).ends_with(".gz"))

@@ -169,9 +169,9 @@ void add_loops(const fs::path& file, const Stack& stack, const Lattice& lattice,
       for (std::size_t p = 0; p < X->size[0]; ++p)
         if (const double x = X->at(p, t, z), y = Y->at(p, t, z);
             std::isfinite(x) && std::isfinite(y))
-          loop.points.push_back(lattice.origin + (x - 1.0) * lattice.rows +
-                                (y - 1.0) * lattice.columns +
-                                static_cast<double>(z) * lattice.slices);
+          loop.points.emplace_back(lattice.origin + (x - 1.0) * lattice.rows +
+                                   (y - 1.0) * lattice.columns +
+                                   static_cast<double>(z) * lattice.slices);
       if (!loop.points.empty())
         loops.push_back(std::move(loop));
     }

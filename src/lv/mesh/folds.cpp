@@ -57,7 +57,7 @@ FoldFinder::Side FoldFinder::side(std::span<const Vec3> nodes, const Surface& su
   Side s{&surface, sign, {}, {}};
   for (int f = 0; f < surface.size(); ++f) {
     s.centre.push_back(face_centre(nodes, surface.face(f)));
-    s.normal.push_back(sign * area_vector(nodes, surface.face(f)).normalized());
+    s.normal.emplace_back(sign * area_vector(nodes, surface.face(f)).normalized());
   }
   return s;
 }

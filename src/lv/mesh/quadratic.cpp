@@ -19,18 +19,15 @@ struct Place {
 };
 
 std::vector<Place> hexahedron_places(int order) {
+  // the part whose near corner (or, at the far end, far corner) lies at (i, j, k)
+  const auto part = [&](int at) { return order == 1 ? 0 : std::min(at, 1); };
+  const auto corner = [&](int at) { return at == order ? 1 : 0; };
   std::vector<Place> places;
-  for (int k = 0; k <= order; ++k) {
-    for (int j = 0; j <= order; ++j) {
-      for (int i = 0; i <= order; ++i) {
-        // the part whose near corner (or, at the far end, far corner) lies at (i, j, k)
-        const auto part = [&](int at) { return order == 2 && at == 2 ? 1 : order == 2 ? at : 0; };
-        const auto corner = [&](int at) { return at == order ? 1 : 0; };
+  for (int k = 0; k <= order; ++k)
+    for (int j = 0; j <= order; ++j)
+      for (int i = 0; i <= order; ++i)
         places.push_back({part(k) * 4 + part(j) * 2 + part(i),
                           hexahedron_corner[corner(k) * 4 + corner(j) * 2 + corner(i)]});
-      }
-    }
-  }
   return places;
 }
 

@@ -75,7 +75,7 @@ class Refiner {
       M += coarse_.infarct[node];
     }
     const auto n = static_cast<double>(of.size());
-    fine_.nodes.push_back(X / n);
+    fine_.nodes.emplace_back(X / n);
     fine_.transmural.push_back(t / n);
     fine_.infarct.push_back(M / n);
     if (coarse_.fibres.given.at == GivenFibres::At::nodes) {

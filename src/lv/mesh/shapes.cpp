@@ -39,13 +39,13 @@ std::vector<Vec3> node_places(CellKind kind, int order) {
     for (int k = 0; k <= order; ++k)
       for (int j = 0; j <= order; ++j)
         for (int i = 0; i <= order; ++i)
-          places.push_back(Vec3(i, j, k) / order);
+          places.emplace_back(Vec3(i, j, k) / order);
     return places;
   }
   places = {Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
   if (order == 2)
     for (const auto& [a, b] : simplex_edges)
-      places.push_back(0.5 * (places[a] + places[b]));
+      places.emplace_back(0.5 * (places[a] + places[b]));
   return places;
 }
 

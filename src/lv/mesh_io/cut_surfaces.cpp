@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <span>
 #include <utility>
 
 namespace lv::mesh_io {
@@ -244,7 +245,7 @@ std::vector<Vec3> evenly(const std::vector<Vec3>& loop, int count) {
       ++p;
     const double length = at[p + 1] - at[p];
     const double u = length > 0.0 ? (s - at[p]) / length : 0.0;
-    points.push_back((1.0 - u) * loop[p] + u * loop[(p + 1) % loop.size()]);
+    points.emplace_back((1.0 - u) * loop[p] + u * loop[(p + 1) % loop.size()]);
   }
   return points;
 }
@@ -288,14 +289,16 @@ void note_base(const OpenSurface& s, const Vec3& up, double base, std::vector<st
       high - base));
 }
 
+/// Whether a triangle runs from a to b.
+bool runs(std::span<const int> triangle, int a, int b) {
+  const auto from = std::find(triangle.begin(), triangle.end(), a) - triangle.begin();
+  return from < 3 && triangle[(from + 1) % 3] == b;
+}
+
 /// The triangles, turned so that two run through the edge between them in opposite ways: not all
 /// programs see to that.
 mesh::Surface turned_alike(mesh::Surface faces) {
   std::map<Edge, std::vector<int>> beside;
-  const auto has_way = [&](int f, int a, int b) {
-    const auto n = faces.face(f);
-    return (n[0] == a && n[1] == b) || (n[1] == a && n[2] == b) || (n[2] == a && n[0] == b);
-  };
   for (int f = 0; f < faces.size(); ++f)
     for (int i = 0; i < 3; ++i)
       beside[edge_of(faces.face(f)[i], faces.face(f)[(i + 1) % 3])].push_back(f);
@@ -313,7 +316,7 @@ mesh::Surface turned_alike(mesh::Surface faces) {
         for (const int other : beside.at(edge_of(n[i], n[(i + 1) % 3]))) {
           if (done[other])
             continue;
-          if (has_way(other, n[i], n[(i + 1) % 3]))
+          if (runs(faces.face(other), n[i], n[(i + 1) % 3]))
             std::swap(faces.nodes[3 * static_cast<std::size_t>(other)],
                       faces.nodes[3 * static_cast<std::size_t>(other) + 1]);
           done[other] = true;

@@ -47,25 +47,43 @@ ForeignMesh read(const mesh::ImportParameters& parameters) {
   return foreign;
 }
 
-/// Drops the nodes that no cell uses; whatever referred to them then refers to node -2, which no
-/// cell has.
-void drop_unused_nodes(ForeignMesh& foreign) {
-  constexpr int dropped = -2;
-  mesh::Mesh& mesh = foreign.mesh;
+constexpr int dropped = -2;  ///< a node that no cell has
+
+/// Of each node the number that it gets, in order, or `dropped` where no cell uses it.
+std::vector<int> places_of_used(const mesh::Mesh& mesh) {
   std::vector<int> place(mesh.nodes.size(), dropped);
   for (const int node : mesh.cells)
     place[node] = 0;
-  std::vector<int> kept;
-  for (std::size_t old = 0; old < place.size(); ++old) {
-    if (place[old] == dropped)
-      continue;
-    place[old] = static_cast<int>(kept.size());
-    kept.push_back(static_cast<int>(old));
+  int kept = 0;
+  for (int& at : place)
+    if (at != dropped)
+      at = kept++;
+  return place;
+}
+
+/// With nodes at other places.
+void renumber(ForeignSide& side, const std::vector<int>& place) {
+  for (mesh::FaceKey& key : side.faces) {
+    for (int& node : key)
+      node = node < 0 ? node : place[node];
+    key = mesh::face_key({key.data(), key[3] < 0 ? std::size_t{3} : std::size_t{4}});
   }
+  for (int& node : side.nodes)
+    node = place[node];
+  std::erase(side.nodes, dropped);
+}
+
+/// Drops the nodes that no cell uses; whatever referred to them then refers to a node that no cell
+/// has.
+void drop_unused_nodes(ForeignMesh& foreign) {
+  mesh::Mesh& mesh = foreign.mesh;
+  const std::vector<int> place = places_of_used(mesh);
   const auto keep = [&](auto& values) {
-    for (std::size_t i = 0; i < kept.size() && !values.empty(); ++i)
-      values[i] = values[kept[i]];
-    values.resize(values.empty() ? 0 : kept.size());
+    std::size_t kept = 0;
+    for (std::size_t old = 0; old < values.size(); ++old)
+      if (place[old] != dropped)
+        values[kept++] = values[old];
+    values.resize(kept);
   };
   keep(mesh.nodes);
   keep(mesh.infarct);
@@ -77,21 +95,11 @@ void drop_unused_nodes(ForeignMesh& foreign) {
   keep(foreign.node_lines);
   for (int& node : mesh.cells)
     node = place[node];
-  for (ForeignSide& side : foreign.sides) {
-    for (mesh::FaceKey& key : side.faces) {
-      for (int& node : key)
-        node = node < 0 ? node : place[node];
-      key = mesh::face_key({key.data(), key[3] < 0 ? std::size_t{3} : std::size_t{4}});
-    }
-    std::vector<int> nodes;
-    for (const int node : side.nodes)
-      if (place[node] != dropped)
-        nodes.push_back(place[node]);
-    side.nodes = nodes;
-  }
-  if (kept.size() < place.size())
-    foreign.notes.push_back(
-        fmt::format("{} nodes that no element uses were dropped", place.size() - kept.size()));
+  for (ForeignSide& side : foreign.sides)
+    renumber(side, place);
+  if (mesh.nodes.size() < place.size())
+    foreign.notes.push_back(fmt::format("{} nodes that no element uses were dropped",
+                                        place.size() - mesh.nodes.size()));
 }
 
 void check_coordinates(const ForeignMesh& foreign) {

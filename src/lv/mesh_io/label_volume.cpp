@@ -54,7 +54,7 @@ vtkSmartPointer<vtkImageData> read_image(const std::string& file) {
   if (ending != ".vti" && ending != ".vtk")
     throw InputError(file, fmt::format("has the unknown ending \"{}\"", ending),
                      fmt::format("Labelled volumes are read from {}", formats::label_volumes));
-  const vtkSmartPointer<vtkImageData> image = read_by_vtk(
+  vtkSmartPointer<vtkImageData> image = read_by_vtk(
       file, [&] { return ending == ".vti" ? read_xml_image(file) : read_legacy_image(file); });
   const double* sizes = image->GetSpacing();
   for (int d = 0; d < 3; ++d)

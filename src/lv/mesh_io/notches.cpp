@@ -80,7 +80,7 @@ std::vector<Vec3> notches(std::span<const Vec3> nodes, const mesh::Surface& side
         count += 1.0;
       }
     if (is_notch[p])
-      places.push_back(sum / count);
+      places.emplace_back(sum / count);
   }
   return places;
 }

@@ -84,7 +84,7 @@ void check_obj_vertices(const std::string& file) {
 vtkSmartPointer<vtkPolyData> read_polygons(const std::string& file) {
   const std::string ending = ending_of(file);
   require_readable(file, "Check the name of the surface");
-  const auto polygons = read_by_vtk(file, [&] {
+  auto polygons = read_by_vtk(file, [&] {
     if (ending == ".stl") {
       check_stl_length(file);
       return read_with<vtkSTLReader>(file);

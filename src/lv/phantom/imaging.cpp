@@ -65,7 +65,7 @@ Contour loop(const Motion& motion, const ScanPlane& plane, const geometry::Frame
     const double theta = 2.0 * pi * k / points;
     const Vec3 x =
         motion.radius(side, plane.height, theta) * direction(theta) + plane.height * Vec3::UnitZ();
-    c.points.push_back(pose.to_image(x) + plane.shift);
+    c.points.emplace_back(pose.to_image(x) + plane.shift);
   }
   return c;
 }
@@ -82,7 +82,7 @@ Contour curve(const Ventricle& v, const Motion& motion, const ScanPlane& plane,
     const double z = motion.z(-v.shape.base_height - length * std::cos(angle));
     const double theta = angle < 0.0 ? plane.angle : plane.angle + pi;
     const Vec3 x = motion.radius(side, z, theta) * direction(theta) + z * Vec3::UnitZ();
-    c.points.push_back(pose.to_image(x) + plane.shift);
+    c.points.emplace_back(pose.to_image(x) + plane.shift);
   }
   return c;
 }

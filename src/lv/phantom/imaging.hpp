@@ -79,7 +79,7 @@ class Scanner {
     bool in_cavity = false;  ///< papillary or trabecular muscle, which counts to the cavity
   };
   [[nodiscard]] Place place(const Motion& motion, const Vec3& x) const;
-  [[nodiscard]] double signal(const Place& place, const Vec3& x, Contrast contrast) const;
+  [[nodiscard]] double signal(const Place& at, const Vec3& x, Contrast contrast) const;
   [[nodiscard]] double texture(const Vec3& X) const;
   [[nodiscard]] double mean_signal(const ScanPlane& plane, const Motion& motion, int i, int j,
                                    Contrast contrast) const;

@@ -177,7 +177,7 @@ std::vector<Vec3> border(const Heart& heart, Side side, double height) {
     double out = farthest;
     while (out - in > 1e-3)
       (heart.inside(side, centre + 0.5 * (in + out) * ray) ? in : out) = 0.5 * (in + out);
-    loop.push_back(centre + in * ray);
+    loop.emplace_back(centre + in * ray);
   }
   return loop;
 }
@@ -375,7 +375,7 @@ PersonStudy study_of(const Person& p) {
       for (const Side side : {Side::endo, Side::epi}) {
         geometry::Contour c{static_cast<int>(n) + 1, side, {}, {}, {}};
         for (const Vec3& x : side == Side::endo ? endo : border(heart, side, plane.height))
-          c.points.push_back(frame.to_image(x) + plane.shift);
+          c.points.emplace_back(frame.to_image(x) + plane.shift);
         study.contours[t].push_back(std::move(c));
       }
     }

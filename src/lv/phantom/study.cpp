@@ -49,8 +49,8 @@ image::Cine late_enhancement(const Scanner& scanner, const Scan& scan, const Sca
                              double time) {
   constexpr std::uint32_t first_number = 1000000;
   image::Cine stack;
-  for (std::size_t s = 0; s < planes.short_axis.size(); ++s)
-    stack.slices.push_back({planes.short_axis[s].name, {}, {time * scan.rr}, scan.rr});
+  for (const ScanPlane& plane : planes.short_axis)
+    stack.slices.push_back({plane.name, {}, {time * scan.rr}, scan.rr});
   in_threads(planes.short_axis.size(), [&](std::size_t s) {
     stack.slices[s].frames = {scanner.picture(planes.short_axis[s], time,
                                               Contrast::late_enhancement,
@@ -87,7 +87,7 @@ void write_all_contours(const Ventricle& v, const Scan& scan, const ScanPlanes& 
        {std::pair{"ed", truth.end_diastole}, std::pair{"es", truth.end_systole},
         std::pair{"early", truth.early_diastole}}) {
     const geometry::Contours drawn = contours(v, scan, planes, times.at(phase - 1));
-    const auto file = [&](const char* what) {
+    const auto file = [&, state = state](const char* what) {
       return folder / fmt::format("{}_{}.csv", state, what);
     };
     write_contours(drawn.short_axis, "", file("short_axis"));

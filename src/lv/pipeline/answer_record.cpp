@@ -57,7 +57,7 @@ Outcome<std::vector<double>> AnswerRecord::answer(
     return recorded;
   }
   ++given_;
-  const auto found = ask();
+  auto found = ask();
   answers_.push_back(found ? *found : Answer{});
   if (found)  // else kept with the next answer: one that ends the fit is found anew
     parallel::on_root([&] { write(); });

@@ -350,7 +350,7 @@ Model seen_wall(double softest) {
     return V_seen - taken_up * std::pow(3.0 / p.scale, 0.5) * std::pow(1.2 / p.exponent, 0.2);
   };
   const auto loaded = [=](const FitParameters& p, const Loads& loads) -> lv::Outcome<double> {
-    const auto V = unloaded(p);
+    auto V = unloaded(p);
     if (!V)
       return V;
     const double share = std::pow(loads.pressure / (8.0 * mmHg), p.exponent / 1.2 / 2.76);

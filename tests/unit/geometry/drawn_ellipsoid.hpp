@@ -101,7 +101,7 @@ class Pen {
  private:
   static double depth(Side side) { return side == Side::endo ? 0.0 : 1.0; }
 
-  Contour line(int slice, Side side, std::vector<Vec3> points) const {
+  [[nodiscard]] Contour line(int slice, Side side, std::vector<Vec3> points) const {
     for (Vec3& x : points)
       x = d_.frame.to_image(x);
     return {slice, side, std::move(points), "drawing.csv", {}};
@@ -113,7 +113,7 @@ class Pen {
     for (int i = 0; i < d_.points; ++i) {
       const double angle = 2.0 * pi * i / d_.points;
       const Vec3 ray = tilted * Vec3(std::cos(angle), std::sin(angle), 0.0);
-      points.push_back(exit_point(d_.shape, side, centre, ray) + wobble() * ray);
+      points.emplace_back(exit_point(d_.shape, side, centre, ray) + wobble() * ray);
     }
     return line(k + 1, side, std::move(points));
   }
@@ -127,7 +127,7 @@ class Pen {
       const Vec3 x =
           d_.shape.point(1.04 * std::abs(i) / half, i < 0 ? theta : theta + pi, depth(side));
       const Vec3 centre(0.0, 0.0, -d_.shape.base_height);
-      points.push_back(x + wobble() * (x - centre).normalized());
+      points.emplace_back(x + wobble() * (x - centre).normalized());
     }
     return line(k + 1, side, std::move(points));
   }
@@ -151,7 +151,7 @@ inline std::vector<Vec3> shift_slices(Contours& contours, const Frame& frame, do
   std::vector<Vec3> shifts;
   for (std::size_t i = 0; i < contours.short_axis.size(); i += 2) {
     const double angle = angles(random);
-    shifts.push_back(frame.axes * Vec3(length * std::cos(angle), length * std::sin(angle), 0.0));
+    shifts.emplace_back(frame.axes * Vec3(length * std::cos(angle), length * std::sin(angle), 0.0));
     for (Contour* c : {&contours.short_axis[i], &contours.short_axis[i + 1]})
       for (Vec3& x : c->points)
         x += shifts.back();

@@ -75,7 +75,7 @@ TEST_CASE("a wall that swings back while it is filled, or rests soon, is expecte
       shares.push_back((expected[i].usual - least(all[i])) / (all[i].usual - least(all[i])));
     return shares;
   };
-  const auto while_filled = [&](std::vector<double> volumes) {
+  const auto while_filled = [&](const std::vector<double>& volumes) {
     Beat beat;
     for (const double volume : volumes)
       beat.curves.push_back({.volume = volume});

@@ -94,7 +94,7 @@ TEST_CASE("the inverse tangent is the derivative of the inverse residual", "[uni
     const Vec3& X = z.nodes[static_cast<std::size_t>(node)];
     const Vec3 by(-0.02 * X.y(), 0.02 * X.x(), 0.4);
     for (int i = 0; i < 3; ++i)
-      direction[static_cast<std::size_t>(3 * node + i)] = by[i];
+      direction[3 * static_cast<std::size_t>(node) + i] = by[i];
   }
   constexpr double h = 1e-6;
   const auto ahead = inverse.residual(displaced(z, direction, h), 1.3);

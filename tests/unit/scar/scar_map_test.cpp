@@ -158,13 +158,13 @@ TEST_CASE("the dark core of a scar counts to it, muscle at the epicardium does n
   // columns 0 to 9 cavity, 10 to 19 wall, the rest surroundings
   std::vector<char> parts;
   for (int n = 0; n < 1200; ++n)
-    parts.push_back(n % 40 < 10 ? 0 : n % 40 < 20 ? 1 : 2);
+    parts.push_back(static_cast<char>(n % 40 < 10 ? 0 : n % 40 < 20 ? 1 : 2));
   for (int row = 10; row < 20; ++row)
     for (int i = 10; i < 18; ++i)
-      picture.values[static_cast<std::size_t>(row * 40 + i)] = 100.0F;
+      picture.values[40 * static_cast<std::size_t>(row) + i] = 100.0F;
   for (int row = 13; row < 16; ++row)  // a core at the endocardium
     for (int i = 10; i < 13; ++i)
-      picture.values[static_cast<std::size_t>(row * 40 + i)] = 5.0F;
+      picture.values[40 * static_cast<std::size_t>(row) + i] = 5.0F;
   const auto count = [&](bool fill) {
     const auto scar = scar::brighter(picture, parts, 50.0, fill);
     return std::count(scar.begin(), scar.end(), 1);

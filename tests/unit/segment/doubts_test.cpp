@@ -45,8 +45,10 @@ Segmentation beating() {
   for (const std::size_t s : shown) {
     found.borders[s].centre = {100.0, 100.0};
     for (std::size_t t = 0; t < frames; ++t) {
-      const double systole = 0.5 * (1.0 - std::cos(2.0 * std::numbers::pi * t / (frames - 2.0)));
-      const double cavity = 2000.0 * (1.0 - 0.18 * (s - 1.0)) * (t < 9 ? 1.0 - 0.5 * systole : 1.0);
+      const double systole =
+          0.5 * (1.0 - std::cos(2.0 * std::numbers::pi * static_cast<double>(t) / (frames - 2.0)));
+      const double cavity = 2000.0 * (1.0 - 0.18 * (static_cast<double>(s) - 1.0)) *
+                            (t < 9 ? 1.0 - 0.5 * systole : 1.0);
       segment::FrameBorders frame;
       frame.endo = segment::Radii::Constant(96, radius_of(cavity));
       frame.epi = segment::Radii::Constant(96, radius_of(cavity + wall_area));

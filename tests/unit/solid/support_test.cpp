@@ -135,7 +135,7 @@ TEST_CASE("a support's stiffness is the derivative of its forces", "[unit][solid
     std::vector<Vec3> d, velocities;
     for (std::size_t a = 0; a < m.nodes.size(); ++a) {
       d.push_back(random.vector());
-      velocities.push_back(slope * d.back());
+      velocities.emplace_back(slope * d.back());
     }
     std::vector<Vec3> expected(m.nodes.size(), Vec3::Zero());  // linear: from rest along d
     surface.add_forces(test::displaced(m.nodes, d, 1.0), velocities, expected);

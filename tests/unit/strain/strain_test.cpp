@@ -28,7 +28,7 @@ SliceWall ring(double inner, double outer) {
 std::vector<Vec3> circle(double radius, const Vec3& centre) {
   std::vector<Vec3> points;
   for (int k = 0; k < 200; ++k)
-    points.push_back(centre + radius * Vec3(std::cos(pi * k / 100), std::sin(pi * k / 100), 0.0));
+    points.emplace_back(centre + radius * Vec3(std::cos(pi * k / 100), std::sin(pi * k / 100), 0.0));
   return points;
 }
 
@@ -128,8 +128,8 @@ TEST_CASE("a plane cuts a box in one closed line", "[strain]") {
   std::vector<std::array<Vec3, 3>> sides;
   const std::array<Vec3, 4> corners{Vec3(0, 0, 0), Vec3(2, 0, 0), Vec3(2, 3, 0), Vec3(0, 3, 0)};
   for (int i = 0; i < 4; ++i) {
-    const Vec3 a = corners[i];
-    const Vec3 b = corners[(i + 1) % 4];
+    const Vec3& a = corners[i];
+    const Vec3& b = corners[(i + 1) % 4];
     const Vec3 up(0, 0, 5);
     sides.push_back({a, b, b + up});
     sides.push_back({a, b + up, a + up});

@@ -33,7 +33,7 @@ Mesh lattice(int n) {
   for (int k = 0; k <= n; ++k)
     for (int j = 0; j <= n; ++j)
       for (int i = 0; i <= n; ++i)
-        mesh.nodes.push_back(width * Vec3(i, j, k));
+        mesh.nodes.emplace_back(width * Vec3(i, j, k));
   const auto node = [n](int i, int j, int k) { return (k * (n + 1) + j) * (n + 1) + i; };
   for (int k = 0; k < n; ++k)
     for (int j = 0; j < n; ++j)
@@ -60,7 +60,7 @@ Mesh hexahedra(int n) {
   return block;
 }
 
-Mesh of_kind(mesh::CellKind kind, Mesh hexahedra) {
+Mesh of_kind(mesh::CellKind kind, const Mesh& hexahedra) {
   return kind == mesh::CellKind::hexahedron ? hexahedra : mesh::split_into_tetrahedra(hexahedra);
 }
 
@@ -77,7 +77,7 @@ Mesh cubes(mesh::CellKind kind, int n) {
 std::vector<Vec3> moved(std::span<const Vec3> nodes, const Mat3& F, const Vec3& c) {
   std::vector<Vec3> result;
   for (const Vec3& X : nodes)
-    result.push_back(F * X + c);
+    result.emplace_back(F * X + c);
   return result;
 }
 

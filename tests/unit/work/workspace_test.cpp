@@ -19,7 +19,7 @@ work::StageFolder stage(const test::TemporaryFolder& work, const std::string& va
 
 /// A finished stage with two files.
 work::StageFolder finished(const test::TemporaryFolder& work) {
-  const work::StageFolder folder = stage(work, "1 g/ml");
+  work::StageFolder folder = stage(work, "1 g/ml");
   const fs::path part = folder.begin();
   fs::create_directories(part / "fields");
   write_file(part / "beat.bin", "beat");
