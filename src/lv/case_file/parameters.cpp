@@ -1006,12 +1006,12 @@ constexpr Group of_measurements[]{
     {Stages(Stage::calibrate),
      {&klotz_fit},
      {
-         number(
-             "calibrate.pressure_error", LV_AT(calibration.pressure_error), "mmHg",
-             between(0.0, 20.0),
-             "by which unloaded.pressure, which few have measured, may be off: the fit is made "
-             "again with as much less and more, for the interval that this leaves; 0 mmHg: not; where "
-             "it is not set, at most half of unloaded.pressure"),
+         number("calibrate.pressure_error", LV_AT(calibration.pressure_error), "mmHg",
+                between(0.0, 20.0),
+                "by which unloaded.pressure, which few have measured, may be off: the fit is made "
+                "again with as much less and more, for the interval that this leaves; 0 mmHg: not; "
+                "where "
+                "it is not set, at most half of unloaded.pressure"),
      }},
     {Stages(Stage::calibrate),
      {&edv_fit},

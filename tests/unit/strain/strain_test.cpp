@@ -28,7 +28,8 @@ SliceWall ring(double inner, double outer) {
 std::vector<Vec3> circle(double radius, const Vec3& centre) {
   std::vector<Vec3> points;
   for (int k = 0; k < 200; ++k)
-    points.emplace_back(centre + radius * Vec3(std::cos(pi * k / 100), std::sin(pi * k / 100), 0.0));
+    points.emplace_back(centre +
+                        radius * Vec3(std::cos(pi * k / 100), std::sin(pi * k / 100), 0.0));
   return points;
 }
 
