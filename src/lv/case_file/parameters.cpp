@@ -1010,8 +1010,7 @@ constexpr Group of_measurements[]{
                 between(0.0, 20.0),
                 "by which unloaded.pressure, which few have measured, may be off: the fit is made "
                 "again with as much less and more, for the interval that this leaves; 0 mmHg: not; "
-                "where "
-                "it is not set, at most half of unloaded.pressure"),
+                "where it is not set, at most half of unloaded.pressure"),
      }},
     {Stages(Stage::calibrate),
      {&edv_fit},
