@@ -39,6 +39,18 @@ cases = {
 flattened = 'anatomy.source = "contours"\nanatomy.contours.short_axis = "flat.csv"\nunloaded.pressure = "8 mmHg"\ncalibrate.passive = "klotz"\n'
 cases["thin flattened wall"] = flattened
 
+heartbeats = """protocol.kind = "cycle"
+cycle.step = "10 ms"
+active.law = "land2017"
+calcium.shape = "double_exponential"
+calcium.t_1 = "0.04 s"
+calcium.t_2 = "0.22 s"
+calibrate.cycle = true
+calibrate.edv = "300 ml"
+"""
+for circuit in ("windkessel", "closed_loop"):
+    cases[f"EDV of heartbeats too large, {circuit}"] = f'circulation.kind = "{circuit}"\n{heartbeats}'
+
 
 def draw_flattened(file):
     """Loops of such a wall every 8 mm, as CSV."""

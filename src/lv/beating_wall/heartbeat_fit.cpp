@@ -5,6 +5,7 @@
 #include "lv/base/parallel.hpp"
 #include "lv/base/table.hpp"
 #include "lv/beating_wall/beating_wall.hpp"
+#include "lv/beating_wall/filling_reach.hpp"
 #include "lv/calibrate/root_search.hpp"
 
 #include <fmt/format.h>
@@ -255,6 +256,7 @@ HeartbeatFit fit_heartbeats(const Case& asked, const anatomy::MeshResult& wall,
                             const anatomy::MeshResult* coarse,
                             const std::filesystem::path& folder) {
   const Case c = case_file::begin_of_beat_fit(asked);
+  check_filling(c, coarse != nullptr ? *coarse : wall);
   std::optional<HeartbeatFitter> first;
   std::optional<Nearby> near;
   if (coarse != nullptr) {
