@@ -4,10 +4,14 @@
 #include "lv/image/dicom_study.hpp"
 #include "lv/image/picture.hpp"
 
+#include <cstddef>
 #include <optional>
 #include <string>
 
 namespace lv::anatomy {
+
+/// Of how many long axes a case may name cines: landmarks have names for these.
+inline constexpr std::size_t most_long_axes = 4;
 
 /// Who names long-axis cines, and the short-axis images beside which they stand.
 struct LongAxisNames {

@@ -1,5 +1,6 @@
 #include "lv/anatomy/proposals.hpp"
 
+#include "lv/anatomy/long_axis_cine.hpp"
 #include "lv/base/check.hpp"
 #include "lv/base/ending.hpp"
 #include "lv/image/label_meaning.hpp"
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <set>
 
 namespace lv::anatomy {
@@ -57,6 +59,38 @@ bool says_scar(const std::string& name) {
   const std::string small = lower_case(name);
   return std::any_of(says.begin(), says.end(),
                      [&](const char* part) { return small.find(part) != std::string::npos; });
+}
+
+constexpr std::size_t least_images = 5;  // of a cine
+
+/// The middle of a slice's images.
+Vec3 middle_of(const image::DicomSlice& slice) {
+  const image::Plane& plane = slice.images.front().plane;
+  return plane.point(0.5 * (plane.columns - 1), 0.5 * (plane.rows - 1));
+}
+
+/// The first word of what kind of image a stack holds: magnitude, phase and the like.
+std::string first_word_of_kind(const image::DicomStack& stack) {
+  return stack.kind.substr(0, stack.kind.find('\\'));
+}
+
+/// Whether a stack's key names it alone: that of the first of a series names the whole series.
+bool is_named_alone(const image::DicomStudy& study, const image::DicomStack& stack) {
+  return std::none_of(
+      study.stacks.begin(), study.stacks.end(),
+      [&](const image::DicomStack& other) { return other.key.rfind(stack.key + "#", 0) == 0; });
+}
+
+/// Whether a plane runs through the middle of a short-axis stack, across its slices.
+bool runs_along(const image::DicomStack& view, const image::DicomStack& short_axis) {
+  constexpr double most_cosine = 0.5;  // 60 degrees between the planes
+  constexpr double farthest = 30.0;    // from the middle, across the slices [mm]
+  const image::Plane& plane = view.slices.front().images.front().plane;
+  const auto beside = [&](const image::DicomSlice& slice) {
+    return std::abs(plane.pixel(middle_of(slice)).z()) > farthest;
+  };
+  return std::abs(plane.normal().dot(short_axis.normal)) < most_cosine &&
+         !beside(short_axis.slices.front()) && !beside(short_axis.slices.back());
 }
 
 }  // namespace
@@ -202,7 +236,6 @@ SunnybrookChoice sunnybrook_choice(const fs::path& contours, const image::DicomS
 
 const image::DicomStack* short_axis_cine(const image::DicomStudy& study) {
   constexpr std::size_t least_slices = 3;
-  constexpr std::size_t least_images = 5;
   const image::DicomStack* best = nullptr;
   const auto images = [](const image::DicomStack& s) {
     return s.slices.size() * s.slices.front().images.size();
@@ -219,6 +252,29 @@ CaseLine short_axis_line(const std::string& parameter, const image::DicomStudy& 
   if (cine == nullptr)
     return {parameter, case_file::fill_in, "the short-axis cine"};
   return {parameter, case_file::quoted(cine->key), "seems the short-axis cine"};
+}
+
+std::vector<const image::DicomStack*> long_axis_cines(const image::DicomStudy& study,
+                                                      const image::DicomStack& short_axis) {
+  std::vector<const image::DicomStack*> found;
+  for (const image::DicomStack& stack : study.stacks)
+    if (found.size() < most_long_axes && stack.slices.size() == 1 &&
+        stack.slices.front().images.size() >= least_images &&
+        first_word_of_kind(stack) == first_word_of_kind(short_axis) &&
+        runs_along(stack, short_axis) && is_named_alone(study, stack))
+      found.push_back(&stack);
+  return found;
+}
+
+std::vector<CaseLine> long_axis_lines(const std::string& parameter, const image::DicomStudy& study,
+                                      const image::DicomStack& short_axis) {
+  std::string keys;
+  for (const image::DicomStack* stack : long_axis_cines(study, short_axis))
+    keys += (keys.empty() ? "" : ", ") + case_file::quoted(stack->key);
+  if (keys.empty())
+    return {};
+  return {{parameter, fmt::format("[{}]", keys),
+           "seem long-axis cines, on which base and tip are looked for"}};
 }
 
 }  // namespace lv::anatomy

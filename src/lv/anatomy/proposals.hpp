@@ -63,4 +63,17 @@ struct SunnybrookChoice {
 [[nodiscard]] case_file::CaseLine short_axis_line(const std::string& parameter,
                                                   const image::DicomStudy& study);
 
+/// The series that look like long-axis cines beside a short-axis one: one plane of five or more
+/// images of the same kind (not velocities beside magnitudes), at least 60 degrees across the
+/// short-axis slices, that passes the middle of the first and of the last of them within 30 mm. As
+/// many as a case may name, in order of the study; without the first of several orientations in a
+/// series, which no name chooses alone.
+[[nodiscard]] std::vector<const image::DicomStack*> long_axis_cines(
+    const image::DicomStudy& study, const image::DicomStack& short_axis);
+
+/// The line that names those series; none where there are none.
+[[nodiscard]] std::vector<case_file::CaseLine> long_axis_lines(const std::string& parameter,
+                                                               const image::DicomStudy& study,
+                                                               const image::DicomStack& short_axis);
+
 }  // namespace lv::anatomy

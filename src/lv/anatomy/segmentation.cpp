@@ -215,11 +215,11 @@ Cines read_cines(const Case& c) {
     image::require_images(*dicom, folder.string());
     require_said_of_borders(c, dicom);
   }
-  constexpr std::size_t most = 4;
-  if (a.long_axis.size() > most)
-    throw InputError(case_file::place_of(c, "segment.long_axis_cine"),
-                     fmt::format("names {} long axes", a.long_axis.size()),
-                     fmt::format("Name at most {}: landmarks have names for these", most));
+  if (a.long_axis.size() > most_long_axes)
+    throw InputError(
+        case_file::place_of(c, "segment.long_axis_cine"),
+        fmt::format("names {} long axes", a.long_axis.size()),
+        fmt::format("Name at most {}: landmarks have names for these", most_long_axes));
   Cines cines{read_short_axis(c, dicom), {}};
   for (const std::string& name : a.long_axis) {
     image::Cine view =

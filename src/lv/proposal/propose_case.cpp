@@ -267,7 +267,8 @@ const image::DicomStack* late_enhancement(const image::DicomStudy& study) {
   return nullptr;
 }
 
-std::vector<CaseLine> lines_without_contours(const std::string& name,
+std::vector<CaseLine> lines_without_contours(const image::DicomStudy& study,
+                                             const std::string& name,
                                              const image::DicomStack* cine) {
   if (cine == nullptr)
     return {
@@ -277,6 +278,7 @@ std::vector<CaseLine> lines_without_contours(const std::string& name,
         {"anatomy.sunnybrook.phase", "0", "0: `ventricle validate` lists what there is"}};
   std::vector<CaseLine> lines = cine_lines(name);
   lines.push_back({"segment.series", case_file::quoted(cine->key), "seems the short-axis cine"});
+  append(lines, anatomy::long_axis_lines("segment.long_axis_cine", study, *cine));
   return lines;
 }
 
@@ -389,7 +391,7 @@ Proposal propose(const image::DicomStudy& study, const std::string& name, const 
                  const std::string& contours_name) {
   const image::DicomStack* cine = anatomy::short_axis_cine(study);
   Proposal p{image::describe(study),
-             contours.empty() ? lines_without_contours(name, cine)
+             contours.empty() ? lines_without_contours(study, name, cine)
                               : lines_with_contours(study, name, contours, contours_name)};
   p.lines.push_back(septum_line());
   if (cine != nullptr) {

@@ -214,6 +214,46 @@ TEST_CASE("a case from a cine on which nothing is drawn has its borders drawn",
   CHECK(n.anatomy.cine.images == "cine.nii");
 }
 
+/// A cine of one plane, of pixels of 1 mm round a place.
+void write_view(const std::filesystem::path& folder, int series, const Vec3& middle,
+                const Vec3& along_row, const Vec3& along_column, const std::string& kind = "M") {
+  constexpr int size = 4;
+  for (int image = 0; image < 6; ++image) {
+    test::DicomSpec spec;
+    spec.plane.columns = spec.plane.rows = size;
+    spec.plane.along_row = along_row;
+    spec.plane.along_column = along_column;
+    spec.plane.origin = middle - 0.5 * (size - 1) * (along_row + along_column);
+    spec.pixels.assign(size * size, 7);
+    spec.kind = kind;
+    spec.series_number = series;
+    spec.series_uid = "1.2.3." + std::to_string(10 * series);
+    spec.instance = image + 1;
+    spec.instance_uid = spec.series_uid + "." + std::to_string(spec.instance);
+    spec.trigger_ms = 30.0 * image;
+    test::write_bytes(folder / (spec.instance_uid + ".dcm"), test::dicom_bytes(spec));
+  }
+}
+
+TEST_CASE("a case from an exam names its long-axis cines, and no others", "[unit][proposal]") {
+  const test::TemporaryFolder folder;
+  write_dicom_stack(folder / "dicom", 6);
+  const Vec3 middle(1.5, 1.5, 10.0);
+  const Vec3 x = Vec3::UnitX();
+  const Vec3 y = Vec3::UnitY();
+  const Vec3 z = Vec3::UnitZ();
+  write_view(folder / "dicom", 4, middle, x, z);
+  write_view(folder / "dicom", 5, middle + 20.0 * x, y, z);
+  write_view(folder / "dicom", 6, middle, x, y);             // as the short-axis slices lie
+  write_view(folder / "dicom", 7, middle + 40.0 * y, x, z);  // beside the heart
+  write_view(folder / "dicom", 8, middle, y, z, "P");        // velocities
+  write_view(folder / "dicom", 9, middle, (x + y).normalized(), z);
+  write_view(folder / "dicom", 10, middle, x, (y + 3.0 * z).normalized());
+  const case_file::Case c = parsed(folder / "dicom", folder / "case.toml");
+  CHECK(c.anatomy.cine.series == "1");
+  CHECK(c.anatomy.cine.long_axis == std::vector<std::string>{"4", "5", "9", "10"});
+}
+
 TEST_CASE("what is nothing that is read is refused with a list of what is", "[unit][proposal]") {
   const test::TemporaryFolder folder;
   test::write_bytes(folder / "letter.txt", "Dear colleague,\n");
