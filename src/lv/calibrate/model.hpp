@@ -68,7 +68,8 @@ class Ventricle {
   Outcome<double> volume(const FitParameters& parameters, const solid::Loads& loads);
   Outcome<double> unloaded_volume(const FitParameters& parameters);
   /// Model::share_that_leaves
-  [[nodiscard]] Outcome<double> share_that_leaves(const FitParameters& parameters, double volume) const;
+  [[nodiscard]] Outcome<double> share_that_leaves(const FitParameters& parameters,
+                                                  double volume) const;
 
   /// From now on muscle that differs from `about` in its factors c_j of these segments alone is
   /// taken to move the wall to first order, under loads and with the wall without load held,
