@@ -63,12 +63,6 @@ bool says_scar(const std::string& name) {
 
 constexpr std::size_t least_images = 5;  // of a cine
 
-/// The middle of a slice's images.
-Vec3 middle_of(const image::DicomSlice& slice) {
-  const image::Plane& plane = slice.images.front().plane;
-  return plane.point(0.5 * (plane.columns - 1), 0.5 * (plane.rows - 1));
-}
-
 /// The first word of what kind of image a stack holds: magnitude, phase and the like.
 std::string first_word_of_kind(const image::DicomStack& stack) {
   return stack.kind.substr(0, stack.kind.find('\\'));
@@ -76,9 +70,9 @@ std::string first_word_of_kind(const image::DicomStack& stack) {
 
 /// Whether a stack's key names it alone: that of the first of a series names the whole series.
 bool is_named_alone(const image::DicomStudy& study, const image::DicomStack& stack) {
-  return std::none_of(
-      study.stacks.begin(), study.stacks.end(),
-      [&](const image::DicomStack& other) { return other.key.rfind(stack.key + "#", 0) == 0; });
+  return std::count_if(study.stacks.begin(), study.stacks.end(), [&](const auto& other) {
+           return image::is_chosen(study, other, stack.key);
+         }) == 1;
 }
 
 /// Whether a plane runs through the middle of a short-axis stack, across its slices.
@@ -87,7 +81,7 @@ bool runs_along(const image::DicomStack& view, const image::DicomStack& short_ax
   constexpr double farthest = 30.0;    // from the middle, across the slices [mm]
   const image::Plane& plane = view.slices.front().images.front().plane;
   const auto beside = [&](const image::DicomSlice& slice) {
-    return std::abs(plane.pixel(middle_of(slice)).z()) > farthest;
+    return std::abs(plane.pixel(slice.images.front().plane.middle()).z()) > farthest;
   };
   return std::abs(plane.normal().dot(short_axis.normal)) < most_cosine &&
          !beside(short_axis.slices.front()) && !beside(short_axis.slices.back());

@@ -30,10 +30,12 @@ struct LargestFilling {
 };
 
 LargestFilling largest_filling(const Case& c) {
-  LargestFilling most{most_of_any_filling,
-                      "more than any patient's left ventricle is filled with (40 mmHg in the worst "
-                      "failure)",
-                      ""};
+  LargestFilling most{
+      most_of_any_filling,
+      fmt::format("more than any patient's left ventricle is filled with ({:g} mmHg "
+                  "in the worst failure)",
+                  worst_filling / mmHg),
+      ""};
   if (c.circulation.kind == circulation::Kind::closed_loop)
     return most;
   const std::string name = case_file::levers(c).filling;

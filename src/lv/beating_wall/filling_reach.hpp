@@ -8,9 +8,12 @@
 
 namespace lv::beating_wall {
 
-/// The pressure beyond which no ventricle is filled: half as much again as in the worst failure, of
-/// which validate warns (40 mmHg) [kPa].
-inline constexpr double most_of_any_filling = 60.0 * units::mmHg;
+/// What a patient's left ventricle is filled with in the worst failure; validate warns of more
+/// [kPa].
+inline constexpr double worst_filling = 40.0 * units::mmHg;
+
+/// The pressure beyond which no ventricle is filled: half as much again [kPa].
+inline constexpr double most_of_any_filling = 1.5 * worst_filling;
 
 /// A wall without any tension that was filled until it held a volume, or as far as it may be.
 struct FilledWall {

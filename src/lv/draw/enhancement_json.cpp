@@ -101,7 +101,7 @@ void for_pixels(const json& runs, const image::Plane& plane, const Use& use) {
     if (row < 0 || row >= plane.rows || first < 0 || first > last || last >= plane.columns)
       throw InputError(what_page, "a pixel lies outside the enhanced image", reload);
     for (int i = first; i <= last; ++i)
-      use(static_cast<std::size_t>(row) * plane.columns + i);
+      use(plane.index(i, row));
   }
 }
 

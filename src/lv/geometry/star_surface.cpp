@@ -65,16 +65,16 @@ Vec3 StarSurface::point(double mu, double theta) const {
   return cartesian(spheroid_, {scale(mu, theta).s, mu, theta});
 }
 
-StarSurface::Level StarSurface::level(const Vec3& at) const {
+StarSurface::Level StarSurface::level(const Vec3& x) const {
   const double a = spheroid_.a;
   const double c = spheroid_.c;
   // the angle theta is not defined on the axis: step off it by a nanometre or so
-  const Vec3 x = std::hypot(at.x(), at.y()) > 1e-6 * a ? at : Vec3(1e-6 * a, 0.0, at.z());
-  const Polar p = polar(spheroid_, x);
+  const Vec3 beside = std::hypot(x.x(), x.y()) > 1e-6 * a ? x : Vec3(1e-6 * a, 0.0, x.z());
+  const Polar p = polar(spheroid_, beside);
   const Scale f = scale(p.mu, p.theta);
-  const double r = std::hypot(x.x(), x.y());
-  const double z = x.z() - spheroid_.z0;
-  const Vec3 outward(x.x() / r, x.y() / r, 0.0);
+  const double r = std::hypot(beside.x(), beside.y());
+  const double z = beside.z() - spheroid_.z0;
+  const Vec3 outward(beside.x() / r, beside.y() / r, 0.0);
   const Vec3 around(-outward.y(), outward.x(), 0.0);
   const Vec3 up = Vec3::UnitZ();
   const Vec3 grad_s = (r / (a * a) * outward + z / (c * c) * up) / p.s;

@@ -51,7 +51,7 @@ class StarSurface {
     double value;
     Vec3 gradient;
   };
-  [[nodiscard]] Level level(const Vec3& at) const;
+  [[nodiscard]] Level level(const Vec3& x) const;
   [[nodiscard]] Vec3 normal(double mu, double theta) const;  ///< outward
 
   /// The nearest point of the surface, for x nearer than its radii of curvature.

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace lv::heartbeat {
 namespace {
 
@@ -38,9 +40,10 @@ Snapshot load_snapshot(const Archive& archive, const std::string& name,
   const auto& numbers = archive.get_rows(name + ".stress", solid::CellStress::numbers);
   std::vector<solid::CellStress> stress(numbers.size() / solid::CellStress::numbers);
   auto next = numbers.begin();
-  for (solid::CellStress& cell : stress)
-    for (double& number : cell.as_numbers())
-      number = *next++;
+  for (solid::CellStress& cell : stress) {
+    std::copy_n(next, solid::CellStress::numbers, cell.as_numbers().begin());
+    next += solid::CellStress::numbers;
+  }
   return {n[0],
           n[1],
           n[2],

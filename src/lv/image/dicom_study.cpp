@@ -530,6 +530,13 @@ void require_images(const DicomStudy& study, const std::string& where) {
         fmt::format("Images are read from {}", formats::images));
 }
 
+bool is_chosen(const DicomStudy& study, const DicomStack& stack, const std::string& name) {
+  // a stack's own key is more exact than the name of its series
+  const bool exact = std::any_of(study.stacks.begin(), study.stacks.end(),
+                                 [&](const DicomStack& s) { return s.key == name; });
+  return exact && name.find('#') != std::string::npos ? name == stack.key : is_named(stack, name);
+}
+
 DicomStack choose_stack(const DicomStudy& study, std::span<const std::string> series,
                         const std::string& where, const std::string& parameter) {
   require_images(study, where);
@@ -543,14 +550,9 @@ DicomStack choose_stack(const DicomStudy& study, std::span<const std::string> se
                      [&](const DicomStack& s) { return is_named(s, name); }))
       fail_choice(study, where, fmt::format("has no series \"{}\"", name), parameter);
   for (const DicomStack& stack : study.stacks) {
-    const auto named = [&](const std::string& name) {
-      // a stack's own key is more exact than the name of its series
-      const bool exact = std::any_of(study.stacks.begin(), study.stacks.end(),
-                                     [&](const DicomStack& s) { return s.key == name; });
-      return exact && name.find('#') != std::string::npos ? name == stack.key
-                                                          : is_named(stack, name);
-    };
-    if (!series.empty() && std::none_of(series.begin(), series.end(), named))
+    if (!series.empty() && std::none_of(series.begin(), series.end(), [&](const std::string& name) {
+          return is_chosen(study, stack, name);
+        }))
       continue;
     if (joined.key.empty())
       joined = {stack.key, stack.series_uid, stack.description, stack.kind, stack.normal, {}};

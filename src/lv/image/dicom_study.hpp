@@ -63,8 +63,12 @@ struct DicomStudy {
 /// the files.
 void require_images(const DicomStudy& study, const std::string& where);
 
-/// The stacks that a user names, joined to one: each name is a key, a series number, a
-/// SeriesInstanceUID or a description (then all series that bear it). Without names there must be
+/// Whether a name that a user gives chooses a stack of a study: a key, a series number, a
+/// SeriesInstanceUID or a description (then all series that bear it).
+[[nodiscard]] bool is_chosen(const DicomStudy& study, const DicomStack& stack,
+                             const std::string& name);
+
+/// The stacks that a user names (is_chosen), joined to one. Without names there must be
 /// one stack only. `where` and `parameter` are for messages. Throws InputError with the list of
 /// stacks where a name fits none, where there are several to choose from, where the chosen ones are
 /// not parallel, or where two images show the same slice at the same time, nothing orders the

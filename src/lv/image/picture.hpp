@@ -30,6 +30,12 @@ struct Plane {
   [[nodiscard]] Vec3 point(double i, double j) const {
     return origin + i * spacing_i * along_row + j * spacing_j * along_column;
   }
+  /// Where the value of a pixel stands, row by row.
+  [[nodiscard]] std::size_t index(int i, int j) const {
+    return static_cast<std::size_t>(j) * columns + i;
+  }
+  /// Of the image.
+  [[nodiscard]] Vec3 middle() const { return point(0.5 * (columns - 1), 0.5 * (rows - 1)); }
   /// (i, j, distance along the normal) of a point; i and j in pixels, the distance in mm.
   [[nodiscard]] Vec3 pixel(const Vec3& x) const {
     const Vec3 d = x - origin;
@@ -42,9 +48,7 @@ struct Picture {
   Plane plane;
   std::vector<float> values;  ///< rows x columns
 
-  [[nodiscard]] float at(int i, int j) const {
-    return values[static_cast<std::size_t>(j) * plane.columns + i];
-  }
+  [[nodiscard]] float at(int i, int j) const { return values[plane.index(i, j)]; }
 };
 
 /// Images of one plane over the heart's cycle, in order of time.

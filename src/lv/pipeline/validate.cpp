@@ -7,6 +7,7 @@
 #include "lv/base/units.hpp"
 #include "lv/beating_wall/activation.hpp"
 #include "lv/beating_wall/base_motion.hpp"
+#include "lv/beating_wall/filling_reach.hpp"
 #include "lv/case_file/beat_fit.hpp"
 #include "lv/case_file/family.hpp"
 #include "lv/cine/strain.hpp"
@@ -211,7 +212,7 @@ std::string left_handed_fibres(const Case& c) {
 }
 
 std::string high_filling_pressure(const Case& c) {
-  constexpr double most = 40.0 * mmHg;
+  constexpr double most = beating_wall::worst_filling;
   for (const auto& [name, p] :
        {std::pair("protocol.ed_pressure", c.protocol.ed_pressure),
         std::pair("circulation.windkessel.p_ven", c.circulation.windkessel.p_ven)})

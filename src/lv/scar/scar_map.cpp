@@ -104,7 +104,7 @@ class MapReader {
 
   void paint(SliceMap& slice, const image::Plane& plane, const Run& run) const {
     for (int i = run.first; i <= run.last; ++i) {
-      Tissue& pixel = slice.pixels[static_cast<std::size_t>(run.row * plane.columns + i)];
+      Tissue& pixel = slice.pixels[plane.index(i, run.row)];
       if (pixel != Tissue::outside)
         refuse(fmt::format("pixel {} of row {} stands there twice", i + 1, run.row + 1));
       pixel = run.tissue;
@@ -205,7 +205,7 @@ Tissue nearest_tissue(const std::vector<Tissue>& pixels, const image::Plane& pla
   Tissue found = Tissue::outside;
   for (int b = std::max(0, j - down); b <= std::min(plane.rows - 1, j + down); ++b)
     for (int a = std::max(0, i - across); a <= std::min(plane.columns - 1, i + across); ++a) {
-      const Tissue tissue = pixels[static_cast<std::size_t>(b * plane.columns + a)];
+      const Tissue tissue = pixels[plane.index(a, b)];
       const double away = std::hypot((a - i) * plane.spacing_i, (b - j) * plane.spacing_j);
       if (tissue == Tissue::outside || away >= least)
         continue;
@@ -237,8 +237,7 @@ std::vector<char> parts_of(const image::Plane& plane, const std::optional<WallOu
   for (int j = 0; j < plane.rows; ++j)
     for (int i = 0; i < plane.columns; ++i)
       if (const Eigen::Vector2d x(i * plane.spacing_i, j * plane.spacing_j); box.contains(x))
-        parts[static_cast<std::size_t>(j * plane.columns + i)] =
-            static_cast<char>(part_at(*lines, x));
+        parts[plane.index(i, j)] = static_cast<char>(part_at(*lines, x));
   return parts;
 }
 

@@ -74,7 +74,7 @@ MuscleSlice follow_muscle(const std::vector<image::CineSlice>& stack, std::size_
   std::vector<std::pair<std::size_t, double>> weights;
   for (int step = 1; step < images; ++step) {
     const int k = (drawn + step) % images;
-    const double middle = u(plane.point(0.5 * (plane.columns - 1), 0.5 * (plane.rows - 1)), step);
+    const double middle = u(plane.middle(), step);
     result.beyond =
         std::max({result.beyond, middle - heights.highest(), heights.lowest() - middle});
     auto value = result.images.frames[k].values.begin();

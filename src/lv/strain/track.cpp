@@ -146,7 +146,7 @@ class PolarLoop {
 
 /// Which third of the cavity's length a slice lies in.
 int third_of(const image::Plane& plane, const Orientation& o) {
-  const Vec3 centre = plane.point(0.5 * (plane.columns - 1), 0.5 * (plane.rows - 1));
+  const Vec3 centre = plane.middle();
   // where the axis from base to apex meets the plane
   const double base = (o.base - centre).dot(plane.normal());
   const double apex = (o.apex - centre).dot(plane.normal());

@@ -2,9 +2,9 @@
 
 #include "lv/base/check.hpp"
 #include "lv/base/units.hpp"
-#include "lv/case_file/read_case.hpp"
 #include "lv/verify/small_ventricle.hpp"
 
+#include "support/heartbeat_case.hpp"
 #include <catch2/catch.hpp>
 
 namespace {
@@ -17,12 +17,7 @@ using units::ml;
 using units::mmHg;
 
 case_file::Case fitted(const std::string& lines, const std::string& kind = "windkessel") {
-  return case_file::parse_case(
-      "engine = \"quasi_static\"\nprotocol.kind = \"cycle\"\nactive.law = \"land2017\"\n"
-      "calcium.shape = \"double_exponential\"\ncalcium.t_1 = \"0.04 s\"\n"
-      "calcium.t_2 = \"0.22 s\"\ncirculation.kind = \"" +
-          kind + "\"\n[calibrate]\ncycle = true\n" + lines,
-      "case.toml");
+  return test::heartbeat_case(kind, "[calibrate]\ncycle = true\n" + lines);
 }
 
 anatomy::MeshResult few_elements() {

@@ -1,8 +1,8 @@
 #include "lv/case_file/beat_fit.hpp"
 
 #include "lv/base/check.hpp"
-#include "lv/case_file/read_case.hpp"
 
+#include "support/heartbeat_case.hpp"
 #include <catch2/catch.hpp>
 
 namespace {
@@ -12,12 +12,7 @@ using Catch::Matchers::Contains;
 using Names = std::vector<std::pair<std::string, std::string>>;
 
 case_file::Case fitted(const std::string& data, const std::string& kind = "windkessel") {
-  return case_file::parse_case(
-      "engine = \"quasi_static\"\nprotocol.kind = \"cycle\"\nactive.law = \"land2017\"\n"
-      "calcium.shape = \"double_exponential\"\ncalcium.t_1 = \"0.04 s\"\n"
-      "calcium.t_2 = \"0.22 s\"\ncirculation.kind = \"" +
-          kind + "\"\n[calibrate]\ncycle = true\n" + data,
-      "case.toml");
+  return test::heartbeat_case(kind, "[calibrate]\ncycle = true\n" + data);
 }
 
 /// Parameter and datum of what is fitted.

@@ -3,6 +3,7 @@
 #include "lv/base/check.hpp"
 #include "lv/case_file/read_case.hpp"
 
+#include "support/heartbeat_case.hpp"
 #include <catch2/catch.hpp>
 
 namespace {
@@ -11,12 +12,7 @@ using namespace lv;
 using Catch::Matchers::Contains;
 
 case_file::Case studied(const std::string& study, const std::string& kind = "windkessel") {
-  return case_file::parse_case(
-      "engine = \"quasi_static\"\nprotocol.kind = \"cycle\"\nactive.law = \"land2017\"\n"
-      "calcium.shape = \"double_exponential\"\ncalcium.t_1 = \"0.04 s\"\n"
-      "calcium.t_2 = \"0.22 s\"\ncirculation.kind = \"" +
-          kind + "\"\n[study]\n" + study,
-      "case.toml");
+  return test::heartbeat_case(kind, "[study]\n" + study);
 }
 
 }  // namespace
