@@ -71,7 +71,7 @@ class Arrays {
     array->SetNumberOfComponents(components);
     array->SetNumberOfTuples(static_cast<vtkIdType>(count_));
     for (std::size_t i = 0; i < count_; ++i)
-      value(i, array->GetPointer(static_cast<vtkIdType>(components * i)));
+      value(i, array->GetPointer(components * static_cast<vtkIdType>(i)));
     to_->AddArray(array);
   }
 

@@ -55,7 +55,7 @@ struct CurveFacts {
 /// Strain of the model against that from images, and their difference against their mean with bias
 /// and 95% limits of agreement (Bland & Altman, Lancet 327:307, 1986), of the pairs of one scheme
 /// in strain_comparison_COMPONENT.csv.
-[[nodiscard]] drawing::Figure agreement_figure(const Table& pairs, const std::string& component,
+[[nodiscard]] drawing::Figure agreement_figure(const Table& table, const std::string& component,
                                                const std::string& scheme,
                                                const drawing::Orientation& orientation);
 

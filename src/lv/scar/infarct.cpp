@@ -599,7 +599,7 @@ void require_infarct(const Case& c) {
 InfarctExtent infarct_extent(const Case& c, const anatomy::Shape& shape, const Mesh& mesh) {
   if (c.scar.source == InfarctSource::mesh)
     return {mesh.infarct, mesh::part_by_extent(mesh), {}};
-  const InfarctExtent none{
+  InfarctExtent none{
       std::vector<double>(mesh.nodes.size(), 0.0), std::vector<double>(mesh.cell_count(), 0.0), {}};
   if (c.scar.source == InfarctSource::none)
     return none;

@@ -336,12 +336,12 @@ std::optional<FoundPoint> annulus_on(const LongAxisImage& image, int side, doubl
 
 /// A fan of rays about the direction to the apex.
 struct Fan {
-  static constexpr int rays = 41;
+  static constexpr int rays = 41, middle = rays / 2;
   static constexpr double turn = 3.0 * std::numbers::pi / 180.0;
   double height, centre;  ///< where it begins: along the axis, towards side 1 [mm]
   int radii;
 
-  [[nodiscard]] double angle(int ray) const { return turn * (ray - rays / 2); }
+  [[nodiscard]] double angle(int ray) const { return turn * (ray - middle); }
   [[nodiscard]] Eigen::Vector2d place(int ray, double radius) const {  // towards side 1, height
     return {centre + radius * std::sin(angle(ray)), height - radius * std::cos(angle(ray))};
   }
