@@ -35,9 +35,10 @@ cases = {
     "EDV too large, unloaded from 2 mmHg": 'unloaded.pressure = "2 mmHg"\ncalibrate.passive = "scale"\ncalibrate.edv = "120 ml"\n',
 }
 
-# A wall of 5 mm around 210 ml, bent, and flattened by 18% of its radius on one side: without load it is folded.
+# A wall of 5 mm around 210 ml, bent, and flattened by a share of its radius on one side: without load it is folded.
 flattened = 'anatomy.source = "contours"\nanatomy.contours.short_axis = "flat.csv"\nunloaded.pressure = "8 mmHg"\ncalibrate.passive = "klotz"\n'
-cases["thin flattened wall"] = flattened
+flattenings = {"thin flattened wall": 0.18, "thin wall flattened by 30%": 0.30}
+cases.update(dict.fromkeys(flattenings, flattened))
 
 heartbeats = """protocol.kind = "cycle"
 cycle.step = "10 ms"
@@ -46,13 +47,13 @@ calcium.shape = "double_exponential"
 calcium.t_1 = "0.04 s"
 calcium.t_2 = "0.22 s"
 calibrate.cycle = true
-calibrate.edv = "300 ml"
 """
 for circuit in ("windkessel", "closed_loop"):
-    cases[f"EDV of heartbeats too large, {circuit}"] = f'circulation.kind = "{circuit}"\n{heartbeats}'
+    cases[f"EDV of heartbeats too large, {circuit}"] = f'circulation.kind = "{circuit}"\n{heartbeats}calibrate.edv = "300 ml"\n'
+cases["ESV of heartbeats too small"] = f'circulation.kind = "windkessel"\n{heartbeats}calibrate.edv = "150 ml"\ncalibrate.esv = "10 ml"\n'
 
 
-def draw_flattened(file):
+def draw_flattened(share, file):
     """Loops of such a wall every 8 mm, as CSV."""
     rows = ["slice,contour,point,x_mm,y_mm,z_mm"]
     for k in range(12):
@@ -64,7 +65,7 @@ def draw_flattened(file):
             for n in range(48):
                 angle = 2.0 * math.pi * n / 48
                 across = math.remainder(angle, 2.0 * math.pi) / 0.7
-                flat = r * (1.0 - 0.18 * math.exp(-across**2))
+                flat = r * (1.0 - share * math.exp(-across**2))
                 rows.append(f"{k + 1},{side},{n + 1},{flat * math.cos(angle) + 20.0 * (z / 90.0)**2:.4f},{flat * math.sin(angle):.4f},{z:.1f}")
     file.write_text("\n".join(rows) + "\n")
 
@@ -78,8 +79,8 @@ def seconds_of(process):
 def refuse(name, lines, folder):
     """Exit code, processor seconds until it first says that the target is out of reach and until its end, and its last words."""
     case = folder / "case.toml"
-    if "flat.csv" in lines:
-        draw_flattened(folder / "flat.csv")
+    if name in flattenings:
+        draw_flattened(flattenings[name], folder / "flat.csv")
     case.write_text(f'name = "{name}"\nengine = "quasi_static"\n{elements}{lines}')
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     said = None

@@ -87,9 +87,9 @@ class BeatingWall {
   const case_file::BeatFit& fit_;
   std::filesystem::path folder_;
   std::vector<double> activated_;
+  std::size_t asked_ = 0;
   heartbeat::BaseMotion base_motion_;
   std::deque<HeartbeatsAt> known_;
-  std::size_t asked_ = 0;
   double seconds_ = -1.0;           ///< that the last evaluation of this process took
   double arterial_pressure_ = 0.0;  ///< to begin with [kPa]; 0: the case's
 };

@@ -24,6 +24,7 @@ using case_file::BeatParameter;
 using case_file::Case;
 using circulation::BeatMeasures;
 using Eigen::Index;
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double rough_beats = 0.02;         // change of the last beat, far from the data
@@ -33,11 +34,12 @@ constexpr double longest_change = 0.5;       // of a logarithm, in a step of the
 constexpr int most_searched = 30;            // evaluations
 constexpr double usual_fall = 1.2;           // of the misfit's logarithm, in a step of the search
 constexpr double at_bound = 1e-6;
+constexpr double foreseen_far = 0.1;  // misfit that slopes foresee, of a logarithm
 
 /// What a coarser wall has shown.
 struct Nearby {
   VectorXd x;                      ///< logarithms of the factors that fit there
-  Eigen::MatrixXd sensitivity;     ///< of all data there
+  MatrixXd sensitivity;            ///< of all data there
   double arterial_pressure = 0.0;  ///< at the beginning of a beat [kPa]
 };
 
@@ -60,6 +62,13 @@ class HeartbeatFitter {
   /// The logarithms of the factors with which the data are met.
   [[nodiscard]] VectorXd search() {
     const auto n = static_cast<Index>(fit_.parameters.size());
+    const calibrate::RootSearch search{bounds(case_.calibration.factor.low, false),
+                                       bounds(case_.calibration.factor.high, true),
+                                       share_of_tolerance * case_.calibration.tolerance,
+                                       accuracy_,
+                                       std::max(rough_beats, accuracy_),
+                                       longest_change,
+                                       most_searched};
     const calibrate::CostlyModel model{
         [&](const VectorXd& x, double accuracy) -> Outcome<VectorXd> {
           const HeartbeatsAt& e = wall_.at(x, accuracy, "search", evaluations_to_come());
@@ -68,14 +77,11 @@ class HeartbeatFitter {
           misfit_ = wall_.logarithms(e.last()).cwiseAbs().maxCoeff();
           return wall_.logarithms(e.last());
         },
-        [&](const VectorXd& x) { return near_ == nullptr ? wall_.slopes(x) : slopes_nearby(); }};
-    const calibrate::RootSearch search{bounds(case_.calibration.factor.low, false),
-                                       bounds(case_.calibration.factor.high, true),
-                                       share_of_tolerance * case_.calibration.tolerance,
-                                       accuracy_,
-                                       std::max(rough_beats, accuracy_),
-                                       longest_change,
-                                       most_searched};
+        [&](const VectorXd& x) {
+          MatrixXd J = near_ == nullptr ? wall_.slopes(x) : slopes_nearby();
+          foresee(J, x, search);
+          return J;
+        }};
     const auto root = calibrate::search_root(
         model, near_ == nullptr ? VectorXd(VectorXd::Zero(n)) : near_->x, search);
     if (!root)
@@ -94,9 +100,9 @@ class HeartbeatFitter {
 
   /// d ln datum/d ln parameter of the wall at a place that was evaluated; NaN where there are no
   /// heartbeats beside it.
-  [[nodiscard]] Eigen::MatrixXd sensitivity(const VectorXd& x) {
+  [[nodiscard]] MatrixXd sensitivity(const VectorXd& x) {
     const BeatMeasures there = wall_.nearest(x).last();
-    Eigen::MatrixXd S(static_cast<Index>(fit_.data.size()), x.size());
+    MatrixXd S(static_cast<Index>(fit_.data.size()), x.size());
     for (Index j = 0; j < x.size(); ++j) {
       VectorXd moved = x;
       moved[j] += difference_of_logarithms;
@@ -112,7 +118,7 @@ class HeartbeatFitter {
     return S;
   }
 
-  [[nodiscard]] HeartbeatFit result(const VectorXd& x, const Eigen::MatrixXd& sensitivity) const {
+  [[nodiscard]] HeartbeatFit result(const VectorXd& x, const MatrixXd& sensitivity) const {
     const BeatMeasures& there = wall_.nearest(x).last();
     HeartbeatFit fit{{}, {}, sensitivity, fit_.left_alone, case_.calibration.tolerance, 0, 0};
     for (const BeatDatum& d : fit_.data)
@@ -192,12 +198,41 @@ class HeartbeatFitter {
   }
 
   /// Of the measured data.
-  [[nodiscard]] Eigen::MatrixXd slopes_nearby() const {
-    Eigen::MatrixXd J(near_->x.size(), near_->x.size());
+  [[nodiscard]] MatrixXd slopes_nearby() const {
+    MatrixXd J(near_->x.size(), near_->x.size());
     for (Index j = 0; j < J.rows(); ++j)
       J.row(j) = near_->sensitivity.row(
           static_cast<Index>(fit_.parameters[static_cast<std::size_t>(j)].datum));
     return J;
+  }
+
+  /// Says that data are out of reach if what follows goes as these slopes say: those of logarithms,
+  /// whose answers grow less than that far away.
+  void foresee(const MatrixXd& J, const VectorXd& x, const calibrate::RootSearch& search) {
+    if (has_warned_)
+      return;
+    const BeatMeasures& there = wall_.nearest(x).last();
+    const VectorXd r = wall_.logarithms(there);
+    const VectorXd left = calibrate::least_within(J, r, search.low - x, search.high - x);
+    Index missed = 0;
+    if (left.cwiseAbs().maxCoeff(&missed) < std::max(foreseen_far, case_.calibration.tolerance))
+      return;
+    has_warned_ = true;
+    Index worst = 0;
+    r.cwiseAbs().maxCoeff(&worst);
+    const BeatDatum& d = datum(worst);
+    log::warn(
+        "{}: {} is {:.1f} {}, and heartbeats have {:.1f} {}: it probably cannot be reached, since "
+        "with what is fitted between calibrate.factor_min and factor_max times the case's values "
+        "{} is expected to be missed by {:.0f}%; the fit looks for what comes nearest",
+        case_file::place_of(case_, d.key), d.key, d.shown(d.measured), d.unit,
+        d.shown(there.*d.of_beat), d.unit, missed == worst ? "it" : datum(missed).key,
+        100.0 * std::abs(std::expm1(left[missed])));
+  }
+
+  /// That a parameter is fitted to.
+  [[nodiscard]] const BeatDatum& datum(Index parameter) const {
+    return fit_.data[fit_.parameters[static_cast<std::size_t>(parameter)].datum];
   }
 
   /// The datum that is missed most, and why nothing brings the model nearer.
@@ -205,7 +240,7 @@ class HeartbeatFitter {
                            const calibrate::RootSearch& search) const {
     Index worst = 0;
     root.r.cwiseAbs().maxCoeff(&worst);
-    const BeatDatum& d = fit_.data[fit_.parameters[static_cast<std::size_t>(worst)].datum];
+    const BeatDatum& d = datum(worst);
     const std::string what = fmt::format(
         "{} is {:.1f} {}, and the nearest that the heartbeats come to is {:.1f} {}", d.key,
         d.shown(d.measured), d.unit, d.shown(std::exp(root.r[worst]) * d.measured), d.unit);
@@ -245,9 +280,10 @@ class HeartbeatFitter {
   BeatFit fit_;
   double accuracy_;
   const Nearby* near_;
-  bool is_last_;
-  BeatingWall wall_;
   double misfit_ = -1.0;  ///< largest of the last evaluation; negative: there was none
+  bool is_last_;
+  bool has_warned_ = false;  ///< of a datum out of reach
+  BeatingWall wall_;
 };
 
 }  // namespace

@@ -109,4 +109,22 @@ Outcome<FoundRoot> search_root(const CostlyModel& model, const VectorXd& start,
   return RootFinder(model, search).run(start);
 }
 
+/// One component after the other, again and again: a convex problem of a few unknowns.
+VectorXd least_within(const MatrixXd& J, const VectorXd& r, const VectorXd& low,
+                      const VectorXd& high) {
+  constexpr int sweeps = 1000;
+  VectorXd s = VectorXd::Zero(J.cols());
+  VectorXd left = r;
+  for (int n = 0; n < sweeps; ++n)
+    for (Eigen::Index j = 0; j < J.cols(); ++j) {
+      if (J.col(j).isZero(0.0))
+        continue;
+      const double best = s[j] - J.col(j).dot(left) / J.col(j).squaredNorm();
+      const double change = std::clamp(best, low[j], high[j]) - s[j];
+      s[j] += change;
+      left += change * J.col(j);
+    }
+  return left;
+}
+
 }  // namespace lv::calibrate

@@ -46,4 +46,9 @@ struct FoundRoot {
 [[nodiscard]] Outcome<FoundRoot> search_root(const CostlyModel& model, const Eigen::VectorXd& start,
                                              const RootSearch& search);
 
+/// The smallest misfits r + J s of a step s within bounds, in the least squares: what a model that
+/// goes on as its slopes say comes to.
+[[nodiscard]] Eigen::VectorXd least_within(const Eigen::MatrixXd& J, const Eigen::VectorXd& r,
+                                           const Eigen::VectorXd& low, const Eigen::VectorXd& high);
+
 }  // namespace lv::calibrate

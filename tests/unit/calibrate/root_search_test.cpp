@@ -101,3 +101,20 @@ TEST_CASE("a search has nothing to begin with where the start has no answer", "[
   CHECK_FALSE(found);
   CHECK(found.why().what == "it does not beat");
 }
+
+TEST_CASE("within wide bounds slopes lead to no misfits, within narrow ones to the least",
+          "[unit][calibrate]") {
+  const VectorXd r = coupled * zero;
+  const auto left = [&](double bound) {
+    return calibrate::least_within(coupled, r, VectorXd::Constant(3, -bound),
+                                   VectorXd::Constant(3, bound));
+  };
+  CHECK(left(1.0).norm() < 1e-9);
+  CHECK(left(0.0) == r);
+  CHECK(left(0.15).norm() < r.norm());
+  CHECK(left(0.15).norm() > 0.01);
+  const VectorXd alone = calibrate::least_within(
+      MatrixXd::Identity(3, 3), zero, VectorXd::Constant(3, -0.1), VectorXd::Constant(3, 0.1));
+  CHECK((alone - VectorXd((VectorXd(3) << 0.2, -0.1, 0.0).finished())).norm() < 1e-12);
+  CHECK(calibrate::least_within(MatrixXd::Zero(3, 3), r, -zero.cwiseAbs(), zero.cwiseAbs()) == r);
+}
