@@ -620,7 +620,9 @@ Drawn draw_borders(const image::Cine& cine, const Heart& heart, const std::optio
     find_middle(slice);
   }
   see_motion(work);
-  Drawn drawn{{}, fall ? *fall : darkness_at_border(relative_edge_widths(cine, work))};
+  const BorderDarkness border =
+      fall ? BorderDarkness{*fall, *fall} : darkness_at_border(relative_edge_widths(cine, work));
+  Drawn drawn{{}, border.likely, border.if_sharp};
   for (Work& slice : work) {
     interrupt::check();
     find_borders(slice, drawn.fall);

@@ -23,10 +23,11 @@ struct SliceBorders {
 };
 
 /// The borders of all slices, and the part of the way from blood to muscle at which the endocardium
-/// was drawn.
+/// was drawn and at which it would be if no blur made edges wide (the same where it was given).
 struct Drawn {
   std::vector<SliceBorders> slices;
   double fall = 0.0;
+  double fall_if_sharp = 0.0;
 };
 
 /// Draws endocardium and epicardium on all frames of all slices.

@@ -46,6 +46,17 @@ double relative_width(double d) {
   return (at(edge_ends) - at(edge_begins)) / of_point_spread;
 }
 
+/// The darkness at the outer end of a ramp whose edge is so many times as wide as a sharp one.
+double darkness_beyond_ramp(double width) {
+  constexpr double unsure = 0.2;   // of the variance
+  constexpr double widest = 20.0;  // ramp, in deviations of the point spread
+  constexpr double most = 0.95;    // nearer to muscle its own texture would decide
+  const double beyond = width * width - 1.0 - unsure;
+  if (beyond <= 0.0)
+    return edge_begins;
+  return std::min(most, ramp(0.0, where(relative_width, std::sqrt(1.0 + beyond), 1e-3, widest)));
+}
+
 /// Where darkness falls below a level, inwards from radius k, as a number of radii; negative if it
 /// does not.
 double falls_below(const Polar& darkness, Eigen::Index ray, Eigen::Index k, double level) {
@@ -80,21 +91,15 @@ double sharp_width(const image::Plane& plane, const PolarGrid& grid, double slop
          std::sqrt(pixel / 12.0 + pixel / 6.0 + 0.5 * grid.step * grid.step + lean * lean / 12.0);
 }
 
-double darkness_at_border(std::vector<double> widths) {
+BorderDarkness darkness_at_border(std::vector<double> widths) {
   constexpr double sharpest = 0.77;  // tenth, as a part of the median
-  constexpr double unsure = 0.2;     // of the variance
-  constexpr double widest = 20.0;    // ramp, in deviations of the point spread
-  constexpr double most = 0.95;      // nearer to muscle its own texture would decide
   if (widths.empty())
-    return edge_begins;
+    return {};
   const auto tenth = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 10);
   std::nth_element(widths.begin(), tenth, widths.end());
   const double sharp = std::max(1.0, *tenth / sharpest);
-  const double width = median(std::move(widths)) / sharp;
-  const double beyond = width * width - 1.0 - unsure;
-  if (beyond <= 0.0)
-    return edge_begins;
-  return std::min(most, ramp(0.0, where(relative_width, std::sqrt(1.0 + beyond), 1e-3, widest)));
+  const double width = median(std::move(widths));
+  return {darkness_beyond_ramp(width / sharp), darkness_beyond_ramp(width)};
 }
 
 }  // namespace lv::segment

@@ -32,12 +32,19 @@ inline constexpr double edge_begins = 0.5, edge_ends = 0.85;
 [[nodiscard]] double sharp_width(const image::Plane& plane, const PolarGrid& grid, double slope,
                                  double spacing);
 
+/// What the widths of a study's edges tell of the darkness at the border.
+struct BorderDarkness {
+  double likely = edge_begins;    ///< pictures are as sharp as their sharpest edges
+  double if_sharp = edge_begins;  ///< pictures are as sharp as their pixels
+};
+
 /// The darkness at the border from the widths of a study's edges, each divided by its sharp_width.
 ///
 /// Pictures may be less sharp than their pixels: the sharpest tenth of the edges, known to be 0.77
 /// times as wide as the median where no edge has trabeculae (measured on phantoms), is taken for
-/// sharp. What the median is wider counts for a ramp, but for a fifth of the variance, by which
+/// sharp; trabeculae all round would be taken for blur, which if_sharp has the other way round.
+/// What the median is wider counts for a ramp, but for a fifth of the variance, by which
 /// edges without trabeculae come out wider too (also measured). At most 0.95; 0.5 without edges.
-[[nodiscard]] double darkness_at_border(std::vector<double> widths);
+[[nodiscard]] BorderDarkness darkness_at_border(std::vector<double> widths);
 
 }  // namespace lv::segment

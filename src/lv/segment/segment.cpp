@@ -176,6 +176,11 @@ std::vector<double> volumes_of(const Segmentation& found, const Counts& counts) 
   return volumes;
 }
 
+/// Of what shows the ventricle.
+std::vector<double> volumes_of_shown(const Segmentation& found) {
+  return volumes_of(found, [&](std::size_t s, std::size_t t) { return found.shows[s][t] != 0; });
+}
+
 bool always(const std::vector<char>& shows) {
   return std::all_of(shows.begin(), shows.end(), [](char c) { return c != 0; });
 }
@@ -224,6 +229,31 @@ void doubt_times(const std::vector<std::size_t>& slices, Segmentation& found) {
                       "bulges, or its images begin at another time of the cycle",
                       s + 1));
   }
+}
+
+/// How much larger the cavity would be if trabeculae, and not blur, made even the sharpest edges
+/// wider than pixels do.
+void doubt_blur(const Cine& cine, const Heart& heart, double fall_if_sharp, Segmentation& found) {
+  constexpr double counts = 0.05;  // of a volume
+  if (!(fall_if_sharp > found.fall))
+    return;
+  Segmentation sharp = found;
+  sharp.borders = draw_borders(cine, heart, fall_if_sharp).slices;
+  const std::vector<double> volumes = volumes_of_shown(sharp);
+  const auto grows = [&](int frame) {
+    const auto t = static_cast<std::size_t>(frame);
+    return volumes[t] / found.volumes[t] - 1.0;
+  };
+  const double diastolic = grows(found.phases.end_diastole);
+  const double systolic = grows(found.phases.end_systole);
+  if (std::max(std::abs(diastolic), std::abs(systolic)) < counts)
+    return;
+  found.doubts.push_back(fmt::format(
+      "even the sharpest edges between blood and muscle are wider than the pixels make them, and "
+      "blur is not told from trabeculae all round: blur is taken for the cause; if it is "
+      "trabeculae, the cavity holds {:+.0f}% at end-diastole and {:+.0f}% at end-systole: where "
+      "the pictures show them within the wall, set segment.fall = {:.2f}",
+      100.0 * diastolic, 100.0 * systolic, fall_if_sharp));
 }
 
 /// Of too few slices that show the ventricle, with why the next one beside them does not.
@@ -312,11 +342,11 @@ Segmentation segment(const Cine& cine, const SegmentParameters& parameters,
   if (slices.size() < fewest_slices)
     refuse_few(found.borders, run, slices.size(), parameters.centre.has_value(), where);
   mark(slices, found);
-  found.volumes =
-      volumes_of(found, [&](std::size_t s, std::size_t t) { return found.shows[s][t] != 0; });
+  found.volumes = volumes_of_shown(found);
   found.phases = phases_of(found);
   doubt_ends(run, slices, found);
   doubt_times(slices, found);
+  doubt_blur(cine, heart, drawn.fall_if_sharp, found);
   for (std::string& doubt : doubts_of_drawn(cine, slices, found))
     found.doubts.push_back(std::move(doubt));
   found.warnings = warnings_of_drawn(cine, slices, found);

@@ -7,59 +7,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
-#include <numeric>
 #include <vector>
 
 using namespace lv;
 using geometry::Side;
 
 namespace {
-
-/// Weights of a Gaussian at whole distances from -reach to reach; their sum is 1.
-std::vector<double> gaussian(double deviation) {
-  const int reach = static_cast<int>(std::ceil(3.0 * deviation));
-  std::vector<double> weights;
-  for (int d = -reach; d <= reach; ++d)
-    weights.push_back(std::exp(-0.5 * d * d / (deviation * deviation)));
-  const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
-  for (double& weight : weights)
-    weight /= sum;
-  return weights;
-}
-
-/// The value of a picture, or of its edge beyond it, weighted along its rows or columns.
-double convolved(const image::Picture& picture, int i, int j, bool along_row,
-                 const std::vector<double>& weights) {
-  const int reach = static_cast<int>(weights.size()) / 2;
-  double sum = 0.0;
-  for (int d = -reach; d <= reach; ++d) {
-    const int x = std::clamp(along_row ? i + d : i, 0, picture.plane.columns - 1);
-    const int y = std::clamp(along_row ? j : j + d, 0, picture.plane.rows - 1);
-    sum += weights[d + reach] * picture.at(x, y);
-  }
-  return sum;
-}
-
-/// Convolves a picture with a Gaussian of this deviation [mm].
-void blur(image::Picture& picture, double deviation) {
-  const image::Plane plane = picture.plane;
-  for (const bool along_row : {true, false}) {
-    const image::Picture sharp = picture;
-    const auto weights = gaussian(deviation / (along_row ? plane.spacing_i : plane.spacing_j));
-    for (int j = 0; j < plane.rows; ++j)
-      for (int i = 0; i < plane.columns; ++i)
-        picture.values[static_cast<std::size_t>(j) * plane.columns + i] =
-            static_cast<float>(convolved(sharp, i, j, along_row, weights));
-  }
-}
-
-void blur(image::Cine& cine, double deviation) {
-  for (image::CineSlice& slice : cine.slices)
-    for (image::Picture& picture : slice.frames)
-      blur(picture, deviation);
-}
 
 /// A line of the table per moment; what is absent is "-".
 void tell_found(const test::KnownCine& known, const segment::Segmentation& found) {
@@ -151,7 +105,7 @@ TEST_CASE("a table of what segmentation makes of phantoms and patients", "[.][se
       test::KnownCine known = test::phantom_study(
           fmt::format("phantom 1, blurred by {} mm, rim {}", deviation, trabeculae),
           test::noisy_scan(1), trabeculae);
-      blur(known.cine, deviation);
+      test::blur(known.cine, deviation);
       tell_row(known);
     }
   tell_patients();

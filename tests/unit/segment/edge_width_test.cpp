@@ -42,13 +42,16 @@ TEST_CASE("the width of a blurred edge is that of its point spread", "[segment]"
 
 TEST_CASE("edges as sharp as the image put the border into their middle, wider ones further out",
           "[segment]") {
-  CHECK(segment::darkness_at_border({}) == 0.5);
-  CHECK(segment::darkness_at_border(widths_round(1.0, 0.2, 0.3)) == 0.5);
+  CHECK(segment::darkness_at_border({}).likely == 0.5);
+  CHECK(segment::darkness_at_border(widths_round(1.0, 0.2, 0.3)).if_sharp == 0.5);
   // pictures half as sharp as their pixels
-  CHECK(segment::darkness_at_border(widths_round(2.0, 0.4, 0.6)) == 0.5);
+  CHECK(segment::darkness_at_border(widths_round(2.0, 0.4, 0.6)).likely == 0.5);
+  CHECK(segment::darkness_at_border(widths_round(2.0, 0.4, 0.6)).if_sharp ==
+        Approx(0.925).margin(0.004));
   double before = 0.5;
   for (const double median : {1.2, 1.5, 2.0, 3.0}) {
-    const double now = segment::darkness_at_border(widths_round(median, median - 0.7, median));
+    const double now =
+        segment::darkness_at_border(widths_round(median, median - 0.7, median)).likely;
     CHECK(now > before);
     CHECK(now <= 0.95);
     before = now;
@@ -58,5 +61,6 @@ TEST_CASE("edges as sharp as the image put the border into their middle, wider o
 TEST_CASE("a ramp twice as wide as the point spread makes ends at 0.92 of the way", "[segment]") {
   // the tenth is as sharp as the image; sqrt(4 - 0.2) = 1.95 is the edge of a ramp of 5.3
   // deviations, at whose end D(0) = Phi(5.3) - (phi(0) - phi(5.3))/5.3 = 0.925
-  CHECK(segment::darkness_at_border(widths_round(2.0, 1.6, 1.6)) == Approx(0.925).margin(0.004));
+  CHECK(segment::darkness_at_border(widths_round(2.0, 1.6, 1.6)).likely ==
+        Approx(0.925).margin(0.004));
 }

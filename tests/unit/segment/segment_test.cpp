@@ -285,6 +285,34 @@ TEST_CASE("a slice that begins at another time of the cycle is doubted", "[segme
   CHECK(doubted() == fmt::format("slice {}", cine.slices.size() / 2 + 1));
 }
 
+TEST_CASE("what blur may hide of trabeculae is said with its volumes", "[segment]") {
+  image::Cine cine = five_phases().cine;
+  const auto doubt = [&] {
+    const segment::Segmentation found = segment::segment(cine, {}, "phantom");
+    for (const std::string& sentence : found.doubts)
+      if (sentence.find("trabeculae all round") != std::string::npos)
+        return std::pair(found, sentence);
+    return std::pair(found, std::string());
+  };
+  CHECK(doubt().second.empty());
+  test::blur(cine, 1.2);
+  const auto [found, sentence] = doubt();
+  CHECK(found.fall == 0.5);
+  const auto number_behind = [&sentence = sentence](const std::string& words) {
+    const std::size_t at = sentence.find(words);
+    REQUIRE(at != std::string::npos);
+    return std::stod(sentence.substr(at + words.size()));
+  };
+  // what the doubt says comes of what it advises
+  segment::SegmentParameters parameters;
+  parameters.fall = number_behind("segment.fall = ");
+  const segment::Segmentation as_advised = segment::segment(cine, parameters, "phantom");
+  const auto diastole = static_cast<std::size_t>(found.phases.end_diastole);
+  const double grows = as_advised.volumes[diastole] / found.volumes[diastole] - 1.0;
+  CHECK(grows > 0.1);
+  CHECK(number_behind("the cavity holds ") == Approx(100.0 * grows).margin(1.0));
+}
+
 TEST_CASE("volumes that rest on doubtful borders say so", "[segment]") {
   segment::Segmentation found;
   found.spacing = 8.0;

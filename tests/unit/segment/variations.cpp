@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace lv::test {
 namespace {
@@ -267,6 +268,44 @@ Variation of_each(const std::string& name, const Change& change) {
   return {name, [change](KnownCine& known) { each(known, change); }};
 }
 
+/// Weights of a Gaussian at whole distances from -reach to reach; their sum is 1.
+std::vector<double> gaussian(double deviation) {
+  const int reach = static_cast<int>(std::ceil(3.0 * deviation));
+  std::vector<double> weights;
+  for (int d = -reach; d <= reach; ++d)
+    weights.push_back(std::exp(-0.5 * d * d / (deviation * deviation)));
+  const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+  for (double& weight : weights)
+    weight /= sum;
+  return weights;
+}
+
+/// The value of a picture, or of its edge beyond it, weighted along its rows or columns.
+double convolved(const image::Picture& picture, int i, int j, bool along_row,
+                 const std::vector<double>& weights) {
+  const int reach = static_cast<int>(weights.size()) / 2;
+  double sum = 0.0;
+  for (int d = -reach; d <= reach; ++d) {
+    const int x = std::clamp(along_row ? i + d : i, 0, picture.plane.columns - 1);
+    const int y = std::clamp(along_row ? j : j + d, 0, picture.plane.rows - 1);
+    sum += weights[d + reach] * picture.at(x, y);
+  }
+  return sum;
+}
+
+/// Convolves a picture with a Gaussian of this deviation [mm].
+void blur(image::Picture& picture, double deviation) {
+  const image::Plane plane = picture.plane;
+  for (const bool along_row : {true, false}) {
+    const image::Picture sharp = picture;
+    const auto weights = gaussian(deviation / (along_row ? plane.spacing_i : plane.spacing_j));
+    for (int j = 0; j < plane.rows; ++j)
+      for (int i = 0; i < plane.columns; ++i)
+        picture.values[static_cast<std::size_t>(j) * plane.columns + i] =
+            static_cast<float>(convolved(sharp, i, j, along_row, weights));
+  }
+}
+
 }  // namespace
 
 std::vector<Variation> other_storage() {
@@ -320,6 +359,12 @@ std::vector<Variation> other_images() {
   all.push_back({"every second slice", half_of_slices});
   all.push_back({"air beyond both ends", black_ends});
   return all;
+}
+
+void blur(image::Cine& cine, double deviation) {
+  for (image::CineSlice& slice : cine.slices)
+    for (image::Picture& picture : slice.frames)
+      blur(picture, deviation);
 }
 
 }  // namespace lv::test

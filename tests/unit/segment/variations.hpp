@@ -21,4 +21,7 @@ struct Variation {
 /// Changes of what is seen: coils, contrast, resolution, noise, field of view, phases.
 [[nodiscard]] std::vector<Variation> other_images();
 
+/// Convolves every picture with a Gaussian of this deviation [mm].
+void blur(image::Cine& cine, double deviation);
+
 }  // namespace lv::test
