@@ -8,6 +8,7 @@
 #include "lv/segment/coils.hpp"
 #include "lv/segment/edge_width.hpp"
 #include "lv/segment/grey_levels.hpp"
+#include "lv/segment/kept_muscle.hpp"
 #include "lv/segment/redraw_border.hpp"
 #include "lv/segment/smooth_border.hpp"
 #include "lv/segment/steady_in_time.hpp"
@@ -284,6 +285,84 @@ void steady_over_slices(std::vector<Work>& work) {
     work[s].epi = std::move(lines[s]);
 }
 
+/// Whether a slice looks half as much like the heart as the one that does most.
+bool looks_like_heart(const Heart& heart, std::size_t s) {
+  constexpr double like_seed = 0.5;
+  return heart.centres[s].likeness >= like_seed * heart.centres[heart.seed].likeness;
+}
+
+/// How thick the wall of a slice is along each ray, as a part of its mean: the median over the
+/// frames.
+Radii shape_of_wall(const Work& work) {
+  constexpr double thinnest_part = 0.3;
+  Radii shape(grid.rays);
+  for (int i = 0; i < grid.rays; ++i) {
+    std::vector<double> parts;
+    for (std::size_t t = 0; t < work.epi.size(); ++t)
+      parts.push_back((work.epi[t](i) - work.endo[t](i)) / (work.epi[t] - work.endo[t]).mean());
+    shape(i) = median(std::move(parts));
+  }
+  return harmonics_of(shape, epi_harmonics).max(thinnest_part);
+}
+
+/// The epicardium of a slice once more: as far as the slice is trusted close to where a wall of its
+/// shape ends that holds what is expected of each frame, else close to where it is.
+std::vector<Radii> epicardium_that_holds(const Work& work, const std::vector<double>& dark,
+                                         double trust) {
+  constexpr double pull = 3.0;  // of pull_to: at 3 mm as much as the strongest edge
+  const Radii shape = shape_of_wall(work);
+  std::vector<Radii> lines;
+  for (std::size_t t = 0; t < dark.size(); ++t) {
+    const Radii usual = shape * (work.epi[t] - work.endo[t]).mean();
+    const Radii expected =
+        line_that_holds(darkness(work.values[t], work.levels), work.endo[t], usual, dark[t], grid);
+    const Polar cost = epicardial_cost(work.values[t], work.middle[t], work.levels) +
+                       pull * trust * pull_to(harmonics_of(expected, epi_harmonics)) +
+                       pull * (1.0 - trust) * pull_to(harmonics_of(work.epi[t], epi_harmonics));
+    lines.push_back(closed_path(cost, epicardial_rule, grid));
+  }
+  return lines;
+}
+
+/// What a slice holds within its epicardium besides blood, per frame [mm^2].
+std::vector<double> held_by(const Work& work) {
+  std::vector<double> held;
+  for (std::size_t t = 0; t < work.values.size(); ++t)
+    held.push_back(dark_area(darkness(work.values[t], work.levels),
+                             harmonics_of(work.epi[t], epi_harmonics), grid));
+  return held;
+}
+
+/// Sums over slices of the areas within the middle of the wall, per frame [mm^2].
+std::vector<double> within_middle(const std::vector<Work>& work,
+                                  const std::vector<std::size_t>& slices) {
+  std::vector<double> sums(work.front().values.size(), 0.0);
+  for (const std::size_t s : slices)
+    for (std::size_t t = 0; t < sums.size(); ++t)
+      sums[t] += 0.5 * (area(work[s].endo[t]) + area(work[s].epi[t]));
+  return sums;
+}
+
+/// The epicardium of slices that look like the heart, given that their muscle keeps its volume.
+void keep_muscle(const Heart& heart, std::vector<Work>& work) {
+  constexpr std::size_t fewest = 3;  // slices that tell what all do
+  std::vector<std::size_t> slices;
+  Areas held;
+  for (std::size_t s = 0; s < work.size(); ++s)
+    if (looks_like_heart(heart, s)) {
+      slices.push_back(s);
+      held.push_back(held_by(work[s]));
+    }
+  if (slices.size() < fewest)
+    return;
+  const Kept kept = kept_areas(held, within_middle(work, slices));
+  for (std::size_t n = 0; n < slices.size(); ++n) {
+    interrupt::check();
+    Work& slice = work[slices[n]];
+    slice.epi = epicardium_that_holds(slice, kept.areas[n], kept.agreement[n]);
+  }
+}
+
 /// The shape of a line, as large as another where that one can be trusted.
 Radii scaled_to(const Radii& shape, const Radii& seen, const Radii& trusted) {
   std::vector<double> ratios;
@@ -393,13 +472,12 @@ Work begin(std::vector<Polar> values, double radius) {
 /// What all slices show as coils would that receive equally, by what the blood tells of them where
 /// a slice looks like the heart.
 std::vector<std::vector<Polar>> evened(const image::Cine& cine, const Heart& heart) {
-  constexpr double like_seed = 0.5;
   std::vector<std::vector<Polar>> values;
   for (std::size_t s = 0; s < cine.slices.size(); ++s)
     values.push_back(sampled(cine.slices[s], heart.centres[s].at));
   std::vector<BloodPool> pools;
   for (std::size_t s = 0; s < values.size(); ++s)
-    if (heart.centres[s].likeness >= like_seed * heart.centres[heart.seed].likeness)
+    if (looks_like_heart(heart, s))
       pools.push_back({values[s], surely_blood * heart.centres[s].radius});
   const Polar received = sensitivity(coil_gradient(pools, grid), grid);
   for (std::vector<Polar>& slice : values)
@@ -628,6 +706,7 @@ Drawn draw_borders(const image::Cine& cine, const Heart& heart, const std::optio
     find_borders(slice, drawn.fall);
   }
   steady_over_slices(work);
+  keep_muscle(heart, work);
   drawn.slices.resize(work.size());
   const auto finish_slice = [&](std::size_t s, const SliceBorders* inner) {
     drawn.slices[s] = finish(work[s], heart.centres[s].at, inner);
