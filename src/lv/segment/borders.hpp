@@ -43,10 +43,10 @@ struct Drawn {
 /// the blood's edge; the middle of the wall, along which a band of 4 mm is most like muscle; from
 /// there outwards the epicardium, where what is like muscle first ends at an edge (what is like
 /// muscle behind a dark line is another organ's), close to where neighbouring frames have it and
-/// walls as thick as in neighbouring slices end; inwards the
-/// endocardium, behind papillary muscles, where `fall` of the way from blood to muscle is reached:
-/// 0.5 in the middle of an edge, more outside trabeculae. None: from how wide the study's edges are
-/// (see darkness_at_border).
+/// walls as thick as in neighbouring slices end; inwards the endocardium, behind papillary muscles,
+/// where `fall` of the way from blood to muscle is reached: 0.5 in the middle of an edge, more
+/// outside trabeculae. None: from how wide the study's edges are (see darkness_at_border). Then the
+/// epicardium once more, close to where walls end that keep their muscle (see kept_areas).
 ///
 /// The endocardium is then a sum of three harmonics that papillary muscles hardly push inwards, and
 /// its convex hull. Where no muscle is seen behind it, as in the outflow tract, it takes the shape
