@@ -110,7 +110,8 @@ class UnloadedSearch {
         1e-3 * seen_, 1e-3 * target_.volume);
     const char* remedy =
         "Check unloaded.pressure and the shape, or give calibrate.passive another value; a wall "
-        "that folds or turns inside out when it is unloaded is often drawn too thin somewhere";
+        "that folds or turns inside out when it is unloaded is often drawn too thin somewhere, or "
+        "pressed flat by the right ventricle, whose pressure septum.pressure_share gives";
     if (!now_)
       throw OutOfReach(
           target_.origin,

@@ -371,6 +371,27 @@ std::vector<geometry::Assumption> assumed_pressures(const Case& c) {
   return assumed;
 }
 
+/// Whether a parameter whose name begins so is fitted.
+bool fits(const Case& c, const char* family) {
+  const std::vector<std::string> fitted = fitted_names(c);
+  return std::any_of(fitted.begin(), fitted.end(),
+                     [&](const std::string& name) { return name.starts_with(family); });
+}
+
+/// Muscle that a case does not fit to the heart that it shows.
+std::vector<geometry::Assumption> assumed_muscle(const Case& c) {
+  if (c.anatomy.source == case_file::AnatomySource::ellipsoid)
+    return {};  // nothing of it was measured
+  std::vector<geometry::Assumption> assumed;
+  if (!fits(c, "passive."))
+    assumed.push_back({"stiffness", "the case's, not fitted to this heart"});
+  if (!fits_contractility(c))
+    assumed.push_back({"contractility",
+                       "the case's, not fitted to this heart: end-systolic and stroke volume, "
+                       "ejection fraction and stress are those of such muscle"});
+  return assumed;
+}
+
 /// What heartbeats were fitted to, and what was not measured of them.
 void add_beats(const HeartbeatFit& fit, const Case& c, FitRecord& record) {
   for (const beating_wall::FittedDatum& d : fit.data)
@@ -413,6 +434,10 @@ std::vector<std::string> fitted_names(const Case& c) {
     for (const case_file::BeatParameter& p : case_file::beat_fit(c).parameters)
       names.emplace_back(p.parameter->name);
   return names;
+}
+
+bool fits_contractility(const Case& c) {
+  return fits(c, "active.") || fits(c, "muscle.contractility");
 }
 
 Case for_calibration(Case c) {
@@ -617,6 +642,8 @@ FitRecord fit_record(const Case& c, const std::filesystem::path& calibration,
                      const std::filesystem::path& beat) {
   FitRecord all;
   all.assumed = assumed_pressures(c);
+  for (geometry::Assumption& a : assumed_muscle(c))
+    all.assumed.push_back(std::move(a));
   if (!c.calibration.asked())
     return all;
   if (c.calibration.cycle)

@@ -42,6 +42,9 @@ inline constexpr const char* contractility_name = "contractility.csv";
 /// Names of the parameters that a calibration changes.
 [[nodiscard]] std::vector<std::string> fitted_names(const case_file::Case& c);
 
+/// Whether the muscle's contractility is among them.
+[[nodiscard]] bool fits_contractility(const case_file::Case& c);
+
 /// The case with the muscle's parameters of such an archive; the JSON file beside it stands for
 /// where they come from.
 [[nodiscard]] case_file::Case calibrated(case_file::Case c, const std::filesystem::path& file);

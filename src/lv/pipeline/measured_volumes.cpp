@@ -148,4 +148,19 @@ void check_measured_volumes(const Case& c, const anatomy::Shape& shape) {
   check_fibres(c, esv, V_0, wall);
 }
 
+std::string little_ejection(const Case& c, const anatomy::Shape& shape) {
+  constexpr double least = 0.1;
+  const case_file::Calibration& k = c.calibration;
+  if (!(k.esv > 0.0) || !(k.edv > 0.0 || case_file::is_loaded(c)))
+    return {};
+  const double diastolic = k.edv > 0.0 ? k.edv : volumes_of(shape).cavity;
+  if (k.esv <= (1.0 - least) * diastolic)
+    return {};
+  return fmt::format(
+      "calibrate.esv is {:.1f} ml, and the cavity holds {:.1f} ml at end-diastole: an ejection "
+      "fraction of {:.0f}%, with which nobody lives; check that both volumes are of one heart, and "
+      "the moment of each",
+      k.esv / ml, diastolic / ml, 100.0 * (1.0 - k.esv / diastolic));
+}
+
 }  // namespace lv::pipeline

@@ -3,6 +3,8 @@
 #include "lv/anatomy/anatomy.hpp"
 #include "lv/case_file/case.hpp"
 
+#include <string>
+
 namespace lv::pipeline {
 
 /// Throws InputError where a fit cannot meet the measured volumes whatever its parameters, as far
@@ -16,5 +18,10 @@ namespace lv::pipeline {
 ///   where its h(lambda) is zero, at 0.72 with its own constants. A loaded shape's volume
 ///   without load is taken from Klotz's curve, to which it is fitted.
 void check_measured_volumes(const case_file::Case& c, const anatomy::Shape& shape);
+
+/// Of a measured end-systolic volume with which less than a tenth of the cavity's volume at
+/// end-diastole would be ejected; that is calibrate.edv or, of a loaded shape, what the shape
+/// holds. Empty: nothing odd.
+[[nodiscard]] std::string little_ejection(const case_file::Case& c, const anatomy::Shape& shape);
 
 }  // namespace lv::pipeline

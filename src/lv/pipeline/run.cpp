@@ -156,11 +156,15 @@ class Pipeline {
         CheckedCase checked = check_case(case_);
         shape_ = std::move(checked.shape);
         wall_ = std::move(checked.wall);
-        return;
+      } else {
+        if (is_due(Stage::calibrate))
+          check_measured_volumes(case_, shape());
+        check_on_wall(case_, anatomy::read_mesh_result(folder(Stage::mesh), case_.fibres));
       }
-      if (is_due(Stage::calibrate))
-        check_measured_volumes(case_, shape());
-      check_on_wall(case_, anatomy::read_mesh_result(folder(Stage::mesh), case_.fibres));
+      if (!is_due(Stage::calibrate))
+        return;
+      if (const std::string little = little_ejection(case_, shape()); !little.empty())
+        log::warn("{}", little);
     });
   }
 

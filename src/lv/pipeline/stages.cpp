@@ -474,6 +474,9 @@ std::string make_results(const Case& c, const anatomy::MeshResult& mesh, const B
     facts.fitted_shape = fitted.shape;
     facts.fitted_beats = beside_beat(fitted.beats, beat.beat, c.calibration.tolerance);
     facts.unloaded = unloaded;
+    if (unloaded)
+      facts.warnings.insert(facts.warnings.end(), unloaded->warnings.begin(),
+                            unloaded->warnings.end());
     facts.scar = scar_facts(c, mesh);
     text = write_results(c, mesh, beat, facts, fields, folder);
   });

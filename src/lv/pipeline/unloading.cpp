@@ -81,45 +81,44 @@ double seen_volume(const mesh::Mesh& elements) {
   return solid::EndocardialSurface(elements).volume(elements.nodes);
 }
 
-double klotz_volume(const case_file::Case& c, const mesh::Mesh& elements) {
-  return calibrate::klotz(seen_volume(elements), c.unloaded.pressure).V0;
-}
-
 /// What a user has to know of a wall without load that is not what it might be.
-void warn(const case_file::Case& c, const mesh::Mesh& elements, const Unloaded& unloaded) {
-  const implicit::UnloadStep& last = unloaded.steps.back();
-  if (unloaded.smoothing > 0.0)
-    log::warn(
-        "the wall without load would be folded: instead it is a smooth one, which loaded again is "
-        "off by {:.2f} mm rms, {:.2f} mm at most (smoothing {:g})",
-        last.rms, last.largest, unloaded.smoothing);
-  else if (last.largest > c.unloaded.tolerance)
-    log::warn(
+std::vector<std::string> warnings_of(const report::UnloadedShape& shape, double tolerance) {
+  std::vector<std::string> warnings;
+  if (shape.smoothing > 0.0)
+    warnings.push_back(
+        fmt::format("the wall without load would be folded: instead it is a smooth one, which "
+                    "loaded again is off by {:.2f} mm rms, {:.2f} mm at most (smoothing {:g})",
+                    shape.rms, shape.largest, shape.smoothing));
+  else if (shape.largest > tolerance)
+    warnings.push_back(fmt::format(
         "the wall without load was found up to {:.3f} mm: loaded again it is off by so much at "
         "most (rms {:.3f} mm; {:.2f} ml instead of {:.2f} ml), more than unloaded.tolerance and "
         "less than unloaded.near_enough, and the search came no nearer",
-        last.largest, last.rms, 1e-3 * last.volume, 1e-3 * seen_volume(elements));
-  const double expected = klotz_volume(c, elements);
-  if (last.unloaded_volume < least_of_klotz * expected)
-    log::warn(
+        shape.largest, shape.rms, 1e-3 * shape.loaded_volume, 1e-3 * shape.seen_volume));
+  if (shape.unloaded_volume < least_of_klotz * shape.klotz_volume)
+    warnings.push_back(fmt::format(
         "the wall without load holds {:.1f} ml, less than {:.0f}% of the {:.1f} ml that Klotz et "
         "al. (2006) expect of {:.1f} ml at {:.2f} mmHg: check unloaded.pressure and the stiffness",
-        1e-3 * last.unloaded_volume, 100.0 * least_of_klotz, 1e-3 * expected,
-        1e-3 * seen_volume(elements), c.unloaded.pressure / mmHg);
+        1e-3 * shape.unloaded_volume, 100.0 * least_of_klotz, 1e-3 * shape.klotz_volume,
+        1e-3 * shape.seen_volume, shape.pressure / mmHg));
+  return warnings;
 }
 
 report::UnloadedShape found_shape(const case_file::Case& c, const mesh::Mesh& elements,
                                   const Unloaded& unloaded) {
   const implicit::UnloadStep& last = unloaded.steps.back();
-  return {c.unloaded.pressure,
-          seen_volume(elements),
-          last.unloaded_volume,
-          last.volume,
-          last.largest,
-          last.rms,
-          klotz_volume(c, elements),
-          unloaded.smoothing,
-          last.folds};
+  const double seen = seen_volume(elements);
+  report::UnloadedShape shape{c.unloaded.pressure,
+                              seen,
+                              last.unloaded_volume,
+                              last.volume,
+                              last.largest,
+                              last.rms,
+                              calibrate::klotz(seen, c.unloaded.pressure).V0,
+                              unloaded.smoothing,
+                              last.folds};
+  shape.warnings = warnings_of(shape, c.unloaded.tolerance);
+  return shape;
 }
 
 std::string summary(const report::UnloadedShape& shape, double tolerance, std::size_t steps) {
@@ -189,9 +188,10 @@ void make_unloading(const case_file::Case& c, const anatomy::MeshResult& seen,
   check_elements(result.mesh);
   if (parallel::is_root()) {
     anatomy::write_mesh_result(result, folder);
-    warn(c, elements, unloaded);
     steps_table(unloaded).write_csv(folder / "unloading.csv");
     const report::UnloadedShape shape = found_shape(c, elements, unloaded);
+    for (const std::string& warning : shape.warnings)
+      log::warn("{}", warning);
     write_file(folder / summary_name, summary(shape, c.unloaded.tolerance, unloaded.steps.size()));
     write_shape(shape, folder);
     std::filesystem::remove(folder / search_record);
@@ -248,6 +248,7 @@ void write_shape(const report::UnloadedShape& shape, const std::filesystem::path
   for (const auto& [name, member] : shape_numbers)
     archive.set(name, {shape.*member});
   archive.set("folds", {shape.folds.dent, shape.folds.approach, shape.folds.stretch});
+  archive.set_words("warnings", shape.warnings);
   archive.write(folder / result_name);
 }
 
@@ -260,6 +261,7 @@ std::optional<report::UnloadedShape> unloaded_shape(const std::filesystem::path&
     shape.*member = archive.number(name);
   const auto& folds = archive.get_rows("folds", 3, 1);
   shape.folds = {.dent = folds[0], .approach = folds[1], .stretch = folds[2]};
+  shape.warnings = archive.get_words("warnings");
   return shape;
 }
 

@@ -56,8 +56,10 @@ std::string name_of(const geometry::Assumption& warning) {
                                                         {"moved slices", "slices moved"},
                                                         {"borders", "borders doubtful"},
                                                         {"scar", "scar taken as healthy"},
+                                                        {"wall", "notches in the wall"},
                                                         {"early diastole", "end-diastolic shape"}};
-  return names.at(warning.part);
+  const auto name = names.find(warning.part);
+  return name == names.end() ? warning.part : name->second;
 }
 
 /// A cavity that fills by less than this from early to end-diastole is worth a question.
@@ -107,12 +109,20 @@ std::vector<Warning> warnings_of(const Case& c, const anatomy::Shape& shape, dou
          fmt::format("calibrate.edv is {:.1f} ml and the shape that is taken as free of stress "
                      "has {:.1f} ml: if it is that of end-diastole, set unloaded.pressure",
                      1e-3 * edv, 1e-3 * cavity)});
+  if (std::string little = little_ejection(c, shape); !little.empty())
+    warnings.push_back({"little ejection", std::move(little)});
   if (case_file::is_loaded(c) && c.calibration.passive == calibrate::FittedPassive::none &&
       std::abs(c.unloaded.pressure / c.protocol.ed_pressure - 1.0) < 0.05)
     warnings.push_back(
         {"stiffness not fitted",
          "the stiffness is the case's, not fitted to this heart: with calibrate.passive = "
          "\"klotz\" it follows from the end-diastolic shape, its pressure and Klotz's curve"});
+  if (case_file::is_loaded(c) && !fits_contractility(c))
+    warnings.push_back(
+        {"contractility not fitted",
+         "the contractility is the case's, not fitted to this heart, and so is its ejection "
+         "fraction: with calibrate.active = true it follows from the measured end-systolic volume "
+         "(calibrate.esv)"});
   return warnings;
 }
 

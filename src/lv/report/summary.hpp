@@ -58,6 +58,7 @@ struct UnloadedShape {
   double klotz_volume = 0.0;     ///< V0 of Klotz et al. from volume and pressure [mm^3]
   double smoothing = 0.0;        ///< alpha of implicit::unload; 0: none was needed
   mesh::Folds folds;             ///< against the shape that was seen
+  std::vector<std::string> warnings = {};
 };
 
 /// The infarct in one AHA segment that it touches.

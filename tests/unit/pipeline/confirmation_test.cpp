@@ -97,6 +97,25 @@ TEST_CASE("pressures are assumed where a case leaves them out, not in heartbeats
   CHECK(pipeline::fit_record(c, "", "").assumed.empty());
 }
 
+TEST_CASE("muscle that is not fitted to a heart that was seen is assumed", "[unit][pipeline]") {
+  case_file::Case c;
+  c.origin["protocol.ed_pressure"] = c.origin["protocol.es_pressure"] = "case.toml:3";
+  const auto assumed = [&] {
+    std::string parts;
+    for (const geometry::Assumption& a : pipeline::fit_record(c, "", "").assumed)
+      parts += a.part + ";";
+    return parts;
+  };
+  CHECK(assumed().empty());  // of an ellipsoid all is
+  c.anatomy.source = case_file::AnatomySource::labels;
+  CHECK(assumed() == "stiffness;contractility;");
+  CHECK_FALSE(pipeline::fits_contractility(c));
+  c.calibration.active = true;
+  CHECK(pipeline::fits_contractility(c));
+  c.calibration.passive = calibrate::FittedPassive::klotz;
+  CHECK(pipeline::fitted_names(c).size() == 9);
+}
+
 TEST_CASE("a fit beside heartbeats is said to be made at the pressures of the protocol",
           "[unit][pipeline]") {
   case_file::Case c;

@@ -214,6 +214,7 @@ TEST_CASE("a damaged result of an earlier unloading is read or refused",
           "[unit][pipeline][mutations][records]") {
   report::UnloadedShape shape{2.0, 1e5, 9e4, 1e5, 0.1, 0.02, 79e3, 0.0, {}};
   shape.folds.dent = 0.05;
+  shape.warnings = {"it is a smooth one"};
   const auto read = [](const std::filesystem::path& file) {
     static_cast<void>(pipeline::unloaded_shape(file.parent_path()));
   };
@@ -223,6 +224,7 @@ TEST_CASE("a damaged result of an earlier unloading is read or refused",
   REQUIRE(found);
   CHECK(found->rms == 0.02);
   CHECK(found->folds.dent == 0.05);
+  CHECK(found->warnings == shape.warnings);
   try_damaged("unloading.bin", test::bytes_of(folder / "unloading.bin"), read, {},
               test::repair_checksum);
 }

@@ -3,6 +3,7 @@
 #include "lv/base/units.hpp"
 #include "lv/case_file/case.hpp"
 #include "lv/pipeline/circulation.hpp"
+#include "lv/pipeline/measured_volumes.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -27,6 +28,16 @@ TEST_CASE("an end-diastole that is not that of the images is warned of", "[unit]
   CHECK_THAT(pipeline::unlike_end_diastole(c), Catch::Contains("filled to 8 mmHg"));
   c.protocol.kind = heartbeat::ProtocolKind::cycle;  // which has no such pressure
   CHECK(pipeline::unlike_end_diastole(c).empty());
+}
+
+TEST_CASE("a heart that would eject next to nothing is warned of", "[unit][pipeline]") {
+  case_file::Case c;
+  c.calibration.esv = 113.0 * units::ml;
+  CHECK(pipeline::little_ejection(c, {}).empty());  // of what is not said
+  c.calibration.edv = 113.6 * units::ml;
+  CHECK_THAT(pipeline::little_ejection(c, {}), Catch::Contains("an ejection fraction of 1%"));
+  c.calibration.esv = 100.0 * units::ml;
+  CHECK(pipeline::little_ejection(c, {}).empty());
 }
 
 TEST_CASE("pressures and calcium that no heart has are warned of", "[unit][pipeline]") {
