@@ -27,7 +27,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double rough_beats = 0.02;         // change of the last beat, far from the data
+constexpr double first_beats = 0.1;          // change of the last beat, of a first look
+constexpr double rough_beats = 0.02;         // the same far from the data
 constexpr double usual_beats = 1e-3;         // where the case's beats never end by it
 constexpr double share_of_tolerance = 0.25;  // that the search ends with: beats scatter by less
 constexpr double longest_change = 0.5;       // of a logarithm, in a step of the search
@@ -79,11 +80,13 @@ class HeartbeatFitter {
         },
         [&](const VectorXd& x) {
           MatrixXd J = near_ == nullptr ? wall_.slopes(x) : slopes_nearby();
-          foresee(J, x, search);
+          foresee(J, x, search, foreseen_far);
           return J;
         }};
-    const auto root = calibrate::search_root(
-        model, near_ == nullptr ? VectorXd(VectorXd::Zero(n)) : near_->x, search);
+    const VectorXd start = near_ == nullptr ? VectorXd(VectorXd::Zero(n)) : near_->x;
+    if (near_ == nullptr)
+      look(start, search);
+    const auto root = calibrate::search_root(model, start, search);
     if (!root)
       throw RunError(fmt::format("The case's own values make no heartbeats to begin a fit with: {}",
                                  root.why().what),
@@ -206,16 +209,23 @@ class HeartbeatFitter {
     return J;
   }
 
+  /// Foresees with the first beats, from which those of the search go on.
+  void look(const VectorXd& start, const calibrate::RootSearch& search) {
+    if (wall_.at(start, first_beats, "first look", -1.0).found)
+      foresee(wall_.slopes(start), start, search, foreseen_far + first_beats);
+  }
+
   /// Says that data are out of reach if what follows goes as these slopes say: those of logarithms,
-  /// whose answers grow less than that far away.
-  void foresee(const MatrixXd& J, const VectorXd& x, const calibrate::RootSearch& search) {
+  /// whose answers grow less than that far away. `far`: the misfit that counts, of a logarithm.
+  void foresee(const MatrixXd& J, const VectorXd& x, const calibrate::RootSearch& search,
+               double far) {
     if (has_warned_)
       return;
     const BeatMeasures& there = wall_.nearest(x).last();
     const VectorXd r = wall_.logarithms(there);
     const VectorXd left = calibrate::least_within(J, r, search.low - x, search.high - x);
     Index missed = 0;
-    if (left.cwiseAbs().maxCoeff(&missed) < std::max(foreseen_far, case_.calibration.tolerance))
+    if (left.cwiseAbs().maxCoeff(&missed) < std::max(far, case_.calibration.tolerance))
       return;
     has_warned_ = true;
     Index worst = 0;
