@@ -100,6 +100,29 @@ bool is_in(const std::vector<int>& labels, int label) {
   return std::find(labels.begin(), labels.end(), label) != labels.end();
 }
 
+/// The pixels of the label round another one, per edge between them: how thick that wall is.
+double wall_thickness(const Borders& borders, int label) {
+  const int wall = borders.neighbour(label);
+  return borders.pixels[wall] / borders.with[label][wall];
+}
+
+/// 0 if there is none. Of two ventricles with a wall each it is the one with the thicker wall.
+int cavity_of(const Borders& borders) {
+  const auto has_wall = [&](int label) {
+    return borders.share(label, {0}) < 1.0 / 3.0 &&
+           borders.share(label, {borders.neighbour(label)}) >= 0.5;
+  };
+  const int first = largest(borders, has_wall);
+  if (first == 0)
+    return 0;
+  const std::vector<int> taken{first, borders.neighbour(first)};
+  const int other = largest(borders, [&](int label) {
+    return !is_in(taken, label) && !is_in(taken, borders.neighbour(label)) && has_wall(label);
+  });
+  return other != 0 && wall_thickness(borders, other) > wall_thickness(borders, first) ? other
+                                                                                       : first;
+}
+
 /// Whether a label that lies on cavity and muscle is of the wall itself. A patch across the whole
 /// wall has about as much border outside as on the cavity, or twice as much in a small heart; an
 /// atrium or a vessel has most of its border outside.
@@ -136,10 +159,7 @@ LabelMeaning propose_meaning(const Volume& volume) {
   if (labels.empty())
     return {};
   const Borders borders = borders_of(volume, labels);
-  const int cavity = largest(borders, [&](int label) {
-    return borders.share(label, {0}) < 1.0 / 3.0 &&
-           borders.share(label, {borders.neighbour(label)}) >= 0.5;
-  });
+  const int cavity = cavity_of(borders);
   if (cavity == 0)
     return {};
   LabelMeaning meaning{{cavity}, {borders.neighbour(cavity)}, {}};

@@ -14,7 +14,8 @@ namespace lv::image {
 /// What the labels of a map seem to mean, from what lies beside what on the slices of all frames:
 ///
 /// - the cavity is the largest label of whose border at least half is that of one other label and
-///   less than a third is background;
+///   less than a third is background; of two with a wall of their own the one whose wall is
+///   thicker;
 /// - the muscle is that other label, with what lies on both and less than half on background, or
 ///   on background less than twice as much as on the cavity (scar), and what such labels enclose
 ///   (its core);

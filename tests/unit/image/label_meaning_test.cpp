@@ -76,6 +76,29 @@ TEST_CASE("a wide scar across the whole wall counts to the muscle", "[unit][imag
   CHECK(sorted(meaning.muscle) == Labels{2, 3});
 }
 
+TEST_CASE("of two ventricles with walls of their own the thicker one is the left",
+          "[unit][image]") {
+  constexpr int right_wall = 5;
+  image::Volume map = map_of({1, 2, 3, 2, 2});
+  for (int k = 0; k < 8; ++k)
+    for (int j = 0; j < 80; ++j)
+      for (int i = 0; i < 80; ++i) {
+        // a dilated right ventricle with a wall of 3 mm
+        const double r = std::hypot(1.4 * (i - 45) + 30.0, 1.4 * (j - 40));
+        float& value = map.values[static_cast<std::size_t>((k * 80 + j) * 80 + i)];
+        if (value == 0.0F && r < 37.0)
+          value = r < 34.0 ? 3.0F : static_cast<float>(right_wall);
+      }
+  const auto count = [&](int label) {
+    return std::count(map.values.begin(), map.values.end(), static_cast<float>(label));
+  };
+  REQUIRE(count(3) > count(1));
+  const auto meaning = image::propose_meaning(map);
+  CHECK(meaning.cavity == Labels{1});
+  CHECK(sorted(meaning.muscle) == Labels{2});
+  CHECK(meaning.right_ventricle == Labels{3});
+}
+
 TEST_CASE("nothing is proposed where no label lies inside another", "[unit][image]") {
   const auto meaning = image::propose_meaning(map_of({5, 5, 0, 5, 5}));
   CHECK(meaning.cavity.empty());
