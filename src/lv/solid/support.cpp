@@ -38,6 +38,13 @@ Eigen::VectorXd gather(std::span<const Vec3> values, std::span<const int> nodes)
   return result;
 }
 
+/// Adds w phi_a phi_b K at a point, 3 x 3 blocks.
+void add_products(const ShapeTable& shapes, int q, double w, const Mat3& K, Eigen::MatrixXd& sum) {
+  for (int a = 0; a < shapes.nodes(); ++a)
+    for (int b = 0; b < shapes.nodes(); ++b)
+      sum.block<3, 3>(3 * a, 3 * b) += w * shapes.value(q, a) * shapes.value(q, b) * K;
+}
+
 /// A field at places X, three rows for each.
 Eigen::VectorXd field_at(const AffineField& field, const Eigen::VectorXd& X) {
   Eigen::VectorXd result(X.size());
@@ -91,15 +98,12 @@ SupportedSurface::SupportedSurface(const mesh::Mesh& mesh, const mesh::Surface& 
       const Mat3 along = support.scatter ? Mat3(on_normal + support.scatter(point.x)) : on_normal;
       const Mat3 across = Mat3::Identity() - on_normal;
       const double w = support.weight.at(height.at(point.x.z())) * dA;
-      for (int a = 0; a < n; ++a) {
-        for (int b = 0; b < n; ++b) {
-          const double wab = w * shapes.value(point.q, a) * shapes.value(point.q, b);
-          side.stiffness.block<3, 3>(3 * a, 3 * b) +=
-              wab * (support.normal_stiffness * along + support.tangential_stiffness * across);
-          side.viscosity.block<3, 3>(3 * a, 3 * b) +=
-              wab * (support.normal_viscosity * along + support.tangential_viscosity * across);
-        }
-      }
+      add_products(shapes, point.q, w,
+                   support.normal_stiffness * along + support.tangential_stiffness * across,
+                   side.stiffness);
+      add_products(shapes, point.q, w,
+                   support.normal_viscosity * along + support.tangential_viscosity * across,
+                   side.viscosity);
     });
     sides_.push_back(std::move(side));
   }
