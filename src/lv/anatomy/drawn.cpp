@@ -170,6 +170,7 @@ Drawn from_labels(const Case& c) {
   drawn.usual_base = geometry::BaseAt::slab;
   drawn.notes = std::move(traced.notes);
   warn("slices", traced.alike, drawn);
+  warn("cut base", traced.cut_base, drawn);
   warn("scar", unsaid_scar(c, volume), drawn);
   note_unnamed(image::label_volumes(volume, frame), a, drawn.notes);
   drawn.moment_is_known = volume.frames > 1;
@@ -442,6 +443,10 @@ Drawn read_drawn(const Case& c) {
   if (mended)
     image::close_walls(drawn.contours, thinnest, drawn.notes);
   geometry::check_contours(drawn.contours);
+  const bool says_itself = c.anatomy.source == case_file::AnatomySource::cine ||
+                           c.anatomy.source == case_file::AnatomySource::surfaces;
+  if (!says_itself)
+    warn("tip", geometry::hidden_tip(drawn.contours), drawn);
   for (const auto& notes :
        {geometry::notes_on_spacing(drawn.contours), geometry::notes_on_gaps(drawn.contours)})
     drawn.notes.insert(drawn.notes.end(), notes.begin(), notes.end());

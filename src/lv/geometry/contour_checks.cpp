@@ -142,17 +142,28 @@ std::string likely_unit(double diameter) {
   return "No common unit explains it: check the positions";
 }
 
-void check_units(const Contours& contours) {
+/// The mean diameter of the loops of one side [mm]; none where there are none.
+std::optional<double> mean_diameter(const Contours& contours, Side side) {
   double sum = 0.0;
   int loops = 0;
   for (const Contour& c : contours.short_axis) {
-    if (c.side != Side::endo)
+    if (c.side != side)
       continue;
     sum += 2.0 * mean_radius(c);
     ++loops;
   }
-  const double diameter = loops > 0 ? sum / loops : 2.0 * mean_radius(contours.short_axis.front());
-  if (diameter < least_diameter || diameter > largest_diameter)
+  return loops > 0 ? std::optional(sum / loops) : std::nullopt;
+}
+
+/// A cavity may be nearly empty at the end of systole; then the epicardium tells the unit.
+void check_units(const Contours& contours) {
+  const auto is_usual = [](double diameter) {
+    return diameter >= least_diameter && diameter <= largest_diameter;
+  };
+  const double diameter =
+      mean_diameter(contours, Side::endo).value_or(2.0 * mean_radius(contours.short_axis.front()));
+  const double outer = mean_diameter(contours, Side::epi).value_or(diameter);
+  if (!is_usual(diameter) && !is_usual(outer))
     throw InputError(
         contours.short_axis.front().where(),
         fmt::format("the mean diameter of the endocardium is {:.3g} mm; a ventricle's lies between "
@@ -569,6 +580,27 @@ std::vector<std::string> notes_on_spacing(const Contours& contours) {
     }
   }
   return notes;
+}
+
+std::string hidden_tip(const Contours& contours) {
+  constexpr double tip = 0.4;  // of the largest slice's area: more is no tip
+  const auto endo = loops_from_base(contours, Side::endo);
+  const bool ends_above = std::any_of(
+      contours.short_axis.begin(), contours.short_axis.end(),
+      [&](const Contour& c) { return find(contours.short_axis, c.slice, Side::endo) == nullptr; });
+  if (endo.empty() || ends_above || shows_apex(contours, Side::endo))
+    return "";
+  double largest = 0.0;
+  for (const Contour* loop : endo)
+    largest = std::max(largest, enclosed_area(*loop));
+  const double last = enclosed_area(*endo.back());
+  if (last <= tip * largest)
+    return "";
+  return fmt::format(
+      "slice {} is the last towards the tip, and its cavity has {:.0f}% of the largest slice's "
+      "area: the tip is not shown but made up from the slices there are, and volumes and mass lack "
+      "what lies beyond; give the slices down to the tip, or a point of it",
+      endo.back()->slice, 100.0 * last / largest);
 }
 
 std::vector<std::string> notes_on_gaps(const Contours& contours) {

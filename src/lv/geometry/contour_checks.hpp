@@ -8,12 +8,12 @@
 namespace lv::geometry {
 
 /// Refuses contours that cannot be borders of one left ventricle, by file and line: fewer than 8
-/// points in a loop (5 in a long-axis curve) or fewer than 3 slices; a size that only another unit
-/// than mm explains; loops that are not flat, not closed or cross themselves; a slice without
-/// endocardium, unless it lies beyond the cavity at the apex; a single epicardium, where no
-/// long-axis curve shows it besides; an endocardium that crosses, encloses or lies beside its
-/// epicardium; slices that are not parallel, not in order, or share a plane; long-axis curves or
-/// apex points far from the slices; long-axis curves that pass the loops more than 20 mm beside
+/// points in a loop (5 in a long-axis curve) or fewer than 3 slices; a size of both borders that
+/// only another unit than mm explains; loops that are not flat, not closed or cross themselves; a
+/// slice without endocardium, unless it lies beyond the cavity at the apex; a single epicardium,
+/// where no long-axis curve shows it besides; an endocardium that crosses, encloses or lies beside
+/// its epicardium; slices that are not parallel, not in order, or share a plane; long-axis curves
+/// or apex points far from the slices; long-axis curves that pass the loops more than 20 mm beside
 /// them (the median of where they cross the slices' planes). A slice without epicardium is
 /// accepted. @throws InputError
 void check_contours(const Contours& contours);
@@ -37,5 +37,10 @@ struct SliceFault {
 /// Loops of which a fifth of the length or more lies between two neighbouring points, though others
 /// lie much closer: a part was not drawn, and is bridged. At most one note.
 [[nodiscard]] std::vector<std::string> notes_on_gaps(const Contours& contours);
+
+/// A warning where the last slice towards the apex holds more than 0.4 of the largest one's cavity
+/// and neither a slice with muscle alone, a point of the apex nor a long-axis curve shows where the
+/// cavity ends: slices of the tip are missing. Empty otherwise.
+[[nodiscard]] std::string hidden_tip(const Contours& contours);
 
 }  // namespace lv::geometry

@@ -258,12 +258,20 @@ void check_surfaces(const Contours& contours, const FittedSurfaces& fit) {
           "Check the contours near the base, or smooth more (smoothing length)");
 }
 
-void check_wall(const Contours& contours, const Thickness& thinnest, double least) {
+void check_wall(const Contours& contours, const Frame& frame, const Thickness& thinnest,
+                double least) {
   if (thinnest.value >= least)
     return;
   const Contour& loop = *find(contours.short_axis, thinnest.slice, Side::endo);
+  const int last = slices_from_base(contours).back();
+  const Contour& last_loop = *find(contours.short_axis, last, Side::endo);
+  const bool is_beyond = thinnest.at.z() < frame.to_model(mean_of(last_loop.points)).z();
   const std::string at =
-      fmt::format("{}, near slice {}", place_on_wall(thinnest.at), thinnest.slice);
+      is_beyond ? fmt::format(
+                      "{}, beyond slice {}, the last with a cavity, where the wall is "
+                      "assumed from the slices above",
+                      place_on_wall(thinnest.at), last)
+                : fmt::format("{}, near slice {}", place_on_wall(thinnest.at), thinnest.slice);
   if (thinnest.value <= 0.0)
     throw InputError(loop.where(),
                      fmt::format("the fitted endocardium lies {:.1f} mm outside the epicardium at "
@@ -274,7 +282,10 @@ void check_wall(const Contours& contours, const Thickness& thinnest, double leas
       loop.where(),
       fmt::format("the wall is only {:.1f} mm thick at {}; at least {:g} mm are needed",
                   thinnest.value, at, least),
-      "Redraw the borders there, or accept a thinner wall");
+      fmt::format("{}, or accept a thinner wall (anatomy.contours.thinnest_wall)",
+                  is_beyond ? "Show where cavity and muscle end there, by points of the apex or "
+                              "long-axis contours"
+                            : "Redraw the borders there"));
 }
 
 /// The first place of a fine lattice where the wall (nearly) turns inside out: where
@@ -423,7 +434,7 @@ SplineWall fit_spline_wall(const Contours& contours, const SplineFitParameters& 
     report.short_axis[k].shift = shifts[k];
   report.notes = std::move(said.notes);
   report.assumed = std::move(said.assumed);
-  check_wall(placed, report.thinnest, parameters.thinnest_wall);
+  check_wall(placed, frame, report.thinnest, parameters.thinnest_wall);
   SplineWall wall(frame, matched_meridians(fit.endo, fit.epi), std::move(report));
   check_inside_out(placed, wall);
   return wall;

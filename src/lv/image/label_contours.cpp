@@ -2,6 +2,7 @@
 
 #include "lv/base/check.hpp"
 #include "lv/base/median.hpp"
+#include "lv/image/cut_base.hpp"
 #include "lv/image/lookup.hpp"
 #include "lv/image/plane_mask.hpp"
 #include "lv/image/short_axis_labels.hpp"
@@ -87,6 +88,20 @@ Moments moments(const PlaneMask& mask, const Plane& plane) {
         m.add({1.0, x, x * x.transpose()});
       }
   return m;
+}
+
+/// The part of a mask's edge that lies on another.
+double part_of_edge_on(const PlaneMask& other, const PlaneMask& mask) {
+  double edge = 0.0;
+  double on = 0.0;
+  for (int j = 1; j + 1 < mask.rows; ++j)
+    for (int i = 1; i + 1 < mask.columns; ++i)
+      for (const auto& [x, y] : {std::array{-1, 0}, {1, 0}, {0, -1}, {0, 1}})
+        if (mask.at(i, j) && !mask.at(i + x, j + y)) {
+          edge += 1.0;
+          on += other.at(i + x, j + y) ? 1.0 : 0.0;
+        }
+  return edge > 0.0 ? on / edge : 0.0;
 }
 
 bool touches_edge(const PlaneMask& mask) {
@@ -177,6 +192,20 @@ class Tracer {
     return cavity;
   }
 
+  /// Refuses labels by which muscle surrounds the right ventricle and not the cavity.
+  void refuse_exchanged(const Picture& picture, const PlaneMask& right, const PlaneMask& cavity,
+                        const Slice& slice) const {
+    constexpr double all_round = 0.8;  // of the edge
+    constexpr double in_part = 0.6;
+    const PlaneMask muscle = mask_of(picture, meaning_.muscle);
+    if (part_of_edge_on(muscle, right) > all_round && part_of_edge_on(muscle, cavity) < in_part)
+      refuse(slice,
+             fmt::format("muscle surrounds what anatomy.labels.right_ventricle names ({}), and not "
+                         "what anatomy.labels.cavity names",
+                         labels_in(picture, right)),
+             "The labels of cavity and right ventricle seem exchanged");
+  }
+
   /// What the wall encloses belongs to it, but for a right ventricle, whose own wall closes round
   /// it, and for holes too large to be slips of the brush.
   void fill_holes(const Picture& picture, const PlaneMask& body, const PlaneMask& part,
@@ -197,13 +226,15 @@ class Tracer {
       return static_cast<double>(pixels) / static_cast<double>(std::max<std::size_t>(of, 1));
     };
     if (share(of_right, right.count()) > largest_enclosed_right &&
-        share(of_right, cavity.count()) > least_enclosed)
+        share(of_right, cavity.count()) > least_enclosed) {
+      refuse_exchanged(picture, right, cavity, slice);
       refuse(slice,
              fmt::format("the wall encloses {:.0f} mm2 of what anatomy.labels.right_ventricle "
                          "names ({}): they would count to the wall",
                          mm2(of_right), labels_in(picture, enclosed)),
              "anatomy.labels.muscle seems to hold the right ventricle's muscle: list that of the "
              "left ventricle alone");
+    }
     if (cavity.count() > 0 && share(hole.count(), body.count()) >= largest_island)
       refuse(slice,
              fmt::format("the wall encloses a hole of {:.0f} mm2, {:.0f}% of all within the "
@@ -334,15 +365,34 @@ std::optional<double> angle_to_spread(const Moments& points, const Vec3& directi
   return std::acos(std::min(1.0, cosine)) * 180.0 / std::numbers::pi;
 }
 
+/// The cavity of a slice that the base cuts, before it was made whole or left out.
+struct Cut {
+  std::size_t slice;
+  Moments cavity;
+};
+
+/// The slices of the run that show a cavity, and those that the base cuts, as they were drawn.
+std::vector<Slice> shown_of(std::vector<Slice> slices, const Run& run,
+                            const std::vector<Cut>& cut) {
+  std::vector<bool> counts(slices.size(), false);
+  for (std::size_t s = run.first; s <= run.last; ++s)
+    counts[s] = true;
+  for (const Cut& c : cut) {
+    slices[c.slice].cavity = c.cavity;
+    counts[c.slice] = true;
+  }
+  std::vector<Slice> shown;
+  for (std::size_t s = 0; s < slices.size(); ++s)
+    if (counts[s] && slices[s].cavity.zeroth > 0.0)
+      shown.push_back(slices[s]);
+  return shown;
+}
+
 /// Notes or refuses slices that do not lie across the long axis, which is taken as the direction in
 /// which the cavity spreads most: as it is, or with its slices on one line if that is less oblique,
 /// since a jump of the breath turns the former and a slice cut by the base's edge the latter.
-void check_across(const std::vector<Slice>& slices, const Run& run, const std::string& file,
+void check_across(const std::vector<Slice>& shown, const std::string& file,
                   std::vector<std::string>& notes) {
-  std::vector<Slice> shown;
-  for (std::size_t s = run.first; s <= run.last; ++s)
-    if (slices[s].cavity.zeroth > 0.0)
-      shown.push_back(slices[s]);
   if (shown.size() < 2)
     return;
   const Vec3 normal = shown.front().plane.normal();
@@ -477,6 +527,31 @@ void check_alike(const Volume& stack, const std::vector<Picture>& pictures,
       fmt::join(which, ", "), stack.file, spacing * same, 1e-3 * cavity);
 }
 
+/// Slices that a base tilted to them cuts, as they were before: the cavity that they show tells
+/// where the long axis lies.
+std::vector<Cut> mend_base(const Volume& stack, const LabelMeaning& meaning,
+                           std::vector<Picture>& pictures, LabelContours& traced) {
+  constexpr double much = 0.05;  // of the cavity
+  double pixels = 0.0;
+  for (const Picture& picture : pictures)
+    pixels += static_cast<double>(mask_of(picture, meaning.cavity).count());
+  const double whole = pixels * stack.voxel_volume();
+  const std::vector<Picture> drawn = pictures;
+  const CutBase cut =
+      mend_cut_base(pictures, meaning.cavity, meaning.muscle, stack.spacing[slice_axis(stack)]);
+  traced.notes.insert(traced.notes.end(), cut.notes.begin(), cut.notes.end());
+  if (cut.left_out > much * whole)
+    traced.cut_base = fmt::format(
+        "the base is tilted to the slices of {}: those that it cuts by more than half are left "
+        "out, with {:.1f} ml ({:.0f}%) of the cavity's voxels, and where it cuts others {:.1f} ml "
+        "are added; look at the most basal slices",
+        stack.file, 1e-3 * cut.left_out, 100.0 * cut.left_out / whole, 1e-3 * cut.added);
+  std::vector<Cut> before;
+  for (const std::size_t s : cut.slices)
+    before.push_back({s, moments(filled(mask_of(drawn[s], meaning.cavity)), drawn[s].plane)});
+  return before;
+}
+
 double volume_of(const Volume& volume, const std::vector<int>& labels, int frame) {
   const std::size_t n = volume.voxels();
   std::size_t count = 0;
@@ -496,13 +571,14 @@ LabelContours trace_labels(const Volume& volume, const LabelMeaning& meaning, in
   Tracer tracer(stack, meaning, traced.notes);
   std::vector<Slice> traces;
   int number = 0;
-  const std::vector<Picture> pictures = slices(stack, slice_axis(stack), resampled ? 0 : frame);
-  for (const Picture& picture : pictures)
-    traces.push_back(tracer.trace(picture, ++number));
+  std::vector<Picture> pictures = slices(stack, slice_axis(stack), resampled ? 0 : frame);
   if (!resampled)
     check_alike(stack, pictures, meaning, traced);
+  const std::vector<Cut> cut = mend_base(stack, meaning, pictures, traced);
+  for (const Picture& picture : pictures)
+    traces.push_back(tracer.trace(picture, ++number));
   const Run run = main_run(traces, volume.file, traced.notes);
-  check_across(traces, run, volume.file, traced.notes);
+  check_across(shown_of(traces, run, cut), volume.file, traced.notes);
   keep_apical_muscle(traces, run, traced.notes);
   for (const Slice& slice : traces) {
     if (!slice.endo.empty())

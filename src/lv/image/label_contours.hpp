@@ -24,12 +24,15 @@ struct LabelContours {
   double muscle = 0.0;                          ///< volume of all voxels of the muscle [mm^3]
   std::optional<std::array<double, 3>> septum;  ///< towards the middle of the right ventricle [mm]
   std::vector<std::string> notes;               ///< what was filled, dropped, or left out, by slice
-  std::string alike;  ///< a warning of neighbouring slices that are the same; or empty
+  std::string alike;     ///< a warning of neighbouring slices that are the same; or empty
+  std::string cut_base;  ///< a warning of much of the cavity in slices left out; or empty
 };
 
 /// Draws the borders on every slice across slice_axis, half way between pixels inside and outside
 /// (see outline): the endocardium around the cavity, the epicardium around cavity and muscle.
 ///
+/// - Slices that a base tilted to them cuts are first made whole or left out: see mend_cut_base.
+///   More than a twentieth of the cavity's voxels left out is warned of.
 /// - Muscle or other labels that the cavity encloses count to the cavity (papillary muscles); more
 ///   than 30% of a slice is refused, for then the labels seem swapped.
 /// - Of several parts the largest is taken and the rest dropped; a second part of 20% or more is

@@ -52,6 +52,8 @@ std::string name_of(const geometry::Assumption& warning) {
                                                         {"fibres", "fibres out of the wall"},
                                                         {"size", "size of no human heart"},
                                                         {"cut cavity", "cavity cut off"},
+                                                        {"cut base", "base cut"},
+                                                        {"tip", "tip not shown"},
                                                         {"slices", "slices alike"},
                                                         {"moved slices", "slices moved"},
                                                         {"borders", "borders doubtful"},

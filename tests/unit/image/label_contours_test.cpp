@@ -365,3 +365,71 @@ TEST_CASE("two neighbouring slices that are the same are warned of, many are a r
   CHECK(thin.alike.empty());
   CHECK_THAT(all(thin.notes), !Contains("resampled"));
 }
+
+namespace {
+
+/// A ventricle that a plane base cuts, tilted by an angle about y and lifted.
+LabelContours cut_by_base(double degrees, double lift = 0.0) {
+  const double slope = std::tan(degrees * pi / 180.0);
+  return traced([slope, lift](const Vec3& X, int) {
+    const geometry::Ellipsoid e;
+    const auto inside = [&](double a, double c) {
+      return Vec3(X.x() / a, X.y() / a, (X.z() + e.base_height) / c).norm() < 1.0;
+    };
+    if (X.z() + slope * X.x() > lift)
+      return 0;
+    return inside(e.endo_radius, e.endo_length) ? 1 : inside(e.epi_radius, e.epi_length) ? 2 : 0;
+  });
+}
+
+}  // namespace
+
+TEST_CASE("slices that a tilted base cuts are made whole or left out", "[unit][image]") {
+  const geometry::Ellipsoid e;
+  const double cavity = volume(e, e.endo_radius, e.endo_length);
+  const double wall = volume(e, e.epi_radius, e.epi_length) - cavity;
+  CHECK_THAT(all(cut_by_base(0.0).notes), !Contains("the base cuts it"));
+  for (const double angle : {15.0, 18.0, 21.0, 25.0}) {
+    LabelContours labels = cut_by_base(angle);
+    CHECK_THAT(all(labels.notes), Contains("slice 2: the base cuts it") && Contains("left out"));
+    CHECK(labels.cut_base.empty());
+    close_walls(labels.contours, 1.0, labels.notes);
+    geometry::check_contours(labels.contours);
+    geometry::SplineFitParameters fit;
+    fit.frame.base_at = geometry::BaseAt::slab;
+    const auto report = geometry::fit_spline_wall(labels.contours, fit).report();
+    CHECK(report.volume_cavity == Approx(cavity).epsilon(0.03));
+    CHECK(report.volume_wall == Approx(wall).epsilon(0.04));
+  }
+  CHECK_THAT(all(cut_by_base(25.0).notes),
+             Contains("slice 3: the base cuts it") && Contains("the wall is taken as on the slices "
+                                                               "below"));
+  CHECK_THAT(cut_by_base(25.0, 3.5).cut_base, Contains("the base is tilted to the slices of ") &&
+                                                  Contains("of the cavity's voxels"));
+}
+
+TEST_CASE("cavity and right ventricle exchanged are named", "[unit][image]") {
+  const auto change = [](const Vec3& X, int label) {
+    if (label != 0 || X.z() > 0.0)
+      return label;
+    return (X - Vec3(-38.0, 0.0, X.z())).norm() < 18.0 ? 3 : label;
+  };
+  const Volume map = askew(2, change, 110);
+  CHECK_NOTHROW(trace_labels(map, {{1}, {2}, {3}}, 0));
+  CHECK_THROWS_WITH(trace_labels(map, {{3}, {2}, {1}}, 0),
+                    Contains("muscle surrounds what anatomy.labels.right_ventricle names (label "
+                             "1)") &&
+                        Contains("seem exchanged"));
+}
+
+TEST_CASE("a slice in mid-ventricle that is cut is not the base's", "[unit][image]") {
+  const LabelContours half = traced([](const Vec3& X, int label) {
+    return X.z() > -30.0 && X.z() < -26.0 && X.x() > -5.0 ? 0 : label;
+  });
+  CHECK_THAT(all(half.notes), !Contains("the base cuts it"));
+  CHECK_THROWS_WITH(traced([](const Vec3& X, int label) {
+                      const bool stray = std::abs(X.x()) > 12.0;
+                      return X.z() > -30.0 && X.z() < -26.0 && !stray ? 0 : label;
+                    }),
+                    Contains("the cavity is in 2 parts"));
+}
