@@ -1,6 +1,7 @@
 #include "lv/geometry/drawn_wall.hpp"
 
 #include "lv/base/check.hpp"
+#include "lv/geometry/contour_checks.hpp"
 #include "lv/geometry/long_axis.hpp"
 
 #include "geometry/drawn_ellipsoid.hpp"
@@ -36,6 +37,32 @@ Contours bent(Contours contours, const Frame& frame, double radius) {
 }
 
 }  // namespace
+
+TEST_CASE("a stack that ends in the middle of a ventricle hides its tip", "[unit][geometry]") {
+  Drawing drawing = short_axis_alone();
+  drawing.apex = false;
+  drawing.slices = 6;
+  CHECK_THAT(hidden_tip(draw(drawing)), Contains("slice 6 is the last towards the tip") &&
+                                            Contains("give the slices down to the tip"));
+  drawing.slices = 8;  // the last has a small cavity
+  CHECK(hidden_tip(draw(drawing)).empty());
+  drawing.slices = 6;
+  drawing.long_axis = true;
+  CHECK(hidden_tip(draw(drawing)).empty());
+  drawing.long_axis = false;
+  drawing.apex = true;
+  CHECK(hidden_tip(draw(drawing)).empty());
+}
+
+TEST_CASE("an all but empty cavity in a wall of usual size is no matter of units",
+          "[unit][geometry]") {
+  Drawing drawing = short_axis_alone();
+  drawing.shape.endo_radius = 4.0;
+  const Contours contours = draw(drawing);
+  CHECK_NOTHROW(check_contours(contours));
+  drawing.shape.epi_radius = 4.5;
+  CHECK_THROWS_AS(check_contours(draw(drawing)), InputError);
+}
 
 TEST_CASE("a base plane in an annulus too far above the slices is laid at the end of the slab",
           "[unit][geometry]") {
