@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace lv::segment {
@@ -34,6 +35,13 @@ double usual_wall(const SliceBorders& slice) {
   return median(std::move(parts));
 }
 
+double usual_wall(const SliceBorders& slice, const std::vector<std::size_t>& frames) {
+  std::vector<double> parts;
+  for (const std::size_t t : frames)
+    parts.push_back(slice.frames[t].wall_part);
+  return median(std::move(parts));
+}
+
 double usual_contrast(const std::vector<SliceBorders>& borders) {
   std::vector<double> contrasts;
   for (const SliceBorders& slice : borders)
@@ -41,9 +49,10 @@ double usual_contrast(const std::vector<SliceBorders>& borders) {
   return median(std::move(contrasts));
 }
 
+constexpr double told = 0.5;  // of the usual contrast, from which on blood is told from muscle
+
 /// Why a slice by itself shows no ventricle; empty if it may show it.
 std::string shows_none(const SliceBorders& slice, double usual) {
-  constexpr double told = 0.5;  // of the usual contrast
   if (const double wall = usual_wall(slice); wall < surrounded)
     return fmt::format(
         "muscle surrounds {:.0f}% of its blood; an atrium, the outflow tract or beyond the tip",
@@ -139,6 +148,42 @@ void drop_atrium(const std::vector<SliceBorders>& borders, std::vector<std::size
   slices.erase(slices.begin(), slices.begin() + static_cast<std::ptrdiff_t>(drop));
 }
 
+/// The sum of the slices' areas per frame.
+std::vector<double> held_by(const std::vector<SliceBorders>& borders,
+                            const std::vector<std::size_t>& slices) {
+  std::vector<double> held(borders.front().frames.size(), 0.0);
+  for (const std::size_t s : slices)
+    add(areas_of(borders[s]), 1.0, held);
+  return held;
+}
+
+/// The quarter of the frames in which slices hold most blood.
+std::vector<std::size_t> fullest_frames(const std::vector<SliceBorders>& borders,
+                                        const std::vector<std::size_t>& slices) {
+  const std::vector<double> held = held_by(borders, slices);
+  std::vector<std::size_t> frames(held.size());
+  std::iota(frames.begin(), frames.end(), std::size_t{0});
+  std::stable_sort(frames.begin(), frames.end(),
+                   [&](std::size_t a, std::size_t b) { return held[a] > held[b]; });
+  frames.resize(std::max<std::size_t>(1, frames.size() / 4));
+  return frames;
+}
+
+/// Adds slices beyond the base of a run that muscle surrounds round end-diastole alone: the base
+/// moves by more than a slice's thickness, and leaves them to the atrium for most of the cycle.
+void add_end_diastolic(const std::vector<SliceBorders>& borders, bool base_first,
+                       std::vector<std::size_t>& slices) {
+  constexpr double surely = 0.75;  // of the circumference
+  const std::vector<std::size_t> frames = fullest_frames(borders, slices);
+  const double usual = usual_contrast(borders);
+  while (slices.front() != (base_first ? 0 : borders.size() - 1)) {
+    const std::size_t next = base_first ? slices.front() - 1 : slices.front() + 1;
+    if (usual_wall(borders[next], frames) < surely || borders[next].contrast < told * usual)
+      return;
+    slices.insert(slices.begin(), next);
+  }
+}
+
 /// The median of the part with muscle over the frames within a tenth of the cycle: a base that
 /// comes and goes does so in less.
 double steady_wall(const SliceBorders& slice, std::size_t frame) {
@@ -150,11 +195,25 @@ double steady_wall(const SliceBorders& slice, std::size_t frame) {
   return median(std::move(near));
 }
 
-/// Marks, per slice and frame, what shows the ventricle.
-void mark(const std::vector<std::size_t>& slices, Segmentation& found) {
+/// Whether slices hold more than the middle of what they do over the frames, per frame.
+std::vector<bool> is_fuller(const std::vector<SliceBorders>& borders,
+                            const std::vector<std::size_t>& slices) {
+  const std::vector<double> held = held_by(borders, slices);
+  const auto [least, most] = std::minmax_element(held.begin(), held.end());
+  std::vector<bool> fuller;
+  for (const double area : held)
+    fuller.push_back(area > 0.5 * (*least + *most));
+  return fuller;
+}
+
+/// Marks, per slice and frame, what shows the ventricle; the first so many slices only while the
+/// others hold more than the middle of what they do.
+void mark(const std::vector<std::size_t>& slices, std::size_t end_diastolic, Segmentation& found) {
   constexpr double least_radius = 3.0;  // [mm]
+  const auto others = slices.begin() + static_cast<std::ptrdiff_t>(end_diastolic);
+  const std::vector<bool> fuller = is_fuller(found.borders, {others, slices.end()});
   for (std::size_t t = 0; t < found.borders.front().frames.size(); ++t) {
-    auto begin = slices.begin();
+    auto begin = fuller[t] ? slices.begin() : others;
     auto end = slices.end();
     while (begin != end && steady_wall(found.borders[*begin], t) < surrounded)
       ++begin;
@@ -214,12 +273,12 @@ void doubt_ends(const Run& run, const std::vector<std::size_t>& slices, Segmenta
       slices.front() + 1, slices.back() + 1));
 }
 
-/// Slices whose blood grows while that of all others shrinks.
+/// Slices that always show the ventricle and whose blood grows while that of all others shrinks.
 void doubt_times(const std::vector<std::size_t>& slices, Segmentation& found) {
-  std::vector<double> all(found.volumes.size(), 0.0);
-  for (const std::size_t s : slices)
-    add(areas_of(found.borders[s]), 1.0, all);
+  const std::vector<double> all = held_by(found.borders, slices);
   for (const std::size_t s : slices) {
+    if (!always(found.shows[s]))
+      continue;
     const std::vector<double> own = areas_of(found.borders[s]);
     std::vector<double> others = all;
     add(own, -1.0, others);
@@ -337,11 +396,14 @@ Segmentation segment(const Cine& cine, const SegmentParameters& parameters,
   found.spacing = image::spacing_of(cine);
   found.shows.assign(cine.slices.size(), std::vector<char>(cine.slices.front().frames.size(), 0));
   const Run run = walled_run(found.borders, heart.seed);
-  std::vector<std::size_t> slices = from_base(run, base_is_first(found.borders, run));
+  const bool base_first = base_is_first(found.borders, run);
+  std::vector<std::size_t> slices = from_base(run, base_first);
   drop_atrium(found.borders, slices);
   if (slices.size() < fewest_slices)
     refuse_few(found.borders, run, slices.size(), parameters.centre.has_value(), where);
-  mark(slices, found);
+  const std::size_t always_there = slices.size();
+  add_end_diastolic(found.borders, base_first, slices);
+  mark(slices, slices.size() - always_there, found);
   found.volumes = volumes_of_shown(found);
   found.phases = phases_of(found);
   doubt_ends(run, slices, found);

@@ -14,6 +14,7 @@
 #include "support/temporary_folder.hpp"
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -268,6 +269,40 @@ TEST_CASE("a slice is left out for the reason that decided", "[segment]") {
                                   [&](const std::string& d) { return d.starts_with(about); });
   REQUIRE(doubt != found.doubts.end());
   CHECK_THAT(*doubt, Catch::Contains("of what they do in most slices"));
+}
+
+TEST_CASE("a slice that the base leaves to the atrium counts at end-diastole alone", "[segment]") {
+  phantom::Scan scan = test::noisy_scan(1);
+  scan.phases = 15;
+  image::Cine cine = test::phantom_study("phantom", scan, 0.0).cine;
+  const segment::Segmentation whole = segment::segment(cine, {}, "phantom");
+  std::size_t basal = 0;
+  while (whole.shows[basal][0] == 0)
+    ++basal;
+  ++basal;  // the first whose muscle goes all round
+  const segment::Pixel centre = whole.borders[basal].centre;
+  const auto diastole = static_cast<std::size_t>(whole.phases.end_diastole);
+  const auto systole = static_cast<std::size_t>(whole.phases.end_systole);
+  const std::size_t frames = cine.slices[basal].frames.size();
+  for (std::size_t d = 3; d + 2 < frames; ++d) {  // but for two frames on either side
+    image::Picture& picture = cine.slices[basal].frames[(diastole + d) % frames];
+    const image::Plane& plane = picture.plane;
+    const float blood = picture.at(static_cast<int>(centre.x()), static_cast<int>(centre.y()));
+    for (int j = 0; j < plane.rows; ++j)
+      for (int i = 0; i < plane.columns; ++i) {
+        const double r = std::hypot(i - centre.x(), j - centre.y()) * plane.spacing_i;
+        const bool lung = j < centre.y();
+        picture.values[static_cast<std::size_t>(j) * plane.columns + i] =
+            blood * (r < 22.0   ? 1.0F
+                     : r < 24.0 ? 0.35F
+                     : lung     ? 0.1F
+                                : 1.1F);
+      }
+  }
+  const segment::Segmentation found = segment::segment(cine, {}, "phantom");
+  INFO(fmt::format("{}", fmt::join(found.doubts, "; ")));
+  CHECK(found.shows[basal][diastole] != 0);
+  CHECK(found.shows[basal][systole] == 0);
 }
 
 TEST_CASE("a slice that begins at another time of the cycle is doubted", "[segment]") {
