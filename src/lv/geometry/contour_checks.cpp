@@ -583,7 +583,6 @@ std::vector<std::string> notes_on_spacing(const Contours& contours) {
 }
 
 std::string hidden_tip(const Contours& contours) {
-  constexpr double tip = 0.4;  // of the largest slice's area: more is no tip
   const auto endo = loops_from_base(contours, Side::endo);
   const bool ends_above = std::any_of(
       contours.short_axis.begin(), contours.short_axis.end(),
@@ -594,7 +593,7 @@ std::string hidden_tip(const Contours& contours) {
   for (const Contour* loop : endo)
     largest = std::max(largest, enclosed_area(*loop));
   const double last = enclosed_area(*endo.back());
-  if (last <= tip * largest)
+  if (last <= largest_tip * largest)
     return "";
   return fmt::format(
       "slice {} is the last towards the tip, and its cavity has {:.0f}% of the largest slice's "

@@ -38,9 +38,12 @@ struct SliceFault {
 /// lie much closer: a part was not drawn, and is bridged. At most one note.
 [[nodiscard]] std::vector<std::string> notes_on_gaps(const Contours& contours);
 
-/// A warning where the last slice towards the apex holds more than 0.4 of the largest one's cavity
-/// and neither a slice with muscle alone, a point of the apex nor a long-axis curve shows where the
-/// cavity ends: slices of the tip are missing. Empty otherwise.
+/// The cavity of a slice that shows a ventricle's tip, as a part of the largest slice's area.
+inline constexpr double largest_tip = 0.4;
+
+/// A warning where the last slice towards the apex holds more than a tip (largest_tip) and neither
+/// a slice with muscle alone, a point of the apex nor a long-axis curve shows where the cavity
+/// ends: slices of the tip are missing. Empty otherwise.
 [[nodiscard]] std::string hidden_tip(const Contours& contours);
 
 }  // namespace lv::geometry

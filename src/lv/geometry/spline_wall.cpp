@@ -263,14 +263,13 @@ void check_wall(const Contours& contours, const Frame& frame, const Thickness& t
   if (thinnest.value >= least)
     return;
   const Contour& loop = *find(contours.short_axis, thinnest.slice, Side::endo);
-  const int last = slices_from_base(contours).back();
-  const Contour& last_loop = *find(contours.short_axis, last, Side::endo);
-  const bool is_beyond = thinnest.at.z() < frame.to_model(mean_of(last_loop.points)).z();
+  const Contour& last = *loops_from_base(contours, Side::endo).back();
+  const bool is_beyond = thinnest.at.z() < frame.to_model(mean_of(last.points)).z();
   const std::string at =
       is_beyond ? fmt::format(
                       "{}, beyond slice {}, the last with a cavity, where the wall is "
                       "assumed from the slices above",
-                      place_on_wall(thinnest.at), last)
+                      place_on_wall(thinnest.at), last.slice)
                 : fmt::format("{}, near slice {}", place_on_wall(thinnest.at), thinnest.slice);
   if (thinnest.value <= 0.0)
     throw InputError(loop.where(),

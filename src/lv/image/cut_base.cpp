@@ -1,13 +1,11 @@
 #include "lv/image/cut_base.hpp"
 
-#include "lv/image/lookup.hpp"
 #include "lv/image/plane_mask.hpp"
 
 #include <Eigen/Core>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <numeric>
 
@@ -34,33 +32,6 @@ struct LabelledSlice {
   }
 };
 
-LabelledSlice tissue_of(const Picture& picture, const std::vector<int>& cavity,
-                        const std::vector<int>& muscle) {
-  LabelledSlice tissue{PlaneMask(picture.plane.columns, picture.plane.rows),
-                       PlaneMask(picture.plane.columns, picture.plane.rows)};
-  for (std::size_t p = 0; p < picture.values.size(); ++p) {
-    tissue.cavity.inside[p] = is_one_of(picture.values[p], cavity) ? 1 : 0;
-    tissue.muscle.inside[p] = is_one_of(picture.values[p], muscle) ? 1 : 0;
-  }
-  tissue.cavity = filled(tissue.cavity);
-  return tissue;
-}
-
-/// The part of the cavity's edge that borders neither cavity nor muscle.
-double open_part(const LabelledSlice& tissue) {
-  const PlaneMask& cavity = tissue.cavity;
-  double open = 0.0;
-  double edge = 0.0;
-  for (int j = 1; j + 1 < cavity.rows; ++j)
-    for (int i = 1; i + 1 < cavity.columns; ++i)
-      for (const auto& [x, y] : {std::array{-1, 0}, {1, 0}, {0, -1}, {0, 1}})
-        if (cavity.at(i, j) && !cavity.at(i + x, j + y)) {
-          edge += 1.0;
-          open += tissue.muscle.at(i + x, j + y) ? 0.0 : 1.0;
-        }
-  return edge > 0.0 ? open / edge : 0.0;
-}
-
 /// The cavity below that is neither cavity nor muscle here.
 PlaneMask lost_from(const LabelledSlice& below, const LabelledSlice& here) {
   PlaneMask lost = below.cavity;
@@ -78,7 +49,7 @@ bool is_open_part_of(const LabelledSlice& here, const LabelledSlice& below) {
   std::size_t within = 0;
   for (std::size_t p = 0; p < here.cavity.inside.size(); ++p)
     within += here.cavity.inside[p] != 0 && !below.is_rest(p) ? 1 : 0;
-  return here.muscle.count() > 0 && open_part(here) >= least_open &&
+  return here.muscle.count() > 0 && 1.0 - part_of_edge_on(here.muscle, here.cavity) >= least_open &&
          share(within, here.cavity.count()) >= least_within;
 }
 
@@ -178,7 +149,7 @@ CutBase mend_cut_base(std::vector<Picture>& pictures, const std::vector<int>& ca
                       const std::vector<int>& muscle, double slab) {
   std::vector<LabelledSlice> slices;
   for (const Picture& picture : pictures)
-    slices.push_back(tissue_of(picture, cavity, muscle));
+    slices.push_back({filled(mask_of(picture, cavity)), mask_of(picture, muscle)});
   const std::vector<std::size_t> row = towards_base(slices);
   CutBase found;
   if (static_cast<std::ptrdiff_t>(row.size()) <= least_left)

@@ -34,13 +34,6 @@ constexpr double noted_angle = 15.0;            // of the slices' normal to the 
 constexpr double largest_obliqueness = 25.0;
 constexpr double distinct = 1.25;  // spread along a long axis to that across it
 
-PlaneMask mask_of(const Picture& picture, const std::vector<int>& labels) {
-  PlaneMask mask(picture.plane.columns, picture.plane.rows);
-  for (std::size_t p = 0; p < mask.inside.size(); ++p)
-    mask.inside[p] = is_one_of(picture.values[p], labels) ? 1 : 0;
-  return mask;
-}
-
 /// "label 3" or "labels 0, 3": those that a part of a slice has.
 std::string labels_in(const Picture& picture, const PlaneMask& part) {
   std::set<int> found;
@@ -88,20 +81,6 @@ Moments moments(const PlaneMask& mask, const Plane& plane) {
         m.add({1.0, x, x * x.transpose()});
       }
   return m;
-}
-
-/// The part of a mask's edge that lies on another.
-double part_of_edge_on(const PlaneMask& other, const PlaneMask& mask) {
-  double edge = 0.0;
-  double on = 0.0;
-  for (int j = 1; j + 1 < mask.rows; ++j)
-    for (int i = 1; i + 1 < mask.columns; ++i)
-      for (const auto& [x, y] : {std::array{-1, 0}, {1, 0}, {0, -1}, {0, 1}})
-        if (mask.at(i, j) && !mask.at(i + x, j + y)) {
-          edge += 1.0;
-          on += other.at(i + x, j + y) ? 1.0 : 0.0;
-        }
-  return edge > 0.0 ? on / edge : 0.0;
 }
 
 bool touches_edge(const PlaneMask& mask) {
@@ -527,15 +506,20 @@ void check_alike(const Volume& stack, const std::vector<Picture>& pictures,
       fmt::join(which, ", "), stack.file, spacing * same, 1e-3 * cavity);
 }
 
+double volume_of(const Volume& volume, const std::vector<int>& labels, int frame) {
+  const std::size_t n = volume.voxels();
+  std::size_t count = 0;
+  for (std::size_t v = n * frame; v < n * (frame + 1); ++v)
+    count += is_one_of(volume.values[v], labels) ? 1 : 0;
+  return static_cast<double>(count) * volume.voxel_volume();
+}
+
 /// Slices that a base tilted to them cuts, as they were before: the cavity that they show tells
 /// where the long axis lies.
-std::vector<Cut> mend_base(const Volume& stack, const LabelMeaning& meaning,
+std::vector<Cut> mend_base(const Volume& stack, const LabelMeaning& meaning, int frame,
                            std::vector<Picture>& pictures, LabelContours& traced) {
   constexpr double much = 0.05;  // of the cavity
-  double pixels = 0.0;
-  for (const Picture& picture : pictures)
-    pixels += static_cast<double>(mask_of(picture, meaning.cavity).count());
-  const double whole = pixels * stack.voxel_volume();
+  const double whole = volume_of(stack, meaning.cavity, frame);
   const std::vector<Picture> drawn = pictures;
   const CutBase cut =
       mend_cut_base(pictures, meaning.cavity, meaning.muscle, stack.spacing[slice_axis(stack)]);
@@ -552,14 +536,6 @@ std::vector<Cut> mend_base(const Volume& stack, const LabelMeaning& meaning,
   return before;
 }
 
-double volume_of(const Volume& volume, const std::vector<int>& labels, int frame) {
-  const std::size_t n = volume.voxels();
-  std::size_t count = 0;
-  for (std::size_t v = n * frame; v < n * (frame + 1); ++v)
-    count += is_one_of(volume.values[v], labels) ? 1 : 0;
-  return static_cast<double>(count) * volume.voxel_volume();
-}
-
 }  // namespace
 
 LabelContours trace_labels(const Volume& volume, const LabelMeaning& meaning, int frame) {
@@ -571,10 +547,11 @@ LabelContours trace_labels(const Volume& volume, const LabelMeaning& meaning, in
   Tracer tracer(stack, meaning, traced.notes);
   std::vector<Slice> traces;
   int number = 0;
-  std::vector<Picture> pictures = slices(stack, slice_axis(stack), resampled ? 0 : frame);
+  const int drawn = resampled ? 0 : frame;
+  std::vector<Picture> pictures = slices(stack, slice_axis(stack), drawn);
   if (!resampled)
     check_alike(stack, pictures, meaning, traced);
-  const std::vector<Cut> cut = mend_base(stack, meaning, pictures, traced);
+  const std::vector<Cut> cut = mend_base(stack, meaning, drawn, pictures, traced);
   for (const Picture& picture : pictures)
     traces.push_back(tracer.trace(picture, ++number));
   const Run run = main_run(traces, volume.file, traced.notes);

@@ -1,10 +1,13 @@
 #include "lv/image/plane_mask.hpp"
 
+#include "lv/image/lookup.hpp"
+
 #include <itkConnectedComponentImageFilter.h>
 #include <itkContourExtractor2DImageFilter.h>
 #include <itkImage.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 #include <utility>
@@ -50,6 +53,26 @@ PlaneMask from_itk(const Labels& labels, int columns, int rows, const Chosen& ch
 
 std::size_t PlaneMask::count() const {
   return static_cast<std::size_t>(std::count(inside.begin(), inside.end(), 1));
+}
+
+PlaneMask mask_of(const Picture& picture, const std::vector<int>& labels) {
+  PlaneMask mask(picture.plane.columns, picture.plane.rows);
+  for (std::size_t p = 0; p < mask.inside.size(); ++p)
+    mask.inside[p] = is_one_of(picture.values[p], labels) ? 1 : 0;
+  return mask;
+}
+
+double part_of_edge_on(const PlaneMask& other, const PlaneMask& mask) {
+  double edge = 0.0;
+  double on = 0.0;
+  for (int j = 1; j + 1 < mask.rows; ++j)
+    for (int i = 1; i + 1 < mask.columns; ++i)
+      for (const auto& [x, y] : {std::array{-1, 0}, {1, 0}, {0, -1}, {0, 1}})
+        if (mask.at(i, j) && !mask.at(i + x, j + y)) {
+          edge += 1.0;
+          on += other.at(i + x, j + y) ? 1.0 : 0.0;
+        }
+  return edge > 0.0 ? on / edge : 0.0;
 }
 
 std::vector<PlaneMask> parts(const PlaneMask& mask) {

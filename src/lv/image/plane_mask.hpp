@@ -1,5 +1,7 @@
 #pragma once
 
+#include "lv/image/picture.hpp"
+
 #include <Eigen/Core>
 
 #include <cstddef>
@@ -19,6 +21,12 @@ struct PlaneMask {
     return inside[static_cast<std::size_t>(j) * columns + i] != 0;
   }
 };
+
+/// The pixels of a slice that have one of these labels.
+[[nodiscard]] PlaneMask mask_of(const Picture& picture, const std::vector<int>& labels);
+
+/// The part of a mask's edge, in edges of pixels, that lies on another; 0 without an edge.
+[[nodiscard]] double part_of_edge_on(const PlaneMask& other, const PlaneMask& mask);
 
 /// The parts of a mask whose pixels hang together along edges, largest first.
 [[nodiscard]] std::vector<PlaneMask> parts(const PlaneMask& mask);

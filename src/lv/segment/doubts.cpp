@@ -1,6 +1,7 @@
 #include "lv/segment/doubts.hpp"
 
 #include "lv/base/median.hpp"
+#include "lv/geometry/contour_checks.hpp"
 
 #include <fmt/format.h>
 
@@ -65,7 +66,6 @@ double area_at_its_largest(const SliceBorders& slice) {
 
 void warn_of_ends(const std::vector<std::size_t>& slices, const Segmentation& found,
                   Sentences& warnings) {
-  constexpr double tip = 0.4;  // of the largest slice's area: more is no tip
   const auto ends_stack = [&](std::size_t s) { return s == 0 || s + 1 == found.borders.size(); };
   if (ends_stack(slices.front()))
     warnings.push_back(fmt::format(
@@ -76,7 +76,7 @@ void warn_of_ends(const std::vector<std::size_t>& slices, const Segmentation& fo
   for (const std::size_t s : slices)
     largest = std::max(largest, area_at_its_largest(found.borders[s]));
   const double last = area_at_its_largest(found.borders[slices.back()]);
-  if (ends_stack(slices.back()) && last > tip * largest)
+  if (ends_stack(slices.back()) && last > geometry::largest_tip * largest)
     warnings.push_back(fmt::format(
         "slice {} is the last image towards the tip, and its cavity has {:.0f}% of the largest "
         "slice's area: the tip is not shown, and volumes and masses lack it",

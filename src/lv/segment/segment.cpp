@@ -28,11 +28,10 @@ struct Run {
   std::size_t first, last;
 };
 
-double usual_wall(const SliceBorders& slice) {
-  std::vector<double> parts;
-  for (const FrameBorders& frame : slice.frames)
-    parts.push_back(frame.wall_part);
-  return median(std::move(parts));
+std::vector<std::size_t> all_frames(const SliceBorders& slice) {
+  std::vector<std::size_t> frames(slice.frames.size());
+  std::iota(frames.begin(), frames.end(), std::size_t{0});
+  return frames;
 }
 
 double usual_wall(const SliceBorders& slice, const std::vector<std::size_t>& frames) {
@@ -53,7 +52,7 @@ constexpr double told = 0.5;  // of the usual contrast, from which on blood is t
 
 /// Why a slice by itself shows no ventricle; empty if it may show it.
 std::string shows_none(const SliceBorders& slice, double usual) {
-  if (const double wall = usual_wall(slice); wall < surrounded)
+  if (const double wall = usual_wall(slice, all_frames(slice)); wall < surrounded)
     return fmt::format(
         "muscle surrounds {:.0f}% of its blood; an atrium, the outflow tract or beyond the tip",
         100.0 * wall);
@@ -133,38 +132,36 @@ std::vector<std::size_t> from_base(const Run& run, bool base_first) {
   return slices;
 }
 
+/// The sum of the slices' areas per frame.
+std::vector<double> blood_in(const std::vector<SliceBorders>& borders,
+                             const std::vector<std::size_t>& slices) {
+  std::vector<double> blood(borders.front().frames.size(), 0.0);
+  for (const std::size_t s : slices)
+    add(areas_of(borders[s]), 1.0, blood);
+  return blood;
+}
+
 /// Drops slices at the base, of the upper half, whose blood does not shrink with the others': a
 /// ventricle's does by about as much, that of an atrium grows, and a slice that the base passes
 /// stays between.
 void drop_atrium(const std::vector<SliceBorders>& borders, std::vector<std::size_t>& slices) {
   constexpr double ventricle = 0.5;  // part of the others' relative change
-  std::vector<double> lower(borders.front().frames.size(), 0.0);
-  for (std::size_t n = slices.size() / 2; n < slices.size(); ++n)
-    add(areas_of(borders[slices[n]]), 1.0, lower);
+  const std::size_t half = slices.size() / 2;
+  const std::vector<double> lower =
+      blood_in(borders, {slices.begin() + static_cast<std::ptrdiff_t>(half), slices.end()});
   std::size_t drop = 0;
-  while (drop < slices.size() / 2 &&
-         shared_change(areas_of(borders[slices[drop]]), lower) < ventricle)
+  while (drop < half && shared_change(areas_of(borders[slices[drop]]), lower) < ventricle)
     ++drop;
   slices.erase(slices.begin(), slices.begin() + static_cast<std::ptrdiff_t>(drop));
-}
-
-/// The sum of the slices' areas per frame.
-std::vector<double> held_by(const std::vector<SliceBorders>& borders,
-                            const std::vector<std::size_t>& slices) {
-  std::vector<double> held(borders.front().frames.size(), 0.0);
-  for (const std::size_t s : slices)
-    add(areas_of(borders[s]), 1.0, held);
-  return held;
 }
 
 /// The quarter of the frames in which slices hold most blood.
 std::vector<std::size_t> fullest_frames(const std::vector<SliceBorders>& borders,
                                         const std::vector<std::size_t>& slices) {
-  const std::vector<double> held = held_by(borders, slices);
-  std::vector<std::size_t> frames(held.size());
-  std::iota(frames.begin(), frames.end(), std::size_t{0});
+  const std::vector<double> blood = blood_in(borders, slices);
+  std::vector<std::size_t> frames = all_frames(borders.front());
   std::stable_sort(frames.begin(), frames.end(),
-                   [&](std::size_t a, std::size_t b) { return held[a] > held[b]; });
+                   [&](std::size_t a, std::size_t b) { return blood[a] > blood[b]; });
   frames.resize(std::max<std::size_t>(1, frames.size() / 4));
   return frames;
 }
@@ -189,19 +186,19 @@ void add_end_diastolic(const std::vector<SliceBorders>& borders, bool base_first
 double steady_wall(const SliceBorders& slice, std::size_t frame) {
   const std::size_t n = slice.frames.size();
   const std::size_t reach = std::max<std::size_t>(1, n / 10);
-  std::vector<double> near;
+  std::vector<std::size_t> near;
   for (std::size_t d = 0; d <= 2 * reach; ++d)
-    near.push_back(slice.frames[(frame + n + d - reach) % n].wall_part);
-  return median(std::move(near));
+    near.push_back((frame + n + d - reach) % n);
+  return usual_wall(slice, near);
 }
 
 /// Whether slices hold more than the middle of what they do over the frames, per frame.
 std::vector<bool> is_fuller(const std::vector<SliceBorders>& borders,
                             const std::vector<std::size_t>& slices) {
-  const std::vector<double> held = held_by(borders, slices);
-  const auto [least, most] = std::minmax_element(held.begin(), held.end());
+  const std::vector<double> blood = blood_in(borders, slices);
+  const auto [least, most] = std::minmax_element(blood.begin(), blood.end());
   std::vector<bool> fuller;
-  for (const double area : held)
+  for (const double area : blood)
     fuller.push_back(area > 0.5 * (*least + *most));
   return fuller;
 }
@@ -275,7 +272,7 @@ void doubt_ends(const Run& run, const std::vector<std::size_t>& slices, Segmenta
 
 /// Slices that always show the ventricle and whose blood grows while that of all others shrinks.
 void doubt_times(const std::vector<std::size_t>& slices, Segmentation& found) {
-  const std::vector<double> all = held_by(found.borders, slices);
+  const std::vector<double> all = blood_in(found.borders, slices);
   for (const std::size_t s : slices) {
     if (!always(found.shows[s]))
       continue;

@@ -46,9 +46,9 @@ void require_cine(const image::Cine& cine, const std::string& where);
 ///   mean, changes by less than half of what the others' does, or against it: an atrium fills while
 ///   the ventricle empties. Slices beyond the base that muscle surrounds over three quarters while
 ///   the others hold most (a quarter of the frames) are added for the frames in which those hold
-///   more than the middle of what they do: the base moves through them. In a frame the most basal ones are left out where muscle surrounds less
-///   than half (median over a tenth of the cycle either way), the most apical ones where the
-///   cavity's mean radius is below 3 mm.
+///   more than the middle of what they do: the base moves through them. In a frame the most basal
+///   ones are left out where muscle surrounds less than half (median over a tenth of the cycle
+///   either way), the most apical ones where the cavity's mean radius is below 3 mm.
 /// - Phases are proposed from the volume of the slices that show the ventricle in all frames.
 ///
 /// Throws InputError, with `where` naming the images, if slices have different numbers of images or
