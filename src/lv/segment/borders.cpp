@@ -333,14 +333,12 @@ std::vector<double> held_by(const Work& work) {
   return held;
 }
 
-/// Sums over slices of the areas within the middle of the wall, per frame [mm^2].
-std::vector<double> within_middle(const std::vector<Work>& work,
-                                  const std::vector<std::size_t>& slices) {
-  std::vector<double> sums(work.front().values.size(), 0.0);
-  for (const std::size_t s : slices)
-    for (std::size_t t = 0; t < sums.size(); ++t)
-      sums[t] += 0.5 * (area(work[s].endo[t]) + area(work[s].epi[t]));
-  return sums;
+/// The areas of a slice within the middle of its wall, per frame [mm^2].
+std::vector<double> within_middle(const Work& work) {
+  std::vector<double> areas;
+  for (std::size_t t = 0; t < work.endo.size(); ++t)
+    areas.push_back(0.5 * (area(work.endo[t]) + area(work.epi[t])));
+  return areas;
 }
 
 /// The epicardium of slices that look like the heart, given that their muscle keeps its volume.
@@ -348,14 +346,16 @@ void keep_muscle(const Heart& heart, std::vector<Work>& work) {
   constexpr std::size_t fewest = 3;  // slices that tell what all do
   std::vector<std::size_t> slices;
   Areas held;
+  Areas middles;
   for (std::size_t s = 0; s < work.size(); ++s)
     if (looks_like_heart(heart, s)) {
       slices.push_back(s);
       held.push_back(held_by(work[s]));
+      middles.push_back(within_middle(work[s]));
     }
   if (slices.size() < fewest)
     return;
-  const Kept kept = kept_areas(held, within_middle(work, slices));
+  const Kept kept = kept_areas(held, middles);
   for (std::size_t n = 0; n < slices.size(); ++n) {
     interrupt::check();
     Work& slice = work[slices[n]];

@@ -64,12 +64,14 @@ std::vector<double> agreements(std::vector<double> strayings) {
   return strayings;
 }
 
-/// Logarithms of how far the middle of the wall has shortened since it was widest, per frame.
-std::vector<double> shortened(std::vector<double> within_middle) {
-  const double widest = *std::max_element(within_middle.begin(), within_middle.end());
-  for (double& area : within_middle)
-    area = 0.5 * std::log(widest / area);
-  return within_middle;
+/// Logarithms of how far the middle of the wall has shortened since it was widest, per frame: of
+/// what most slices do, since some show the atrium for a part of the cycle.
+std::vector<double> shortened(const Areas& within_middle) {
+  std::vector<double> shorter = parts_of(logarithms(within_middle)).of_frame;
+  const double widest = *std::max_element(shorter.begin(), shorter.end());
+  for (double& frame : shorter)
+    frame = 0.5 * (widest - frame);
+  return shorter;
 }
 
 /// What all slices do at end-diastole.
@@ -109,13 +111,13 @@ Radii line_that_holds(const Polar& darkness, const Radii& endo, const Radii& thi
   return endo + 0.5 * (low + high) * thickness;
 }
 
-Kept kept_areas(const Areas& held, const std::vector<double>& within_middle) {
+Kept kept_areas(const Areas& held, const Areas& within_middle) {
   const Areas seen = logarithms(held);
   const Parts parts = parts_of(seen);
   const std::vector<double> shorter = shortened(within_middle);
   const double diastolic = at_end_diastole(parts.of_frame, shorter);
   Kept kept{held, agreements(strayings(seen, parts))};
-  for (std::size_t t = 0; t < within_middle.size(); ++t) {
+  for (std::size_t t = 0; t < shorter.size(); ++t) {
     const double grown = std::clamp(parts.of_frame[t] - diastolic, 0.0, shorter[t]);
     for (std::size_t s = 0; s < held.size(); ++s)
       kept.areas[s][t] = std::exp(parts.of_slice[s] + diastolic + grown);

@@ -30,8 +30,8 @@ struct Kept {
   std::vector<double> agreement;  ///< of each slice with the others, 0 to 1
 };
 
-/// The dark areas of slices that keep their muscle, from those that they hold, and the sums over
-/// the slices of the areas within the middle of the wall, per frame.
+/// The dark areas of slices that keep their muscle, from those that they hold, and the areas
+/// within the middle of the wall.
 ///
 /// What a slice holds is taken for the product of its own area and what all slices do in a frame
 /// (medians in turn, of logarithms). The latter stays between what it is at end-diastole, when the
@@ -43,6 +43,6 @@ struct Kept {
 /// median slice does or than 3%, as exactly as lines are drawn, and by the square of the ratio
 /// where it strays farther: the base and the tip pass through slices at the ends, and take muscle
 /// with them. A slice that stands off in single frames agrees: there its border is wrong.
-[[nodiscard]] Kept kept_areas(const Areas& held, const std::vector<double>& within_middle);
+[[nodiscard]] Kept kept_areas(const Areas& held, const Areas& within_middle);
 
 }  // namespace lv::segment

@@ -28,10 +28,10 @@ void tell_found(const test::KnownCine& known, const segment::Segmentation& found
                frame == known.end_diastole ? "ED" : "ES", found.fall, 100.0 * endo.volume,
                endo.dice, endo.pooled, endo.distance, endo.missed, endo.loops);
     if (epi.loops > 0)
-      fmt::print(" {:6.3f} {:5.2f} {:6.3f}\n", epi.dice, epi.distance,
+      fmt::print(" {:6.3f} {:5.2f} {:+6.1f}% {:6.3f}\n", epi.dice, epi.distance, 100.0 * epi.volume,
                  test::dice_of_muscle(drawn, truth));
     else
-      fmt::print("      -     -      -\n");
+      fmt::print("      -     -       -      -\n");
   }
 }
 
@@ -83,7 +83,7 @@ void tell_variations(const test::KnownCine& known) {
 }
 
 void tell_header() {
-  fmt::print("{:42} at fall   volume   Dice pooled  [mm] missed   epi  [mm] muscle\n", "");
+  fmt::print("{:42} at fall   volume   Dice pooled  [mm] missed   epi  [mm]  within muscle\n", "");
 }
 
 }  // namespace

@@ -34,6 +34,11 @@ Areas slices_that(const std::vector<double>& grow) {
   return held;
 }
 
+/// Slices the middle of whose walls encloses this in each frame.
+Areas equal_slices(const std::vector<double>& areas) {
+  return Areas(5, areas);
+}
+
 }  // namespace
 
 TEST_CASE("what is dark within a line counts wherever it lies", "[segment]") {
@@ -58,14 +63,14 @@ TEST_CASE("a slice that alone holds more in a frame is told to hold what the oth
           "[segment]") {
   Areas held = slices_that({0.0, 0.02, 0.04, 0.02, 0.0});
   held[2][2] *= 1.5;
-  const Areas kept = kept_areas(held, {3000.0, 2800.0, 2600.0, 2800.0, 3000.0}).areas;
+  const Areas kept = kept_areas(held, equal_slices({3000.0, 2800.0, 2600.0, 2800.0, 3000.0})).areas;
   CHECK(kept[2][2] == Approx(2000.0 * 1.04));
   CHECK(kept[4][1] == Approx(held[4][1]));
 }
 
 TEST_CASE("muscle grows in slices by no more than the wall shortens round the cavity",
           "[segment]") {
-  const std::vector<double> middle{3000.0, 2800.0, 2700.0, 2700.0, 2800.0, 3000.0};
+  const Areas middle = equal_slices({3000.0, 2800.0, 2700.0, 2700.0, 2800.0, 3000.0});
   const Areas kept = kept_areas(slices_that({0.0, 0.1, 0.3, 0.3, 0.1, 0.0}), middle).areas;
   CHECK(kept[0][0] == Approx(1000.0));
   CHECK(kept[0][2] == Approx(1000.0 * std::sqrt(3000.0 / 2700.0)));
@@ -81,8 +86,18 @@ TEST_CASE(
   for (std::size_t t = 0; t < passing.size(); ++t)
     held[4][t] *= std::exp(passing[t]);
   held[2][3] *= 1.5;
-  const Kept kept = kept_areas(held, {3000.0, 2800.0, 2600.0, 2800.0, 3000.0});
+  const Kept kept = kept_areas(held, equal_slices({3000.0, 2800.0, 2600.0, 2800.0, 3000.0}));
   CHECK(kept.agreement[0] == Approx(1.0));
   CHECK(kept.agreement[2] == Approx(1.0));
   CHECK(kept.agreement[4] == Approx(std::pow(0.03 / 0.15, 2)));
+}
+
+TEST_CASE("a slice that shows the atrium while the ventricle empties does not tell when it is full",
+          "[segment]") {
+  const std::vector<double> grown{0.0, 0.05, 0.1, 0.1, 0.05, 0.0};
+  Areas middle = equal_slices({3000.0, 2800.0, 2700.0, 2700.0, 2800.0, 3000.0});
+  middle[0] = {3000.0, 2800.0, 7000.0, 7000.0, 2800.0, 3000.0};
+  const Areas kept = kept_areas(slices_that(grown), middle).areas;
+  CHECK(kept[1][0] == Approx(1500.0));
+  CHECK(kept[1][2] == Approx(1500.0 * std::sqrt(3000.0 / 2700.0)));
 }
