@@ -208,7 +208,8 @@ Radii wall_behind(const Polar& values, const Radii& line, Levels levels, double 
 struct Work {
   std::vector<Polar> values;
   std::vector<Radii> blood, middle, epi, endo;
-  std::vector<double> motion;  ///< of the blood's edge, see shared_motion
+  std::vector<Radii> seen_epi;  ///< before muscle was asked to keep its volume
+  std::vector<double> motion;   ///< of the blood's edge, see shared_motion
   Levels levels;
   double inside = 0.0;   ///< grey value of blood or, at the tip, of what is blood and muscle
   double fullest = 0.0;  ///< the same while it holds most blood
@@ -432,7 +433,7 @@ SliceBorders finish(const Work& work, const Pixel& centre, const SliceBorders* i
          .epi = smooth.max(endo[t] + thinnest),
          .wall_part = sees.mean(),
          .endo_agrees = (sees * ((work.endo[t] - endo[t]).abs() < agreement).cast<double>()).mean(),
-         .epi_agrees = part_within(work.epi[t], smooth, agreement)});
+         .epi_agrees = part_within(work.seen_epi[t], smooth, agreement)});
   }
   return slice;
 }
@@ -706,6 +707,8 @@ Drawn draw_borders(const image::Cine& cine, const Heart& heart, const std::optio
     find_borders(slice, drawn.fall);
   }
   steady_over_slices(work);
+  for (Work& slice : work)
+    slice.seen_epi = slice.epi;
   keep_muscle(heart, work);
   drawn.slices.resize(work.size());
   const auto finish_slice = [&](std::size_t s, const SliceBorders* inner) {

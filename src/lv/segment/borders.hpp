@@ -12,7 +12,7 @@ struct FrameBorders {
   Radii endo, epi;         ///< round the slice's centre [mm]
   double wall_part = 0.0;  ///< part of the circumference along which muscle is seen
   /// How sure a border is: the part of the circumference along which muscle is seen and the border
-  /// drawn lies within 2 mm of where the image shows it.
+  /// drawn lies within 2 mm of where the image alone shows it.
   double endo_agrees = 0.0, epi_agrees = 0.0;
 };
 
