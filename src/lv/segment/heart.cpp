@@ -198,18 +198,41 @@ Place given_place(const image::Cine& cine, const Vec3& point) {
   return {nearest, plane_of(cine, nearest).pixel(point).head<2>()};
 }
 
-Place likeliest_place(const image::Cine& cine) {
-  Place best{0, Pixel::Zero()};
-  double most = -1.0;
+/// Where each slice looks most like the heart; with a likeness of 0 where nothing moves.
+std::vector<Centre> likeliest_places(const image::Cine& cine) {
+  std::vector<Centre> best(cine.slices.size());
   for (const Place& place : moving_places(cine)) {
     interrupt::check();
-    const Centre found = judge(frames_of(cine.slices[place.slice], 2), place.at);
-    if (found.likeness <= most)
-      continue;
-    most = found.likeness;
-    best = {place.slice, found.at};
+    Centre& own = best[place.slice];
+    own = better(own, judge(frames_of(cine.slices[place.slice], 2), place.at));
   }
   return best;
+}
+
+/// The place that looks most like the heart of those above and below which most others do: a
+/// ventricle goes through a stack, and what single slices show that looks like it does not.
+Place likeliest_place(const image::Cine& cine) {
+  constexpr double above = 20.0;  // across the slices [mm]
+  const std::vector<Centre> places = likeliest_places(cine);
+  const auto point = [&](std::size_t s) {
+    return plane_of(cine, s).point(places[s].at.x(), places[s].at.y());
+  };
+  const auto lies_above = [&](std::size_t a, std::size_t b) {
+    const Eigen::Vector2d pixels = plane_of(cine, b).pixel(point(a)).head<2>() - places[b].at;
+    return std::hypot(pixels.x() * plane_of(cine, b).spacing_i,
+                      pixels.y() * plane_of(cine, b).spacing_j) < above;
+  };
+  std::vector<double> votes(places.size(), 0.0);
+  for (std::size_t a = 0; a < places.size(); ++a)
+    for (std::size_t b = 0; b < places.size(); ++b)
+      votes[a] += lies_above(a, b) ? places[b].likeness : 0.0;
+  const auto most =
+      static_cast<std::size_t>(std::max_element(votes.begin(), votes.end()) - votes.begin());
+  std::size_t seed = most;
+  for (std::size_t s = 0; s < places.size(); ++s)
+    if (lies_above(s, most) && places[s].likeness > places[seed].likeness)
+      seed = s;
+  return {seed, places[seed].at};
 }
 
 }  // namespace
