@@ -45,17 +45,20 @@ inline bool has_alpha_function(const Case& c) {
       []([[maybe_unused]] const Case& c, [[maybe_unused]] Stage s) -> bool { return holds; }, \
       words};
 
+/// One choice of a parameter that is called as its place in the case is.
+#define LV_CHOSEN(name, member, Choice, word) \
+  LV_CONDITION(name, c.member == Choice::word, "with " #member " = \"" #word "\"")
+
 // engines
-LV_CONDITION(immersed_engine, c.engine == EngineChoice::immersed, "with engine = \"immersed\"")
+LV_CHOSEN(immersed_engine, engine, EngineChoice, immersed)
 LV_CONDITION(static_engine, is_static(c, s),
              "with engine = \"quasi_static\", with a fit ([calibrate]) or with a wall to unload "
              "([unloaded])")
-LV_CONDITION(static_beat, c.engine == EngineChoice::quasi_static, "with engine = \"quasi_static\"")
+LV_CHOSEN(static_beat, engine, EngineChoice, quasi_static)
 LV_CONDITION(iterative,
              c.quasi_static.solver.newton.linear.method == implicit::LinearMethod::iterative,
              "with quasi_static.linear_solver = \"iterative\"")
-LV_CONDITION(quadrature, c.coupling.kind == immersed::CouplingKind::quadrature,
-             "with coupling.kind = \"quadrature\"")
+LV_CHOSEN(quadrature, coupling.kind, immersed::CouplingKind, quadrature)
 LV_CONDITION(mean_dilatations, c.volumetric_points == material::VolumetricPoints::mean,
              "with volumetric.points = \"mean\"")
 LV_CONDITION(heartbeats, beats_in(c, s), "with protocol.kind = \"cycle\"")
@@ -73,8 +76,7 @@ LV_CONDITION(
     rates,
     (c.engine == EngineChoice::immersed && s == Stage::beat) ||
         (beats_in(c, s) && s != Stage::unload),
-    "with engine = \"immersed\" or protocol.kind = \"cycle\", for without time nothing has "
-    "a rate")
+    "with engine = \"immersed\" or protocol.kind = \"cycle\", for without time nothing has a rate")
 LV_CONDITION(static_rates, beats_in(c, s) && s != Stage::unload,
              "with protocol.kind = \"cycle\", for without time nothing has a rate")
 LV_CONDITION(inertia, c.protocol.cycle.inertia, "with cycle.inertia = true")
@@ -82,9 +84,9 @@ LV_CONDITION(elastic_base, c.base.kind == solid::BasalSupport::Kind::elastic,
              "with base.support = \"elastic\"")
 LV_CONDITION(rigid_base, c.base.kind != solid::BasalSupport::Kind::elastic,
              "with base.support = \"sliding\" or \"fixed\"")
-LV_CONDITION(beats_of_moving_base, beats_in(c, s),
-             "with protocol.kind = \"cycle\" (a motion over the beat says nothing to loads without "
-             "a time)")
+LV_CONDITION(
+    beats_of_moving_base, beats_in(c, s),
+    "with protocol.kind = \"cycle\" (a motion over the beat says nothing to loads without a time)")
 LV_CONDITION(moving_base, c.base_motion.source != heartbeat::BaseMotionSource::none,
              "with base.motion = \"table\" or \"cine\"")
 LV_CONDITION(base_table, c.base_motion.source == heartbeat::BaseMotionSource::table,
@@ -100,41 +102,32 @@ LV_CONDITION(weighted_pericardium,
 LV_CONDITION(sigmoid_pericardium,
              c.surroundings.epicardium.weight.shape == solid::AxialWeight::WeightShape::sigmoid,
              "with pericardium.weight = \"sigmoid\"")
-LV_CONDITION(eikonal, c.activation.kind == activation::Kind::eikonal,
-             "with activation.kind = \"eikonal\"")
-LV_CONDITION(activation_file, c.activation.kind == activation::Kind::file,
-             "with activation.kind = \"file\"")
+LV_CHOSEN(eikonal, activation.kind, activation::Kind, eikonal)
+LV_CHOSEN(activation_file, activation.kind, activation::Kind, file)
 LV_CONDITION(held_calcium, c.protocol.calcium.mode == material::Calcium::Mode::hold,
              "with calcium.mode = \"hold\"")
 
 // anatomy
-LV_CONDITION(ellipsoid, c.anatomy.source == Source::ellipsoid,
-             "with anatomy.source = \"ellipsoid\"")
-LV_CONDITION(from_contours, c.anatomy.source == Source::contours,
-             "with anatomy.source = \"contours\"")
-LV_CONDITION(from_labels, c.anatomy.source == Source::labels, "with anatomy.source = \"labels\"")
-LV_CONDITION(from_sunnybrook, c.anatomy.source == Source::sunnybrook,
-             "with anatomy.source = \"sunnybrook\"")
-LV_CONDITION(from_guide_points, c.anatomy.source == Source::guide_points,
-             "with anatomy.source = \"guide_points\"")
-LV_CONDITION(from_cine, c.anatomy.source == Source::cine, "with anatomy.source = \"cine\"")
-LV_CONDITION(from_contour_file, c.anatomy.source == Source::contour_file,
-             "with anatomy.source = \"contour_file\"")
-LV_CONDITION(from_surfaces, c.anatomy.source == Source::surfaces,
-             "with anatomy.source = \"surfaces\"")
-LV_CONDITION(from_mesh, c.anatomy.source == Source::mesh, "with anatomy.source = \"mesh\"")
+LV_CHOSEN(ellipsoid, anatomy.source, Source, ellipsoid)
+LV_CHOSEN(from_contours, anatomy.source, Source, contours)
+LV_CHOSEN(from_labels, anatomy.source, Source, labels)
+LV_CHOSEN(from_sunnybrook, anatomy.source, Source, sunnybrook)
+LV_CHOSEN(from_guide_points, anatomy.source, Source, guide_points)
+LV_CHOSEN(from_cine, anatomy.source, Source, cine)
+LV_CHOSEN(from_contour_file, anatomy.source, Source, contour_file)
+LV_CHOSEN(from_surfaces, anatomy.source, Source, surfaces)
+LV_CHOSEN(from_mesh, anatomy.source, Source, mesh)
 LV_CONDITION(tagged, c.anatomy.mesh.import.sides == mesh::SideSource::tags,
              "with anatomy.mesh.sides = \"tags\"")
 LV_CONDITION(drawn, is_drawn(c), LV_DRAWN)
 LV_CONDITION(fitted, s == Stage::strain ? !c.strain.long_axis_cine.empty() : is_drawn(c),
              LV_DRAWN ", or with strain.long_axis_cine")
-LV_CONDITION(
-    base_may_tilt,
-    s == Stage::strain ? !c.strain.long_axis_cine.empty()
-                       : is_drawn(c) && c.anatomy.source != Source::surfaces,
-    "for a wall that is drawn in slices (anatomy.source = \"contours\", \"labels\", "
-    "\"sunnybrook\", \"guide_points\", \"cine\" or \"contour_file\"; surfaces are cut across "
-    "the long axis), or with strain.long_axis_cine")
+LV_CONDITION(base_may_tilt,
+             s == Stage::strain ? !c.strain.long_axis_cine.empty()
+                                : is_drawn(c) && c.anatomy.source != Source::surfaces,
+             "for a wall that is drawn in slices (anatomy.source = \"contours\", \"labels\", "
+             "\"sunnybrook\", \"guide_points\", \"cine\" or \"contour_file\"; surfaces are cut "
+             "across the long axis), or with strain.long_axis_cine")
 LV_CONDITION(septum_shown, s == Stage::strain ? !c.strain.septum_point : is_drawn(c),
              LV_DRAWN ", or with strain.cine and no strain.septum_point")
 
@@ -195,11 +188,9 @@ LV_CONDITION(fitted_or_moved,
              LV_DRAWN ", with strain.long_axis_cine, or with infarct.labels.in_plane")
 
 // muscle and blood
-LV_CONDITION(holzapfel_ogden, c.passive.law == PassiveChoice::holzapfel_ogden,
-             "with passive.law = \"holzapfel_ogden\"")
-LV_CONDITION(guccione, c.passive.law == PassiveChoice::guccione, "with passive.law = \"guccione\"")
-LV_CONDITION(neo_hookean, c.passive.law == PassiveChoice::neo_hookean,
-             "with passive.law = \"neo_hookean\"")
+LV_CHOSEN(holzapfel_ogden, passive.law, PassiveChoice, holzapfel_ogden)
+LV_CHOSEN(guccione, passive.law, PassiveChoice, guccione)
+LV_CHOSEN(neo_hookean, passive.law, PassiveChoice, neo_hookean)
 LV_CONDITION(niederer, c.active_law == ActiveChoice::niederer, "with active.law = \"niederer\"")
 LV_CONDITION(land2017, c.active_law == ActiveChoice::land2017, "with active.law = \"land2017\"")
 LV_CONDITION(prescribed_tension, !has_kinetics(c),
@@ -230,8 +221,7 @@ LV_CONDITION(onset_counts,
              s == Stage::circulation ||
                  (has_circuit(c, s) && c.circulation.kind == circulation::Kind::closed_loop),
              "with circulation.kind = \"windkessel\" or \"closed_loop\"")
-LV_CONDITION(quadratic_valves, c.circulation.valves.law == circulation::ValveLaw::quadratic,
-             "with circulation.valves.law = \"quadratic\"")
+LV_CHOSEN(quadratic_valves, circulation.valves.law, circulation::ValveLaw, quadratic)
 
 // measurements
 LV_CONDITION(fit, c.calibration.asked(),
@@ -262,6 +252,7 @@ LV_CONDITION(loaded, c.unloaded.pressure > 0.0, "with unloaded.pressure above 0"
 LV_CONDITION(cine, c.strain.asked(), "with the images of strain.cine")
 LV_CONDITION(measured, !c.strain.measured.empty(), "with strain.measured")
 
+#undef LV_CHOSEN
 #undef LV_CONDITION
 #undef LV_DRAWN
 

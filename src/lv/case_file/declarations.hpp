@@ -32,6 +32,9 @@ Slot slot(T& member) {
 /// A parameter's place in the case.
 #define LV_AT(member) [](lv::case_file::Case& c) { return lv::case_file::slot(c.member); }
 
+/// The name of a parameter that is called as its place in the case is, and the place.
+#define LV_NAMED(member) #member, LV_AT(member)
+
 using Place = Slot (*)(Case&);
 
 /// A number, whole number, or three of either. The unit "" is that of a number without one.
