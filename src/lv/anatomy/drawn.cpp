@@ -6,7 +6,6 @@
 #include "lv/base/units.hpp"
 #include "lv/geometry/contour_checks.hpp"
 #include "lv/geometry/contour_measures.hpp"
-#include "lv/geometry/fit_report.hpp"
 #include "lv/geometry/long_axis.hpp"
 #include "lv/image/close_walls.hpp"
 #include "lv/image/dicom_study.hpp"
@@ -14,6 +13,7 @@
 #include "lv/image/guide_points.hpp"
 #include "lv/image/label_contours.hpp"
 #include "lv/image/label_meaning.hpp"
+#include "lv/image/lookup.hpp"
 #include "lv/image/volume_file.hpp"
 #include "lv/mesh_io/cut_surfaces.hpp"
 #include "lv/mesh_io/triangles.hpp"
@@ -21,7 +21,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <numeric>
 #include <utility>
 
@@ -129,12 +128,9 @@ void warn_of_moment(const std::string& warning, Drawn& drawn) {
 /// Labels of which the case says nothing: a scar that is drawn by itself is muscle too.
 void note_unnamed(const std::map<int, double>& found, const case_file::LabelAnatomy& a,
                   std::vector<std::string>& notes) {
-  const auto is_in = [](const std::vector<int>& labels, int label) {
-    return std::find(labels.begin(), labels.end(), label) != labels.end();
-  };
   for (const auto& [label, volume] : found)
-    if (label != 0 && !is_in(a.cavity, label) && !is_in(a.muscle, label) &&
-        !is_in(a.right_ventricle, label))
+    if (label != 0 && !image::is_one_of(label, a.cavity) && !image::is_one_of(label, a.muscle) &&
+        !image::is_one_of(label, a.right_ventricle))
       notes.push_back(fmt::format(
           "label {} ({:.2f} ml) is neither cavity nor muscle in the case; if it is muscle, as a "
           "scar is, add it to anatomy.labels.muscle",

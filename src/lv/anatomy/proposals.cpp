@@ -4,6 +4,7 @@
 #include "lv/base/check.hpp"
 #include "lv/base/ending.hpp"
 #include "lv/image/label_meaning.hpp"
+#include "lv/image/lookup.hpp"
 
 #include <fmt/format.h>
 
@@ -47,10 +48,6 @@ std::vector<std::string> series_names(const image::DicomStudy& study) {
   }
   names.insert(names.end(), descriptions.begin(), descriptions.end());
   return names;
-}
-
-bool is_in(const std::vector<int>& labels, int label) {
-  return std::find(labels.begin(), labels.end(), label) != labels.end();
 }
 
 /// Whether a name in the file says scar or its core.
@@ -99,7 +96,7 @@ LikelyScar likely_scar(const image::Volume& map, const std::vector<int>& muscle)
     return likely;
   const std::vector<int> seen = image::propose_meaning(map).muscle;
   for (std::size_t i = 1; i < seen.size(); ++i)
-    if (is_in(muscle, seen[i]))
+    if (image::is_one_of(seen[i], muscle))
       likely.labels.push_back(seen[i]);
   return likely;
 }
@@ -120,7 +117,7 @@ std::vector<CaseLine> scar_lines(const image::Volume& map, const std::string& na
   const std::vector<int> frames = image::frames_with(map, likely.labels);
   if (frames.size() > 1)
     lines.push_back({"infarct.labels.frame",
-                     std::to_string(is_in(frames, frame) ? frame : frames.front()),
+                     std::to_string(image::is_one_of(frame, frames) ? frame : frames.front()),
                      "a person has one scar", active});
   return lines;
 }

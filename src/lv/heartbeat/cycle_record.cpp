@@ -1,6 +1,5 @@
 #include "lv/heartbeat/cycle_record.hpp"
 
-#include "lv/base/check.hpp"
 #include "lv/base/log.hpp"
 #include "lv/base/units.hpp"
 
@@ -387,17 +386,10 @@ std::vector<Sample> load_samples(const Archive& archive, std::size_t columns) {
   constexpr std::size_t own = 9;
   const auto& numbers = archive.get_rows("cycle.samples", own + columns);
   std::vector<Sample> samples;
-  for (auto n = numbers.begin(); n != numbers.end(); n += static_cast<int>(own + columns))
-    samples.push_back({n[0],
-                       {n[1],
-                        n[2],
-                        n[3],
-                        n[4],
-                        n[5],
-                        n[6],
-                        n[7],
-                        n[8],
-                        {n + own, n + static_cast<int>(own + columns)}}});
+  for (auto n = numbers.begin(); n != numbers.end(); n += static_cast<int>(own + columns)) {
+    const std::vector<double> others(n + own, n + static_cast<int>(own + columns));
+    samples.push_back({n[0], {n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8], others}});
+  }
   return samples;
 }
 

@@ -1,5 +1,7 @@
 #include "lv/image/label_meaning.hpp"
 
+#include "lv/image/lookup.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -96,10 +98,6 @@ int largest(const Borders& borders, const Holds& holds) {
   return best;
 }
 
-bool is_in(const std::vector<int>& labels, int label) {
-  return std::find(labels.begin(), labels.end(), label) != labels.end();
-}
-
 /// The pixels of the label round another one, per edge between them: how thick that wall is.
 double wall_thickness(const Borders& borders, int label) {
   const int wall = borders.neighbour(label);
@@ -117,7 +115,8 @@ int cavity_of(const Borders& borders) {
     return 0;
   const std::vector<int> taken{first, borders.neighbour(first)};
   const int other = largest(borders, [&](int label) {
-    return !is_in(taken, label) && !is_in(taken, borders.neighbour(label)) && has_wall(label);
+    return !is_one_of(label, taken) && !is_one_of(borders.neighbour(label), taken) &&
+           has_wall(label);
   });
   return other != 0 && wall_thickness(borders, other) > wall_thickness(borders, first) ? other
                                                                                        : first;
@@ -143,7 +142,7 @@ void add_scar(const Borders& borders, int cavity, std::vector<int>& muscle) {
       muscle.push_back(label);
   const std::vector<int> wall = muscle;
   for (int label = 1; label < label_count; ++label)
-    if (borders.pixels[label] > 0.0 && label != cavity && !is_in(wall, label) &&
+    if (borders.pixels[label] > 0.0 && label != cavity && !is_one_of(label, wall) &&
         borders.share(label, wall) > most)
       muscle.push_back(label);
 }
@@ -165,7 +164,7 @@ LabelMeaning propose_meaning(const Volume& volume) {
   LabelMeaning meaning{{cavity}, {borders.neighbour(cavity)}, {}};
   add_scar(borders, cavity, meaning.muscle);
   const int right = largest(borders, [&](int label) {
-    return label != cavity && !is_in(meaning.muscle, label) &&
+    return label != cavity && !is_one_of(label, meaning.muscle) &&
            borders.share(label, meaning.muscle) > touching;
   });
   if (right != 0)

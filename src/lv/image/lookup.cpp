@@ -45,9 +45,8 @@ bool shows(const Volume& volume, const Vec3& x) {
   return voxel_at(volume, volume.index(x)).has_value();
 }
 
-bool is_one_of(float value, const std::vector<int>& labels) {
-  return std::any_of(labels.begin(), labels.end(),
-                     [value](int label) { return value == static_cast<float>(label); });
+bool is_one_of(double value, const std::vector<int>& labels) {
+  return std::find(labels.begin(), labels.end(), value) != labels.end();
 }
 
 bool has_label(const Volume& volume, const Vec3& x, const std::vector<int>& labels,
@@ -67,9 +66,8 @@ bool has_label(const Volume& volume, const Vec3& x, const std::vector<int>& labe
 std::vector<bool> undrawn_slices(const Volume& volume, const std::vector<int>& labels) {
   std::vector<bool> undrawn;
   for (const Picture& slice : slices(volume, slice_axis(volume)))
-    undrawn.push_back(std::none_of(slice.values.begin(), slice.values.end(), [&](auto value) {
-      return is_one_of(static_cast<float>(value), labels);
-    }));
+    undrawn.push_back(std::none_of(slice.values.begin(), slice.values.end(),
+                                   [&](auto value) { return is_one_of(value, labels); }));
   const auto first = std::find(undrawn.begin(), undrawn.end(), false);
   std::fill(undrawn.begin(), first, false);
   const auto last = std::find(undrawn.rbegin(), undrawn.rend(), false);

@@ -7,8 +7,8 @@
 
 namespace lv::image {
 
-/// Whether a voxel's value is one of these labels.
-[[nodiscard]] bool is_one_of(float value, const std::vector<int>& labels);
+/// Whether a number, such as a voxel's value, is one of these labels.
+[[nodiscard]] bool is_one_of(double value, const std::vector<int>& labels);
 
 /// Whether x lies in a voxel of the image.
 [[nodiscard]] bool shows(const Volume& volume, const Vec3& x);

@@ -1,6 +1,7 @@
 #include "lv/image/short_axis_labels.hpp"
 
 #include "lv/base/units.hpp"
+#include "lv/image/lookup.hpp"
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -24,13 +25,11 @@ class Tissues {
   Tissues(const Volume& volume, const std::vector<int>& cavity, const std::vector<int>& muscle,
           int frame)
       : size_(volume.size) {
-    const auto holds = [](const std::vector<int>& labels, float value) {
-      return std::any_of(labels.begin(), labels.end(),
-                         [value](int label) { return value == static_cast<float>(label); });
-    };
     const auto first = volume.values.begin() + static_cast<std::ptrdiff_t>(volume.voxels()) * frame;
     for (auto value = first; value != first + static_cast<std::ptrdiff_t>(volume.voxels()); ++value)
-      tissues_.push_back(holds(cavity, *value) ? blood : holds(muscle, *value) ? wall : rest);
+      tissues_.push_back(is_one_of(*value, cavity)   ? blood
+                         : is_one_of(*value, muscle) ? wall
+                                                     : rest);
   }
 
   [[nodiscard]] Tissue at(const Eigen::Array3i& ijk) const {

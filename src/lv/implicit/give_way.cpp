@@ -2,11 +2,11 @@
 
 #include "lv/base/log.hpp"
 #include "lv/base/units.hpp"
+#include "lv/mesh/distance.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <utility>
 
 namespace lv::implicit {
 namespace {
@@ -54,13 +54,6 @@ std::optional<State> descend(const Equations& equations, Newton& newton, State s
   return {};
 }
 
-double farthest_of(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
-  double most = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    most = std::max(most, (a[i] - b[i]).norm());
-  return most;
-}
-
 }  // namespace
 
 bool give_way(Equations& equations, Newton& newton, State& state, const Equilibrium& equilibrium) {
@@ -75,7 +68,7 @@ bool give_way(Equations& equations, Newton& newton, State& state, const Equilibr
     return false;
   const double pressure = equilibrium.volume ? found->cavity_pressure : equilibrium.pressure;
   log::info("the wall gave way under {:.2f} mmHg, by up to {:.2f} mm", pressure / units::mmHg,
-            farthest_of(found->positions, state.positions));
+            mesh::largest_distance(found->positions, state.positions));
   state = *found;
   return true;
 }

@@ -4,6 +4,7 @@
 #include "lv/base/time_left.hpp"
 #include "lv/base/units.hpp"
 #include "lv/implicit/unload_forecast.hpp"
+#include "lv/mesh/distance.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -22,13 +23,6 @@ constexpr int most_failures = 8;     // of steps along the pressure; usual heart
 constexpr double on_the_way = 0.05;  // tolerance before the whole pressure [mm]
 
 constexpr int most_holds = 4;  // of directions near the axis
-
-double largest_between(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
-  double largest = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    largest = std::max(largest, (a[i] - b[i]).norm());
-  return largest;
-}
 
 /// The straight line through two walls, `by` times their distance beyond the second.
 Reference extended(const Reference& before, Reference now, double by) {
@@ -216,7 +210,7 @@ class ReferenceSearch {
       equations_.hold_frames(now_);
       if (!newton_.solve(now_, pressure_, tolerance_).converged)
         break;
-      if (const double by = largest_between(last.nodes, now_.nodes); by < least) {
+      if (const double by = mesh::largest_distance(last.nodes, now_.nodes); by < least) {
         least = by;
         best = last;
       }

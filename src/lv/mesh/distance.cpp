@@ -9,6 +9,7 @@
 #include <boost/geometry/index/rtree.hpp>
 #include <boost/geometry/strategies/strategies.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -58,6 +59,13 @@ double squared_distance(const Vec3& x, const Triangle& t) {
 }
 
 }  // namespace
+
+double largest_distance(std::span<const Vec3> a, std::span<const Vec3> b) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    largest = std::max(largest, (a[i] - b[i]).norm());
+  return largest;
+}
 
 class SurfaceDistance::Tree {
  public:

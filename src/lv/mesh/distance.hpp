@@ -7,6 +7,9 @@
 
 namespace lv::mesh {
 
+/// Between the same nodes of two walls, the largest [mm].
+[[nodiscard]] double largest_distance(std::span<const Vec3> a, std::span<const Vec3> b);
+
 /// Exact distance to a surface of triangles; quadrilaterals count as their two triangles. An R-tree
 /// over the triangles makes each query logarithmic in their number.
 class SurfaceDistance {

@@ -52,11 +52,10 @@ class Parts {
   std::vector<int> numbers() {
     std::vector<int> part(members_);
     std::map<int, int> number_of_set;
-    for (int i = 0; i < members_; ++i)
-      part[i] =
-          number_of_set
-              .emplace(static_cast<int>(sets_.find_set(i)), static_cast<int>(number_of_set.size()))
-              .first->second;
+    for (int i = 0; i < members_; ++i) {
+      const auto next = static_cast<int>(number_of_set.size());
+      part[i] = number_of_set.emplace(static_cast<int>(sets_.find_set(i)), next).first->second;
+    }
     return part;
   }
 
@@ -120,18 +119,23 @@ std::vector<int> cell_parts(const Mesh& mesh) {
   return parts.numbers();
 }
 
-std::vector<int> face_parts(const Surface& surface) {
-  Parts parts(surface.size());
-  std::map<std::array<int, 2>, int> face_at_edge;
+std::map<std::array<int, 2>, std::vector<int>> faces_at_edges(const Surface& surface) {
+  std::map<std::array<int, 2>, std::vector<int>> faces;
   for (int f = 0; f < surface.size(); ++f) {
     const auto face = surface.face(f);
     for (std::size_t i = 0; i < face.size(); ++i) {
       const auto [a, b] = std::minmax(face[i], face[(i + 1) % face.size()]);
-      const auto [entry, added] = face_at_edge.emplace(std::array<int, 2>{a, b}, f);
-      if (!added)
-        parts.join(entry->second, f);
+      faces[{a, b}].push_back(f);
     }
   }
+  return faces;
+}
+
+std::vector<int> face_parts(const Surface& surface) {
+  Parts parts(surface.size());
+  for (const auto& [edge, faces] : faces_at_edges(surface))
+    for (const int f : faces)
+      parts.join(faces.front(), f);
   return parts.numbers();
 }
 

@@ -3,6 +3,7 @@
 #include "lv/mesh/mesh.hpp"
 
 #include <array>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -22,6 +23,9 @@ using FaceKey = std::array<int, 4>;
 
 /// For each cell the number, from 0, of its part: cells that hang together by faces.
 [[nodiscard]] std::vector<int> cell_parts(const Mesh& mesh);
+
+/// The faces at each edge, which has its nodes in ascending order.
+[[nodiscard]] std::map<std::array<int, 2>, std::vector<int>> faces_at_edges(const Surface& surface);
 
 /// For each face the number, from 0, of its part: faces that hang together by edges.
 [[nodiscard]] std::vector<int> face_parts(const Surface& surface);

@@ -15,18 +15,6 @@ constexpr double sharp = 0.25 * std::numbers::pi;  // from one face to the next
 
 using Edge = std::array<int, 2>;
 
-std::map<Edge, std::vector<int>> faces_at_edges(const mesh::Surface& side) {
-  std::map<Edge, std::vector<int>> faces;
-  for (int f = 0; f < side.size(); ++f) {
-    const auto face = side.face(f);
-    for (std::size_t i = 0; i < face.size(); ++i) {
-      const auto [a, b] = std::minmax(face[i], face[(i + 1) % face.size()]);
-      faces[{a, b}].push_back(f);
-    }
-  }
-  return faces;
-}
-
 /// The angle between the normals of two faces, positive where they look at each other.
 double bend(std::span<const Vec3> nodes, const mesh::Surface& side, int f, int g) {
   const Vec3 n = mesh::area_vector(nodes, side.face(f)).normalized();
@@ -42,7 +30,7 @@ struct SharpEdges {
 
 SharpEdges sharp_edges(std::span<const Vec3> nodes, const mesh::Surface& side, Bulge bulge) {
   SharpEdges edges;
-  for (const auto& [edge, faces] : faces_at_edges(side)) {
+  for (const auto& [edge, faces] : mesh::faces_at_edges(side)) {
     if (faces.size() == 1)
       continue;
     const bool is_crowded = faces.size() > 2;

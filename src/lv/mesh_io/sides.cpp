@@ -120,14 +120,8 @@ class TaggedFaces {
 
 /// For every face those that share an edge with it.
 std::vector<std::vector<int>> face_neighbours(const mesh::Surface& surface) {
-  std::map<std::pair<int, int>, std::vector<int>> faces_at_edge;
-  for (int f = 0; f < surface.size(); ++f) {
-    const auto face = surface.face(f);
-    for (std::size_t i = 0; i < face.size(); ++i)
-      faces_at_edge[std::minmax(face[i], face[(i + 1) % face.size()])].push_back(f);
-  }
   std::vector<std::vector<int>> neighbours(surface.size());
-  for (const auto& [edge, faces] : faces_at_edge)
+  for (const auto& [edge, faces] : mesh::faces_at_edges(surface))
     for (const int f : faces)
       for (const int g : faces)
         if (f != g)

@@ -25,8 +25,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
-#include <optional>
 
 namespace lv::scar {
 namespace {
@@ -369,10 +367,7 @@ double brightness_of_blood(const Case& c, const anatomy::Shape& shape, const Mes
                            const image::Cine& lge) {
   std::vector<double> greys;
   for (int f = 0; f < mesh.endo.size(); ++f) {
-    const auto nodes = mesh.endo.face(f);
-    Vec3 x = Vec3::Zero();
-    for (const int node : nodes)
-      x += mesh.nodes[node] / static_cast<double>(nodes.size());
+    const Vec3 x = mesh::face_centre(mesh.nodes, mesh.endo.face(f));
     for (const double part : {0.0, 0.3, 0.6}) {
       const Vec3 inside(part * x.x(), part * x.y(), x.z());
       if (const double grey = image::sample(lge, in_images(c, shape, inside)); !std::isnan(grey))

@@ -4,7 +4,6 @@
 #include "lv/mesh/quadratic.hpp"
 #include "lv/solid/side_points.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace lv::solid {
@@ -47,13 +46,6 @@ void BasalPenalty::add_forces(std::span<const Vec3> positions, std::span<Vec3> f
     forces[s.node] -=
         s.stiffness * (positions[s.node] - s.reference - displacement.at(s.reference));
   }
-}
-
-double BasalPenalty::largest_axial_displacement(std::span<const Vec3> positions) const {
-  double largest = 0.0;
-  for (const Spring& s : springs_)
-    largest = std::max(largest, std::abs(positions[s.node].z() - s.reference.z()));
-  return largest;
 }
 
 }  // namespace lv::solid

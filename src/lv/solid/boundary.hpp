@@ -48,9 +48,6 @@ class BasalPenalty {
   /// One per node of the base; none of an elastic one.
   [[nodiscard]] const std::vector<Spring>& springs() const { return springs_; }
 
-  /// Largest axial displacement of the base [mm].
-  [[nodiscard]] double largest_axial_displacement(std::span<const Vec3> positions) const;
-
  private:
   std::vector<Spring> springs_;
 };

@@ -40,11 +40,4 @@ heartbeat::BeatSetup quick_heartbeat(const mesh::Mesh& mesh) {
   return setup;
 }
 
-double largest_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
-  double largest = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    largest = std::max(largest, (a[i] - b[i]).norm());
-  return largest;
-}
-
 }  // namespace lv::verify

@@ -26,7 +26,4 @@ namespace lv::verify {
 /// wall to come to rest, so that they take seconds. The mesh must outlive it.
 [[nodiscard]] heartbeat::BeatSetup quick_heartbeat(const mesh::Mesh& mesh);
 
-/// The largest distance of two points of the same number [mm].
-[[nodiscard]] double largest_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b);
-
 }  // namespace lv::verify

@@ -1,11 +1,9 @@
 #include "lv/base/units.hpp"
 #include "lv/implicit/unload.hpp"
+#include "lv/mesh/distance.hpp"
 #include "lv/solid/endocardial_surface.hpp"
 #include "lv/verify/problems.hpp"
 #include "lv/verify/small_ventricle.hpp"
-
-#include <algorithm>
-#include <cmath>
 
 /// The stress-free shape behind a loaded one.
 namespace lv::verify {
@@ -36,7 +34,7 @@ void unloading_round_trip(Findings& found) {
   found.add_error("largest distance, loaded again, from the loaded shape",
                   back.steps.back().largest, 1e-3, "mm");
   found.add_error("largest distance of the unloaded from the known shape",
-                  largest_distance(back.nodes, known.nodes), 0.02, "mm");
+                  mesh::largest_distance(back.nodes, known.nodes), 0.02, "mm");
   found.add_within("unloaded cavity volume", endocardium.volume(back.nodes),
                    endocardium.volume(known.nodes), 1e-3, "mm^3");
   found.add_within("cavity volume, loaded again", back.steps.back().volume, engine.cavity_volume(),

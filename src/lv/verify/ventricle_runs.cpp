@@ -1,5 +1,6 @@
 #include "lv/base/log.hpp"
 #include "lv/base/units.hpp"
+#include "lv/mesh/distance.hpp"
 #include "lv/verify/analyse.hpp"
 #include "lv/verify/problems.hpp"
 #include "lv/verify/small_ventricle.hpp"
@@ -43,7 +44,7 @@ void compare(const std::string& where, const Beat& beat, const Beat& with, const
     found.add_error(fmt::format("{}: volume difference, {}", name, where),
                     std::abs(a.volume / b.volume - 1.0), bounds.volume);
     found.add_error(fmt::format("{}: largest displacement difference, {}", name, where),
-                    largest_distance(a.positions, b.positions), bounds.largest, "mm");
+                    mesh::largest_distance(a.positions, b.positions), bounds.largest, "mm");
     found.add_error(fmt::format("{}: rms displacement difference, {}", name, where),
                     rms_distance(a.positions, b.positions), bounds.rms, "mm");
   };

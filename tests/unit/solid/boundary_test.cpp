@@ -29,7 +29,6 @@ TEST_CASE("the base resists axial and circumferential motion in proportion to it
     const std::vector<Vec3> lifted = test::moved(mesh.nodes, Mat3::Identity(), {0, 0, 0.5});
     base.add_forces(lifted, forces);
     CHECK((test::resultant(forces) - Vec3(0, 0, -100.0 * area * 0.5)).norm() < 1e-10 * area);
-    CHECK(base.largest_axial_displacement(lifted) == Approx(0.5).epsilon(1e-12));
 
     // by 1e-6 rad about the long axis: a torque of -kappa int R^2 dA times the angle
     std::fill(forces.begin(), forces.end(), Vec3::Zero());
@@ -65,5 +64,4 @@ TEST_CASE("the base is free to move radially, and the rest of the wall to move a
   std::fill(forces.begin(), forces.end(), Vec3::Zero());
   base.add_forces(positions, forces);
   CHECK(test::magnitude(forces) == 0.0);
-  CHECK(base.largest_axial_displacement(positions) == 0.0);
 }
