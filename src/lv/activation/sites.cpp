@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <stdexcept>
 
 namespace lv::activation {
@@ -75,14 +74,12 @@ int node_at_point(const ActivatedWall& wall, const Vec3& x) {
   const int node = nearest_of(wall.mesh, wall.mesh.cells, x);
   const double distance = (wall.mesh.nodes[node] - x).norm();
   if (distance > farthest_point)
-    throw InputError(
-        wall.sites_are_at,
-        fmt::format("activation.sites name the point ({:g}, {:g}, {:g}) mm, which is {:.3g} mm "
-                    "from the nearest "
-                    "node of the wall",
-                    x.x(), x.y(), x.z(), distance),
-        "Give points in the coordinates of 02_mesh/mesh.vtu: the base lies at z = 0, the apex "
-        "below");
+    throw InputError(wall.sites_are_at,
+                     fmt::format("activation.sites name the point ({:g}, {:g}, {:g}) mm, which is "
+                                 "{:.3g} mm from the nearest node of the wall",
+                                 x.x(), x.y(), x.z(), distance),
+                     "Give points in the coordinates of 02_mesh/mesh.vtu: the base lies at z = 0, "
+                     "the apex below");
   return node;
 }
 
@@ -110,10 +107,10 @@ Site site_of(const std::string& words) {
   for (int s = 1; s <= segments; ++s)
     known.push_back(mesh::aha_name(s));
   const std::string nearest = nearest_name(words, known);
-  throw std::invalid_argument(fmt::format(
-      "names \"{}\", which is no segment (\"mid anterior\", \"apex\", 1 to 17), point (\"12 -4 -30 "
-      "mm\") or \"endocardium\"{}",
-      words, nearest.empty() ? "" : fmt::format("; did you mean \"{}\"?", nearest)));
+  throw std::invalid_argument(
+      fmt::format("names \"{}\", which is no segment (\"mid anterior\", \"apex\", 1 to 17), point "
+                  "(\"12 -4 -30 mm\") or \"endocardium\"{}",
+                  words, nearest.empty() ? "" : fmt::format("; did you mean \"{}\"?", nearest)));
 }
 
 std::vector<Mat3> cell_frames(const mesh::Mesh& mesh) {

@@ -100,19 +100,18 @@ constexpr std::array<Quantity, 18> list{
              "By what the active tension of each AHA segment is multiplied: as the case says, or "
              "fitted from strain where muscle.contractility is marked as fitted."}};
 
-constexpr Quantity infarct{
-    "infarct",
-    "infarct M",
-    "1",
-    nullptr,
-    "",
-    false,
-    true,
-    false,
-    0.0,
-    0.005,
-    "Extent of the infarct: 1 in it, falling to 0 across the border zone; it does not change with "
-    "time."};
+constexpr Quantity infarct{"infarct",
+                           "infarct M",
+                           "1",
+                           nullptr,
+                           "",
+                           false,
+                           true,
+                           false,
+                           0.0,
+                           0.005,
+                           "Extent of the infarct: 1 in it, falling to 0 across the border zone; "
+                           "it does not change with time."};
 
 }  // namespace
 

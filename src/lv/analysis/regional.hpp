@@ -3,7 +3,6 @@
 #include "lv/analysis/quantities.hpp"
 #include "lv/mesh/regions.hpp"
 
-#include <functional>
 #include <string>
 #include <vector>
 

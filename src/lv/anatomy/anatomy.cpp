@@ -26,7 +26,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <numbers>
 
 namespace lv::anatomy {

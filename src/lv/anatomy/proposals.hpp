@@ -7,7 +7,6 @@
 #include "lv/image/sunnybrook.hpp"
 
 #include <filesystem>
-#include <map>
 #include <string>
 #include <vector>
 

@@ -19,8 +19,7 @@ inline constexpr const char* sources =
     ".mhd; DICOM SEG), contours of other programs (Segment .mat, DICOM RTSTRUCT, cvi42 .cvi42wsx), "
     "surfaces (.stl, .ply, .obj, .vtp), folders of DICOM files or of Sunnybrook contours, contours "
     "(.csv), lists of guide points (columns separated by tabs), and meshes (ABAQUS .inp, Gmsh "
-    ".msh, "
-    ".vtk, .vtu)";
+    ".msh, .vtk, .vtu)";
 
 #undef LV_VOLUMES
 #undef LV_NIFTI

@@ -5,7 +5,6 @@
 #include "lv/base/log_count.hpp"
 #include "lv/base/parallel.hpp"
 #include "lv/base/printable.hpp"
-#include "lv/base/table.hpp"
 
 #include <spdlog/sinks/basic_file_sink.h>
 #include <spdlog/sinks/stdout_color_sinks.h>

@@ -7,7 +7,6 @@
 #include <dlfcn.h>
 #include <mpi.h>
 
-#include <algorithm>
 #include <exception>
 
 namespace lv::parallel {

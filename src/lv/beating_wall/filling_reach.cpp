@@ -2,7 +2,6 @@
 
 #include "lv/base/check.hpp"
 #include "lv/base/log.hpp"
-#include "lv/base/units.hpp"
 #include "lv/calibrate/fit.hpp"
 #include "lv/calibrate/model.hpp"
 #include "lv/case_file/beat_fit.hpp"

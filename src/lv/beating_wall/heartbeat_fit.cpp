@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 namespace lv::beating_wall {
 namespace {
@@ -256,18 +255,16 @@ class HeartbeatFitter {
         d.shown(d.measured), d.unit, d.shown(std::exp(root.r[worst]) * d.measured), d.unit);
     const std::string ends = ends_reached(root.x, search);
     if (ends.empty())
-      throw RunError(
-          fmt::format("{}{}", what,
-                      root.last_failure
-                          ? fmt::format("; beyond there are none: {}", root.last_failure->what)
-                          : ", where the search comes to no end"),
-          "Check what was measured and its units, and the case's own values, which the search "
-          "begins with");
-    throw InputError(
-        case_file::place_of(case_, d.key), fmt::format("{}, with {}", what, ends),
-        "Check what was measured, its units and circulation.period; a stiffness that is not this "
-        "heart's (calibrate.passive) shows here too; calibrate.factor_min and factor_max allow "
-        "more");
+      throw RunError(fmt::format("{}{}", what,
+                                 root.last_failure ? fmt::format("; beyond there are none: {}",
+                                                                 root.last_failure->what)
+                                                   : ", where the search comes to no end"),
+                     "Check what was measured and its units, and the case's own values, which the "
+                     "search begins with");
+    throw InputError(case_file::place_of(case_, d.key), fmt::format("{}, with {}", what, ends),
+                     "Check what was measured, its units and circulation.period; a stiffness that "
+                     "is not this heart's (calibrate.passive) shows here too; calibrate.factor_min "
+                     "and factor_max allow more");
   }
 
   /// The parameters that stand at an end of their range, in words.

@@ -1,6 +1,5 @@
 #include "lv/beating_wall/heartbeat_record.hpp"
 
-#include "lv/base/check.hpp"
 #include "lv/base/dense.hpp"
 #include "lv/base/json_file.hpp"
 #include "lv/case_file/beat_fit.hpp"

@@ -5,7 +5,6 @@
 #include <Eigen/Core>
 
 #include <filesystem>
-#include <limits>
 #include <string>
 #include <vector>
 

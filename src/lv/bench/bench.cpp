@@ -167,10 +167,9 @@ std::string text(const Bench& b) {
                ? fmt::format("  {:<12}{:>14.5f}{:>14.5f}{:>11.0f}%\n", row.kernel, row.seconds,
                              row.roofline, 100.0 * row.roofline / row.seconds)
                : fmt::format("  {:<12}{:>14.5f}\n", row.kernel, row.seconds);
-  return out + fmt::format(
-                   "\na step takes {:.2f} times the six bare transforms; peak memory "
-                   "{:.2f} GB\n",
-                   b.rows.back().seconds / b.rows.front().seconds, 1e-9 * b.peak_memory);
+  return out +
+         fmt::format("\na step takes {:.2f} times the six bare transforms; peak memory {:.2f} GB\n",
+                     b.rows.back().seconds / b.rows.front().seconds, 1e-9 * b.peak_memory);
 }
 
 std::string json(const Bench& b) {

@@ -1,7 +1,5 @@
 #include "lv/calibrate/bracket.hpp"
 
-#include "lv/base/check.hpp"
-
 #include <boost/math/tools/minima.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <fmt/format.h>
@@ -11,7 +9,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <string>
 
 namespace lv::calibrate {
 namespace {
@@ -186,15 +183,14 @@ class Search {
   }
 
   [[noreturn]] void refuse_beyond(double log_x, double f) const {
-    throw OutOfReach(
-        target_.origin,
-        fmt::format("{:.2f} ml cannot be reached: the model's volume is largest near {} = {:.3g}, "
-                    "about {:.2f} ml, and smaller on both sides",
-                    1e-3 * target_.volume, unknown_.name, std::exp(log_x),
-                    1e-3 * target_.volume * std::exp(f)),
-        "Check this volume and its pressure, and unloaded.pressure; a muscle with other exponents "
-        "fills farther",
-        std::abs(f));
+    throw OutOfReach(target_.origin,
+                     fmt::format("{:.2f} ml cannot be reached: the model's volume is largest near "
+                                 "{} = {:.3g}, about {:.2f} ml, and smaller on both sides",
+                                 1e-3 * target_.volume, unknown_.name, std::exp(log_x),
+                                 1e-3 * target_.volume * std::exp(f)),
+                     "Check this volume and its pressure, and unloaded.pressure; a muscle with "
+                     "other exponents fills farther",
+                     std::abs(f));
   }
 
   /// The misfit at the end of the range, on the line through two points; not known from one.
@@ -218,12 +214,11 @@ class Search {
     const bool misses = f_end && *f_end * farthest.f > 0.0;
     throw OutOfReach(
         target_.origin,
-        fmt::format("{:.2f} ml cannot be reached: the model's volume is {:.2f} ml at {} = {:.3g}, "
-                    "{}",
-                    1e-3 * target_.volume, 1e-3 * target_.volume * std::exp(farthest.f),
-                    unknown_.name, x,
-                    at_end || !nowhere_ ? "the end of its range"
-                                        : "and no farther (" + nowhere_->why + ")"),
+        fmt::format(
+            "{:.2f} ml cannot be reached: the model's volume is {:.2f} ml at {} = {:.3g}, {}",
+            1e-3 * target_.volume, 1e-3 * target_.volume * std::exp(farthest.f), unknown_.name, x,
+            at_end || !nowhere_ ? "the end of its range"
+                                : "and no farther (" + nowhere_->why + ")"),
         fmt::format(
             "Check this volume and its pressure, and the shape that was seen{}",
             at_end ? fmt::format("; or widen the range of {} in [calibrate]", unknown_.name) : ""),

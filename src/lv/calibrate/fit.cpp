@@ -15,7 +15,6 @@
 #include <Eigen/Core>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>

@@ -114,8 +114,7 @@ std::string regional_rows(const Plan& plan, const Fit& fit) {
   return (f.strains.empty() ? "" : strain_rows(plan, fit)) +
          (f.shape ? shape_rows(plan, *f.shape) : "") +
          fmt::format(
-             "  weight 1/{:g} of a volume's fraction; chi^2 {:.1f} for {:.1f} degrees of "
-             "freedom\n",
+             "  weight 1/{:g} of a volume's fraction; chi^2 {:.1f} for {:.1f} degrees of freedom\n",
              plan.errors.volume, f.chi_squared, f.degrees_of_freedom);
 }
 

@@ -48,11 +48,10 @@ class UnloadedSearch {
         refuse();
       x = next;
     }
-    throw NoSolution(
-        fmt::format("The search for the {} with which the wall holds {:.2f} ml without "
-                    "load does not come to an end",
-                    unknown_.name, 1e-3 * target_.volume),
-        "Lower quasi_static.tolerance, or raise calibrate.tolerance");
+    throw NoSolution(fmt::format("The search for the {} with which the wall holds {:.2f} ml "
+                                 "without load does not come to an end",
+                                 unknown_.name, 1e-3 * target_.volume),
+                     "Lower quasi_static.tolerance, or raise calibrate.tolerance");
   }
 
  private:
@@ -105,8 +104,8 @@ class UnloadedSearch {
 
   [[noreturn]] void refuse() const {
     const std::string what = fmt::format(
-        "The wall that holds {:.2f} ml as it was seen cannot hold {:.2f} ml without "
-        "load, which Klotz's curve says",
+        "The wall that holds {:.2f} ml as it was seen cannot hold {:.2f} ml without load, which "
+        "Klotz's curve says",
         1e-3 * seen_, 1e-3 * target_.volume);
     const char* remedy =
         "Check unloaded.pressure and the shape, or give calibrate.passive another value; a wall "
@@ -115,8 +114,7 @@ class UnloadedSearch {
     if (!now_)
       throw OutOfReach(
           target_.origin,
-          fmt::format("{}: no stiffness up to {} = {:.3g} gives it a shape without "
-                      "load{}: {}",
+          fmt::format("{}: no stiffness up to {} = {:.3g} gives it a shape without load{}: {}",
                       what, unknown_.name, std::exp(*nowhere_),
                       folds_above_ ? ", with which it would hold more already" : "", reason_),
           remedy, 0.0);

@@ -238,11 +238,10 @@ class CaseReader {
 
   void check_land2017() {
     const material::Land2017& law = case_.land2017;
-    together(
-        law.k_uw * (1.0 / law.r_w - 1.0) >= law.k_ws,
-        {"active.land2017.k_ws", "active.land2017.k_uw", "active.land2017.r_w"},
-        "must not be larger than k_uw (1/r_w - 1), the rate at which cross-bridges leave the state "
-        "W: some must go back");
+    together(law.k_uw * (1.0 / law.r_w - 1.0) >= law.k_ws,
+             {"active.land2017.k_ws", "active.land2017.k_uw", "active.land2017.r_w"},
+             "must not be larger than k_uw (1/r_w - 1), the rate at which cross-bridges leave the "
+             "state W: some must go back");
     together(law.Ca_50ref + law.beta_1 * (law.longest - 1.0) > 0.0,
              {"active.land2017.beta_1", "active.land2017.Ca_50ref"},
              "must leave a calcium at half activation above zero at a stretch of 1.2: Ca_50ref + "
@@ -261,9 +260,8 @@ class CaseReader {
         case_.without_effect.push_back(what);
       else
         mistakes_.emplace_back(
-            place, what +
-                       ". Remove this line, or make it a comment, if the case is meant to be "
-                       "another");
+            place,
+            what + ". Remove this line, or make it a comment, if the case is meant to be another");
     }
   }
 
@@ -285,11 +283,12 @@ class CaseReader {
          fmt::format("is {:g} mmHg, and must be less than the pressure that it is the error of, "
                      "unloaded.pressure ({:g} mmHg): the fit is made again with as much less",
                      k.pressure_error / units::mmHg, case_.unloaded.pressure / units::mmHg));
-    rule(!klotz || case_.unloaded.pressure <= most_of_klotz, "unloaded.pressure",
-         fmt::format("is {:g} mmHg: the curve that calibrate.passive = \"klotz\" takes is of "
-                     "hearts with up to 30 mmHg, and is not stretched beyond {:g} mmHg; check the "
-                     "pressure and its unit",
-                     case_.unloaded.pressure / units::mmHg, most_of_klotz / units::mmHg));
+    rule(
+        !klotz || case_.unloaded.pressure <= most_of_klotz, "unloaded.pressure",
+        fmt::format(
+            "is {:g} mmHg: the curve that calibrate.passive = \"klotz\" takes is of hearts with up "
+            "to 30 mmHg, and is not stretched beyond {:g} mmHg; check the pressure and its unit",
+            case_.unloaded.pressure / units::mmHg, most_of_klotz / units::mmHg));
     rule(!klotz || case_.passive.law == PassiveChoice::holzapfel_ogden, "calibrate.passive",
          "fits the Holzapfel-Ogden law alone; passive.law is another");
     rule(!passive || k.edv > 0.0, "calibrate.passive",
@@ -339,8 +338,8 @@ class CaseReader {
          "needs what was measured of a heartbeat, one or more of calibrate.edv, calibrate.esv, "
          "calibrate.cuff_systolic and calibrate.cuff_diastolic");
     rule(!k.active, "calibrate.active",
-         "and calibrate.cycle both fit contractility to calibrate.esv: leave calibrate.active "
-         "out, which does it outside of the heartbeats");
+         "and calibrate.cycle both fit contractility to calibrate.esv: leave calibrate.active out, "
+         "which does it outside of the heartbeats");
     rule(k.cuff_systolic == 0.0 || k.cuff_diastolic < k.cuff_systolic, "calibrate.cuff_diastolic",
          fmt::format("is {:g} mmHg, and must be less than calibrate.cuff_systolic, {:g} mmHg; "
                      "check both, and which is which",
@@ -431,8 +430,8 @@ class CaseReader {
          "is \"elastic\", but no spring keeps the wall from turning about its axis: set "
          "base.tangential_stiffness or pericardium.tangential_stiffness");
     rule(base.normal_stiffness > 0.0 || !pericardium.is_none(), "base.support",
-         "is \"elastic\", but no spring holds the wall along its axis: set "
-         "base.normal_stiffness or a pericardium");
+         "is \"elastic\", but no spring holds the wall along its axis: set base.normal_stiffness "
+         "or a pericardium");
   }
 
   void check_activation() {
@@ -468,9 +467,8 @@ class CaseReader {
     const double left = (calcium.at(period) - calcium.Ca_0) / (calcium.Ca_max - calcium.Ca_0);
     rule(period > calcium.peak_time() && left <= most, "circulation.period",
          fmt::format(
-             "is shorter than the calcium of a beat: after {:g} s it still stands at {:.0f}% "
-             "of its rise (at most {:.0f}%); make the beat longer, or calcium.tau or t_2 "
-             "shorter",
+             "is shorter than the calcium of a beat: after {:g} s it still stands at {:.0f}% of "
+             "its rise (at most {:.0f}%); make the beat longer, or calcium.tau or t_2 shorter",
              period, 100.0 * left, 100.0 * most));
   }
 
@@ -665,9 +663,9 @@ Case parse_case(const std::string& text, const std::filesystem::path& file) {
 Case read_case(const std::filesystem::path& file) {
   Case c = parse_case(read_text(file), file);
   if (c.origin.empty())
-    throw InputError(file.string(), "sets no parameter: it is empty, or no case file",
-                     "The default case, an idealised healthy ventricle, is a line such as "
-                     "name = \"healthy\"");
+    throw InputError(
+        file.string(), "sets no parameter: it is empty, or no case file",
+        "The default case, an idealised healthy ventricle, is a line such as name = \"healthy\"");
   require_files(c);
   return c;
 }
@@ -730,10 +728,7 @@ std::string manual(bool markdown, const std::string& filter) {
       markdown
           ? "# Parameters\n\nPrinted by `ventricle parameters --markdown`. Any unit of the same "
             "dimension may be written. A parameter that is set where it does not count is refused, "
-            "of "
-            "[mesh] named in a warning. "
-            "The "
-            "last column names the paper's equation or section.\n"
+            "of [mesh] named in a warning. The last column names the paper's equation or section.\n"
           : "";
   for (const Section& s : sections()) {
     if (std::none_of(parameters().begin(), parameters().end(),

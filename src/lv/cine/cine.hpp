@@ -6,7 +6,6 @@
 #include "lv/strain/track.hpp"
 
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 

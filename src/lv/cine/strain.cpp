@@ -1,13 +1,11 @@
 #include "lv/cine/strain.hpp"
 
-#include "lv/base/check.hpp"
 #include "lv/base/log.hpp"
 #include "lv/base/table.hpp"
 #include "lv/base/units.hpp"
 #include "lv/cine/cine.hpp"
 #include "lv/cine/through_plane.hpp"
 #include "lv/drawing/overlay.hpp"
-#include "lv/geometry/contour_measures.hpp"
 #include "lv/geometry/contour_table.hpp"
 #include "lv/strain/measures.hpp"
 
@@ -16,8 +14,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
-#include <optional>
 
 namespace lv::cine {
 namespace {
@@ -143,11 +139,11 @@ void draw(const CineStudy& study, const std::vector<strain::SliceTask>& tasks,
       overlay.lines.push_back({given->points, given_colour, true, true});
     overlays.push_back(std::move(overlay));
   }
-  drawing::write_overlays(overlays,
-                          systole ? "Contours carried from end-diastole (solid) and drawn at "
-                                    "end-systole (dashed)"
-                                  : "Contours drawn at end-diastole",
-                          file);
+  drawing::write_overlays(
+      overlays,
+      systole ? "Contours carried from end-diastole (solid) and drawn at end-systole (dashed)"
+              : "Contours drawn at end-diastole",
+      file);
 }
 
 std::vector<strain::SliceSeries> series_of(const std::vector<TrackedSlice>& slices, bool all) {
@@ -199,8 +195,7 @@ std::string words_of_muscle(const std::vector<TrackedSlice>& muscle,
     if (!was_followed(s))
       text += fmt::format(
           "slice {} was not followed everywhere: the map folds in its wall (least J {:.2f}), as "
-          "when "
-          "muscle leaves the plane or images are far apart in time; it is left out of the AHA "
+          "when muscle leaves the plane or images are far apart in time; it is left out of the AHA "
           "segments and the whole wall\n",
           s.series.slice, s.smallest_J);
   for (const strain::SegmentStrain& row : rows)

@@ -4,7 +4,6 @@
 #include "lv/circulation/parameters.hpp"
 #include "lv/circulation/stand_in.hpp"
 
-#include <functional>
 #include <limits>
 #include <span>
 #include <vector>

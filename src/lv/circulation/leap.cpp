@@ -3,7 +3,6 @@
 #include "lv/base/check.hpp"
 #include "lv/circulation/circuit.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace lv::circulation {

@@ -3,7 +3,6 @@
 #include "lv/drawing/canvas.hpp"
 
 #include <array>
-#include <optional>
 #include <string>
 #include <vector>
 

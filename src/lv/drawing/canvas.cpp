@@ -11,7 +11,6 @@
 #include <cmath>
 #include <map>
 #include <memory>
-#include <numbers>
 #include <string_view>
 
 namespace lv::drawing {

@@ -2,7 +2,6 @@
 
 #include <initializer_list>
 #include <optional>
-#include <span>
 #include <vector>
 
 namespace lv::drawing {

@@ -1,6 +1,5 @@
 #include "lv/drawing/picture_files.hpp"
 
-#include "lv/base/table.hpp"
 #include "lv/drawing/canvas.hpp"
 
 #include <fmt/format.h>

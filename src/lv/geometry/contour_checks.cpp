@@ -164,21 +164,20 @@ void check_units(const Contours& contours) {
       mean_diameter(contours, Side::endo).value_or(2.0 * mean_radius(contours.short_axis.front()));
   const double outer = mean_diameter(contours, Side::epi).value_or(diameter);
   if (!is_usual(diameter) && !is_usual(outer))
-    throw InputError(
-        contours.short_axis.front().where(),
-        fmt::format("the mean diameter of the endocardium is {:.3g} mm; a ventricle's lies between "
-                    "{:g} and {:g} mm",
-                    diameter, least_diameter, largest_diameter),
-        likely_unit(diameter));
+    throw InputError(contours.short_axis.front().where(),
+                     fmt::format("the mean diameter of the endocardium is {:.3g} mm; a ventricle's "
+                                 "lies between {:g} and {:g} mm",
+                                 diameter, least_diameter, largest_diameter),
+                     likely_unit(diameter));
 }
 
 [[noreturn]] void fail_flat(const Contour& loop, std::size_t i, double height, double tolerance,
                             const char* remedy) {
   throw InputError(
       loop.where(i),
-      fmt::format("{}: the point {} lies {:.2f} mm out of the slice's plane; at most {:g} mm "
-                  "is accepted",
-                  label(loop), place(loop.points[i]), height, tolerance),
+      fmt::format(
+          "{}: the point {} lies {:.2f} mm out of the slice's plane; at most {:g} mm is accepted",
+          label(loop), place(loop.points[i]), height, tolerance),
       remedy);
 }
 
@@ -417,8 +416,7 @@ void check_nearby(const Contours& contours, const Stack& stack) {
       for (std::size_t i = 0; i < c.points.size(); ++i)
         if ((c.points[i] - middle).norm() > farthest)
           throw InputError(c.where(i),
-                           fmt::format("{}: the point {} lies {:.0f} mm from the short-axis "
-                                       "slices",
+                           fmt::format("{}: the point {} lies {:.0f} mm from the short-axis slices",
                                        label(c), place(c.points[i]), (c.points[i] - middle).norm()),
                            "All contours share the scanner's coordinates in mm");
 }
@@ -566,17 +564,17 @@ std::vector<std::string> notes_on_spacing(const Contours& contours) {
   std::vector<std::string> notes;
   for (std::size_t i = 0; i < steps.size(); ++i) {
     if (misplaced(i)) {
-      notes.push_back(fmt::format(
-          "slice {} lies {:.1f} mm from slice {} and {:.1f} mm from slice {}, where others lie "
-          "{:.1f} mm apart: it seems misplaced; check its position",
-          slices[i + 1].second, steps[i], slices[i].second, steps[i + 1], slices[i + 2].second,
-          usual));
+      notes.push_back(
+          fmt::format("slice {} lies {:.1f} mm from slice {} and {:.1f} mm from slice {}, where "
+                      "others lie {:.1f} mm apart: it seems misplaced; check its position",
+                      slices[i + 1].second, steps[i], slices[i].second, steps[i + 1],
+                      slices[i + 2].second, usual));
       ++i;  // both steps are told
     } else if (steps[i] > wide * usual) {
-      notes.push_back(fmt::format(
-          "slices {} and {} lie {:.1f} mm apart, others {:.1f} mm: the wall between them is "
-          "interpolated; if slices are missing, draw them",
-          slices[i].second, slices[i + 1].second, steps[i], usual));
+      notes.push_back(
+          fmt::format("slices {} and {} lie {:.1f} mm apart, others {:.1f} mm: the wall between "
+                      "them is interpolated; if slices are missing, draw them",
+                      slices[i].second, slices[i + 1].second, steps[i], usual));
     }
   }
   return notes;
@@ -620,10 +618,9 @@ std::vector<std::string> notes_on_gaps(const Contours& contours) {
   }
   if (gaps.empty())
     return {};
-  return {
-      fmt::format("up to {:.0f}% of a loop's length is without points, and bridged: {}; draw "
-                  "what is missing",
-                  100.0 * widest, fmt::join(gaps, ", "))};
+  return {fmt::format(
+      "up to {:.0f}% of a loop's length is without points, and bridged: {}; draw what is missing",
+      100.0 * widest, fmt::join(gaps, ", "))};
 }
 
 }  // namespace lv::geometry

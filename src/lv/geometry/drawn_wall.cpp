@@ -11,7 +11,6 @@
 #include <cmath>
 #include <optional>
 #include <set>
-#include <string>
 #include <utility>
 
 namespace lv::geometry {
@@ -129,8 +128,8 @@ std::string alignment_note(const Contours& contours, const SplineFitParameters& 
   if (after.rms > 0.5 * as_drawn.rms)
     return {};
   return fmt::format(
-      "the slices seem shifted against each other (breath-holds): their contours lie "
-      "up to {:.1f} mm (rms {:.1f} mm) from the wall; {} {}",
+      "the slices seem shifted against each other (breath-holds): their contours lie up to {:.1f} "
+      "mm (rms {:.1f} mm) from the wall; {} {}",
       as_drawn.most, as_drawn.rms, align, says(after));
 }
 
@@ -172,10 +171,10 @@ DrawnWall fit_drawn_wall(const Contours& contours, const SplineFitParameters& pa
   Attempt found = attempt(drawn, used);
   if (!found.wall && base_may_move) {
     used.frame.base_at = BaseAt::slab;
-    notes.push_back(fmt::format(
-        "the base plane is laid where the slab of the most basal slice ends: {} there is no wall "
-        "({})",
-        base, reason(found)));
+    notes.push_back(
+        fmt::format("the base plane is laid where the slab of the most basal slice ends: {} there "
+                    "is no wall ({})",
+                    base, reason(found)));
     base = words(used.frame.base_at);
     found = attempt(drawn, used);
   }
@@ -184,10 +183,9 @@ DrawnWall fit_drawn_wall(const Contours& contours, const SplineFitParameters& pa
     if (!moved.wall || !may_move.slices)
       refuse(drawn, used, found, moved);
     warnings.push_back(
-        {"moved slices",
-         fmt::format("the slices are moved to each other: as the scanner put them there is no wall "
-                     "({}); {} {}",
-                     reason(found), align, says(misfit_of(moved.wall->report())))});
+        {"moved slices", fmt::format("the slices are moved to each other: as the scanner put them "
+                                     "there is no wall ({}); {} {}",
+                                     reason(found), align, says(misfit_of(moved.wall->report())))});
     used.align_slices = true;
     found = std::move(moved);
   }

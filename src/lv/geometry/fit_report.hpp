@@ -4,7 +4,6 @@
 #include "lv/geometry/frame.hpp"
 #include "lv/geometry/star_surface.hpp"
 
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>

@@ -1,7 +1,5 @@
 #include "lv/geometry/polygon.hpp"
 
-#include <algorithm>
-
 namespace lv::geometry {
 
 bool encloses(const Polygon& polygon, const Eigen::Vector2d& point) {

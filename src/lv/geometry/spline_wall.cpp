@@ -138,11 +138,12 @@ class Sampler {
                          : thickness == thinnest_apex * seen
                              ? "half as thick as the wall of the last slice"
                              : "where its last loops lead";
-    assume("apex",
-           fmt::format("no contour shows the epicardial apex: assumed {:.1f} mm below the "
-                       "endocardial one, {}",
-                       thickness, reason),
-           notes);
+    assume(
+        "apex",
+        fmt::format(
+            "no contour shows the epicardial apex: assumed {:.1f} mm below the endocardial one, {}",
+            thickness, reason),
+        notes);
   }
 
   /// Its length is the others' mean.
@@ -252,9 +253,9 @@ void check_surfaces(const Contours& contours, const FittedSurfaces& fit) {
     if (!(side == Side::endo ? fit.endo : fit.epi).is_sound())
       throw InputError(
           contours.short_axis.front().where(),
-          fmt::format("no smooth {} surface fits the contours: it folds or does not reach the "
-                      "base plane",
-                      name(side)),
+          fmt::format(
+              "no smooth {} surface fits the contours: it folds or does not reach the base plane",
+              name(side)),
           "Check the contours near the base, or smooth more (smoothing length)");
 }
 
@@ -267,16 +268,16 @@ void check_wall(const Contours& contours, const Frame& frame, const Thickness& t
   const bool is_beyond = thinnest.at.z() < frame.to_model(mean_of(last.points)).z();
   const std::string at =
       is_beyond ? fmt::format(
-                      "{}, beyond slice {}, the last with a cavity, where the wall is "
-                      "assumed from the slices above",
+                      "{}, beyond slice {}, the last with a cavity, where the wall is assumed from "
+                      "the slices above",
                       place_on_wall(thinnest.at), last.slice)
                 : fmt::format("{}, near slice {}", place_on_wall(thinnest.at), thinnest.slice);
   if (thinnest.value <= 0.0)
-    throw InputError(loop.where(),
-                     fmt::format("the fitted endocardium lies {:.1f} mm outside the epicardium at "
-                                 "{}",
-                                 -thinnest.value, at),
-                     "Redraw the borders there");
+    throw InputError(
+        loop.where(),
+        fmt::format("the fitted endocardium lies {:.1f} mm outside the epicardium at {}",
+                    -thinnest.value, at),
+        "Redraw the borders there");
   throw InputError(
       loop.where(),
       fmt::format("the wall is only {:.1f} mm thick at {}; at least {:g} mm are needed",
@@ -323,12 +324,11 @@ std::optional<Vec3> inside_out(const SplineWall& wall) {
 
 void check_inside_out(const Contours& contours, const SplineWall& wall) {
   if (const auto at = inside_out(wall))
-    throw InputError(
-        contours.short_axis.front().where(),
-        fmt::format("the fitted wall turns inside out at {}: the lines across it meet",
-                    place_on_wall(*at)),
-        "Check the slices next to that place against their neighbours, and the apex: points of it, "
-        "or long-axis contours, show where it is");
+    throw InputError(contours.short_axis.front().where(),
+                     fmt::format("the fitted wall turns inside out at {}: the lines across it meet",
+                                 place_on_wall(*at)),
+                     "Check the slices next to that place against their neighbours, and the apex: "
+                     "points of it, or long-axis contours, show where it is");
 }
 
 void note_missing_epicardium(const Contours& contours, std::vector<std::string>& notes) {
@@ -362,12 +362,12 @@ void note_extrapolated_base(const Contours& contours, const Frame& frame, FitRep
       for (const Vec3& x : loop->points)
         lowest = std::min(lowest, frame.to_model(x).z());
       if (lowest < -tolerance)
-        assume("base",
-               fmt::format("{} is extrapolated by up to {:.1f} mm from slice {} to the "
-                           "base plane{}",
-                           name(side), -lowest, slice,
-                           contours.long_axis.empty() ? "" : ", led by long-axis contours"),
-               notes);
+        assume(
+            "base",
+            fmt::format("{} is extrapolated by up to {:.1f} mm from slice {} to the base plane{}",
+                        name(side), -lowest, slice,
+                        contours.long_axis.empty() ? "" : ", led by long-axis contours"),
+            notes);
       break;
     }
 }
@@ -400,13 +400,11 @@ std::vector<Vec3> slice_shifts(const Contours& contours, const SplineFitParamete
     if (shifts[k].norm() > parameters.largest_shift)
       throw InputError(
           find(contours.short_axis, slices[k], Side::endo)->where(),
-          fmt::format("slice {} lies {:.1f} mm from where {} put "
-                      "it; at most {:g} mm are accepted",
+          fmt::format("slice {} lies {:.1f} mm from where {} put it; at most {:g} mm are accepted",
                       slices[k], shifts[k].norm(),
                       shown_by_long_axes(contours) ? "the long-axis contours" : "its neighbours",
                       parameters.largest_shift),
-          "Check that all contours show the same time of the heartbeat, or redraw "
-          "the slice");
+          "Check that all contours show the same time of the heartbeat, or redraw the slice");
   }
   return shifts;
 }

@@ -10,7 +10,6 @@
 #include <numbers>
 #include <numeric>
 #include <optional>
-#include <utility>
 
 namespace lv::geometry {
 namespace {

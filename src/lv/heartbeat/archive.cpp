@@ -14,8 +14,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <iterator>
-#include <limits>
 #include <system_error>
 #include <utility>
 

@@ -58,11 +58,11 @@ class MotionReader {
     while (next_line())
       read_row();
     if (rows_.size() < 4)
-      throw InputError(lines_.where(),
-                       fmt::format("the motion has {} lines, and four are the least that show a "
-                                   "beat",
-                                   rows_.size()),
-                       remedy);
+      throw InputError(
+          lines_.where(),
+          fmt::format("the motion has {} lines, and four are the least that show a beat",
+                      rows_.size()),
+          remedy);
     close();
     check_size();
     MeasuredMotion motion;
@@ -166,8 +166,8 @@ class MotionReader {
           row.where,
           fmt::format("{:g} s is beyond the end of a beat, circulation.period = {:g} s", row.time,
                       source_.period),
-          "Are times in seconds? Give one beat of the case's period, or the column "
-          "cycle_share instead of time_s");
+          "Are times in seconds? Give one beat of the case's period, or the column cycle_share "
+          "instead of time_s");
   }
 
   /// Takes away a last line that repeats the first.
@@ -181,11 +181,11 @@ class MotionReader {
         if (gap > 0.01 * components[k].most)
           throw InputError(
               last.where,
-              fmt::format("the table does not close: at the end of the beat {} is {:g}, "
-                          "and {:g} where it begins",
+              fmt::format("the table does not close: at the end of the beat {} is {:g}, and {:g} "
+                          "where it begins",
                           components[k].column, last.values[i], rows_.front().values[i]),
-              "Beats repeat: end where the motion begins, or leave the end of the beat "
-              "out and the base goes back from the last line");
+              "Beats repeat: end where the motion begins, or leave the end of the beat out and the "
+              "base goes back from the last line");
       }
       rows_.pop_back();
       return;
@@ -195,8 +195,8 @@ class MotionReader {
           last.where,
           fmt::format("the table does not close: it ends at {:g} s of a beat of {:g} s", last.time,
                       source_.period),
-          "Give the motion of the whole beat, of the case's circulation.period, or the "
-          "column cycle_share instead of time_s");
+          "Give the motion of the whole beat, of the case's circulation.period, or the column "
+          "cycle_share instead of time_s");
   }
 
   void check_size() const {
@@ -207,11 +207,11 @@ class MotionReader {
           rows_.begin(), rows_.end(),
           [i](const Row& a, const Row& b) { return a.values[i] < b.values[i]; });
       if (const double range = most->values[i] - least->values[i]; range > c.most)
-        throw InputError(most->where,
-                         fmt::format("{} moves by {:g} {} in a beat, more than a heart's base does "
-                                     "({:g} {})",
-                                     c.column, range, c.unit, c.most, c.unit),
-                         "Check the column and its unit");
+        throw InputError(
+            most->where,
+            fmt::format("{} moves by {:g} {} in a beat, more than a heart's base does ({:g} {})",
+                        c.column, range, c.unit, c.most, c.unit),
+            "Check the column and its unit");
       for (std::size_t n = 0; n < rows_.size(); ++n)
         check_speed(c, i, n);
     }
@@ -226,8 +226,7 @@ class MotionReader {
       return;
     throw InputError(
         rows_[n].where,
-        fmt::format("{} moves at {:.4g} {}/s to the {}, faster than a heart's base "
-                    "({:g} {}/s)",
+        fmt::format("{} moves at {:.4g} {}/s to the {}, faster than a heart's base ({:g} {}/s)",
                     c.column, speed, c.unit, is_last ? "first line of the next beat" : "next line",
                     c.fastest, c.unit),
         "Check the columns and their units");

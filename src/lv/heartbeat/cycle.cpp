@@ -7,7 +7,6 @@
 #include "lv/base/time_left.hpp"
 #include "lv/base/units.hpp"
 #include "lv/heartbeat/immersed_beat.hpp"
-#include "lv/implicit/time_engine.hpp"
 
 #include <fmt/format.h>
 
@@ -402,12 +401,11 @@ void CycleRun::stop_early(const std::string& why) {
     record_.cut_short();
     return;
   }
-  const NoSolution error(
-      what,
-      "Look at cycle.csv in 03_beat.part up to there: a circuit that empties the heart, or "
-      "overfills it, has other resistances, pressures or contractility than meant; a thin or "
-      "scarred wall may need what holds muscle back (muscle.viscosity = \"100 Pa s\"); else try a "
-      "finer mesh");
+  const NoSolution error(what,
+                         "Look at cycle.csv in 03_beat.part up to there: a circuit that empties "
+                         "the heart, or overfills it, has other resistances, pressures or "
+                         "contractility than meant; a thin or scarred wall may need what holds "
+                         "muscle back (muscle.viscosity = \"100 Pa s\"); else try a finer mesh");
   record_.stop_early(error, what, observers_);
 }
 
@@ -489,8 +487,8 @@ double CycleRun::seconds_left() const {
 void CycleRun::report_progress(const implicit::NewtonReport& newton) {
   const CurveRow& now = state().beat.curves.back();
   log::info(
-      "beat {} (of {} at most)  {:.3f} of {:.3g} s  {}  {:.1f} mmHg  {:.1f} ml  tension {:.1f} "
-      "kPa  {} corrections, {} {}{}",
+      "beat {} (of {} at most)  {:.3f} of {:.3g} s  {}  {:.1f} mmHg  {:.1f} ml  tension {:.1f} kPa "
+      " {} corrections, {} {}{}",
       record_.beat() + 1, setup_.cycle.beats, record_.since(), record_.period(), now.phase,
       now.pressure / mmHg, 1e-3 * now.volume, now.mean_tension, newton.iterations,
       newton.factorisations, newton.factorisations == 1 ? "tangent" : "tangents",

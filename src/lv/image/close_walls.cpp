@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 
 namespace lv::image {
 namespace {
@@ -101,8 +100,7 @@ bool close_wall(const Contour& endo, Contour& epi, double least, std::vector<std
   if (missing == 0)
     return true;
   const std::string over = fmt::format(
-      "slice {}: the wall is open or thinner than {:g} mm; with where "
-      "it tapers, over {} degrees",
+      "slice {}: the wall is open or thinner than {:g} mm; with where it tapers, over {} degrees",
       endo.slice, least, 360 * missing / rays);
   if (missing > most_missing) {
     notes.push_back(over + ": its epicardium is left out");
@@ -178,18 +176,17 @@ void drop_strays(Contours& contours, std::vector<std::string>& notes) {
     }
     if (strays.empty())
       first = loop.where();
-    strays.push_back(fmt::format(
-        "slice {}: the outer contour lies off the heart, its middle {:.0f} mm from that "
-        "of the inner one",
-        loop.slice, middle_distance(*endo, loop)));
+    strays.push_back(
+        fmt::format("slice {}: the outer contour lies off the heart, its middle {:.0f} mm from "
+                    "that of the inner one",
+                    loop.slice, middle_distance(*endo, loop)));
   }
   contours.short_axis = std::move(kept);
   if (!strays.empty() && outer_loops() == 0)
     throw InputError(
         first,
         fmt::format("{}{}", strays.front(), drawn == 1 ? "" : fmt::format("; so do all {}", drawn)),
-        "The outer contours belong to other images or coordinates: give those of this "
-        "heart");
+        "The outer contours belong to other images or coordinates: give those of this heart");
   for (const std::string& stray : strays)
     notes.push_back(stray + ": not used");
 }

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstddef>
 #include <numeric>
 
 namespace lv::image {
@@ -55,7 +54,8 @@ bool is_open_part_of(const LabelledSlice& here, const LabelledSlice& below) {
 
 Vec2 place_of_pixel(const PlaneMask& mask, std::size_t p) {
   const auto columns = static_cast<std::size_t>(mask.columns);
-  return {static_cast<double>(p % columns), static_cast<double>(p / columns)};
+  const std::size_t row = p / columns;
+  return {static_cast<double>(p % columns), static_cast<double>(row)};
 }
 
 Vec2 middle_pixel(const PlaneMask& mask) {
@@ -170,9 +170,8 @@ CutBase mend_cut_base(std::vector<Picture>& pictures, const std::vector<int>& ca
     if (c.lost > most_lost) {
       found.left_out += 1e3 * ml(here.cavity.count());
       found.notes.push_back(
-          fmt::format("{}: left out, with {:.1f} ml of cavity and {:.1f} ml of "
-                      "muscle",
-                      what, ml(here.cavity.count()), ml(here.muscle.count())));
+          fmt::format("{}: left out, with {:.1f} ml of cavity and {:.1f} ml of muscle", what,
+                      ml(here.cavity.count()), ml(here.muscle.count())));
       for (std::size_t p = 0; p < picture.values.size(); ++p)
         if (!here.is_rest(p))
           picture.values[p] = nothing;

@@ -19,7 +19,6 @@
 #include <exception>
 #include <fstream>
 #include <new>
-#include <string>
 #include <string_view>
 #include <utility>
 

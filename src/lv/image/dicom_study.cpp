@@ -14,7 +14,6 @@
 #include <iterator>
 #include <map>
 #include <numbers>
-#include <optional>
 #include <set>
 #include <system_error>
 #include <tuple>

@@ -7,7 +7,6 @@
 #include <gdcmSequenceOfItems.h>
 #include <gdcmTag.h>
 
-#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <functional>

@@ -76,31 +76,29 @@ void check_on_plane(const ForeignContours& drawn, const ForeignLoop& loop, const
   for (const Vec3& x : loop.points)
     most = std::max(most, std::abs(plane.pixel(x).z()));
   if (most > farthest)
-    throw InputError(drawn.file,
-                     fmt::format("a contour of \"{}\" lies {:.1f} mm off the plane of the image "
-                                 "that it names (SOPInstanceUID {})",
-                                 loop.name, most, loop.image_uid),
-                     "Contours or images were moved, or are of another study: give those that "
-                     "belong together, or leave anatomy.contour_file.images out, if the file has "
-                     "one time alone");
+    throw InputError(
+        drawn.file,
+        fmt::format("a contour of \"{}\" lies {:.1f} mm off the plane of the image that it names "
+                    "(SOPInstanceUID {})",
+                    loop.name, most, loop.image_uid),
+        "Contours or images were moved, or are of another study: give those that belong together, "
+        "or leave anatomy.contour_file.images out, if the file has one time alone");
 }
 
 Placed on_image(const ForeignContours& drawn, const ForeignLoop& loop, Side side,
                 const std::map<std::string, OnImage>& images) {
   const auto found = images.find(loop.image_uid);
   if (loop.image_uid.empty() || found == images.end())
-    throw InputError(drawn.file,
-                     loop.image_uid.empty()
-                         ? fmt::format("a contour of \"{}\" does not say on which image it was "
-                                       "drawn",
-                                       loop.name)
-                         : fmt::format("a contour of \"{}\" was drawn on the image with the "
-                                       "SOPInstanceUID {}, which is not among the images",
-                                       loop.name, loop.image_uid),
-                     loop.image_uid.empty()
-                         ? "Leave anatomy.contour_file.images out, if the file has one time alone"
-                         : "Name the folder, and the series, of the images that the contours were "
-                           "drawn on");
+    throw InputError(
+        drawn.file,
+        loop.image_uid.empty()
+            ? fmt::format("a contour of \"{}\" does not say on which image it was drawn", loop.name)
+            : fmt::format("a contour of \"{}\" was drawn on the image with the SOPInstanceUID {}, "
+                          "which is not among the images",
+                          loop.name, loop.image_uid),
+        loop.image_uid.empty()
+            ? "Leave anatomy.contour_file.images out, if the file has one time alone"
+            : "Name the folder, and the series, of the images that the contours were drawn on");
   const auto& [image, slice, phase] = found->second;
   if (!drawn.in_pixels)
     check_on_plane(drawn, loop, image->plane);

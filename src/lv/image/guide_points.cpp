@@ -9,12 +9,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numbers>
-#include <optional>
 #include <set>
 #include <utility>
 

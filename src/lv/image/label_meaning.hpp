@@ -3,8 +3,6 @@
 #include "lv/image/label_contours.hpp"
 #include "lv/image/volume.hpp"
 
-#include <vector>
-
 namespace lv::image {
 
 /// Whether all values are whole numbers from 0 to 255, as labels are, or at most 64 different ones

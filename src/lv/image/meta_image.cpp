@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 #include <metaImage.h>
 
-#include <array>
 #include <cmath>
 #include <iostream>
 #include <limits>
@@ -94,12 +93,11 @@ void check_sizes(const MetaImage& meta, const Volume& volume) {
   const int n = std::min(meta.NDims(), 3);
   for (int d = 0; d < n; ++d)
     if (meta.ElementSpacing(d) < 0.0)
-      throw InputError(
-          volume.file,
-          fmt::format("has the negative voxel size {:g} (ElementSpacing, axis {})",
-                      meta.ElementSpacing(d), d + 1),
-          "Give sizes without a sign; where the axis runs the other way, turn the sign of its "
-          "direction in TransformMatrix: else the heart may be mirrored");
+      throw InputError(volume.file,
+                       fmt::format("has the negative voxel size {:g} (ElementSpacing, axis {})",
+                                   meta.ElementSpacing(d), d + 1),
+                       "Give sizes without a sign; where the axis runs the other way, turn the "
+                       "sign of its direction in TransformMatrix: else the heart may be mirrored");
 }
 
 void lay_volume(const MetaImage& meta, Volume& volume) {

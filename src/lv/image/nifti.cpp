@@ -17,9 +17,7 @@
 #include <cstring>
 #include <limits>
 #include <memory>
-#include <optional>
 #include <span>
-#include <string_view>
 
 namespace lv::image {
 namespace {
@@ -154,8 +152,7 @@ void set_time_step(const NiftiHeader& header, Volume& volume) {
   else
     volume.notes.push_back(
         fmt::format("{} says that its {} frames follow each other after {:g} s, which is no "
-                    "heart's cycle: their "
-                    "times are taken as not known",
+                    "heart's cycle: their times are taken as not known",
                     volume.file, volume.frames, step));
 }
 

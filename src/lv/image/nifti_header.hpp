@@ -3,8 +3,6 @@
 #include "lv/base/tensor.hpp"
 
 #include <array>
-#include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <span>
 

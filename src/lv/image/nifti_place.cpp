@@ -148,8 +148,7 @@ void note_nothing_said(Volume& volume) {
   if (volume.spacing.isOnes() && volume.origin.isZero() && volume.directions.isApprox(to_lps()))
     volume.notes.push_back(
         fmt::format("{} says that its voxels measure 1 x 1 x 1 mm and begin at the origin, as "
-                    "files of programs "
-                    "do that have lost both: check its volumes",
+                    "files of programs do that have lost both: check its volumes",
                     volume.file));
 }
 
@@ -178,11 +177,10 @@ void lay_by_header(const NiftiHeader& header, Volume& volume) {
     Affine map = Affine::Identity();
     map.diagonal() = (sizes.array() > 0.0).select(unit.mm * sizes, 1.0);
     lay(map, "pixdim", unit.name, volume);
-    volume.notes.push_back(
-        fmt::format("{} does not say how it lies in space (neither sform nor qform): its axes are "
-                    "taken to point "
-                    "to the left, the back and the head; if it is mirrored, so are the regions",
-                    volume.file));
+    volume.notes.push_back(fmt::format(
+        "{} does not say how it lies in space (neither sform nor qform): its axes are taken to "
+        "point to the left, the back and the head; if it is mirrored, so are the regions",
+        volume.file));
   }
   if (has_sform && header.qform_code > 0)
     check_agrees(volume, in_space(qform(header, sizes, volume)));

@@ -4,7 +4,6 @@
 
 #include <Eigen/Geometry>
 
-#include <optional>
 #include <string>
 #include <vector>
 

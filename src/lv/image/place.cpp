@@ -23,12 +23,11 @@ void straighten(const std::string& called, Volume& volume) {
     const double cosine = volume.directions.col(d).dot(volume.directions.col(e));
     const double angle = std::acos(std::clamp(cosine, -1.0, 1.0)) * 180.0 / std::numbers::pi;
     if (!(std::abs(angle - 90.0) < right_angle_error))
-      throw InputError(
-          volume.file,
-          fmt::format("its {} is sheared: its axes are not at right angles, {} and {} are {:.2f} "
-                      "degrees apart",
-                      called, "ijk"[d], "ijk"[e], angle),
-          "Resample the image to a rectangular grid");
+      throw InputError(volume.file,
+                       fmt::format("its {} is sheared: its axes are not at right angles, {} and {} "
+                                   "are {:.2f} degrees apart",
+                                   called, "ijk"[d], "ijk"[e], angle),
+                       "Resample the image to a rectangular grid");
   }
   const Eigen::JacobiSVD<Mat3> svd(volume.directions, Eigen::ComputeFullU | Eigen::ComputeFullV);
   volume.directions = svd.matrixU() * svd.matrixV().transpose();

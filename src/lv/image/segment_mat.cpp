@@ -12,7 +12,6 @@
 #include <cmath>
 #include <memory>
 #include <optional>
-#include <string_view>
 
 namespace lv::image {
 namespace {

@@ -24,12 +24,11 @@ std::map<int, std::string> SegmentLabels::names() const {
 }
 
 std::string SegmentLabels::note(const std::string& file) const {
-  return together_.empty()
-             ? ""
-             : fmt::format(
-                   "{}: its segments overlap; what belongs to several has a label of its "
-                   "own, {} to {}: list it where it belongs",
-                   file, names_.size() + 1, names_.size() + together_.size());
+  return together_.empty() ? ""
+                           : fmt::format(
+                                 "{}: its segments overlap; what belongs to several has a label of "
+                                 "its own, {} to {}: list it where it belongs",
+                                 file, names_.size() + 1, names_.size() + together_.size());
 }
 
 }  // namespace lv::image

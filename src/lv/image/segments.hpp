@@ -2,8 +2,6 @@
 
 #include "lv/image/volume.hpp"
 
-#include <functional>
-#include <span>
 #include <string>
 #include <vector>
 

@@ -74,10 +74,9 @@ Place place_of(const std::multimap<int, Place>& places, int instance, const Dico
     throw InputError(file.string(),
                      fmt::format("no image of the DICOM series has the InstanceNumber {}{}",
                                  instance, lost_text(stack, instance)),
-                     stack.lost.empty()
-                         ? "Give the DICOM files that the contours were drawn on"
-                         : "Export the files that are left out again, or give those that the "
-                           "contours were drawn on");
+                     stack.lost.empty() ? "Give the DICOM files that the contours were drawn on"
+                                        : "Export the files that are left out again, or give those "
+                                          "that the contours were drawn on");
   if (std::next(first) != last)
     throw InputError(file.string(),
                      fmt::format("the InstanceNumber {} is that of {} and of {}", instance,
@@ -155,13 +154,12 @@ void check_phases(const DicomStack& stack, const std::map<int, fs::path>& drawn)
     return images(a) < images(b);
   });
   if (fewest != drawn.end() && images(*fewest) < images(*most))
-    throw InputError(
-        fewest->second.string(),
-        fmt::format("its slice {} has {} image{} where slice {} has {}: the phases of the contours "
-                    "cannot be told by order of time{}",
-                    fewest->first, images(*fewest), images(*fewest) == 1 ? "" : "s", most->first,
-                    images(*most), lost_text(stack, std::nullopt)),
-        "Give the missing images, or leave out the contours of this slice");
+    throw InputError(fewest->second.string(),
+                     fmt::format("its slice {} has {} image{} where slice {} has {}: the phases of "
+                                 "the contours cannot be told by order of time{}",
+                                 fewest->first, images(*fewest), images(*fewest) == 1 ? "" : "s",
+                                 most->first, images(*most), lost_text(stack, std::nullopt)),
+                     "Give the missing images, or leave out the contours of this slice");
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 #include "lv/immersed/quadrature_coupling.hpp"
 
-#include "lv/base/check.hpp"
 #include "lv/base/parallel.hpp"
 #include "lv/mesh/cell.hpp"
 #include "lv/mesh/gauss.hpp"

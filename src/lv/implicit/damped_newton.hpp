@@ -125,10 +125,9 @@ class DampedNewton {
   void iterate() {
     interrupt::check_together();
     if (++report_.iterations > parameters_.iterations) {
-      give_up(
-          fmt::format("no equilibrium after {} corrections (the last moved the wall by {:.2g} mm "
-                      "rms)",
-                      parameters_.iterations, correction_size_));
+      give_up(fmt::format(
+          "no equilibrium after {} corrections (the last moved the wall by {:.2g} mm rms)",
+          parameters_.iterations, correction_size_));
       return;
     }
     Place trial = problem_.moved(place_, correction_, damping_);

@@ -4,7 +4,6 @@
 #include "lv/base/log.hpp"
 #include "lv/base/time_left.hpp"
 #include "lv/base/units.hpp"
-#include "lv/implicit/arc_length.hpp"
 #include "lv/implicit/give_way.hpp"
 
 #include <fmt/format.h>

@@ -5,7 +5,6 @@
 
 #include <functional>
 #include <limits>
-#include <optional>
 #include <string>
 
 namespace lv::implicit {

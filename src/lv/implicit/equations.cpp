@@ -1,6 +1,5 @@
 #include "lv/implicit/equations.hpp"
 
-#include "lv/base/check.hpp"
 #include "lv/base/parallel.hpp"
 #include "lv/implicit/constitution.hpp"
 #include "lv/implicit/element_product.hpp"

@@ -2,7 +2,6 @@
 
 #include "lv/base/parallel.hpp"
 
-#include <span>
 #include <vector>
 
 namespace lv::implicit {

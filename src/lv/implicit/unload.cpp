@@ -1,6 +1,5 @@
 #include "lv/implicit/unload.hpp"
 
-#include "lv/base/check.hpp"
 #include "lv/base/dense.hpp"
 #include "lv/base/log.hpp"
 #include "lv/base/time_left.hpp"
@@ -213,12 +212,11 @@ class Unloader {
 
   /// Of a search that met a fold, with the nearest smooth wall, if there is one.
   [[nodiscard]] Unsolved folded(const UnloadStep& exact, const std::optional<Trial>& best) const {
-    const std::string smooth =
-        best ? fmt::format(
-                   "the nearest smooth one is off by {:.3g} mm rms ({:.3g} mm at most), "
-                   "loaded again",
-                   best->step.rms, best->step.largest)
-             : "no smooth one near it was found";
+    const std::string smooth = best ? fmt::format(
+                                          "the nearest smooth one is off by {:.3g} mm rms ({:.3g} "
+                                          "mm at most), loaded again",
+                                          best->step.rms, best->step.largest)
+                                    : "no smooth one near it was found";
     return {fmt::format("The wall that becomes the given shape at {:.2f} mmHg is folded: {}; {}",
                         parameters_.pressure / units::mmHg, words(exact.folds), smooth),
             "Check unloaded.pressure and the stiffness (a softer wall under more pressure unloads "

@@ -36,12 +36,11 @@ void check(const Table& table, const NiedererHunterSmith& law, double Ca) {
     const double stretch = law.stretch_min + (i + 0.5) * step(law);
     const double T = law.steady_state(Ca, stretch).tension;
     if (std::abs(table(stretch) - T) > tolerance * std::abs(T))
-      throw RunError(
-          fmt::format("the steady active tension at a calcium of {:.4g} uM jumps, or is too "
-                      "steep to tabulate, near the stretch {:.4f}",
-                      Ca, stretch),
-          "Hold the calcium at another value: around this one the muscle has a weak and "
-          "a strong steady state");
+      throw RunError(fmt::format("the steady active tension at a calcium of {:.4g} uM jumps, or is "
+                                 "too steep to tabulate, near the stretch {:.4f}",
+                                 Ca, stretch),
+                     "Hold the calcium at another value: around this one the muscle has a weak and "
+                     "a strong steady state");
   }
 }
 

@@ -1,6 +1,5 @@
 #include "lv/mesh/refine.hpp"
 
-#include "lv/mesh/cell.hpp"
 #include "lv/mesh/fibres.hpp"
 
 #include <algorithm>

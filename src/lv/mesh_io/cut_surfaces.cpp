@@ -211,8 +211,7 @@ std::vector<std::vector<Vec3>> loops_at(const Triangles& t, const CutPlane& plan
     for (auto found = beside.find(at); found != beside.end(); found = beside.find(at)) {
       if (found->second.size() != 2)
         fail_surface(t,
-                     fmt::format("has a hole, or sheets that touch, at ({:.4g}, {:.4g}, {:.4g}) "
-                                 "mm",
+                     fmt::format("has a hole, or sheets that touch, at ({:.4g}, {:.4g}, {:.4g}) mm",
                                  point(at).x(), point(at).y(), point(at).z()),
                      "Repair the surface in the program that made it");
       loop.push_back(point(at));
@@ -261,8 +260,7 @@ Contour loop_at(const Triangles& t, const CutPlane& plane, int slice, Side side)
             [](const auto& a, const auto& b) { return area_of(a) > area_of(b); });
   if (loops.size() > 1 && area_of(loops[1]) > small_part * area_of(loops[0]))
     fail_surface(t,
-                 fmt::format("is cut into {} parts across the long axis, in slice {} from the "
-                             "base",
+                 fmt::format("is cut into {} parts across the long axis, in slice {} from the base",
                              loops.size(), slice),
                  "Give the endocardium and the epicardium of the left ventricle alone, without "
                  "papillary muscles, atrium or aorta");
@@ -282,11 +280,11 @@ void note_base(const OpenSurface& s, const Vec3& up, double base, std::vector<st
   double high = base;
   for (const Vec3& x : s.rim)
     high = std::max(high, up.dot(x));
-  notes.push_back(fmt::format(
-      "{}: {}; up to {:.1f} mm of it lie above the base plane, which goes through the lowest point "
-      "of both rims, and are not used",
-      s.triangles.file, s.had_lid ? "its flat lid is taken off" : "it is open at the base",
-      high - base));
+  notes.push_back(
+      fmt::format("{}: {}; up to {:.1f} mm of it lie above the base plane, which goes through the "
+                  "lowest point of both rims, and are not used",
+                  s.triangles.file,
+                  s.had_lid ? "its flat lid is taken off" : "it is open at the base", high - base));
 }
 
 /// Whether a triangle runs from a to b.

@@ -22,7 +22,6 @@
 #include <cmath>
 #include <filesystem>
 #include <numeric>
-#include <optional>
 
 namespace lv::mesh_io {
 namespace {

@@ -20,9 +20,7 @@
 #include <vtkXMLImageDataReader.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <set>
 

@@ -73,10 +73,9 @@ void read_infarcted(const mesh::ImportParameters& parameters, vtkUnstructuredGri
       continue;
     const double value = array.GetTuple1(c);
     if (!(value >= 0.0 && value <= 1.0))
-      throw InputError(parameters.file,
-                       fmt::format("cell array \"{}\" is {} at cell {}", name, value, c),
-                       "It must be 1 in the infarct, 0 in healthy muscle, and between them in the "
-                       "border zone");
+      throw InputError(
+          parameters.file, fmt::format("cell array \"{}\" is {} at cell {}", name, value, c),
+          "It must be 1 in the infarct, 0 in healthy muscle, and between them in the border zone");
     between += value > 0.0 && value < 1.0 ? 1 : 0;
     foreign.infarcted.push_back(value == 1.0);
   }

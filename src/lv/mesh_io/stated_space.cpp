@@ -10,7 +10,6 @@
 #include <vtkStringArray.h>
 
 #include <algorithm>
-#include <vector>
 
 namespace lv::mesh_io {
 namespace {

@@ -3,7 +3,6 @@
 #include "lv/base/tensor.hpp"
 
 #include <string>
-#include <string_view>
 
 class vtkDataObject;
 

@@ -2,7 +2,6 @@
 
 #include "lv/mesh/mesh.hpp"
 
-#include <optional>
 #include <string>
 #include <vector>
 

@@ -155,10 +155,10 @@ std::vector<std::string> likely_fibres(vtkUnstructuredGrid& grid) {
 
 void note_likely(vtkUnstructuredGrid& grid, ForeignMesh& foreign) {
   if (const auto likely = likely_fibres(grid); !likely.empty())
-    foreign.notes.push_back(fmt::format(
-        "the file has what may be fibres ({}), which are not used: fibres follow the rule of "
-        "[fibres] unless anatomy.mesh.fibres names them",
-        fmt::join(likely, ", ")));
+    foreign.notes.push_back(
+        fmt::format("the file has what may be fibres ({}), which are not used: fibres follow the "
+                    "rule of [fibres] unless anatomy.mesh.fibres names them",
+                    fmt::join(likely, ", ")));
 }
 
 }  // namespace
@@ -175,8 +175,7 @@ void read_vtk_fibres(const mesh::ImportParameters& parameters, vtkUnstructuredGr
     sheets = read_directions(parameters, grid, parameters.sheets);
   if (!parameters.sheets.empty() && sheets.at != fibres.at)
     throw InputError(parameters.file,
-                     "has fibres and sheets of which one stands at cells and one at "
-                     "points",
+                     "has fibres and sheets of which one stands at cells and one at points",
                      "Write both at cells or both at points");
   foreign.mesh.fibres.given = {fibres.at, std::move(fibres.vectors), std::move(sheets.vectors)};
 }

@@ -9,8 +9,6 @@
 #include <array>
 #include <bit>
 #include <charconv>
-#include <cstdint>
-#include <cstring>
 #include <optional>
 #include <string_view>
 

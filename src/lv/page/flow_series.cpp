@@ -12,7 +12,6 @@
 #include <vtkSmartPointer.h>
 #include <vtkXMLImageDataReader.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace lv::page {

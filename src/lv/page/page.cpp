@@ -3,12 +3,10 @@
 #include "lv/analysis/quantities.hpp"
 #include "lv/base/check.hpp"
 #include "lv/base/json_file.hpp"
-#include "lv/base/nearest.hpp"
 #include "lv/base/table.hpp"
 #include "lv/base/units.hpp"
 #include "lv/drawing/bulls_eye.hpp"
 #include "lv/heartbeat/beat.hpp"
-#include "lv/mesh/cell.hpp"
 #include "lv/page/bundle.hpp"
 #include "lv/page/flow_series.hpp"
 #include "lv/page/modes.hpp"
@@ -28,7 +26,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <optional>
 
 namespace lv::page {

@@ -6,7 +6,6 @@
 #include <boost/crc.hpp>
 #include <fmt/format.h>
 
-#include <string>
 #include <system_error>
 
 namespace lv::page {

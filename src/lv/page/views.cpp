@@ -4,7 +4,6 @@
 #include "lv/drawing/wall_surface.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace lv::page {
 namespace {

@@ -3,7 +3,6 @@
 #include "lv/analysis/quantities.hpp"
 #include "lv/base/check.hpp"
 #include "lv/base/interrupt.hpp"
-#include "lv/base/table.hpp"
 #include "lv/mesh/cell.hpp"
 #include "lv/mesh/regions.hpp"
 #include "lv/mesh_io/vtk_file.hpp"

@@ -7,7 +7,6 @@
 #include "lv/phantom/ventricle.hpp"
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 namespace lv::phantom {

@@ -1,5 +1,3 @@
-#include "lv/base/check.hpp"
-#include "lv/base/files.hpp"
 #include "lv/base/json_file.hpp"
 #include "lv/base/units.hpp"
 #include "lv/geometry/contour_table.hpp"

@@ -1,14 +1,11 @@
 #include "lv/pipeline/answer_record.hpp"
 
-#include "lv/base/check.hpp"
 #include "lv/base/log.hpp"
 #include "lv/base/parallel.hpp"
 #include "lv/pipeline/fit_archive.hpp"
 #include "lv/pipeline/unloading.hpp"
 
 #include <fmt/format.h>
-
-#include <algorithm>
 
 namespace lv::pipeline {
 namespace {

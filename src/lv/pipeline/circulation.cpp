@@ -145,8 +145,7 @@ std::string slow_relaxation(const Case& c) {
   if (!case_file::is_cycle(c) || c.active_law != case_file::ActiveChoice::niederer)
     return "";
   return "active.law = \"niederer\" has the rates of a rat at room temperature: its relaxation "
-         "does "
-         "not end within a human beat, so the mitral valve opens late or not at all; "
+         "does not end within a human beat, so the mitral valve opens late or not at all; "
          "active.law = \"land2017\" is human";
 }
 
@@ -176,9 +175,8 @@ std::string chamber_beyond_beat(const Case& c) {
     const char* comma = text.empty() ? "" : ", ";
     if (chamber->t_C >= period)
       text += fmt::format(
-          "{}circulation.closed_loop.{}.t_C is {:g} s and begins {:.3g} s after a "
-          "beat does",
-          comma, name, chamber->t_C, std::fmod(chamber->t_C, period));
+          "{}circulation.closed_loop.{}.t_C is {:g} s and begins {:.3g} s after a beat does", comma,
+          name, chamber->t_C, std::fmod(chamber->t_C, period));
     else if (is_atrium && (lead < shortest_lead || lead > longest_lead))
       text += fmt::format(
           "{}circulation.closed_loop.{}.t_C is {:g} s, {:.3g} s before the right ventricle "

@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <string>
 
 namespace lv::pipeline {
 namespace {
@@ -61,19 +60,18 @@ void check_edv(const Case& c, const Measured& edv, double cavity) {
   if (edv.volume > (1.0 + c.calibration.tolerance) * cavity)
     return;
   if (!c.calibration.fits_muscle())
-    refuse(
-        c, edv,
-        fmt::format("the shape of the anatomy, which is taken as free of stress, holds {:.1f} "
-                    "ml already: no pressure fills it to less",
-                    cavity / ml),
-        "If the shape is that of end-diastole, it bears a pressure: set unloaded.pressure to it; "
-        "else give the shape of early diastole");
+    refuse(c, edv,
+           fmt::format("the shape of the anatomy, which is taken as free of stress, holds {:.1f} "
+                       "ml already: no pressure fills it to less",
+                       cavity / ml),
+           "If the shape is that of end-diastole, it bears a pressure: set unloaded.pressure to "
+           "it; else give the shape of early diastole");
   const double p = c.protocol.ed_pressure / mmHg;
   refuse(c, edv,
-         fmt::format("the shape of the anatomy, which is taken as free of stress, holds {:.1f} ml "
-                     "already: under protocol.ed_pressure ({:g} mmHg) no stiffness fills it to "
-                     "that volume",
-                     cavity / ml, p),
+         fmt::format(
+             "the shape of the anatomy, which is taken as free of stress, holds {:.1f} ml already: "
+             "under protocol.ed_pressure ({:g} mmHg) no stiffness fills it to that volume",
+             cavity / ml, p),
          fmt::format(
              "If the shape is that of end-diastole, it bears the pressure: set unloaded.pressure = "
              "\"{0:g} mmHg\", and calibrate.passive = \"klotz\" without calibrate.edv, since a "

@@ -25,7 +25,6 @@
 #include "lv/report/fields_vtk.hpp"
 #include "lv/report/heart_figures.hpp"
 #include "lv/report/stage_facts.hpp"
-#include "lv/report/summary.hpp"
 #include "lv/report/table_figures.hpp"
 #include "lv/report/tables_csv.hpp"
 #include "lv/report/work_folder.hpp"
@@ -36,9 +35,6 @@
 #include "lv/work/workspace.hpp"
 
 #include <fmt/format.h>
-
-#include <algorithm>
-#include <optional>
 
 namespace lv::pipeline {
 namespace {

@@ -1,6 +1,5 @@
 #include "lv/pipeline/validate.hpp"
 
-#include "lv/base/check.hpp"
 #include "lv/base/log.hpp"
 #include "lv/base/log_count.hpp"
 #include "lv/base/mistakes.hpp"
@@ -108,8 +107,8 @@ std::vector<Warning> warnings_of(const Case& c, const anatomy::Shape& shape, dou
       edv < little_filling * cavity)
     warnings.push_back(
         {"little filling",
-         fmt::format("calibrate.edv is {:.1f} ml and the shape that is taken as free of stress "
-                     "has {:.1f} ml: if it is that of end-diastole, set unloaded.pressure",
+         fmt::format("calibrate.edv is {:.1f} ml and the shape that is taken as free of stress has "
+                     "{:.1f} ml: if it is that of end-diastole, set unloaded.pressure",
                      1e-3 * edv, 1e-3 * cavity)});
   if (std::string little = little_ejection(c, shape); !little.empty())
     warnings.push_back({"little ejection", std::move(little)});
@@ -120,11 +119,10 @@ std::vector<Warning> warnings_of(const Case& c, const anatomy::Shape& shape, dou
          "the stiffness is the case's, not fitted to this heart: with calibrate.passive = "
          "\"klotz\" it follows from the end-diastolic shape, its pressure and Klotz's curve"});
   if (case_file::is_loaded(c) && !fits_contractility(c))
-    warnings.push_back(
-        {"contractility not fitted",
-         "the contractility is the case's, not fitted to this heart, and so is its ejection "
-         "fraction: with calibrate.active = true it follows from the measured end-systolic volume "
-         "(calibrate.esv)"});
+    warnings.push_back({"contractility not fitted",
+                        "the contractility is the case's, not fitted to this heart, and so is its "
+                        "ejection fraction: with calibrate.active = true it follows from the "
+                        "measured end-systolic volume (calibrate.esv)"});
   return warnings;
 }
 

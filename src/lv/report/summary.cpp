@@ -176,9 +176,7 @@ Json judgement_json(const Judgement& j) {
 
 std::string plausibility_text(const std::vector<Judgement>& judgements) {
   std::string text = fmt::format("  {:<56}{:>10} {:<4}{:>16}\n",
-                                 "is it plausible? (sources: "
-                                 "summary.json)",
-                                 "", "", "expected");
+                                 "is it plausible? (sources: summary.json)", "", "", "expected");
   for (const Judgement& j : judgements) {
     const PlausibleRange& range = *j.range;
     text += fmt::format("  {:<56}{:>10.3f} {:<4}{:>16}  {}\n", range.label, j.value,
@@ -331,8 +329,7 @@ std::string cycle_text(const heartbeat::Beat& beat) {
   return text +
          fmt::format(
              "  {:<26} {:.4g} mJ, of the cavity's pressure {:.4g} mJ{}, stored {:.2g} mJ{}: "
-             "{:.2g}% "
-             "is missing\n\n",
+             "{:.2g}% is missing\n\n",
              "work of the muscle", millijoule * e.muscle, millijoule * e.pressure,
              e.base == 0.0 ? ""
                            : fmt::format(", of the moving base {:.4g} mJ", millijoule * e.base),
@@ -421,8 +418,7 @@ std::string summary_json(const RunFacts& facts, const heartbeat::Beat& beat, con
   add_ends(beat, json);
   json["strain"] =
       std::string(
-          "Green-Lagrange; at end-systole relative to end-diastole, at end-diastole "
-          "relative to ") +
+          "Green-Lagrange; at end-systole relative to end-diastole, at end-diastole relative to ") +
       (facts.unloaded ? "the wall without load (named early_diastole)" : "early diastole");
   if (facts.unloaded)
     json["unloaded"] = unloaded_json(*facts.unloaded);
@@ -462,10 +458,9 @@ std::string summary_text(const RunFacts& facts, const heartbeat::Beat& beat, con
   text += fmt::format(
       "\n  ejection fraction {:.1f}%, mass {:.1f} g ({:g} g/ml)\n\n", 100.0 * r.ejection_fraction(),
       1e3 * facts.muscle_density * r.early_diastole.wall_volume, 1e6 * facts.muscle_density);
-  text += beat.cycle
-              ? cycle_text(beat)
-              : "  end-systole is where contraction ends, which need not be the least volume of "
-                "curves.csv\n\n";
+  text += beat.cycle ? cycle_text(beat)
+                     : "  end-systole is where contraction ends, which need not be the least "
+                       "volume of curves.csv\n\n";
   if (facts.unloaded)
     text += unloaded_text(*facts.unloaded);
   if (!facts.fitted.empty())

@@ -9,10 +9,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <set>
 
 namespace lv::scar {
@@ -61,9 +59,9 @@ double by_deviations(const Case& c, const Elements& all) {
   if (lge.remote.empty())
     throw InputError(
         case_file::place_of(c, "infarct.source"),
-        fmt::format("infarct.lge.remote is not set; the scar that one segment as remote would make "
-                    "is {}",
-                    each),
+        fmt::format(
+            "infarct.lge.remote is not set; the scar that one segment as remote would make is {}",
+            each),
         "Name the AHA segments of remote, healthy muscle, or set threshold = \"fwhm\"");
   const auto threshold = threshold_of(all, lge.remote, lge.deviations);
   if (!threshold)
@@ -108,15 +106,14 @@ double zero_level(const Case& c, const image::Cine& image, double brightest) {
   const double darkest = quantile(image, false, 0.01);
   if (brightest > 0.0 && darkest <= largest_offset * brightest)
     return c.scar.lge.zero;
-  throw InputError(
-      case_file::place_of(c, "infarct.lge.threshold"),
-      fmt::format("the darkest hundredth of {} reaches {:.4g} where the brightest of the wall is "
-                  "{:.4g}: the image has an offset (phase-sensitive reconstruction), so that half "
-                  "of the brightest says nothing",
-                  c.scar.lge.image, darkest, brightest),
-      fmt::format("Set infarct.lge.zero to the grey value of no signal, that of air (the median at "
-                  "the edge of the image is {:.4g})",
-                  quantile(image, true, 0.5)));
+  throw InputError(case_file::place_of(c, "infarct.lge.threshold"),
+                   fmt::format("the darkest hundredth of {} reaches {:.4g} where the brightest of "
+                               "the wall is {:.4g}: the image has an offset (phase-sensitive "
+                               "reconstruction), so that half of the brightest says nothing",
+                               c.scar.lge.image, darkest, brightest),
+                   fmt::format("Set infarct.lge.zero to the grey value of no signal, that of air "
+                               "(the median at the edge of the image is {:.4g})",
+                               quantile(image, true, 0.5)));
 }
 
 /// Throws InputError for an image of one grey value.

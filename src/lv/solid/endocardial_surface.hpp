@@ -3,7 +3,6 @@
 #include "lv/mesh/quadratic.hpp"
 #include "lv/solid/shape_table.hpp"
 
-#include <array>
 #include <functional>
 #include <span>
 #include <vector>

@@ -5,8 +5,6 @@
 #include "lv/strain/segments.hpp"
 #include "lv/strain/warp.hpp"
 
-#include <optional>
-#include <string>
 #include <vector>
 
 namespace lv::strain {

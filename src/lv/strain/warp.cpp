@@ -13,7 +13,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 namespace lv::strain {
 namespace {

@@ -1,5 +1,4 @@
 #include "lv/base/check.hpp"
-#include "lv/base/nearest.hpp"
 #include "lv/base/parallel.hpp"
 #include "lv/base/table.hpp"
 #include "lv/base/units.hpp"

@@ -2,8 +2,6 @@
 
 #include "lv/fluid/stokes.hpp"
 
-#include <array>
-
 namespace lv::verify {
 
 /// A smooth unsteady flow in the box [0, L] that satisfies the sides' conditions (p = 0, u_t = 0,

@@ -4,8 +4,6 @@
 #include "lv/implicit/time_engine.hpp"
 #include "lv/mesh/refine.hpp"
 #include "lv/mesh/split.hpp"
-#include "lv/mesh/surface.hpp"
-#include "lv/mesh/wall_mesh.hpp"
 #include "lv/verify/half_sphere.hpp"
 #include "lv/verify/land2015.hpp"
 #include "lv/verify/problems.hpp"

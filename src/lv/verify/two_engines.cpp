@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 /// The same ventricle by both engines.
 namespace lv::verify {
