@@ -17,7 +17,7 @@ using activation::read_times;
 using mesh::CellKind;
 
 std::filesystem::path written(const std::string& name, const std::string& text) {
-  const auto file = std::filesystem::temp_directory_path() / name;
+  auto file = std::filesystem::temp_directory_path() / name;
   write_file(file, text);
   return file;
 }
