@@ -68,30 +68,40 @@ class Fitter {
       model_.strains = {};
     else
       model_.strains = [this, &model](const FitParameters& p, const Loads& ed, const Loads& es) {
-        return timed(Sought::contracts_again, [&] { return model.strains(p, ed, es); });
+        return measured(Sought::contracts_again, [&] { return model.strains(p, ed, es); });
       };
     if (plan.drawn.empty())
       model_.distances = {};
     else
       model_.distances = [this, &model](const FitParameters& p, const Loads& es) {
-        return timed(Sought::contracts_again, [&] { return model.distances(p, es); });
+        return measured(Sought::contracts_again, [&] { return model.distances(p, es); });
       };
     model_.volume = [this, &model](const FitParameters& p, const Loads& loads) {
-      auto volume = timed(sought(p, loads), [&] { return model.volume(p, loads); });
+      auto volume = measured(sought(p, loads), [&] { return model.volume(p, loads); });
       last_ = p;
       if (!volume)
         return volume;
       if (sought_ && purpose_ != of_curve)
-        forecast_.bracket(std::log(*volume / sought_->volume), sought_->accuracy);
+        forecast_.bracket(std::log(*volume / sought_->volume), sought_->accuracy,
+                          sought_->first_step);
       fit_.history.push_back({purpose_, p, loads, *volume});
       log::info(
           "{:<22} C_a {:.4g}  scale {:.4g}  exponent {:.4g}  T_scale {:.4g}  {:.2f} mmHg  "
           "{:.3f} ml{}",
           purpose_, p.C_a, p.scale, p.exponent, p.T_scale, loads.pressure / units::mmHg,
           1e-3 * *volume, time_left(forecast_.seconds_left()));
+      quiet_ = TimeLeft();
       return volume;
     };
+    if (model_.tell)
+      model_.tell([this](const Loads& loads, double share) { say_on_the_way(loads, share); });
   }
+  ~Fitter() {
+    if (model_.tell)
+      model_.tell({});
+  }
+  Fitter(const Fitter&) = delete;
+  Fitter& operator=(const Fitter&) = delete;
 
   [[nodiscard]] const FitParameters& parameters() const { return fit_.parameters; }
 
@@ -146,12 +156,30 @@ class Fitter {
   }
 
   template <class Ask>
-  std::invoke_result_t<Ask> timed(Sought which, const Ask& ask) {
-    const auto began = std::chrono::steady_clock::now();
+  std::invoke_result_t<Ask> measured(Sought which, const Ask& ask) {
+    present_ = {which, so_far()};
     auto answer = ask();
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - began;
-    forecast_.record(which, elapsed.count());
+    forecast_.record(which, since_present());
     return answer;
+  }
+
+  [[nodiscard]] Effort so_far() const {
+    const std::chrono::duration<double> now = std::chrono::steady_clock::now().time_since_epoch();
+    return {now.count(), model_.work ? model_.work() : Work{}};
+  }
+  [[nodiscard]] Effort since_present() const {
+    const Effort now = so_far();
+    return {now.seconds - present_.began.seconds,
+            {now.work.all - present_.began.work.all,
+             now.work.polishing - present_.began.work.polishing}};
+  }
+
+  void say_on_the_way(const Loads& loads, double share) {
+    forecast_.on_the_way(present_.which, since_present(), share);
+    if (share < 1.0 && quiet_.due())
+      log::info("{:.0f}% of the way to {:.2f} mmHg and {:.0f}% of the active tension{}",
+                100.0 * share, loads.pressure / units::mmHg, 100.0 * loads.activation,
+                time_left(forecast_.seconds_left()));
   }
 
   /// Of `fitted`, the passive parameters.
@@ -232,7 +260,7 @@ class Fitter {
     double least = std::numeric_limits<double>::infinity();
     const auto volume = [&](double x) {
       p.*which.member = x;
-      sought_ = {target.volume, accuracy};
+      sought_ = {target.volume, accuracy, std::log(first_factor)};
       auto found = model_.volume(p, loads);
       sought_.reset();
       const double misfit = found ? std::abs(std::log(*found / target.volume)) : least;
@@ -657,9 +685,14 @@ class Fitter {
   FitForecast& forecast_;
   std::string purpose_;
   struct Root {
-    double volume, accuracy;
+    double volume, accuracy, first_step;
   };
-  std::optional<Root> sought_;      ///< while a bracket asks
+  std::optional<Root> sought_;  ///< while a bracket asks
+  struct Present {
+    Sought which = Sought::rests_anew;
+    Effort began;
+  } present_;
+  TimeLeft quiet_;
   FitParameters last_{.C_a = 0.0};  ///< of the last equilibrium
   bool has_tension_ = false;        ///< T_scale is near its end
   Fitted tension_{"T_scale", &FitParameters::T_scale};

@@ -99,6 +99,7 @@ Outcome<double> Ventricle::unloaded_volume(const FitParameters& parameters) {
     return unloaded.why();
   unloaded_ = *unloaded;
   unloaded_with_ = parameters;
+  polishing_ += unloaded_->polishing;
   engine_.reset();
   wall_ = mesh::with_nodes(given_, unloaded_->nodes);
   if (known_.empty())
@@ -162,7 +163,12 @@ Outcome<double> Ventricle::approach(const implicit::StaticModel& model, const Lo
     engine_->relax();
   }
   const auto volume = engine_->set_model(model);
-  return volume && distance(engine_->loads(), loads) > 0.0 ? engine_->go_to(loads) : volume;
+  if (!volume || distance(engine_->loads(), loads) == 0.0)
+    return volume;
+  if (!on_the_way_)
+    return engine_->go_to(loads);
+  return engine_->go_to(loads,
+                        [&](const implicit::Step& step) { on_the_way_(loads, step.progress); });
 }
 
 Ventricle::Equilibrium& Ventricle::nearest(const Loads& loads) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "lv/implicit/linear_work.hpp"
 #include "lv/implicit/unload.hpp"
 #include "lv/mesh/regions.hpp"
 
@@ -20,6 +21,15 @@ struct FitParameters {
 
   [[nodiscard]] bool operator==(const FitParameters&) const = default;
 };
+
+/// What was done for equilibria, in tangents (implicit::linear_work).
+struct Work {
+  double all = 0.0;
+  double polishing = 0.0;  ///< of it, what finer walls need not (implicit::Unloaded)
+};
+
+/// Told after a step to loads which share of the way to them is done.
+using OnTheWay = std::function<void(const solid::Loads&, double share)>;
 
 /// What a fit asks of a ventricle; nowhere need there be an equilibrium.
 struct Model {
@@ -45,6 +55,10 @@ struct Model {
   /// The share of the pressure of the seen shape under which its wall without load, folded or not,
   /// would hold a volume [mm^3]. May be empty.
   std::function<Outcome<double>(const FitParameters&, double volume)> share_that_leaves = {};
+  /// What it did so far. Without it no time left is known.
+  std::function<Work()> work = {};
+  /// On the way to further equilibria it tells how far it is; nothing: no more. May be empty.
+  std::function<void(const OnTheWay&)> tell = {};
 };
 
 /// The quasi-static engine as such a model. It keeps the equilibrium of every load that it was
@@ -78,6 +92,11 @@ class Ventricle {
   ///
   /// nothing: no more.
   void linearise(const std::optional<FitParameters>& about, const std::vector<int>& segments);
+
+  /// Model::work
+  [[nodiscard]] Work work() const { return {implicit::linear_work(), polishing_}; }
+  /// Model::tell
+  void tell(OnTheWay on_the_way) { on_the_way_ = std::move(on_the_way); }
 
   /// Of the nodes [mm].
   Outcome<std::vector<Vec3>> positions(const FitParameters& parameters, const solid::Loads& loads);
@@ -128,6 +147,8 @@ class Ventricle {
   FitParameters unloaded_with_;
   std::optional<implicit::Engine> engine_;  ///< of wall_
   std::vector<Equilibrium> known_;
+  OnTheWay on_the_way_;
+  double polishing_ = 0.0;
   std::optional<FitParameters> about_;
   std::vector<int> segments_;
   std::vector<Slopes> slopes_;

@@ -5,6 +5,7 @@
 #include "lv/base/time_left.hpp"
 #include "lv/base/units.hpp"
 #include "lv/implicit/inverse.hpp"
+#include "lv/implicit/linear_work.hpp"
 #include "lv/implicit/smooth_fields.hpp"
 #include "lv/implicit/unload_forecast.hpp"
 
@@ -88,14 +89,18 @@ class Unloader {
     if (inverse)
       start = &*inverse;
     forget();
+    const double work_before = linear_work();
     if (start == nullptr || !(try_from(as_vector(start->nodes), loaded_of(*start)) || is_near()))
       approach();
     if (has_wall() && is_folded(now_.step.folds)) {
       log::info("the wall that is looked for is folded: {}", words(now_.step.folds));
       return smooth(target_ + smoothed(now_.X), smoothings);
     }
-    if (is_near_enough())
-      return result();
+    if (is_near_enough()) {
+      Unloaded found = result();
+      found.polishing = inverse ? linear_work() - work_before : 0.0;
+      return found;
+    }
     if (!is_near() || equilibria_ >= parameters_.iterations)
       return not_found();
     log::info("the search comes no nearer than {:.3g} mm", now_.left);
@@ -148,7 +153,7 @@ class Unloader {
   Unloaded result() {
     if (now_.left > parameters_.tolerance)
       log::info("the search comes no nearer than {:.3g} mm, which is near enough", now_.left);
-    return {as_nodes(now_.X), std::move(now_.loaded), std::move(steps_), smoothing_};
+    return {as_nodes(now_.X), std::move(now_.loaded), std::move(steps_), smoothing_, 0.0};
   }
 
   void forget() {

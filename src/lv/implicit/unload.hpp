@@ -39,6 +39,9 @@ struct Unloaded {
   State loaded;                   ///< its equilibrium under the load
   std::vector<UnloadStep> steps;  ///< shapes that came nearer, in their order; the last is X
   double smoothing = 0.0;         ///< alpha; 0: loaded again it is the given shape, or near it
+  /// Work of the fixed points that followed an inverse problem which had led near, as it does on
+  /// walls of large elements [tangents, see linear_work].
+  double polishing = 0.0;
 };
 
 /// The equilibria of a search in the order in which they were sought, nothing where there was none.

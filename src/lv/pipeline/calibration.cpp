@@ -262,7 +262,9 @@ FittedWall fit_wall(const Case& c, const anatomy::MeshResult& mesh, const Target
       [&] { return ventricle.folded_volume(); },
       [&](const FitParameters& p, double volume) {
         return number([&] { return ventricle.share_that_leaves(p, volume); });
-      }};
+      },
+      [&] { return ventricle.work(); },
+      [&](const calibrate::OnTheWay& told) { ventricle.tell(told); }};
   calibrate::Fit fit = calibrate::fit(model, start.parameters, task, kept.forecast);
   ventricle.unloaded_volume(fit.parameters).value();
   return {std::move(fit), ventricle.unloaded()};

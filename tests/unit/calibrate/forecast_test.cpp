@@ -17,43 +17,50 @@ constexpr auto rests_again = Sought::rests_again;
 constexpr auto contracts = Sought::contracts_anew;
 constexpr auto contracts_again = Sought::contracts_again;
 constexpr double root_found = 5e-5;
+const double first_step = std::log(1.5);
+constexpr double pace = 0.05;  // of made-up fits [s per tangent]
 
-/// An equilibrium of a recorded fit: its part, kind, processor time [s] and, in brackets, misfit.
+/// An equilibrium of a recorded fit: its part, kind, processor time [s], tangents and, in brackets,
+/// misfit.
 struct Found {
   const char* part;
   Sought which;
-  double seconds;
+  double seconds, tangents;
   double misfit = 0.0;
 };
+
+Effort effort(double seconds, double tangents) {
+  return {seconds, {tangents, 0.0}};
+}
 
 /// Scale and tension of the default ventricle, elements of 14 mm: `ventricle calibrate` with
 /// edv = "110 ml" and esv = "55 ml".
 const std::vector<Found> recorded_fit{
-    {"bracket of scale", rests, 0.94, std::log(144.354 / 110.0)},
-    {"bracket of scale", rests, 0.14, std::log(132.166 / 110.0)},
-    {"bracket of scale", rests, 0.14, std::log(108.064 / 110.0)},
-    {"bracket of scale", rests, 0.08, std::log(110.076 / 110.0)},
-    {"bracket of scale", rests, 0.06, 1e-6},
-    {"bracket of T_scale", contracts, 1.58, std::log(58.393 / 55.0)},
-    {"bracket of T_scale", contracts, 0.13, std::log(49.483 / 55.0)},
-    {"bracket of T_scale", contracts, 0.13, std::log(54.912 / 55.0)},
-    {"bracket of T_scale", contracts, 0.06, 1e-6},
-    {"bracket of scale", rests, 0.06, 4e-5},
-    {"bracket of T_scale", contracts, 0.05, 1e-6},
-    {"result", rests_again, 0.07},
-    {"result", contracts_again, 0.06},
-    {"sensitivity", rests_again, 0.07},
-    {"sensitivity", rests_again, 0.06},
-    {"sensitivity", contracts_again, 0.08},
-    {"sensitivity", contracts_again, 0.06},
-    {"sensitivity", rests, 0.09},
-    {"sensitivity", contracts_again, 0.09},
-    {"sensitivity", rests, 0.07},
-    {"sensitivity", contracts_again, 0.06},
-    {"sensitivity", rests, 0.07},
-    {"sensitivity", contracts_again, 0.07},
-    {"sensitivity", rests, 0.09},
-    {"sensitivity", contracts_again, 0.08},
+    {"bracket of scale", rests, 1.10, 19.9, std::log(144.354 / 110.0)},
+    {"bracket of scale", rests, 0.15, 2.5, std::log(132.056 / 110.0)},
+    {"bracket of scale", rests, 0.17, 2.8, std::log(107.688 / 110.0)},
+    {"bracket of scale", rests, 0.09, 1.4, std::log(110.091 / 110.0)},
+    {"bracket of scale", rests, 0.08, 1.2, std::log(110.000 / 110.0)},
+    {"bracket of T_scale", contracts, 1.36, 25.4, std::log(58.369 / 55.0)},
+    {"bracket of T_scale", contracts, 0.13, 2.5, std::log(49.448 / 55.0)},
+    {"bracket of T_scale", contracts, 0.14, 2.6, std::log(54.914 / 55.0)},
+    {"bracket of T_scale", contracts, 0.07, 1.2, std::log(55.000 / 55.0)},
+    {"bracket of scale", rests_again, 0.07, 1.1, std::log(109.995 / 110.0)},
+    {"bracket of T_scale", contracts_again, 0.07, 1.1, std::log(55.000 / 55.0)},
+    {"result", rests_again, 0.06, 1.1},
+    {"result", contracts_again, 0.07, 1.1},
+    {"sensitivity", rests_again, 0.10, 1.8},
+    {"sensitivity", rests_again, 0.09, 1.8},
+    {"sensitivity", contracts_again, 0.08, 1.4},
+    {"sensitivity", contracts_again, 0.07, 1.4},
+    {"sensitivity", rests, 0.07, 1.2},
+    {"sensitivity", contracts_again, 0.07, 1.2},
+    {"sensitivity", rests, 0.08, 1.3},
+    {"sensitivity", contracts_again, 0.06, 1.2},
+    {"sensitivity", rests, 0.07, 1.2},
+    {"sensitivity", contracts_again, 0.06, 1.2},
+    {"sensitivity", rests, 0.06, 1.1},
+    {"sensitivity", contracts_again, 0.06, 1.3},
 };
 
 Plan scale_and_tension() {
@@ -71,9 +78,9 @@ void follow(FitForecast& forecast, double left, const Say& say) {
     if (found.part != part)
       forecast.begin(found.part);
     part = found.part;
-    forecast.record(found.which, found.seconds);
-    if (found.misfit != 0.0)
-      forecast.bracket(found.misfit, root_found);
+    forecast.record(found.which, effort(found.seconds, found.tangents));
+    if (std::string(found.part).rfind("bracket", 0) == 0)
+      forecast.bracket(found.misfit, root_found, first_step);
     left -= found.seconds;
     say(left);
   }
@@ -108,19 +115,62 @@ TEST_CASE("a fit on a coarse wall says what the finer one will take besides", "[
   forecast.begin_mesh(parts_of(coarse));
   const auto find = [&](const char* part, std::initializer_list<std::pair<Sought, double>> all) {
     forecast.begin(part);
-    for (const auto& [which, seconds] : all)
-      forecast.record(which, seconds);
+    for (const auto& [which, tangents] : all)
+      forecast.record(which, effort(pace * tangents, tangents));
     forecast.expect(0.0);
   };
-  find("bracket of scale", {{rests, 1.0}, {rests, 0.1}});
-  find("bracket of T_scale", {{contracts, 1.6}, {contracts, 0.09}});
-  find("result", {{rests_again, 0.07}, {contracts_again, 0.075}});
-  const double others = 6 * 0.1 + 1.6 + 3 * 0.09 + 3 * 0.07 + 7 * 0.075;
-  CHECK(forecast.seconds_left() == Approx((1.0 + others) * std::pow(4.0, 1.3)).epsilon(1e-6));
+  find("bracket of scale", {{rests, 20.0}, {rests, 2.0}});
+  find("bracket of T_scale", {{contracts, 32.0}, {contracts, 1.8}});
+  find("result", {{rests_again, 1.2}, {contracts_again, 1.2}});
+  const double others = 6 * 2.0 + 32.0 + 3 * 1.8 + 3 * 1.2 + 7 * 1.2;
+  CHECK(forecast.seconds_left() == Approx((20.0 + others) * pace * std::pow(4.0, 1.3)));
   forecast.begin_mesh(parts_of(fine));
   forecast.begin("bracket of scale");
-  forecast.record(rests, 3.0);  // less than the number of nodes let expect
-  CHECK(forecast.seconds_left() == Approx(3.0 * others).epsilon(1e-6));
+  const double slower = 0.15;                 // less than the number of nodes let expect
+  forecast.record(rests, effort(9.0, 60.0));  // steps failed: that says nothing of the others
+  CHECK(forecast.seconds_left() == Approx(slower * others));
+}
+
+TEST_CASE("muscle that a coarse wall was loaded from nothing with again tells what that takes",
+          "[unit][calibrate]") {
+  const std::vector<FitPart> trials{{"trials", {1, 0, 0, 0}, 3.0}};
+  FitForecast forecast({{1000, false, trials}, {1000, false, trials}, {2000, false, trials}});
+  forecast.begin_mesh(trials);
+  forecast.begin("trials");
+  for (const double tangents : {20.0, 2.0, 40.0})
+    forecast.record(rests, effort(pace * tangents, tangents));
+  forecast.begin_mesh(trials);
+  CHECK(forecast.seconds_left() ==
+        Approx(pace * (40.0 + 2 * 2.0) * (1.0 + std::pow(2.0, 1.3))).epsilon(1e-6));
+}
+
+TEST_CASE("fixed points that follow the inverse problem are not expected of finer walls",
+          "[unit][calibrate]") {
+  const std::vector<FitPart> trials{{"trials", {1, 0, 0, 0}, 3.0}};
+  const auto seconds_left = [&](double of_fixed_points) {
+    FitForecast forecast({{1000, true, trials}, {2000, true, trials}});
+    forecast.begin_mesh(trials);
+    forecast.begin("trials");
+    for (const double tangents : {36.0, 24.0, 24.0})
+      forecast.record(rests, {pace * tangents, {tangents, of_fixed_points}});
+    return forecast.seconds_left() / (pace * std::pow(2.0, 1.3));
+  };
+  CHECK(seconds_left(12.0) == Approx(3 * 7.0));
+  CHECK(seconds_left(0.0) == Approx(3 * 24.0));
+}
+
+TEST_CASE("an equilibrium on its way has the less left the more of the loads is on",
+          "[unit][calibrate]") {
+  FitForecast forecast({{1000, false, {}}});
+  forecast.begin_mesh({{"trials", {1, 0, 0, 0}, 2.0}});
+  forecast.begin("trials");
+  CHECK(forecast.seconds_left() < 0.0);
+  forecast.on_the_way(rests, effort(0.5, 10.0), 0.125);
+  CHECK(forecast.seconds_left() == Approx(pace * (0.5 * 19.0 + 2.0)));
+  forecast.on_the_way(rests, effort(2.0, 40.0), 0.512);  // more than usual by now
+  CHECK(forecast.seconds_left() == Approx(pace * (0.2 * 40.0 + 2.0)));
+  forecast.record(rests, effort(2.5, 50.0));
+  CHECK(forecast.seconds_left() == Approx(pace * 2.0));
 }
 
 TEST_CASE("on the same mesh again a fit knows what equilibria take", "[unit][calibrate]") {
@@ -132,14 +182,14 @@ TEST_CASE("on the same mesh again a fit knows what equilibria take", "[unit][cal
   };
   begin();
   for (int i = 0; i < 6; ++i) {
-    forecast.record(rests, 1.0);
-    forecast.record(rests_again, 0.1);
+    forecast.record(rests, effort(1.0, 10.0));
+    forecast.record(rests_again, effort(0.1, 1.0));
   }
   CHECK(forecast.seconds_left() == Approx(6.6));
   begin();
-  forecast.record(rests, 2.0);  // from afar
+  forecast.record(rests, effort(2.0, 20.0));  // from afar
   CHECK(forecast.seconds_left() == Approx(5.6));
-  forecast.record(rests_again, 0.4);
+  forecast.record(rests_again, effort(0.4, 4.0));
   CHECK(forecast.seconds_left() == Approx(5.5));
 }
 
@@ -163,11 +213,11 @@ TEST_CASE("what is seldom and long does not tell the rest of a fit", "[unit][cal
   FitForecast forecast({{1000, false, {}}});
   forecast.begin_mesh({{"trials", {1, 0, 0, 0}, 20.0}});
   forecast.begin("trials");
-  forecast.record(rests, 1.0);
+  forecast.record(rests, effort(1.0, 20.0));
   const double before = forecast.seconds_left();
-  forecast.record(rests, 5.0);  // a wall that gave way
-  forecast.record(rests, 0.1);
-  forecast.record(rests, 0.1);
+  forecast.record(rests, effort(5.0, 100.0));  // a wall that gave way
+  forecast.record(rests, effort(0.1, 2.0));
+  forecast.record(rests, effort(0.1, 2.0));
   CHECK(forecast.seconds_left() < before);
 }
 
@@ -176,6 +226,6 @@ TEST_CASE("answers of a fit that was stopped tell nothing of its speed", "[unit]
   forecast.begin_mesh(parts_of(scale_and_tension()));
   forecast.begin("bracket of scale");
   for (int i = 0; i < 4; ++i)
-    forecast.record(rests, 1e-5);
+    forecast.record(rests, effort(1e-5, 0.0));
   CHECK(forecast.seconds_left() < 0.0);
 }
