@@ -7,9 +7,11 @@
 #include "lv/segment/closed_path.hpp"
 #include "lv/segment/coils.hpp"
 #include "lv/segment/edge_width.hpp"
+#include "lv/segment/fluid.hpp"
 #include "lv/segment/grey_levels.hpp"
 #include "lv/segment/kept_muscle.hpp"
 #include "lv/segment/redraw_border.hpp"
+#include "lv/segment/ring.hpp"
 #include "lv/segment/smooth_border.hpp"
 #include "lv/segment/steady_in_time.hpp"
 
@@ -78,18 +80,41 @@ Polar unlikeness(const Polar& values, const Levels& levels, double darker = 0.6,
       .min(1.0);
 }
 
+/// The way from muscle to blood, 0 to 1, as brightness of what is brighter than muscle.
+Polar brightness(const Polar& values, const Levels& levels) {
+  const Polar muscle = levels.muscle.replicate(1, grid.radii);
+  return (values - muscle) / (levels.blood - muscle);
+}
+
+/// The same unlikeness, but where fluid lies outside the muscle no less than the way to it.
+Polar with_fluid(Polar unlike, const Polar& values, const Levels& levels) {
+  if (levels.fluid.size() == 0)
+    return unlike;
+  const Polar bright = brightness(values, levels);
+  for (int i = 0; i < grid.rays; ++i)
+    if (const double fluid = levels.fluid(i); fluid > 0.0)
+      unlike.row(i) = unlike.row(i).max((bright.row(i) / fluid).min(1.0));
+  return unlike;
+}
+
 constexpr double to_lung = 0.8;  // it is a fifth as bright: half unlike in the middle between
 
 using Fixes = std::vector<Fixed>;
 
-/// The edge of the blood, before muscle is known.
+/// The edge of the blood, before muscle is known; within the first ring of muscle.
 Radii blood_edge(const Polar& values, const Levels& guess, const Fixes& fixed = {}) {
   constexpr double region = 0.3;  // weight of a millimetre beside the edge's
   constexpr double edge_weight = 2.0;
   const Polar dark = darkness(values, guess);
   const Polar edge = mean_at(dark, 1, 4) - mean_at(dark, -4, -1);
   const Polar cost = region * integral(dark - 0.5) - edge_weight * edge.max(0.0);
-  return closed_path(cost, {.reach = 2, .stiffness = 0.05}, grid, fixed);
+  constexpr PathRule rule{.reach = 2, .stiffness = 0.05};
+  const Radii path = closed_path(cost, rule, grid, fixed);
+  const auto ring = ring_within(dark, path, grid);
+  if (!ring)
+    return path;
+  const Polar beyond = wall_of_cost * (distance_from(*ring) > 0.0).cast<double>();
+  return closed_path(cost + beyond, rule, grid, fixed);
 }
 
 /// Forbids what lies less than `least` [mm] within points.
@@ -135,8 +160,9 @@ Polar epicardial_cost(const Polar& values, const Radii& middle, const Levels& le
   constexpr double region = 0.5;
   constexpr double strongest = 0.6;  // edge that counts
   constexpr double thickest = 28.0;  // from the wall's middle: hypertrophic hearts at end-systole
-  const Polar sum = integral(not_less_behind(unlikeness(values, levels, to_lung), middle) - 0.5);
-  const Polar away = unlikeness(values, levels, 1.0, 1.0);
+  const Polar unlike = with_fluid(unlikeness(values, levels, to_lung), values, levels);
+  const Polar sum = integral(not_less_behind(unlike, middle) - 0.5);
+  const Polar away = with_fluid(unlikeness(values, levels, 1.0, 1.0), values, levels);
   const Polar edge = mean_at(away, 1, 3) - mean_at(away, -3, -1);
   return region * sum - edge.max(0.0).min(strongest) + forbid(distance_from(middle), 1.0, thickest);
 }
@@ -242,11 +268,15 @@ void see_motion(std::vector<Work>& work) {
     work[s].motion = shared_motion(radii, s);
 }
 
-void find_borders(Work& work, double fall) {
+void find_epicardium(Work& work) {
   std::vector<Polar> costs;
   for (std::size_t t = 0; t < work.values.size(); ++t)
     costs.push_back(epicardial_cost(work.values[t], work.middle[t], work.levels));
   work.epi = epicardium(costs, work.motion);
+}
+
+void find_borders(Work& work, double fall) {
+  find_epicardium(work);
   for (std::size_t t = 0; t < work.values.size(); ++t) {
     const Radii outside = harmonics_of(work.epi[t], epi_harmonics).min(work.middle[t] + 3.0);
     work.endo.push_back(endocardium(work.values[t], outside, work.levels, fall));
@@ -290,6 +320,37 @@ void steady_over_slices(std::vector<Work>& work) {
 bool looks_like_heart(const Heart& heart, std::size_t s) {
   constexpr double like_seed = 0.5;
   return heart.centres[s].likeness >= like_seed * heart.centres[heart.seed].likeness;
+}
+
+/// Fluid that the epicardium of a slice encloses; none unless it is seen round a part of the heart.
+Radii fluid_round(const Work& work) {
+  constexpr double least_part = 1.0 / 3.0;  // of the circumference
+  std::vector<Polar> bright;
+  for (const Polar& frame : work.values)
+    bright.push_back(brightness(frame, work.levels));
+  const Radii fluid = fluid_within(bright, work.endo, work.epi, grid);
+  return (fluid > 0.0).cast<double>().mean() < least_part ? Radii(0.0 * fluid) : fluid;
+}
+
+/// Draws the epicardium once more, within the fluid, where several slices of the heart show some:
+/// it lies round all of it.
+void leave_fluid_out(const Heart& heart, std::vector<Work>& work) {
+  constexpr std::size_t fewest = 3;
+  std::vector<std::size_t> slices;
+  std::vector<Radii> fluids;
+  for (std::size_t s = 0; s < work.size(); ++s) {
+    if (!looks_like_heart(heart, s))
+      continue;
+    interrupt::check();
+    if (const Radii fluid = fluid_round(work[s]); (fluid > 0.0).any()) {
+      slices.push_back(s);
+      fluids.push_back(fluid);
+    }
+  }
+  for (std::size_t n = 0; n < slices.size() && slices.size() >= fewest; ++n) {
+    work[slices[n]].levels.fluid = fluids[n];
+    find_epicardium(work[slices[n]]);
+  }
 }
 
 /// How thick the wall of a slice is along each ray, as a part of its mean: the median over the
@@ -419,19 +480,25 @@ double part_within(const Radii& a, const Radii& b, double most) {
 }
 
 SliceBorders finish(const Work& work, const Pixel& centre, const SliceBorders* inner) {
+  constexpr double mostly_muscle = 0.5;
+  constexpr double blurred = 1.0;  // [mm]
   std::vector<Radii> walls;
   for (std::size_t t = 0; t < work.endo.size(); ++t)
     walls.push_back(seen_wall(work, t, inner));
   const std::vector<Radii> endo = drawn_endocardium(work, walls, inner);
   const double muscle = work.levels.muscle.mean();
-  SliceBorders slice{centre, (work.fullest - muscle) / muscle, {}};
+  SliceBorders slice{centre, (work.fullest - muscle) / muscle, 0.0, {}};
+  if (work.levels.fluid.size() > 0)
+    slice.fluid_part = (work.levels.fluid > 0.0).cast<double>().mean();
   for (std::size_t t = 0; t < endo.size(); ++t) {
     const Radii smooth = harmonics_of(work.epi[t], epi_harmonics);
     const Radii& sees = walls[t];
+    const Polar dark = (darkness(work.values[t], work.levels) > mostly_muscle).cast<double>();
     slice.frames.push_back(
         {.endo = endo[t],
          .epi = smooth.max(endo[t] + thinnest),
          .wall_part = sees.mean(),
+         .dark_within = dark_area(dark, endo[t] - blurred, grid),
          .endo_agrees = (sees * ((work.endo[t] - endo[t]).abs() < agreement).cast<double>()).mean(),
          .epi_agrees = part_within(work.seen_epi[t], smooth, agreement)});
   }
@@ -575,6 +642,29 @@ std::vector<double> relative_edge_widths(const image::Cine& cine, const std::vec
   return all;
 }
 
+/// The borders of slices whose grey levels and the middles of whose walls are known.
+std::vector<SliceBorders> drawn_at(const Heart& heart, std::vector<Work> work, double fall) {
+  for (Work& slice : work) {
+    interrupt::check();
+    find_borders(slice, fall);
+  }
+  leave_fluid_out(heart, work);
+  steady_over_slices(work);
+  for (Work& slice : work)
+    slice.seen_epi = slice.epi;
+  keep_muscle(heart, work);
+  std::vector<SliceBorders> slices(work.size());
+  const auto finish_slice = [&](std::size_t s, const SliceBorders* inner) {
+    slices[s] = finish(work[s], heart.centres[s].at, inner);
+  };
+  finish_slice(heart.seed, nullptr);
+  for (std::size_t s = heart.seed + 1; s < work.size(); ++s)
+    finish_slice(s, &slices[s - 1]);
+  for (std::size_t s = heart.seed; s-- > 0;)
+    finish_slice(s, &slices[s + 1]);
+  return slices;
+}
+
 /// A radius that a border must have on a ray [mm].
 struct Held {
   int ray = 0;
@@ -701,24 +791,10 @@ Drawn draw_borders(const image::Cine& cine, const Heart& heart, const std::optio
   see_motion(work);
   const BorderDarkness border =
       fall ? BorderDarkness{*fall, *fall} : darkness_at_border(relative_edge_widths(cine, work));
-  Drawn drawn{{}, border.likely, border.if_sharp};
-  for (Work& slice : work) {
-    interrupt::check();
-    find_borders(slice, drawn.fall);
-  }
-  steady_over_slices(work);
-  for (Work& slice : work)
-    slice.seen_epi = slice.epi;
-  keep_muscle(heart, work);
-  drawn.slices.resize(work.size());
-  const auto finish_slice = [&](std::size_t s, const SliceBorders* inner) {
-    drawn.slices[s] = finish(work[s], heart.centres[s].at, inner);
-  };
-  finish_slice(heart.seed, nullptr);
-  for (std::size_t s = heart.seed + 1; s < work.size(); ++s)
-    finish_slice(s, &drawn.slices[s - 1]);
-  for (std::size_t s = heart.seed; s-- > 0;)
-    finish_slice(s, &drawn.slices[s + 1]);
+  Drawn drawn{{}, border.likely, border.if_sharp, {}};
+  if (border.likely <= edge_begins && border.if_sharp > border.likely)
+    drawn.if_sharp = drawn_at(heart, work, border.if_sharp);
+  drawn.slices = drawn_at(heart, std::move(work), border.likely);
   return drawn;
 }
 

@@ -11,6 +11,9 @@ namespace lv::segment {
 struct FrameBorders {
   Radii endo, epi;         ///< round the slice's centre [mm]
   double wall_part = 0.0;  ///< part of the circumference along which muscle is seen
+  /// What is more like muscle than like blood more than 1 mm within the endocardium [mm^2]:
+  /// papillary muscles and trabeculae.
+  double dark_within = 0.0;
   /// How sure a border is: the part of the circumference along which muscle is seen and the border
   /// drawn lies within 2 mm of where the image alone shows it.
   double endo_agrees = 0.0, epi_agrees = 0.0;
@@ -18,7 +21,8 @@ struct FrameBorders {
 
 struct SliceBorders {
   Pixel centre = Pixel::Zero();
-  double contrast = 0.0;  ///< of blood and muscle, (blood - muscle)/muscle
+  double contrast = 0.0;    ///< of blood and muscle, (blood - muscle)/muscle
+  double fluid_part = 0.0;  ///< part of the circumference with fluid outside (see fluid_within)
   std::vector<FrameBorders> frames;
 };
 
@@ -28,6 +32,9 @@ struct Drawn {
   std::vector<SliceBorders> slices;
   double fall = 0.0;
   double fall_if_sharp = 0.0;
+  /// The borders at fall_if_sharp, where that is more and blur was taken for all that makes edges
+  /// wide; else empty.
+  std::vector<SliceBorders> if_sharp;
 };
 
 /// Draws endocardium and epicardium on all frames of all slices.

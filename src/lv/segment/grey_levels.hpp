@@ -14,6 +14,7 @@ struct Levels {
   double blood = 1.0;
   Radii muscle;
   double muscle_of_slice = 0.0;  ///< 0: not known yet
+  Radii fluid = {};              ///< outside the muscle (see fluid_within); empty: not looked for
 };
 
 /// Blood: the median within half of the cavity's radius over all frames. Muscle, not known yet:

@@ -4,6 +4,7 @@
 #include "lv/base/median.hpp"
 #include "lv/image/volume.hpp"
 #include "lv/segment/closed_path.hpp"
+#include "lv/segment/ring.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -36,7 +37,24 @@ struct Ring {
   double muscle = 0.0, blood = 0.0;
 };
 
-Ring ring_of(const Polar& values, const std::vector<int>& path) {
+/// The closed path along which grey values, parts of the blood's, fall most; within the first ring
+/// of muscle, if what is bright outside that has a steeper edge.
+Radii steepest_path(const Polar& values, const Polar& edge) {
+  constexpr double between = 0.65;  // blood and muscle
+  constexpr PathRule rule{.reach = 1, .stiffness = 0.1};
+  const Radii path = closed_path(1.0 - edge, rule, rough_grid);
+  const auto ring = ring_within((values < between).cast<double>(), path, rough_grid);
+  if (!ring)
+    return path;
+  const Polar beyond =
+      Eigen::ArrayXd::LinSpaced(rough_grid.radii, rough_grid.first, rough_grid.last())
+          .transpose()
+          .replicate(rough_grid.rays, 1) -
+      ring->replicate(1, rough_grid.radii);
+  return closed_path(1.0 - edge + (beyond > 0.0).cast<double>(), rule, rough_grid);
+}
+
+Ring ring_of(const Polar& values, const Radii& path) {
   constexpr double same_muscle = 0.15;  // parts of the blood's grey value
   constexpr double same_blood = 0.3;
   constexpr double darkest_muscle = 0.12;  // lung round an atrium or a vessel is darker
@@ -44,7 +62,7 @@ Ring ring_of(const Polar& values, const std::vector<int>& path) {
   std::vector<double> around;
   double blood = 0.0;
   for (Eigen::Index i = 0; i < values.rows(); ++i) {
-    const int k = path[static_cast<std::size_t>(i)];
+    const int k = rough_grid.index(path(i));
     const int near = std::min(k + 3, last - 1);
     around.push_back(values.row(i).segment(near, std::min(k + 7, last) - near).mean());
     const int inside = std::max(k - 2, 1);
@@ -73,14 +91,11 @@ Centre judge_one(const Picture& picture, const Pixel& place) {
     return {place, 0.0, 0.0};
   values /= blood;
   const Polar edge = steepness(values);
-  const std::vector<int> path = closed_path(1.0 - edge, {.reach = 1, .stiffness = 0.1});
-  Radii r(rough_grid.rays);
+  const Radii r = steepest_path(values, edge);
   double steep = 0.0;
-  for (int i = 0; i < rough_grid.rays; ++i) {
-    r(i) = rough_grid.radius(path[static_cast<std::size_t>(i)]);
-    steep += edge(i, path[static_cast<std::size_t>(i)]) / rough_grid.rays;
-  }
-  const Ring ring = ring_of(values, path);
+  for (int i = 0; i < rough_grid.rays; ++i)
+    steep += edge(i, rough_grid.index(r(i))) / rough_grid.rays;
+  const Ring ring = ring_of(values, r);
   const Eigen::Vector2d moved = centroid(r);
   const Plane& plane = picture.plane;
   return {place + Pixel(moved.x() / plane.spacing_i, moved.y() / plane.spacing_j),

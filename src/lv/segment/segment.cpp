@@ -270,6 +270,35 @@ void doubt_ends(const Run& run, const std::vector<std::size_t>& slices, Segmenta
       slices.front() + 1, slices.back() + 1));
 }
 
+/// What one may do whose ventricle was not found.
+std::string how_else(bool centre_is_given) {
+  return fmt::format(
+      "{}raw the contours and take anatomy.source = \"contours\", if the images show "
+      "the ventricle across its axis",
+      centre_is_given ? "D"
+                      : "Set segment.centre to a point in the left ventricle's "
+                        "blood, or d");
+}
+
+/// What end-diastole would hold with the slice before its most basal one, where that was left out
+/// though blood and a wall are seen in it.
+void doubt_base(const Run& run, bool base_first, const std::vector<std::size_t>& slices,
+                Segmentation& found) {
+  const auto diastole = static_cast<std::size_t>(found.phases.end_diastole);
+  const auto shown = std::find_if(slices.begin(), slices.end(),
+                                  [&](std::size_t s) { return found.shows[s][diastole] != 0; });
+  if (shown == slices.end() || *shown == (base_first ? run.first : run.last))
+    return;
+  const std::size_t next = base_first ? *shown - 1 : *shown + 1;
+  const double whole = found.volumes[diastole];
+  const double more = found.spacing * area(found.borders[next].frames[diastole].endo);
+  found.doubts.push_back(fmt::format(
+      "slice {} is left out at end-diastole (phase {}), taken for the atrium or the outflow tract: "
+      "with it the cavity would hold {:.1f} ml instead of {:.1f} ({:+.0f}%); if it shows the "
+      "ventricle there, draw its borders in ventricle draw",
+      next + 1, diastole + 1, 1e-3 * (whole + more), 1e-3 * whole, 100.0 * more / whole));
+}
+
 /// Slices that always show the ventricle and whose blood grows while that of all others shrinks.
 void doubt_times(const std::vector<std::size_t>& slices, Segmentation& found) {
   const std::vector<double> all = blood_in(found.borders, slices);
@@ -288,13 +317,14 @@ void doubt_times(const std::vector<std::size_t>& slices, Segmentation& found) {
 }
 
 /// How much larger the cavity would be if trabeculae, and not blur, made even the sharpest edges
-/// wider than pixels do.
-void doubt_blur(const Cine& cine, const Heart& heart, double fall_if_sharp, Segmentation& found) {
+/// wider than pixels do. Where a part of their width was taken for trabeculae already, these are in
+/// the cavity, and nothing is said.
+void doubt_blur(std::vector<SliceBorders> if_sharp, double fall_if_sharp, Segmentation& found) {
   constexpr double counts = 0.05;  // of a volume
-  if (!(fall_if_sharp > found.fall))
+  if (if_sharp.empty())
     return;
   Segmentation sharp = found;
-  sharp.borders = draw_borders(cine, heart, fall_if_sharp).slices;
+  sharp.borders = std::move(if_sharp);
   const std::vector<double> volumes = volumes_of_shown(sharp);
   const auto grows = [&](int frame) {
     const auto t = static_cast<std::size_t>(frame);
@@ -306,9 +336,10 @@ void doubt_blur(const Cine& cine, const Heart& heart, double fall_if_sharp, Segm
     return;
   found.doubts.push_back(fmt::format(
       "even the sharpest edges between blood and muscle are wider than the pixels make them, and "
-      "blur is not told from trabeculae all round: blur is taken for the cause; if it is "
-      "trabeculae, the cavity holds {:+.0f}% at end-diastole and {:+.0f}% at end-systole: where "
-      "the pictures show them within the wall, set segment.fall = {:.2f}",
+      "blur is not told from trabeculae all round: blur is taken for the cause, and of blur "
+      "alone the borders are right; if it is all trabeculae, the cavity holds {:+.0f}% at "
+      "end-diastole and {:+.0f}% at end-systole, if both, something between: where the pictures "
+      "show trabeculae within the wall, set segment.fall = {:.2f}, or less",
       100.0 * diastolic, 100.0 * systolic, fall_if_sharp));
 }
 
@@ -318,15 +349,10 @@ void doubt_blur(const Cine& cine, const Heart& heart, double fall_if_sharp, Segm
   std::string why;
   if (const std::size_t next = run.first > 0 ? run.first - 1 : run.last + 1; next < borders.size())
     why = fmt::format("; in slice {}, {}", next + 1, why_left_out(borders, run, next));
-  throw InputError(
-      where,
-      fmt::format("only {} slice{} a ring of muscle round blood{}", shown,
-                  shown == 1 ? " shows" : "s show", why),
-      fmt::format("{}raw the contours and take anatomy.source = \"contours\", if the images show "
-                  "the ventricle across its axis",
-                  centre_is_given ? "D"
-                                  : "Set segment.centre to a point in the left ventricle's blood, "
-                                    "or d"));
+  throw InputError(where,
+                   fmt::format("only {} slice{} a ring of muscle round blood{}", shown,
+                               shown == 1 ? " shows" : "s show", why),
+                   how_else(centre_is_given));
 }
 
 /// Throws InputError for a slice whose images show nothing: all of their grey values are one.
@@ -403,9 +429,11 @@ Segmentation segment(const Cine& cine, const SegmentParameters& parameters,
   mark(slices, slices.size() - always_there, found);
   found.volumes = volumes_of_shown(found);
   found.phases = phases_of(found);
+  require_emptying(found, where, how_else(given.has_value()));
   doubt_ends(run, slices, found);
+  doubt_base(run, base_first, slices, found);
   doubt_times(slices, found);
-  doubt_blur(cine, heart, drawn.fall_if_sharp, found);
+  doubt_blur(std::move(drawn.if_sharp), drawn.fall_if_sharp, found);
   for (std::string& doubt : doubts_of_drawn(cine, slices, found))
     found.doubts.push_back(std::move(doubt));
   found.warnings = warnings_of_drawn(cine, slices, found);

@@ -52,8 +52,9 @@ void require_cine(const image::Cine& cine, const std::string& where);
 /// - Phases are proposed from the volume of the slices that show the ventricle in all frames.
 ///
 /// Throws InputError, with `where` naming the images, if slices have different numbers of images or
-/// fewer than five, pixels do not lie above each other within a slice, a slice shows nothing, or
-/// fewer than three slices show a ring of muscle round blood.
+/// fewer than five, pixels do not lie above each other within a slice, a slice shows nothing,
+/// fewer than three slices show a ring of muscle round blood, or end-systole holds more than
+/// end-diastole.
 [[nodiscard]] Segmentation segment(const image::Cine& cine, const SegmentParameters& parameters,
                                    const std::string& where);
 

@@ -1,5 +1,7 @@
 #include "lv/segment/doubts.hpp"
 
+#include "lv/base/check.hpp"
+
 #include <catch2/catch.hpp>
 
 #include <algorithm>
@@ -124,4 +126,84 @@ TEST_CASE("a cine in which nothing beats, or that ends with end-systole, is doub
   found.phases.early_diastole = found.phases.end_systole;
   CHECK(said(segment::warnings_of_drawn(images(200), shown, found),
              "the cine ends before the ventricle fills") == 1);
+}
+
+TEST_CASE("a doubtful border says where it is least sure", "[unit][segment]") {
+  Segmentation found = beating();
+  const auto systole = static_cast<std::size_t>(found.phases.end_systole);
+  found.borders[2].frames[systole].endo_agrees = 0.0;
+  found.borders[2].frames[systole + 1].endo_agrees = 0.5;
+  found.borders[3].frames[1].epi_agrees = 0.4;
+  const auto doubts = segment::doubts_of_drawn(images(200), shown, found);
+  CHECK(said(doubts,
+             "slice 3: the endocardium is doubtful in phases 5 to 6, least sure in phase 5, "
+             "end-systole: confidence 0.00 of 1") == 1);
+  CHECK(said(doubts, "slice 4: the epicardium is doubtful in phase 2, confidence 0.40 of 1") == 1);
+}
+
+TEST_CASE("fluid and a wall too thick are named with their slices", "[unit][segment]") {
+  Segmentation found = beating();
+  CHECK(said(segment::doubts_of_drawn(images(200), shown, found), "fluid") == 0);
+  found.borders[2].fluid_part = found.borders[3].fluid_part = 0.5;
+  for (segment::FrameBorders& frame : found.borders[4].frames)
+    frame.epi.head(30) = frame.endo.head(30) + 16.0;
+  const auto doubts = segment::doubts_of_drawn(images(200), shown, found);
+  CHECK(said(doubts, "slices 3 to 4: outside the muscle an even layer") == 1);
+  CHECK(said(doubts, "slice 5: the wall is drawn thicker than 15 mm at end-diastole") == 1);
+}
+
+TEST_CASE("papillary muscles that end-systole lacks are said with their volume",
+          "[unit][segment]") {
+  Segmentation found = beating();
+  const auto diastole = static_cast<std::size_t>(found.phases.end_diastole);
+  const auto systole = static_cast<std::size_t>(found.phases.end_systole);
+  for (const std::size_t s : shown) {
+    found.borders[s].frames[diastole].dark_within = 150.0;
+    found.borders[s].frames[systole].dark_within = 120.0;
+  }
+  CHECK(segment::doubts_of_drawn(images(200), shown, found).empty());
+  for (const std::size_t s : shown)
+    found.borders[s].frames[systole].dark_within = 20.0;
+  const auto doubts = segment::doubts_of_drawn(images(200), shown, found);
+  CHECK(said(doubts,
+             "6.0 ml of papillary muscles and trabeculae lie within the endocardium at "
+             "end-diastole and 0.8 ml at end-systole") == 1);
+}
+
+TEST_CASE("an end-systole too narrow for its pixels is said to be", "[unit][segment]") {
+  Segmentation found = beating();
+  const auto systole = static_cast<std::size_t>(found.phases.end_systole);
+  found.volumes[systole] = 0.0;
+  for (const std::size_t s : shown) {
+    found.borders[s].frames[systole].endo.setConstant(4.0);
+    found.volumes[systole] += found.spacing * segment::area(found.borders[s].frames[systole].endo);
+  }
+  const auto doubts = segment::doubts_of_drawn(images(200), shown, found);
+  CHECK(said(doubts, "half a pixel all round is 25% of its 2.0 ml") == 1);
+}
+
+TEST_CASE("muscle of a slice that the base leaves is not missed", "[unit][segment]") {
+  Segmentation found = beating();
+  const auto change_systole = [&](double factor) {
+    for (const std::size_t s : shown) {
+      segment::FrameBorders& frame =
+          found.borders[s].frames[static_cast<std::size_t>(found.phases.end_systole)];
+      frame.epi.setConstant(radius_of(segment::area(frame.endo) + factor * wall_area));
+    }
+  };
+  change_systole(0.8);
+  CHECK(said(segment::warnings_of_drawn(images(200), shown, found), "ml of muscle") == 2);
+  // the same muscle, where the base has left a slice: half of one may be missing
+  found.shows[1][static_cast<std::size_t>(found.phases.end_systole)] = 0;
+  change_systole(1.0);
+  CHECK(said(segment::warnings_of_drawn(images(200), shown, found), "ml of muscle") == 0);
+  change_systole(0.9);
+  CHECK(said(segment::warnings_of_drawn(images(200), shown, found), "ml of muscle") == 2);
+}
+
+TEST_CASE("an end-systole that holds more than end-diastole is refused", "[unit][segment]") {
+  Segmentation found = beating();
+  segment::require_emptying(found, "images", "Draw");
+  std::swap(found.phases.end_diastole, found.phases.end_systole);
+  CHECK_THROWS_AS(segment::require_emptying(found, "images", "Draw"), InputError);
 }

@@ -5,6 +5,8 @@
 #include "segment/agreement.hpp"
 #include <catch2/catch.hpp>
 
+#include <cmath>
+
 using namespace lv;
 
 TEST_CASE("a large ventricle, whose middle is still, is found", "[segment]") {
@@ -68,4 +70,19 @@ TEST_CASE("what a single slice shows that looks most like the heart is not it", 
   CHECK((segment::find_heart(cine, {}).centres[2].at - heart).norm() < 2.0);
   cine.slices.assign(3, moving_discs({{heart, 0.45}, {other, 0.3}}, 0.0));
   CHECK((segment::find_heart(cine, {}).centres[0].at - other).norm() < 2.0);
+}
+
+TEST_CASE("blood is found within its wall though fluid as bright lies outside", "[segment]") {
+  image::Picture picture;
+  picture.plane.columns = picture.plane.rows = 100;
+  picture.plane.spacing_i = picture.plane.spacing_j = 1.4;
+  for (int j = 0; j < 100; ++j)
+    for (int i = 0; i < 100; ++i) {
+      const double r = 1.4 * std::hypot(i - 50, j - 50);
+      const bool muscle = r > 20.0 && r < 28.0;
+      picture.values.push_back(muscle ? 300.0F : r < 40.0 ? 1000.0F : 50.0F);
+    }
+  const segment::Centre found = segment::judge({&picture}, {50.0, 50.0});
+  CHECK(found.radius == Approx(20.0).margin(1.0));
+  CHECK(found.likeness > 0.5);
 }

@@ -129,6 +129,22 @@ image::Picture thick_ring() {
   return picture;
 }
 
+/// A ring of muscle round blood, 9 mm thick, in fluid of 12 mm that is so much of blood as bright,
+/// and lung.
+image::Picture ring_in_fluid(double fluid) {
+  image::Picture picture = thick_ring();
+  for (int j = 0; j < picture.plane.rows; ++j)
+    for (int i = 0; i < picture.plane.columns; ++i) {
+      const double r = 1.4 * std::hypot(i - 50, j - 50);
+      picture.values[static_cast<std::size_t>(j) * picture.plane.columns + i] =
+          static_cast<float>(1000.0 * (r < 25.0   ? 1.0
+                                       : r < 34.0 ? 0.3
+                                       : r < 46.0 ? fluid
+                                                  : 0.06));
+    }
+  return picture;
+}
+
 /// Three slices that show a picture in each of five frames, but the second slice another in its
 /// third.
 image::Cine rings(const image::Picture& shown, const image::Picture& once) {
@@ -360,6 +376,17 @@ TEST_CASE("what blur may hide of trabeculae is said with its volumes", "[segment
   CHECK(number_behind("the cavity holds ") == Approx(100.0 * grows).margin(1.0));
 }
 
+TEST_CASE("blur is not doubted where trabeculae were taken into the cavity", "[segment]") {
+  phantom::Scan scan = test::noisy_scan(1);
+  scan.phases = 5;
+  test::KnownCine known = test::phantom_study("phantom", scan, 4.0);
+  test::blur(known.cine, 0.7);
+  const segment::Segmentation found = segment::segment(known.cine, {}, "phantom");
+  CHECK(found.fall > 0.7);
+  for (const std::string& doubt : found.doubts)
+    CHECK_THAT(doubt, !Catch::Contains("trabeculae all round"));
+}
+
 TEST_CASE("volumes that rest on doubtful borders say so", "[segment]") {
   segment::Segmentation found;
   found.spacing = 8.0;
@@ -409,6 +436,15 @@ TEST_CASE("an epicardium that keeps its muscle beside another edge is doubted", 
   INFO(frames[2].epi.maxCoeff() << " " << frames[2].epi_agrees);
   CHECK(frames[2].epi.maxCoeff() < 38.0);
   CHECK(frames[2].epi_agrees < segment::doubtful);
+}
+
+TEST_CASE("the epicardium stays within fluid that is brighter than muscle", "[segment]") {
+  for (const double fluid : {0.4, 0.5, 0.7, 1.0}) {
+    INFO(fluid);
+    const segment::FrameBorders borders = borders_of(ring_in_fluid(fluid));
+    CHECK(borders.endo.mean() == Approx(25.0).margin(0.7));
+    CHECK(borders.epi.mean() == Approx(34.0).margin(1.0));
+  }
 }
 
 TEST_CASE("an outflow tract is closed straight from one end of the muscle to the other",
