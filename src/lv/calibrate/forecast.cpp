@@ -20,8 +20,9 @@ constexpr double afar = 0.6;            // of the first one's work: it was loade
 /// What equilibria usually take, in tangents, in the order of Sought and then the firsts.
 using Usual = std::array<double, 6>;
 constexpr Usual free_of_stress{2.0, 1.2, 2.0, 1.2, 19.0, 27.0};
-constexpr Usual unloaded{7.0, 2.3, 8.0, 1.4, 18.0, 34.0};
-constexpr Usual polished{12.0, 2.3, 14.0, 1.4, 17.0, 34.0};
+constexpr Usual unloaded{9.0, 2.3, 10.0, 1.4, 20.0, 36.0};
+constexpr Usual unloaded_from_near{6.0, 2.3, 6.0, 1.4, 9.0, 34.0};
+constexpr Usual polished{14.0, 2.3, 16.0, 1.4, 19.0, 36.0};
 
 /// Of an even number the lower of the two: what is seldom and long must not tell the rest.
 double lower_median(std::vector<double> values) {
@@ -114,7 +115,7 @@ bool FitForecast::is_from_afar(std::size_t muscle, double work) const {
 }
 
 void FitForecast::on_the_way(Sought which, Effort so_far, double share) {
-  present_ = {which, so_far, share};
+  present_ = {which, so_far, present_ ? present_->first_share : share, share};
 }
 
 void FitForecast::record(Sought which, Effort effort) {
@@ -154,11 +155,12 @@ double FitForecast::cost(std::size_t mesh, std::size_t kind) const {
   return lower_median(std::move(seconds));
 }
 
-/// Of what it usually takes, or took by now if that is more.
+/// Of what it usually takes, or took by now if that is more. Steps grow with the load that is on,
+/// so that work grows as the logarithm of the load in first steps.
 double FitForecast::rest_of_present() const {
-  const double left = 1.0 - std::cbrt(present_->share);
-  return left *
-         std::max(cost(seen_.size() - 1, kind_of(present_->which)), present_->so_far.seconds);
+  const auto& [which, so_far, first_share, share] = *present_;
+  const double done = std::log1p(share / first_share) / std::log1p(1.0 / first_share);
+  return (1.0 - done) * std::max(cost(seen_.size() - 1, kind_of(which)), so_far.seconds);
 }
 
 bool FitForecast::is_polished(std::size_t mesh) const {
@@ -178,10 +180,15 @@ bool FitForecast::is_same(std::size_t mesh) const {
 /// near by.
 double FitForecast::usual_work(std::size_t mesh, std::size_t kind) const {
   const bool is_loaded = meshes_[mesh].is_loaded;
-  if (is_loaded && mesh > 0 && !is_same(mesh) && kind == first_of(0))
+  const bool is_finer = mesh > 0 && !is_same(mesh);
+  if (mesh == 0 || (is_finer && is_polished(mesh - 1))) {
+    const Usual& of_unloaded = is_polished(mesh) ? polished
+                               : is_finer        ? unloaded_from_near
+                                                 : unloaded;
+    return (is_loaded ? of_unloaded : free_of_stress)[kind];
+  }
+  if (is_finer && is_loaded && kind == first_of(0))
     return usual_work(mesh, 0);
-  if (mesh == 0 || (is_polished(mesh - 1) && !is_same(mesh)))
-    return (!is_loaded ? free_of_stress : is_polished(mesh) ? polished : unloaded)[kind];
   const std::size_t before = mesh - 1;
   std::vector<double> work{usual_work(before, kind) * harder(before)};
   if (before < seen_.size()) {

@@ -83,7 +83,7 @@ class FitForecast {
   struct Present {
     Sought which;
     Effort so_far;
-    double share;
+    double first_share, share;  ///< of the loads, after the first step and now
   };
   [[nodiscard]] std::size_t kind_of(Sought which) const;
   [[nodiscard]] bool is_from_afar(std::size_t muscle, double work) const;
