@@ -109,7 +109,7 @@ Radii blood_edge(const Polar& values, const Levels& guess, const Fixes& fixed = 
   const Polar edge = mean_at(dark, 1, 4) - mean_at(dark, -4, -1);
   const Polar cost = region * integral(dark - 0.5) - edge_weight * edge.max(0.0);
   constexpr PathRule rule{.reach = 2, .stiffness = 0.05};
-  const Radii path = closed_path(cost, rule, grid, fixed);
+  Radii path = closed_path(cost, rule, grid, fixed);
   const auto ring = ring_within(dark, path, grid);
   if (!ring)
     return path;

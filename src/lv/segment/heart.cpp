@@ -42,7 +42,7 @@ struct Ring {
 Radii steepest_path(const Polar& values, const Polar& edge) {
   constexpr double between = 0.65;  // blood and muscle
   constexpr PathRule rule{.reach = 1, .stiffness = 0.1};
-  const Radii path = closed_path(1.0 - edge, rule, rough_grid);
+  Radii path = closed_path(1.0 - edge, rule, rough_grid);
   const auto ring = ring_within((values < between).cast<double>(), path, rough_grid);
   if (!ring)
     return path;
