@@ -41,7 +41,8 @@ Contour cut(const mesh::Surface& surface, const std::vector<Vec3>& nodes, double
 }
 
 /// Both borders on slices 8 mm apart, in images that lie `moved` from the model.
-std::vector<Contour> loops_of(const mesh::Mesh& mesh, const std::vector<Vec3>& nodes, Vec3 moved) {
+std::vector<Contour> loops_of(const mesh::Mesh& mesh, const std::vector<Vec3>& nodes,
+                              const Vec3& moved) {
   std::vector<Contour> loops;
   for (int slice = 1; slice <= 5; ++slice)
     for (const Side side : {Side::endo, Side::epi}) {

@@ -42,12 +42,11 @@ TEST_CASE("a loop that looks is stopped by a signal", "[unit][base]") {
 }
 
 TEST_CASE("threads that share work are stopped by a signal", "[unit][base]") {
-  CHECK(code_of([] {
-          in_threads(1000000000, [](std::size_t i) {
-            if (i == 5)
-              std::raise(SIGTERM);
-          });
-        }) == 200);
+  const auto raise_once = [](std::size_t i) {
+    if (i == 5)
+      std::raise(SIGTERM);
+  };
+  CHECK(code_of([&] { in_threads(1000000000, raise_once); }) == 200);
 }
 
 TEST_CASE("a second signal ends what does not look", "[unit][base]") {
