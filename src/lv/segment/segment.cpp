@@ -259,15 +259,34 @@ std::string why_left_out(const std::vector<SliceBorders>& borders, const Run& ru
                            : by_itself;
 }
 
+/// Half of what the most basal slice that shows the ventricle in a frame holds then [ml].
+double half_of_base(const std::vector<std::size_t>& slices, const Segmentation& found, int frame) {
+  const auto t = static_cast<std::size_t>(frame);
+  const auto basal = std::find_if(slices.begin(), slices.end(),
+                                  [&](std::size_t s) { return found.shows[s][t] != 0; });
+  return basal == slices.end()
+             ? 0.0
+             : 0.5e-3 * found.spacing * area(found.borders[*basal].frames[t].endo);
+}
+
 void doubt_ends(const Run& run, const std::vector<std::size_t>& slices, Segmentation& found) {
   for (std::size_t s = 0; s < found.borders.size(); ++s)
     if (std::find(slices.begin(), slices.end(), s) == slices.end())
       found.doubts.push_back(
           fmt::format("slice {} is left out: {}", s + 1, why_left_out(found.borders, run, s)));
-  found.doubts.push_back(fmt::format(
-      "slice {} is taken for the most basal one and slice {} for the most apical one, by rule: "
-      "look whether a valve, an atrium or the tip is missed or taken in",
-      slices.front() + 1, slices.back() + 1));
+  const auto halves = [&](int frame) { return half_of_base(slices, found, frame); };
+  found.doubts.push_back(
+      fmt::format("slice {} is taken for the most basal one and slice {} for the most apical one, "
+                  "by rule: look "
+                  "whether a valve, an atrium or the tip is missed or taken in; half of the most "
+                  "basal slice is "
+                  "{:.1f} ml of {:.1f} at end-diastole and {:.1f} ml of {:.1f} at end-systole, and "
+                  "no better is "
+                  "known where the base lies",
+                  slices.front() + 1, slices.back() + 1, halves(found.phases.end_diastole),
+                  1e-3 * found.volumes[static_cast<std::size_t>(found.phases.end_diastole)],
+                  halves(found.phases.end_systole),
+                  1e-3 * found.volumes[static_cast<std::size_t>(found.phases.end_systole)]));
 }
 
 /// What one may do whose ventricle was not found.

@@ -328,9 +328,19 @@ TEST_CASE("a slice that the base leaves to the atrium counts at end-diastole alo
       }
   }
   const segment::Segmentation found = segment::segment(cine, {}, "phantom");
-  INFO(fmt::format("{}", fmt::join(found.doubts, "; ")));
   CHECK(found.shows[basal][diastole] != 0);
   CHECK(found.shows[basal][systole] == 0);
+  const auto half = [&](std::size_t frame) {
+    std::size_t slice = 0;
+    while (found.shows[slice][frame] == 0)
+      ++slice;
+    const double area = segment::area(found.borders[slice].frames[frame].endo);
+    return fmt::format("{:.1f} ml of {:.1f} at end-", 0.5e-3 * found.spacing * area,
+                       1e-3 * found.volumes[frame]);
+  };
+  const std::string doubts = fmt::format("{}", fmt::join(found.doubts, "; "));
+  CHECK_THAT(doubts, Catch::Contains(half(diastole) + "diastole"));
+  CHECK_THAT(doubts, Catch::Contains(half(systole) + "systole"));
 }
 
 TEST_CASE("a slice that begins at another time of the cycle is doubted", "[segment]") {
