@@ -524,8 +524,9 @@ async function checkKeyboard() {
   const press = async (...keys) => { for (const key of keys) await page.keyboard.press(key); };
   await press("d");
   check("D goes to a doubtful border", (await text(page, "#where")).includes("slice 3"), await text(page, "#where"));
-  await press("PageDown", "PageDown", ".", ",");
-  check("keys go through slices and phases", (await text(page, "#where")).startsWith("slice 5"), await text(page, "#where"));
+  await press("PageDown", "PageDown", ".", ",", "e");
+  const where = await text(page, "#where");
+  check("keys go through slices and phases, and E to the endocardium", where.startsWith("slice 5") && where.includes("endocardium"), where);
   const before = await volumeNow(page);
   await press("n", "x", "r");
   await page.waitForFunction(() => /redrawn through 1 point|Not redrawn/.test(document.querySelector("#said").textContent));
