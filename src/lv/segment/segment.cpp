@@ -141,6 +141,43 @@ std::vector<double> blood_in(const std::vector<SliceBorders>& borders,
   return blood;
 }
 
+/// How many times as much blood a slice shows as another: the median over frames.
+double times_as_much(const SliceBorders& slice, const SliceBorders& other,
+                     const std::vector<std::size_t>& frames) {
+  std::vector<double> ratios;
+  for (const std::size_t t : frames)
+    ratios.push_back(area(slice.frames[t].endo) / area(other.frames[t].endo));
+  return median(std::move(ratios));
+}
+
+/// From one slice to the next towards the base a ventricle does not grow by more; what does has
+/// blood of its neighbours within its border, across the thin walls of an atrium or outflow tract.
+constexpr double largest_leap = 1.5;
+
+/// The quarter of the frames in which slices hold most blood.
+std::vector<std::size_t> fullest_frames(const std::vector<SliceBorders>& borders,
+                                        const std::vector<std::size_t>& slices) {
+  const std::vector<double> blood = blood_in(borders, slices);
+  std::vector<std::size_t> frames = all_frames(borders.front());
+  std::stable_sort(frames.begin(), frames.end(),
+                   [&](std::size_t a, std::size_t b) { return blood[a] > blood[b]; });
+  frames.resize(std::max<std::size_t>(1, frames.size() / 4));
+  return frames;
+}
+
+/// Drops slices at the base, of the upper half, from the last on that shows much more blood than
+/// the next while the others hold most.
+void drop_leap(const std::vector<SliceBorders>& borders, std::vector<std::size_t>& slices) {
+  const auto half = static_cast<std::ptrdiff_t>(slices.size() / 2);
+  const auto frames = fullest_frames(borders, {slices.begin() + half, slices.end()});
+  for (std::ptrdiff_t n = half; n-- > 0;)
+    if (times_as_much(borders[*(slices.begin() + n)], borders[*(slices.begin() + n + 1)], frames) >
+        largest_leap) {
+      slices.erase(slices.begin(), slices.begin() + n + 1);
+      return;
+    }
+}
+
 /// Drops slices at the base, of the upper half, whose blood does not shrink with the others': a
 /// ventricle's does by about as much, that of an atrium grows, and a slice that the base passes
 /// stays between.
@@ -155,17 +192,6 @@ void drop_atrium(const std::vector<SliceBorders>& borders, std::vector<std::size
   slices.erase(slices.begin(), slices.begin() + static_cast<std::ptrdiff_t>(drop));
 }
 
-/// The quarter of the frames in which slices hold most blood.
-std::vector<std::size_t> fullest_frames(const std::vector<SliceBorders>& borders,
-                                        const std::vector<std::size_t>& slices) {
-  const std::vector<double> blood = blood_in(borders, slices);
-  std::vector<std::size_t> frames = all_frames(borders.front());
-  std::stable_sort(frames.begin(), frames.end(),
-                   [&](std::size_t a, std::size_t b) { return blood[a] > blood[b]; });
-  frames.resize(std::max<std::size_t>(1, frames.size() / 4));
-  return frames;
-}
-
 /// Adds slices beyond the base of a run that muscle surrounds round end-diastole alone: the base
 /// moves by more than a slice's thickness, and leaves them to the atrium for most of the cycle.
 void add_end_diastolic(const std::vector<SliceBorders>& borders, bool base_first,
@@ -175,21 +201,20 @@ void add_end_diastolic(const std::vector<SliceBorders>& borders, bool base_first
   const double usual = usual_contrast(borders);
   while (slices.front() != (base_first ? 0 : borders.size() - 1)) {
     const std::size_t next = base_first ? slices.front() - 1 : slices.front() + 1;
-    if (usual_wall(borders[next], frames) < surely || borders[next].contrast < told * usual)
+    if (usual_wall(borders[next], frames) < surely || borders[next].contrast < told * usual ||
+        times_as_much(borders[next], borders[slices.front()], frames) > largest_leap)
       return;
     slices.insert(slices.begin(), next);
   }
 }
 
-/// The median of the part with muscle over the frames within a tenth of the cycle: a base that
-/// comes and goes does so in less.
-double steady_wall(const SliceBorders& slice, std::size_t frame) {
-  const std::size_t n = slice.frames.size();
+/// The frames within a tenth of the cycle: a base that comes and goes does so in less.
+std::vector<std::size_t> frames_round(std::size_t frame, std::size_t n) {
   const std::size_t reach = std::max<std::size_t>(1, n / 10);
   std::vector<std::size_t> near;
   for (std::size_t d = 0; d <= 2 * reach; ++d)
     near.push_back((frame + n + d - reach) % n);
-  return usual_wall(slice, near);
+  return near;
 }
 
 /// Whether slices hold more than the middle of what they do over the frames, per frame.
@@ -209,10 +234,17 @@ void mark(const std::vector<std::size_t>& slices, std::size_t end_diastolic, Seg
   constexpr double least_radius = 3.0;  // [mm]
   const auto others = slices.begin() + static_cast<std::ptrdiff_t>(end_diastolic);
   const std::vector<bool> fuller = is_fuller(found.borders, {others, slices.end()});
-  for (std::size_t t = 0; t < found.borders.front().frames.size(); ++t) {
+  const std::size_t frames = found.borders.front().frames.size();
+  for (std::size_t t = 0; t < frames; ++t) {
     auto begin = fuller[t] ? slices.begin() : others;
     auto end = slices.end();
-    while (begin != end && steady_wall(found.borders[*begin], t) < surrounded)
+    const std::vector<std::size_t> near = frames_round(t, frames);
+    const auto is_atrium = [&](auto slice) {
+      return usual_wall(found.borders[*slice], near) < surrounded ||
+             (slice + 1 != end && times_as_much(found.borders[*slice], found.borders[*(slice + 1)],
+                                                near) > largest_leap);
+    };
+    while (begin != end && is_atrium(begin))
       ++begin;
     while (begin != end && found.borders[*(end - 1)].frames[t].endo.mean() < least_radius)
       --end;
@@ -252,7 +284,8 @@ image::Phases phases_of(const Segmentation& found) {
 /// Why a slice is left out: by itself, or for where it lies.
 std::string why_left_out(const std::vector<SliceBorders>& borders, const Run& run, std::size_t s) {
   if (s >= run.first && s <= run.last)
-    return "its blood does not shrink with that of the others; an atrium";
+    return "its blood does not shrink with that of the others, or is much more than that of the "
+           "next; an atrium or the outflow tract";
   const std::string by_itself = shows_none(borders[s], usual_contrast(borders));
   return by_itself.empty() ? fmt::format("it lies beyond slice {}, which shows no ventricle",
                                          s < run.first ? run.first : run.last + 2)
@@ -441,6 +474,7 @@ Segmentation segment(const Cine& cine, const SegmentParameters& parameters,
   const bool base_first = base_is_first(found.borders, run);
   std::vector<std::size_t> slices = from_base(run, base_first);
   drop_atrium(found.borders, slices);
+  drop_leap(found.borders, slices);
   if (slices.size() < fewest_slices)
     refuse_few(found.borders, run, slices.size(), parameters.centre.has_value(), where);
   const std::size_t always_there = slices.size();

@@ -343,6 +343,37 @@ TEST_CASE("a slice that the base leaves to the atrium counts at end-diastole alo
   CHECK_THAT(doubts, Catch::Contains(half(systole) + "systole"));
 }
 
+TEST_CASE("a slice that shows much more blood than the next towards the tip is left out",
+          "[segment]") {
+  image::Cine cine = five_phases().cine;
+  const segment::Segmentation whole = segment::segment(cine, {}, "phantom");
+  std::size_t basal = 0;
+  while (whole.shows[basal][0] == 0)
+    ++basal;
+  for (std::size_t t = 0; t < cine.slices[basal].frames.size(); ++t) {
+    image::Picture& picture = cine.slices[basal].frames[t];
+    const image::Plane& plane = picture.plane;
+    const segment::Pixel& centre = whole.borders[basal].centre;
+    const double radius = 1.5 * whole.borders[basal + 1].frames[t].endo.mean();
+    const float blood = picture.at(static_cast<int>(centre.x()), static_cast<int>(centre.y()));
+    for (int j = 0; j < plane.rows; ++j)
+      for (int i = 0; i < plane.columns; ++i) {
+        const double r = std::hypot(i - centre.x(), j - centre.y()) * plane.spacing_i;
+        picture.values[static_cast<std::size_t>(j) * plane.columns + i] =
+            blood * (r < radius         ? 1.0F
+                     : r < radius + 8.0 ? 0.35F
+                                        : 0.1F);
+      }
+  }
+  const segment::Segmentation found = segment::segment(cine, {}, "phantom");
+  const std::string doubts = fmt::format("{}", fmt::join(found.doubts, "; "));
+  CHECK_THAT(doubts, Catch::Contains(fmt::format("slice {} is left out: its blood", basal + 1)));
+  for (std::size_t t = 0; t < cine.slices[basal].frames.size(); ++t) {
+    CHECK(found.shows[basal][t] == 0);
+    CHECK(found.shows[basal + 1][t] == whole.shows[basal + 1][t]);
+  }
+}
+
 TEST_CASE("a slice that begins at another time of the cycle is doubted", "[segment]") {
   image::Cine cine = five_phases().cine;
   const auto doubted = [&] {
