@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -333,15 +334,19 @@ std::string how_else(bool centre_is_given) {
 }
 
 /// What end-diastole would hold with the slice before its most basal one, where that was left out
-/// though blood and a wall are seen in it.
-void doubt_base(const Run& run, bool base_first, const std::vector<std::size_t>& slices,
-                Segmentation& found) {
+/// though some wall is seen round its blood, and no other blood within its border.
+void doubt_base(bool base_first, const std::vector<std::size_t>& slices, Segmentation& found) {
+  constexpr double some = 0.25;  // of the circumference with muscle
   const auto diastole = static_cast<std::size_t>(found.phases.end_diastole);
   const auto shown = std::find_if(slices.begin(), slices.end(),
                                   [&](std::size_t s) { return found.shows[s][diastole] != 0; });
-  if (shown == slices.end() || *shown == (base_first ? run.first : run.last))
+  if (shown == slices.end() || *shown == (base_first ? 0 : found.borders.size() - 1))
     return;
   const std::size_t next = base_first ? *shown - 1 : *shown + 1;
+  const auto near = frames_round(diastole, found.volumes.size());
+  if (usual_wall(found.borders[next], near) < some ||
+      times_as_much(found.borders[next], found.borders[*shown], near) > largest_leap)
+    return;
   const double whole = found.volumes[diastole];
   const double more = found.spacing * area(found.borders[next].frames[diastole].endo);
   found.doubts.push_back(fmt::format(
@@ -353,10 +358,11 @@ void doubt_base(const Run& run, bool base_first, const std::vector<std::size_t>&
 
 /// Slices that always show the ventricle and whose blood grows while that of all others shrinks.
 void doubt_times(const std::vector<std::size_t>& slices, Segmentation& found) {
-  const std::vector<double> all = blood_in(found.borders, slices);
-  for (const std::size_t s : slices) {
-    if (!always(found.shows[s]))
-      continue;
+  std::vector<std::size_t> shown;
+  std::copy_if(slices.begin(), slices.end(), std::back_inserter(shown),
+               [&](std::size_t s) { return always(found.shows[s]); });
+  const std::vector<double> all = blood_in(found.borders, shown);
+  for (const std::size_t s : shown) {
     const std::vector<double> own = areas_of(found.borders[s]);
     std::vector<double> others = all;
     add(own, -1.0, others);
@@ -484,7 +490,7 @@ Segmentation segment(const Cine& cine, const SegmentParameters& parameters,
   found.phases = phases_of(found);
   require_emptying(found, where, how_else(given.has_value()));
   doubt_ends(run, slices, found);
-  doubt_base(run, base_first, slices, found);
+  doubt_base(base_first, slices, found);
   doubt_times(slices, found);
   doubt_blur(std::move(drawn.if_sharp), drawn.fall_if_sharp, found);
   for (std::string& doubt : doubts_of_drawn(cine, slices, found))
