@@ -334,7 +334,8 @@ std::string how_else(bool centre_is_given) {
 }
 
 /// What end-diastole would hold with the slice before its most basal one, where that was left out
-/// though some wall is seen round its blood, and no other blood within its border.
+/// though some wall is seen round its blood, or other blood lies within its border: as much as the
+/// next slice at most.
 void doubt_base(bool base_first, const std::vector<std::size_t>& slices, Segmentation& found) {
   constexpr double some = 0.25;  // of the circumference with muscle
   const auto diastole = static_cast<std::size_t>(found.phases.end_diastole);
@@ -344,11 +345,12 @@ void doubt_base(bool base_first, const std::vector<std::size_t>& slices, Segment
     return;
   const std::size_t next = base_first ? *shown - 1 : *shown + 1;
   const auto near = frames_round(diastole, found.volumes.size());
-  if (usual_wall(found.borders[next], near) < some ||
-      times_as_much(found.borders[next], found.borders[*shown], near) > largest_leap)
+  const bool leaps = times_as_much(found.borders[next], found.borders[*shown], near) > largest_leap;
+  if (!leaps && usual_wall(found.borders[next], near) < some)
     return;
+  const auto area_in = [&](std::size_t s) { return area(found.borders[s].frames[diastole].endo); };
   const double whole = found.volumes[diastole];
-  const double more = found.spacing * area(found.borders[next].frames[diastole].endo);
+  const double more = found.spacing * std::min(area_in(next), area_in(*shown));
   found.doubts.push_back(fmt::format(
       "slice {} is left out at end-diastole (phase {}), taken for the atrium or the outflow tract: "
       "with it the cavity would hold {:.1f} ml instead of {:.1f} ({:+.0f}%); if it shows the "
