@@ -53,14 +53,6 @@ void require_said_of_borders(const Case& c, const std::optional<image::DicomStud
                 found);
 }
 
-double cavity_area(const Segmentation& found, std::size_t s, std::size_t t) {
-  return segment::area(found.borders[s].frames[t].endo);
-}
-
-double whole_area(const Segmentation& found, std::size_t s, std::size_t t) {
-  return segment::area(found.borders[s].frames[t].epi);
-}
-
 Table quality_table(const Segmentation& found) {
   Table table({"slice", "phase", "cavity_area_mm2", "wall_area_mm2", "endo_confidence",
                "epi_confidence", "doubtful"});
@@ -69,13 +61,12 @@ Table quality_table(const Segmentation& found) {
     for (std::size_t t = 0; t < found.volumes.size(); ++t) {
       if (found.shows[s][t] == 0)
         continue;
-      const double cavity = cavity_area(found, s, t);
-      const FrameBorders& sure = found.borders[s].frames[t];
+      const FrameBorders& drawn = found.borders[s].frames[t];
       table.add_row(
-          {std::to_string(s + 1), std::to_string(t + 1), number(cavity),
-           number(whole_area(found, s, t) - cavity), number(sure.endo_agrees),
-           number(sure.epi_agrees),
-           std::min(sure.endo_agrees, sure.epi_agrees) < segment::doubtful ? "yes" : "no"});
+          {std::to_string(s + 1), std::to_string(t + 1), number(segment::area(drawn.endo)),
+           number(segment::area_of_wall(drawn)), number(drawn.endo_agrees),
+           number(drawn.epi_agrees),
+           std::min(drawn.endo_agrees, drawn.epi_agrees) < segment::doubtful ? "yes" : "no"});
     }
   return table;
 }

@@ -31,16 +31,6 @@ constexpr int epi_harmonics = 4;
 constexpr double thinnest = 2.5;   // wall that is drawn [mm]
 constexpr double agreement = 2.0;  // between what was found and what is drawn [mm]
 
-/// Radii of the grid, a row.
-Eigen::ArrayXd radii() {
-  return Eigen::ArrayXd::LinSpaced(grid.radii, grid.first, grid.last());
-}
-
-/// Distance of every radius from a line, positive outside.
-Polar distance_from(const Radii& line) {
-  return radii().transpose().replicate(grid.rays, 1) - line.replicate(1, grid.radii);
-}
-
 Polar forbid(const Polar& distance, double low, double high) {
   return wall_of_cost * (distance < low || distance > high).cast<double>();
 }
@@ -108,13 +98,7 @@ Radii blood_edge(const Polar& values, const Levels& guess, const Fixes& fixed = 
   const Polar dark = darkness(values, guess);
   const Polar edge = mean_at(dark, 1, 4) - mean_at(dark, -4, -1);
   const Polar cost = region * integral(dark - 0.5) - edge_weight * edge.max(0.0);
-  constexpr PathRule rule{.reach = 2, .stiffness = 0.05};
-  Radii path = closed_path(cost, rule, grid, fixed);
-  const auto ring = ring_within(dark, path, grid);
-  if (!ring)
-    return path;
-  const Polar beyond = wall_of_cost * (distance_from(*ring) > 0.0).cast<double>();
-  return closed_path(cost + beyond, rule, grid, fixed);
+  return path_within_ring(cost, dark, wall_of_cost, {.reach = 2, .stiffness = 0.05}, grid, fixed);
 }
 
 /// Forbids what lies less than `least` [mm] within points.
@@ -132,7 +116,7 @@ Radii middle_of_wall(const Polar& values, const Radii& blood, const Levels& leve
                      const Fixes& epi = {}) {
   constexpr int half_band = 2;     // radii
   constexpr double nearer = 0.02;  // a millimetre farther costs so much
-  const Polar away = distance_from(blood);
+  const Polar away = distance_from(blood, grid);
   const Polar cost = mean_at(unlikeness(values, levels, to_lung), -half_band, half_band) +
                      nearer * away.max(0.0) + forbid(away, 1.0, 16.0) + forbid_outside(epi, 1.5);
   return closed_path(cost, {.reach = 1, .stiffness = 0.1}, grid);
@@ -164,7 +148,8 @@ Polar epicardial_cost(const Polar& values, const Radii& middle, const Levels& le
   const Polar sum = integral(not_less_behind(unlike, middle) - 0.5);
   const Polar away = with_fluid(unlikeness(values, levels, 1.0, 1.0), values, levels);
   const Polar edge = mean_at(away, 1, 3) - mean_at(away, -3, -1);
-  return region * sum - edge.max(0.0).min(strongest) + forbid(distance_from(middle), 1.0, thickest);
+  return region * sum - edge.max(0.0).min(strongest) +
+         forbid(distance_from(middle, grid), 1.0, thickest);
 }
 
 constexpr PathRule epicardial_rule{.reach = 1, .stiffness = 0.15};
@@ -173,7 +158,7 @@ constexpr PathRule epicardial_rule{.reach = 1, .stiffness = 0.15};
 Polar pull_to(const Radii& expected) {
   constexpr double pull = 0.02;  // [1/mm^2]
   constexpr double most = 50.0;  // [mm^2]
-  return pull * distance_from(expected).square().min(most);
+  return pull * distance_from(expected, grid).square().min(most);
 }
 
 /// The epicardium of all frames; the second and third time close to what the frames around it show.
@@ -205,11 +190,11 @@ Radii endocardium(const Polar& values, const Radii& outside, const Levels& level
                   const Fixes& fixed = {}) {
   constexpr double band = 2.0;  // [mm]
   constexpr PathRule rule{.reach = 2, .stiffness = 0.2};
-  const Polar within = wall_of_cost * (distance_from(outside) > -2.0).cast<double>();
+  const Polar within = wall_of_cost * (distance_from(outside, grid) > -2.0).cast<double>();
   const Polar exact = integral(darkness(values, levels) - fall) + within;
   const Radii behind = closed_path(
       0.5 * integral(evidence_of_muscle(values, levels, fall)) + within, rule, grid, fixed);
-  return closed_path(exact + forbid(distance_from(behind), -band, band), rule, grid, fixed);
+  return closed_path(exact + forbid(distance_from(behind, grid), -band, band), rule, grid, fixed);
 }
 
 /// How much muscle lies in a band of 3.5 mm outside a line, 0 to 1: next to it, or farther out by
@@ -221,7 +206,7 @@ Radii wall_behind(const Polar& values, const Radii& line, Levels levels, double 
   levels.muscle = levels.muscle.max(darkest * levels.muscle_of_slice)
                       .min(brightest * levels.muscle_of_slice)
                       .eval();
-  const Polar away = distance_from(line);
+  const Polar away = distance_from(line, grid);
   const Polar like = 1.0 - unlikeness(values, levels);
   const auto in_band = [&](double begins) {
     const Polar here = (away > begins && away < begins + 3.5).cast<double>();
@@ -759,6 +744,10 @@ Radii redrawn_epicardium(const Frame& frame, const std::optional<Radii>& endo,
 }
 
 }  // namespace
+
+double area_of_wall(const FrameBorders& borders) {
+  return area(borders.epi) - area(borders.endo);
+}
 
 Radii redraw_border(const image::CineSlice& slice, const Redrawing& asked, double fall) {
   std::vector<Polar> values = sampled(slice, asked.centre.at);

@@ -19,6 +19,9 @@ struct FrameBorders {
   double endo_agrees = 0.0, epi_agrees = 0.0;
 };
 
+/// What lies between the borders [mm^2].
+[[nodiscard]] double area_of_wall(const FrameBorders& borders);
+
 struct SliceBorders {
   Pixel centre = Pixel::Zero();
   double contrast = 0.0;    ///< of blood and muscle, (blood - muscle)/muscle

@@ -257,10 +257,6 @@ void doubt_volumes(const Segmentation& found, Sentences& doubts) {
 
 constexpr double muscle_may_change = 0.15;  // by what observers miss the epicardium, and its base
 
-double wall_area(const Segmentation& found, std::size_t s, std::size_t t) {
-  return area(found.borders[s].frames[t].epi) - area(found.borders[s].frames[t].endo);
-}
-
 /// By how much of end-diastole's the muscle of a frame may differ though its borders are right. The
 /// base lies anywhere in the slice that it leaves, or beside it: each slice that shows the
 /// ventricle in one of both alone may have too much or too little by half of its muscle there.
@@ -271,7 +267,7 @@ double may_differ(const std::vector<std::size_t>& slices, const Segmentation& fo
   for (const std::size_t s : slices)
     if ((found.shows[s][frame] != 0) != (found.shows[s][diastole] != 0)) {
       const std::size_t shown = found.shows[s][frame] != 0 ? frame : diastole;
-      half = std::max(half, 0.5 * found.spacing * wall_area(found, s, shown));
+      half = std::max(half, 0.5 * found.spacing * area_of_wall(found.borders[s].frames[shown]));
     }
   return muscle_may_change + half / muscle_volume(found, diastole);
 }

@@ -42,16 +42,7 @@ struct Ring {
 Radii steepest_path(const Polar& values, const Polar& edge) {
   constexpr double between = 0.65;  // blood and muscle
   constexpr PathRule rule{.reach = 1, .stiffness = 0.1};
-  Radii path = closed_path(1.0 - edge, rule, rough_grid);
-  const auto ring = ring_within((values < between).cast<double>(), path, rough_grid);
-  if (!ring)
-    return path;
-  const Polar beyond =
-      Eigen::ArrayXd::LinSpaced(rough_grid.radii, rough_grid.first, rough_grid.last())
-          .transpose()
-          .replicate(rough_grid.rays, 1) -
-      ring->replicate(1, rough_grid.radii);
-  return closed_path(1.0 - edge + (beyond > 0.0).cast<double>(), rule, rough_grid);
+  return path_within_ring(1.0 - edge, (values < between).cast<double>(), 1.0, rule, rough_grid);
 }
 
 Ring ring_of(const Polar& values, const Radii& path) {

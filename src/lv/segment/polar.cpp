@@ -63,6 +63,11 @@ std::vector<Vec3> line(const image::Plane& plane, const Pixel& centre, const Rad
   return points;
 }
 
+Polar distance_from(const Radii& line, const PolarGrid& grid) {
+  const Eigen::ArrayXd radii = Eigen::ArrayXd::LinSpaced(grid.radii, grid.first, grid.last());
+  return radii.transpose().replicate(grid.rays, 1) - line.replicate(1, grid.radii);
+}
+
 double area(const Radii& radii) {
   const auto n = radii.size();
   double sum = radii(n - 1) * radii(0);

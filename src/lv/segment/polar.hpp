@@ -53,6 +53,9 @@ struct PolarGrid {
 [[nodiscard]] std::vector<Vec3> line(const image::Plane& plane, const Pixel& centre,
                                      const Radii& radii);
 
+/// The distance of every radius of a grid from a line along its ray [mm], positive outside.
+[[nodiscard]] Polar distance_from(const Radii& line, const PolarGrid& grid);
+
 /// The area within, 1/2 sum r_i r_(i+1) sin(2 pi/n) [mm^2].
 [[nodiscard]] double area(const Radii& radii);
 

@@ -36,4 +36,15 @@ std::optional<Radii> ring_within(const Polar& darkness, const Radii& border,
   return ends;
 }
 
+Radii path_within_ring(const Polar& cost, const Polar& darkness, double beyond,
+                       const PathRule& rule, const PolarGrid& grid,
+                       const std::vector<Fixed>& fixed) {
+  Radii path = closed_path(cost, rule, grid, fixed);
+  const auto ring = ring_within(darkness, path, grid);
+  if (!ring)
+    return path;
+  const Polar outside = (distance_from(*ring, grid) > 0.0).cast<double>();
+  return closed_path(cost + beyond * outside, rule, grid, fixed);
+}
+
 }  // namespace lv::segment

@@ -1,8 +1,9 @@
 #pragma once
 
-#include "lv/segment/polar.hpp"
+#include "lv/segment/closed_path.hpp"
 
 #include <optional>
+#include <vector>
 
 namespace lv::segment {
 
@@ -15,5 +16,11 @@ namespace lv::segment {
 /// do not. A ray without one has the grid's last radius. None without a ring.
 [[nodiscard]] std::optional<Radii> ring_within(const Polar& darkness, const Radii& border,
                                                const PolarGrid& grid);
+
+/// The closed path of least cost; where it runs outside a ring (ring_within), that of least cost
+/// when every radius beyond the ring costs so much more.
+[[nodiscard]] Radii path_within_ring(const Polar& cost, const Polar& darkness, double beyond,
+                                     const PathRule& rule, const PolarGrid& grid,
+                                     const std::vector<Fixed>& fixed = {});
 
 }  // namespace lv::segment

@@ -142,6 +142,15 @@ std::vector<double> blood_in(const std::vector<SliceBorders>& borders,
   return blood;
 }
 
+/// Of slices in order from the base, those of the lower half.
+std::vector<std::size_t> lower_half(const std::vector<std::size_t>& slices) {
+  return {slices.begin() + static_cast<std::ptrdiff_t>(slices.size() / 2), slices.end()};
+}
+
+void drop_first(std::size_t count, std::vector<std::size_t>& slices) {
+  slices.erase(slices.begin(), slices.begin() + static_cast<std::ptrdiff_t>(count));
+}
+
 /// How many times as much blood a slice shows as another: the median over frames.
 double times_as_much(const SliceBorders& slice, const SliceBorders& other,
                      const std::vector<std::size_t>& frames) {
@@ -169,12 +178,10 @@ std::vector<std::size_t> fullest_frames(const std::vector<SliceBorders>& borders
 /// Drops slices at the base, of the upper half, from the last on that shows much more blood than
 /// the next while the others hold most.
 void drop_leap(const std::vector<SliceBorders>& borders, std::vector<std::size_t>& slices) {
-  const auto half = static_cast<std::ptrdiff_t>(slices.size() / 2);
-  const auto frames = fullest_frames(borders, {slices.begin() + half, slices.end()});
-  for (std::ptrdiff_t n = half; n-- > 0;)
-    if (times_as_much(borders[*(slices.begin() + n)], borders[*(slices.begin() + n + 1)], frames) >
-        largest_leap) {
-      slices.erase(slices.begin(), slices.begin() + n + 1);
+  const auto frames = fullest_frames(borders, lower_half(slices));
+  for (std::size_t n = slices.size() / 2; n-- > 0;)
+    if (times_as_much(borders[slices[n]], borders[slices[n + 1]], frames) > largest_leap) {
+      drop_first(n + 1, slices);
       return;
     }
 }
@@ -184,13 +191,12 @@ void drop_leap(const std::vector<SliceBorders>& borders, std::vector<std::size_t
 /// stays between.
 void drop_atrium(const std::vector<SliceBorders>& borders, std::vector<std::size_t>& slices) {
   constexpr double ventricle = 0.5;  // part of the others' relative change
-  const std::size_t half = slices.size() / 2;
-  const std::vector<double> lower =
-      blood_in(borders, {slices.begin() + static_cast<std::ptrdiff_t>(half), slices.end()});
+  const std::vector<double> lower = blood_in(borders, lower_half(slices));
   std::size_t drop = 0;
-  while (drop < half && shared_change(areas_of(borders[slices[drop]]), lower) < ventricle)
+  while (drop < slices.size() / 2 &&
+         shared_change(areas_of(borders[slices[drop]]), lower) < ventricle)
     ++drop;
-  slices.erase(slices.begin(), slices.begin() + static_cast<std::ptrdiff_t>(drop));
+  drop_first(drop, slices);
 }
 
 /// Adds slices beyond the base of a run that muscle surrounds round end-diastole alone: the base
@@ -293,14 +299,21 @@ std::string why_left_out(const std::vector<SliceBorders>& borders, const Run& ru
                            : by_itself;
 }
 
-/// Half of what the most basal slice that shows the ventricle in a frame holds then [ml].
-double half_of_base(const std::vector<std::size_t>& slices, const Segmentation& found, int frame) {
-  const auto t = static_cast<std::size_t>(frame);
+/// The first slice from the base that shows the ventricle in a frame; none if no slice does.
+std::optional<std::size_t> most_basal(const std::vector<std::size_t>& slices,
+                                      const Segmentation& found, std::size_t frame) {
   const auto basal = std::find_if(slices.begin(), slices.end(),
-                                  [&](std::size_t s) { return found.shows[s][t] != 0; });
-  return basal == slices.end()
-             ? 0.0
-             : 0.5e-3 * found.spacing * area(found.borders[*basal].frames[t].endo);
+                                  [&](std::size_t s) { return found.shows[s][frame] != 0; });
+  return basal == slices.end() ? std::nullopt : std::optional(*basal);
+}
+
+/// "4.1 ml of 60.2": half of what the most basal slice of a frame holds, and the whole volume.
+std::string half_of_base(const std::vector<std::size_t>& slices, const Segmentation& found,
+                         int frame) {
+  const auto t = static_cast<std::size_t>(frame);
+  const auto basal = most_basal(slices, found, t);
+  const double held = basal ? found.spacing * area(found.borders[*basal].frames[t].endo) : 0.0;
+  return fmt::format("{:.1f} ml of {:.1f}", 0.5e-3 * held, 1e-3 * found.volumes[t]);
 }
 
 void doubt_ends(const Run& run, const std::vector<std::size_t>& slices, Segmentation& found) {
@@ -308,29 +321,22 @@ void doubt_ends(const Run& run, const std::vector<std::size_t>& slices, Segmenta
     if (std::find(slices.begin(), slices.end(), s) == slices.end())
       found.doubts.push_back(
           fmt::format("slice {} is left out: {}", s + 1, why_left_out(found.borders, run, s)));
-  const auto halves = [&](int frame) { return half_of_base(slices, found, frame); };
-  found.doubts.push_back(
-      fmt::format("slice {} is taken for the most basal one and slice {} for the most apical one, "
-                  "by rule: look "
-                  "whether a valve, an atrium or the tip is missed or taken in; half of the most "
-                  "basal slice is "
-                  "{:.1f} ml of {:.1f} at end-diastole and {:.1f} ml of {:.1f} at end-systole, and "
-                  "no better is "
-                  "known where the base lies",
-                  slices.front() + 1, slices.back() + 1, halves(found.phases.end_diastole),
-                  1e-3 * found.volumes[static_cast<std::size_t>(found.phases.end_diastole)],
-                  halves(found.phases.end_systole),
-                  1e-3 * found.volumes[static_cast<std::size_t>(found.phases.end_systole)]));
+  found.doubts.push_back(fmt::format(
+      "slice {} is taken for the most basal one and slice {} for the most apical one, by rule: "
+      "look "
+      "whether a valve, an atrium or the tip is missed or taken in; half of the most basal slice "
+      "is "
+      "{} at end-diastole and {} at end-systole, and no better is known where the base lies",
+      slices.front() + 1, slices.back() + 1, half_of_base(slices, found, found.phases.end_diastole),
+      half_of_base(slices, found, found.phases.end_systole)));
 }
 
 /// What one may do whose ventricle was not found.
 std::string how_else(bool centre_is_given) {
   return fmt::format(
-      "{}raw the contours and take anatomy.source = \"contours\", if the images show "
-      "the ventricle across its axis",
-      centre_is_given ? "D"
-                      : "Set segment.centre to a point in the left ventricle's "
-                        "blood, or d");
+      "{}raw the contours and take anatomy.source = \"contours\", if the images show the ventricle "
+      "across its axis",
+      centre_is_given ? "D" : "Set segment.centre to a point in the left ventricle's blood, or d");
 }
 
 /// What end-diastole would hold with the slice before its most basal one, where that was left out
@@ -339,9 +345,8 @@ std::string how_else(bool centre_is_given) {
 void doubt_base(bool base_first, const std::vector<std::size_t>& slices, Segmentation& found) {
   constexpr double some = 0.25;  // of the circumference with muscle
   const auto diastole = static_cast<std::size_t>(found.phases.end_diastole);
-  const auto shown = std::find_if(slices.begin(), slices.end(),
-                                  [&](std::size_t s) { return found.shows[s][diastole] != 0; });
-  if (shown == slices.end() || *shown == (base_first ? 0 : found.borders.size() - 1))
+  const auto shown = most_basal(slices, found, diastole);
+  if (!shown || *shown == (base_first ? 0 : found.borders.size() - 1))
     return;
   const std::size_t next = base_first ? *shown - 1 : *shown + 1;
   const auto near = frames_round(diastole, found.volumes.size());
@@ -502,12 +507,11 @@ Segmentation segment(const Cine& cine, const SegmentParameters& parameters,
 }
 
 double muscle_volume(const Segmentation& found, std::size_t frame) {
-  double area_of_wall = 0.0;
+  double area = 0.0;
   for (std::size_t s = 0; s < found.borders.size(); ++s)
     if (found.shows[s][frame] != 0)
-      area_of_wall +=
-          area(found.borders[s].frames[frame].epi) - area(found.borders[s].frames[frame].endo);
-  return found.spacing * area_of_wall;
+      area += area_of_wall(found.borders[s].frames[frame]);
+  return found.spacing * area;
 }
 
 double doubtful_part(const Segmentation& found, std::size_t frame) {
