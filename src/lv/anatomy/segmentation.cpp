@@ -314,6 +314,15 @@ void write_segmentation(const CineSegmentation& segmentation, const fs::path& fo
   write_file(folder / "segmentation.txt", describe(segmentation));
 }
 
+void keep_segmentation(const CineSegmentation& segmentation, const fs::path& folder) {
+  const fs::path whole = folder.has_filename() ? folder : folder.parent_path();
+  fs::path unfinished = whole;
+  unfinished += ".part";
+  fs::remove_all(unfinished);
+  write_segmentation(segmentation, unfinished);
+  fs::rename(unfinished, whole);
+}
+
 fs::path landmarks_file(const fs::path& folder, std::size_t frame) {
   return folder / "landmarks" / fmt::format("phase_{:02d}.csv", frame + 1);
 }
@@ -339,7 +348,7 @@ std::string segment_case(const Case& c, const fs::path& folder) {
     throw InputError(folder.string(), "exists already, and its contours may have been corrected",
                      "Choose another folder with --to");
   const CineSegmentation segmentation = segment_cine(c);
-  write_segmentation(segmentation, folder);
+  keep_segmentation(segmentation, folder);
   return describe(segmentation) + fmt::format("borders in {}\n", folder.string());
 }
 

@@ -65,6 +65,10 @@ struct Cines {
 ///   segmentation.txt       what describe says
 void write_segmentation(const CineSegmentation& segmentation, const std::filesystem::path& folder);
 
+/// The same into a folder that is not there before it is whole. Until then its contents lie beside
+/// it, under its name and ".part"; what a run that was killed left there is taken away.
+void keep_segmentation(const CineSegmentation& segmentation, const std::filesystem::path& folder);
+
 /// Where such a folder keeps the landmarks of a frame, from 0.
 [[nodiscard]] std::filesystem::path landmarks_file(const std::filesystem::path& folder,
                                                    std::size_t frame);

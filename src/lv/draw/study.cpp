@@ -174,15 +174,6 @@ bool may_write(fs::path folder) {
   return access(folder.empty() ? "." : folder.c_str(), W_OK | X_OK) == 0;
 }
 
-/// A folder that is there is whole.
-void keep_proposal(const anatomy::CineSegmentation& made, const fs::path& folder) {
-  fs::path unfinished = folder;
-  unfinished += ".part";
-  fs::remove_all(unfinished);
-  anatomy::write_segmentation(made, unfinished);
-  fs::rename(unfinished, folder);
-}
-
 anatomy::Cines cines_of(const Study& study) {
   anatomy::Cines cines{study.cine, {}};
   for (const LongAxisImage& view : study.long_axis)
@@ -197,7 +188,7 @@ Proposal propose_first(const Study& study, const fs::path& folder) {
     const anatomy::CineSegmentation made =
         anatomy::segment_cines(cines_of(study), a.segmentation, "the cine");
     if (may_write(folder))
-      keep_proposal(made, folder);
+      anatomy::keep_segmentation(made, folder);
     return proposal_of(made, a.moment);
   } catch (const InputError& error) {
     return nothing_proposed(

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 
 using namespace lv;
 
@@ -61,4 +62,15 @@ TEST_CASE("a segmentation keeps the ends of its long axes with their confidence"
   CHECK(ends.rows().size() == 25);
   const auto doubtful = ends.words("doubtful");
   CHECK(std::count(doubtful.begin(), doubtful.end(), "yes") == 5);
+}
+
+TEST_CASE("a kept segmentation is whole, though one before it was cut off", "[anatomy]") {
+  const test::TemporaryFolder folder;
+  const auto unfinished = folder / "heart.segment.part";
+  std::filesystem::create_directories(unfinished / "contours");
+  std::ofstream(unfinished / "contours/phase_99.csv") << "left by a run that was killed\n";
+  anatomy::keep_segmentation(with_long_axis(), folder / "heart.segment/");
+  CHECK(std::filesystem::exists(folder / "heart.segment/segmentation.txt"));
+  CHECK_FALSE(std::filesystem::exists(folder / "heart.segment/contours/phase_99.csv"));
+  CHECK_FALSE(std::filesystem::exists(unfinished));
 }
